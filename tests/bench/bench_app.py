@@ -95,7 +95,7 @@ class Running:
 
     def watch(self, seconds: float, *, acknowledge: bool = True) -> subprocess.Popen[str]:
         origin = f"http://127.0.0.1:{self.server.port}"
-        cookie = f"{self.server.gate.cookie}={self.server.gate.session}"
+        cookie = f"{self.server.access.cookie}={self.server.access.session}"
         words = json.dumps([f"{origin.replace('http', 'ws')}/ws", origin, cookie, seconds, acknowledge])
         return subprocess.Popen([sys.executable, "-c", WATCHER, words], stdout=subprocess.PIPE, text=True)
 
@@ -257,7 +257,7 @@ def memory(minutes: float) -> None:
         page.goto(process.stdout.readline().strip())
         page.wait_for_selector("body[data-ready=true]", timeout=120_000)
         page.evaluate("urdfkit.plots.add('/simpleton/odom', 'twist.twist.linear.x')")
-        page.evaluate("urdfkit.connection.want('contacts', true); urdfkit.connection.want('topics', true)")
+        page.evaluate("urdfkit.connection.subscribe('contacts', true); urdfkit.connection.subscribe('topics', true)")
         devtools = page.context.new_cdp_session(page)
         end = time.monotonic() + 60 * minutes
         begin = time.monotonic()

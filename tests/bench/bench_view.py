@@ -42,7 +42,7 @@ def measure(watchers: int, stalled: int) -> str:
         nodes = [f"/robot/links/{i}" for i in range(LINKS)]
         server.show(name="bench", nodes=nodes, draw=lambda window: None)
         origin = f"http://127.0.0.1:{server.port}"
-        cookie = f"{server.gate.cookie}={server.gate.session}"
+        cookie = f"{server.access.cookie}={server.access.session}"
         processes = []
         for number in range(watchers):
             words = [f"{origin.replace('http', 'ws')}/ws", origin, cookie, SECONDS, number >= stalled]

@@ -55,7 +55,7 @@ def page(opened, until):
 
 
 def order(page, order: str, /, **values):
-    return page.evaluate("([name, values]) => urdfkit.connection.order(name, values)", [order, values])
+    return page.evaluate("([name, values]) => urdfkit.connection.request(name, values)", [order, values])
 
 
 def names(page) -> list[str]:
@@ -108,7 +108,7 @@ def test_step_and_speed(page, keep, until) -> None:
     page.get_by_role("button", name="Step", exact=True).click()
     until(lambda: page.evaluate(TIME) == pytest.approx(before + 0.025, abs=1e-9))
     keep(page, "step")
-    page.get_by_role("button", name="Go on").click()
+    page.get_by_role("button", name="Continue").click()
     page.locator("#factor").select_option("0.25")
     until(lambda: 0.2 < float(page.locator("#rtf").inner_text().lstrip("×").replace("paused", "0")) < 0.3)
     page.locator("#factor").select_option("")
@@ -133,7 +133,19 @@ def test_nothing_is_drawn_while_nothing_moves(page, until) -> None:
 
 
 def test_everything_has_a_name_and_the_keyboard_reaches_it_and_shows_where_it_is(page) -> None:
-    for name in ("drive", "sensors", "topics", "plots", "tape", "world", "screws", "push", "show", "measure", "camera"):
+    for name in (
+        "drive",
+        "sensors",
+        "topics",
+        "plots",
+        "recorder",
+        "world",
+        "physics",
+        "push",
+        "show",
+        "measure",
+        "camera",
+    ):
         page.evaluate("(name) => urdfkit.page.panels.open(name)", name)
         page.evaluate("for (const each of document.querySelectorAll('details')) each.open = true")
         nameless = page.evaluate(
@@ -176,7 +188,7 @@ def test_everything_has_a_name_and_the_keyboard_reaches_it_and_shows_where_it_is
 
 def test_sliders_that_stay_and_stop(page, keep, until) -> None:
     page.locator("#open-drive").click()
-    page.get_by_text("Sliders that stay").click()
+    page.get_by_text("Drive sliders and gamepad").click()
     page.locator("#steer-forward").fill("60")
     until(lambda: page.evaluate(X) > 0.15)
     page.locator("#steer-turn").fill("-50")
@@ -288,7 +300,11 @@ def test_plots_zoom_stand_still_and_follow_again(page, keep, until) -> None:
     assert page.evaluate("urdfkit.plots.plot.span") == pytest.approx(span / 3, rel=0.05)
     page.locator("#plot").dblclick()
     page.get_by_label("Remove /simpleton/odom:pose.pose.position.x").click()
-    until(lambda: page.evaluate("urdfkit.connection.wanted.has('field:/simpleton/odom:pose.pose.position.x')") is False)
+    until(
+        lambda: (
+            page.evaluate("urdfkit.connection.subscriptions.has('field:/simpleton/odom:pose.pose.position.x')") is False
+        )
+    )
 
 
 def test_objects_are_inserted_moved_turned_and_deleted(page, keep, until) -> None:
@@ -301,7 +317,7 @@ def test_objects_are_inserted_moved_turned_and_deleted(page, keep, until) -> Non
     until(lambda: "crate" in names(page))
     page.get_by_role("option", name="crate", exact=True).click()  # put it down
     until(lambda: page.evaluate("urdfkit.scene.byLink.has('world/crate')"))
-    where = order(page, "where", name="crate")["pose"]
+    where = order(page, "get_pose", name="crate")["pose"]
     assert where[:2] == [pytest.approx(1.0, abs=0.05), pytest.approx(0.8, abs=0.05)]
     page.mouse.move(*spot(page, 1.0, 0.8, 0.3))
     until(lambda: page.locator("#tip").text_content() == "crate")
@@ -309,17 +325,17 @@ def test_objects_are_inserted_moved_turned_and_deleted(page, keep, until) -> Non
     until(lambda: page.locator(".object h3").inner_text() == "crate")
     page.get_by_label("yaw of crate").fill("45")
     page.get_by_label("yaw of crate").press("Enter")
-    until(lambda: order(page, "where", name="crate")["pose"][5] == pytest.approx(math.pi / 4, abs=0.02))
-    page.get_by_role("button", name="Move by hand").click()
-    handle = spot(page, *order(page, "where", name="crate")["pose"][:3])
+    until(lambda: order(page, "get_pose", name="crate")["pose"][5] == pytest.approx(math.pi / 4, abs=0.02))
+    page.get_by_role("button", name="Move with the mouse").click()
+    handle = spot(page, *order(page, "get_pose", name="crate")["pose"][:3])
     drawn(page)
     page.mouse.move(*handle)
     page.mouse.down()
-    goal = spot(page, -1.0, 1.0, order(page, "where", name="crate")["pose"][2])
+    goal = spot(page, -1.0, 1.0, order(page, "get_pose", name="crate")["pose"][2])
     page.mouse.move(*goal, steps=5)
     keep(page, "moving")
     page.mouse.up()
-    until(lambda: order(page, "where", name="crate")["pose"][0] < -0.7)
+    until(lambda: order(page, "get_pose", name="crate")["pose"][0] < -0.7)
     keep(page, "moved")
     page.keyboard.press("Delete")
     until(lambda: "crate" not in names(page))
@@ -336,7 +352,7 @@ def test_objects_are_inserted_by_the_keyboard_alone(page, until) -> None:
         page.locator(f"#insert-{field}").press("Enter")
     page.locator("#insert-typed").press("Enter")
     until(lambda: "crate" in names(page))
-    pose = order(page, "where", name="crate")["pose"]
+    pose = order(page, "get_pose", name="crate")["pose"]
     assert [pose[0], pose[1], pose[5]] == pytest.approx([1.5, -1.0, math.pi / 2], abs=1e-3)
     page.keyboard.press("Escape")
     assert not page.locator("#insert-typed").is_visible()
@@ -410,18 +426,18 @@ def test_walls_with_a_door_are_drawn_and_the_world_is_saved(page, keep, until, t
 
 
 def test_parameters_are_changed_while_it_runs(page, keep, until) -> None:
-    page.locator("#open-screws").click()
-    page.get_by_label("Gravity of").select_option(label="none")
+    page.locator("#open-physics").click()
+    page.get_by_label("Gravity of a planet").select_option(label="none")
     until(lambda: page.get_by_label("gravity along z").input_value() == "0")
-    page.locator("#screw-filter").fill("chassis")
+    page.locator("#parameter-filter").fill("chassis")
     mass = page.locator("tr[data-of='simpleton/chassis']").get_by_label("mass of chassis")
     before = float(mass.input_value())
     mass.fill(str(2 * before))
     mass.press("Enter")
-    page.locator("#screw-filter").fill("chass")  # drawn anew, from what the simulation says
+    page.locator("#parameter-filter").fill("chass")  # drawn anew, from what the simulation says
     until(lambda: float(mass.input_value()) == 2 * before)
     keep(page, "physics")
-    page.get_by_label("Gravity of").select_option(label="Earth")
+    page.get_by_label("Gravity of a planet").select_option(label="Earth")
     order(page, "mass", name="simpleton", link="chassis", mass=before)
     until(lambda: page.get_by_label("gravity along z").input_value() == "-9.81")
 
@@ -464,16 +480,16 @@ def test_contact_forces_slip_and_trails_are_drawn(page, keep, until) -> None:
     keep(page, "forces")
     page.get_by_label("Contact forces").uncheck()
     page.get_by_label("Wheel slip").uncheck()
-    until(lambda: not page.evaluate("urdfkit.connection.wanted.has('contacts')"))
+    until(lambda: not page.evaluate("urdfkit.connection.subscriptions.has('contacts')"))
 
 
 def test_what_was_recorded_is_shown_again_and_topics_are_saved(page, keep, until, tmp_path: Path) -> None:
     from rosbags.rosbag2 import Reader
 
-    page.locator("#open-tape").click()
-    page.get_by_label("and topics, as an MCAP file").check()
+    page.locator("#open-recorder").click()
+    page.get_by_label("Record topics to an MCAP file").check()
     page.locator("#record").click()
-    until(lambda: "Recording" in page.locator("#tape-words").inner_text())
+    until(lambda: "Recording" in page.locator("#recorder-state").inner_text())
     page.keyboard.down("w")
     until(lambda: page.evaluate(X) > 0.4)
     page.keyboard.up("w")
@@ -534,15 +550,15 @@ def test_only_the_driver_can_change_the_simulation(page, served, visits, until) 
             or said["y"] + said["height"] <= there["y"]
             or there["y"] + there["height"] <= said["y"]
         ), name
-    ask = "urdfkit.connection.order('gravity', { gravity: [0, 0, -9.81] }).catch((error) => error.message)"
-    until(lambda: "somebody else is driving" in str(other.evaluate(ask)))
+    ask = "urdfkit.connection.request('gravity', { gravity: [0, 0, -9.81] }).catch((error) => error.message)"
+    until(lambda: "another page is driving" in str(other.evaluate(ask)))
     page.keyboard.up("w")
 
 
 def test_a_phone_shows_the_panels_as_a_sheet(served, visits, keep, until) -> None:
     phone = {"viewport": {"width": 390, "height": 844}, "is_mobile": True, "has_touch": True}
     page = visits.open(served.url, color_scheme="dark", **phone)
-    for panel in ("topics", "world", "tape"):
+    for panel in ("topics", "world", "recorder"):
         page.locator(f"#open-{panel}").tap()
         until(lambda panel=panel: page.locator(f"#panel-{panel}").is_visible())
         keep(page, f"phone-{panel}")

@@ -18,9 +18,9 @@ SIZE = {"width": 800, "height": 520}
 
 def test_an_arm_is_moved_by_its_sliders_and_a_depth_camera_gives_a_cloud(serve, visits, keep, until) -> None:
     page = visits.open(serve("sim", "teleop", "seven_dof_arm_with_rgbd").url, viewport=SIZE)
-    ceiling = "urdfkit.connection.order('walls', { corners: [[-1, 0], [1, 0]], thickness: 2, height: 0.1 })"
+    ceiling = "urdfkit.connection.request('walls', { corners: [[-1, 0], [1, 0]], thickness: 2, height: 0.1 })"
     name = page.evaluate(ceiling)["name"]  # the camera looks up
-    page.evaluate("(name) => urdfkit.connection.order('place', { name, pose: [0, 0, 2.2] })", name)
+    page.evaluate("(name) => urdfkit.connection.request('place', { name, pose: [0, 0, 2.2] })", name)
     # It is bolted down: where its base is need not be told, where its end is might.
     until(lambda: page.locator("#tip-at").is_visible())
     assert page.locator("#tip-name").inner_text() == "gripper_finger_link1"

@@ -24,7 +24,7 @@ from urdfkit.errors import SimulationError, UsageError
 from urdfkit.messages import from_fields
 from urdfkit.sim import Simulator
 from urdfkit.view.protocol.page_requests import check
-from urdfkit.view.protocol.websocket_messages import Axes, Do
+from urdfkit.view.protocol.websocket_messages import Axes, RawRequest
 
 
 class Wall:
@@ -38,12 +38,12 @@ class Page:
     """A server that keeps what it is told, and one page that wants what a test says."""
 
     def __init__(self) -> None:
-        from urdfkit.view.server.drive_lock import Driver
+        from urdfkit.view.server.drive_lock import DriveLock
         from urdfkit.view.server.request_inbox import Inbox
 
-        self.inbox, self.driver, self.orders = Inbox(), Driver(), {}
+        self.inbox, self.drive_lock, self.requests = Inbox(), DriveLock(), {}
         self.wanted: set[str] = set()
-        self.hub = SimpleNamespace(takes=lambda key: key in self.wanted, watchers=1)
+        self.hub = SimpleNamespace(accepts=lambda key: key in self.wanted, watchers=1)
         self.said: dict[str, dict[str, Any]] = {}
         self.streamed: list[dict[str, Any]] = []
         self.sensed: dict[str, bytes] = {}
@@ -54,7 +54,7 @@ class Page:
         self.shown: list[list[str]] = []
 
     def __getattr__(self, name: str) -> Any:
-        if name == "hub.wanted":
+        if name == "hub.subscribed_keys":
             return self.wanted
         raise AttributeError(name)
 
@@ -68,15 +68,15 @@ class Page:
     def publish(self, t: float, poses: Any) -> None:
         self.poses = t, poses
 
-    def declare(self, type: str, **values: Any) -> None:
+    def publish_latched(self, type: str, **values: Any) -> None:
         json.dumps(values, allow_nan=False)
         self.said[type] = values
 
-    tell = declare
+    broadcast = publish_latched
 
-    def tell_who_wants(self, key: str, type: str, **values: Any) -> None:
+    def send_to_subscribers(self, key: str, type: str, **values: Any) -> None:
         assert key in self.wanted
-        self.declare(type, **values)
+        self.publish_latched(type, **values)
 
     def stream(self, key: str, type: str, **values: Any) -> None:
         json.dumps(values, allow_nan=False)
@@ -85,11 +85,11 @@ class Page:
     def sense(self, key: str, index: int, t: float, kind: int, content: bytes) -> None:
         self.sensed[key] = content
 
-    def answer(self, order: Any, error: str | None = None, **values: Any) -> None:
+    def answer(self, request: Any, error: str | None = None, **values: Any) -> None:
         json.dumps(values, allow_nan=False)
         self.answers.append((error, values))
 
-    def hand_over(self, order: Any, name: str, content: bytes) -> None:
+    def send_file(self, request: Any, name: str, content: bytes) -> None:
         self.files[name] = content
 
 
@@ -97,10 +97,10 @@ class Page:
 def made():
     def make(robot: str = "simpleton", **options: Any) -> DriveLoop:
         wall, page = Wall(), Page()
-        page.hub.wanted = page.wanted
+        page.hub.subscribed_keys = page.wanted
         ride = DriveLoop(Simulator(robot, note=lambda _: None, **options), page, clock=wall)  # type: ignore[arg-type]
         ride.wall, ride.page = wall, page  # type: ignore[attr-defined]
-        page.driver._clock = wall
+        page.drive_lock._clock = wall
         ride.pace.begin(0.0)
         ride.show()
         return ride
@@ -121,7 +121,7 @@ def spend(ride: Any, seconds: float) -> None:
 
 def do(ride: Any, order: str, /, **values: Any) -> dict[str, Any]:
     """Have something done; return the answer's values, or fail with its reason."""
-    ride.page.inbox.put_order(check(ride.page.orders, 1, Do(1, order, values)))
+    ride.page.inbox.put_request(check(ride.page.requests, 1, RawRequest(1, order, values)))
     ride.tick()
     error, found = ride.page.answers.pop()
     if error is not None:
@@ -134,7 +134,7 @@ def test_every_part_is_at_work(ride) -> None:
         return {kind, *(each for one in kind.__subclasses__() for each in below(one))}
 
     assert below(Feature) - {Feature} == set(FEATURES)
-    assert set(ride.page.orders) == {name for part in ride.features for name in part.takes}
+    assert set(ride.page.requests) == {name for part in ride.features for name in part.takes}
 
 
 def test_steps_and_speed(ride) -> None:
@@ -170,14 +170,14 @@ def test_steps_that_would_keep_everybody_waiting_are_done_in_part(ride, monkeypa
 def test_orders_that_take_long_are_spread_over_rounds(ride, monkeypatch) -> None:
     take = ride._do
 
-    def slow(order: Any) -> None:
+    def slow(request: Any) -> None:
         ride.wall.now += 0.02
         take(order)
 
     monkeypatch.setattr(ride, "_do", slow)
     for k in range(10):
-        order = check(ride.page.orders, 1, Do(k, "where", {"name": "simpleton"}))
-        ride.page.inbox.put_order(order)
+        order = check(ride.page.requests, 1, RawRequest(k, "get_pose", {"name": "simpleton"}))
+        ride.page.inbox.put_request(order)
     ride.tick()
     assert len(ride.page.answers) == 3
     for _ in range(3):
@@ -208,7 +208,7 @@ def test_topics_rates_and_the_last_message(ride) -> None:
     assert all("/msg/" in row[1] for row in rows.values())
     assert ride.page.said["echo"]["message"]["child_frame_id"]
     with pytest.raises(AssertionError):
-        ride.page.tell_who_wants("other", "x")
+        ride.page.send_to_subscribers("other", "x")
 
 
 def test_publishing_by_a_form(ride) -> None:
@@ -254,7 +254,7 @@ def test_a_curve_has_every_sample_from_when_it_is_wanted_until_it_is_not(ride) -
     before = topic.count
     ride.page.streamed.clear()
     for _ in range(60):
-        ride.page.driver.offer(1, Axes((1.0, 0.0, 0.0, 0.0), 0.5, 1.0))
+        ride.page.drive_lock.update(1, Axes((1.0, 0.0, 0.0, 0.0), 0.5, 1.0))
         spend(ride, FRAME)
     parts = [part for part in ride.page.streamed if part["curve"] == key]
     t = [each for part in parts for each in part["t"]]
@@ -308,10 +308,10 @@ def test_objects_come_move_and_go(ride) -> None:
     assert do(ride, "spawn", model="crate", pose=[1.0, 2.0, 0.0, 0.5]) == {"name": "crate"}
     assert do(ride, "spawn", model="crate", pose=[3.0, 2.0, 0.0]) == {"name": "crate_1"}
     assert len(ride.page.shown[-1]) == first + 2
-    where = do(ride, "where", name="crate")["pose"]
+    where = do(ride, "get_pose", name="crate")["pose"]
     assert where == pytest.approx([1.0, 2.0, where[2], 0, 0, 0.5], abs=1e-3)
     do(ride, "place", name="crate", pose=[-1.0, 0.0, 0.3, 0.0, 0.0, 1.0])
-    assert do(ride, "where", name="crate")["pose"][5] == pytest.approx(1.0, abs=0.01)
+    assert do(ride, "get_pose", name="crate")["pose"][5] == pytest.approx(1.0, abs=0.01)
     assert ride.page.said["objects"]["objects"][0]["name"] == "simpleton"
     shown = len(ride.page.shown)
     do(ride, "remove", name="crate")
@@ -370,13 +370,13 @@ def test_what_stands_and_is_moved_is_not_drawn_again(ride) -> None:
 def test_walls_have_doors_one_can_drive_through(ride) -> None:
     do(ride, "walls", corners=[[1, -2], [1, 2]], doors=[{"segment": 0, "at": 2.0, "width": 1.0}], height=2.4)
     for _ in range(300):
-        ride.page.driver.offer(1, Axes((1.0, 0.0, 0.0, 0.0), 0.5, 1.0))
+        ride.page.drive_lock.update(1, Axes((1.0, 0.0, 0.0, 0.0), 0.5, 1.0))
         spend(ride, FRAME)
     assert ride.simulator.state.base_pose[0] > 1.8  # through the door
     ride._act("reset")
     do(ride, "place", name="simpleton", pose=[0.0, 1.5, ride.simulator.state.base_pose[2]])
     for _ in range(300):
-        ride.page.driver.offer(1, Axes((1.0, 0.0, 0.0, 0.0), 0.5, 1.0))
+        ride.page.drive_lock.update(1, Axes((1.0, 0.0, 0.0, 0.0), 0.5, 1.0))
         spend(ride, FRAME)
     assert ride.simulator.state.base_pose[0] < 1.0  # against the wall
 
@@ -440,20 +440,20 @@ def test_a_trajectory_controller_takes_sliders_too(made) -> None:
 def test_gravity_mass_friction_and_gains(made) -> None:
     ride = made("rrbot")
     do(ride, "gravity", gravity=[0, 0, -1.6])
-    assert ride.page.said["screws"]["gravity"] == [0.0, 0.0, -1.6]
-    row = next(row for row in ride.page.said["screws"]["rows"] if row["mass"] is not None)
+    assert ride.page.said["parameters"]["gravity"] == [0.0, 0.0, -1.6]
+    row = next(row for row in ride.page.said["parameters"]["rows"] if row["mass"] is not None)
     do(ride, "mass", name=row["name"], link=row["link"], mass=3.5)
-    assert any(each["mass"] == 3.5 for each in ride.page.said["screws"]["rows"])
-    path = ride.page.said["screws"]["gains"][0]["path"]
+    assert any(each["mass"] == 3.5 for each in ride.page.said["parameters"]["rows"])
+    path = ride.page.said["parameters"]["gains"][0]["path"]
     do(ride, "gains", path=path, p=50, i=0, d=1)
-    assert ride.page.said["screws"]["gains"][0]["p"] == 50.0
+    assert ride.page.said["parameters"]["gains"][0]["p"] == 50.0
     with pytest.raises(SimulationError, match="no link `nothing`"):
         do(ride, "mass", name=row["name"], link="nothing", mass=1)
 
 
 def test_a_push_lasts_as_long_as_it_is_held(ride) -> None:
     name = do(ride, "spawn", model="ball", pose=[2.0, 0.0, 3.0])["name"]
-    mass = next(row["mass"] for row in ride.page.said["screws"]["rows"] if row["name"] == name)
+    mass = next(row["mass"] for row in ride.page.said["parameters"]["rows"] if row["name"] == name)
     do(ride, "gravity", gravity=[0, 0, 0])
     before = ride.simulator.world.bodies[name].twist[0]
     centre = list(ride.simulator.world.bodies[name].body.centre)
@@ -463,7 +463,7 @@ def test_a_push_lasts_as_long_as_it_is_held(ride) -> None:
     gained = ride.simulator.world.bodies[name].twist[0] - before
     assert gained == pytest.approx(0.3, abs=0.005)  # 0.3 s of 1 m/s², then nobody held it any more
     do(ride, "push", **push)
-    do(ride, "let_go")
+    do(ride, "release")
     spend(ride, 0.5)
     assert ride.simulator.world.bodies[name].twist[0] - before == pytest.approx(gained, abs=0.06)
     with pytest.raises(SimulationError, match="did you mean"):
@@ -479,7 +479,7 @@ def test_forces_and_slip_are_sent_while_requested(ride) -> None:
     forces = np.frombuffer(ride.page.sensed["contacts"], "<f4").reshape(-1, 6)
     assert forces[:, 5].sum() == pytest.approx(1.55 * 9.81, rel=1e-3)
     assert {link for link, _ in ride.page.said["slip"]["rows"]} == {"left_wheel", "right_wheel", "caster"}
-    ride.page.driver.offer(1, Axes((1.0, 0.0, 0.0, 0.0), 0.5, 1.0))
+    ride.page.drive_lock.update(1, Axes((1.0, 0.0, 0.0, 0.0), 0.5, 1.0))
     spend(ride, 0.3)
     slip = dict(ride.page.said["slip"]["rows"])
     assert slip["caster"] > 0.1 > 10 * slip["left_wheel"]  # the caster slides, the wheels roll
@@ -491,11 +491,11 @@ def test_motion_is_recorded_and_shown_again(ride) -> None:
     do(ride, "record", on=True)
     begun = ride.simulator.t
     for _ in range(120):
-        ride.page.driver.offer(1, Axes((1.0, 0.0, 0.0, 0.0), 0.5, 1.0))
+        ride.page.drive_lock.update(1, Axes((1.0, 0.0, 0.0, 0.0), 0.5, 1.0))
         spend(ride, FRAME)
     there = float(ride.page.poses[1][0][0])
     do(ride, "record", on=False)
-    assert ride.page.said["tape"]["frames"] == pytest.approx(120, abs=5)
+    assert ride.page.said["recorder"]["frames"] == pytest.approx(120, abs=5)
     do(ride, "replay", action="show", at=begun)
     assert ride.page.poses[1][0][0] == pytest.approx(0.0, abs=0.02)
     now = ride.simulator.t
@@ -532,7 +532,7 @@ def test_a_tape_has_an_end(ride, monkeypatch) -> None:
     do(ride, "record", on=True)
     spend(ride, 3.0)
     assert "the memory limit was reached" in ride.page.said["notice"]["text"]
-    assert not ride.page.said["tape"]["recording"]
+    assert not ride.page.said["recorder"]["recording"]
 
 
 def test_topics_are_recorded_to_a_file_that_the_page_gets(ride, tmp_path, monkeypatch) -> None:
@@ -563,14 +563,14 @@ def test_several_robots_are_driven_one_at_a_time(ride) -> None:
     assert {robot["name"] for robot in ride.page.said["teleop"]["robots"]} == {"simpleton", name}
     before = ride.simulator.world.pose(name)[0]
     for _ in range(60):
-        ride.page.driver.offer(1, Axes((1.0, 0.0, 0.0, 0.0), 0.4, 1.0, name))
+        ride.page.drive_lock.update(1, Axes((1.0, 0.0, 0.0, 0.0), 0.4, 1.0, name))
         spend(ride, FRAME)
     assert ride.simulator.world.pose(name)[0] > before + 0.1
     assert abs(ride.simulator.state.base_pose[0]) < 0.01
-    ride.page.driver.offer(1, Axes((1.0, 0.0, 0.0, 0.0), 0.4, 1.0))
+    ride.page.drive_lock.update(1, Axes((1.0, 0.0, 0.0, 0.0), 0.4, 1.0))
     spend(ride, 2.0)
     assert abs(ride.simulator.world.robots[name].state.base_velocity[0]) < 0.02  # the other one was told to stop
-    ride.page.driver.offer(1, Axes((1.0, 0.0, 0.0, 0.0), 0.4, 1.0, "nobody"))
+    ride.page.drive_lock.update(1, Axes((1.0, 0.0, 0.0, 0.0), 0.4, 1.0, "nobody"))
     spend(ride, 0.1)  # harmless
 
 
@@ -592,25 +592,25 @@ def test_stop_holds_for_every_robot_whoever_drives(ride) -> None:
         for topic, kind in loop.command_topics(robot).items():
             speeds = heard[robot.name] = []
             ride.simulator.subscribe(topic, kind, lambda sent, speeds=speeds: speeds.append(sent.linear.x))
-    ride.page.driver.offer(1, Axes((1.0, 0.0, 0.0, 0.0), 0.4, 1.0, name))
+    ride.page.drive_lock.update(1, Axes((1.0, 0.0, 0.0, 0.0), 0.4, 1.0, name))
     spend(ride, FRAME)
     assert heard[name] == [0.4]
     ride.page.inbox.put_action("stop")
     spend(ride, FRAME)
     assert heard == {"simpleton": [0.0], name: [0.4, 0.0]}
-    assert ride.page.driver.holder is None
+    assert ride.page.drive_lock.holder is None
     assert "stop" in ride.page.said  # the pages let go
 
 
 def test_overlap_of_a_spawned_body_is_reported_each_time(ride) -> None:
     for _ in range(2):
         done = do(ride, "spawn", model="barrel", pose=[0.0, 0.1, 0.0, 0.0])
-        assert any("inside `chassis`; place `barrel` elsewhere" in remark for remark in done["remarks"])
+        assert any("inside `chassis`; place `barrel` elsewhere" in remark for remark in done["warnings"])
         assert ride.page.said["notice"]["tone"] == "warning"
-        assert "remarks" not in do(ride, "remove", name="barrel")
+        assert "warnings" not in do(ride, "remove", name="barrel")
     done = do(ride, "walls", corners=[[-1.0, 0.0], [1.0, 0.0]])
-    assert any("`walls` starts 200 mm inside `chassis`" in remark for remark in done["remarks"])
-    assert "remarks" not in do(ride, "walls", corners=[[-1.0, 3.0], [1.0, 3.0]])
+    assert any("`walls` starts 200 mm inside `chassis`" in remark for remark in done["warnings"])
+    assert "warnings" not in do(ride, "walls", corners=[[-1.0, 3.0], [1.0, 3.0]])
 
 
 @pytest.mark.slow
@@ -636,14 +636,14 @@ def test_random_orders_never_break_the_loop(ride) -> None:
 
     done = 0
     for _ in range(3000):
-        name = chance.choice([each for each in ride.page.orders if each not in ("spawn", "save")])
-        schema = ride.page.orders[name]
+        name = chance.choice([each for each in ride.page.requests if each not in ("spawn", "save")])
+        schema = ride.page.requests[name]
         keys = [*schema.values, *(key for key in schema.optional if chance.random() < 0.3)]
         try:
-            order = check(ride.page.orders, 1, Do(1, name, {key: anything() for key in keys}))
+            order = check(ride.page.requests, 1, RawRequest(1, name, {key: anything() for key in keys}))
         except ProtocolError:
             continue
-        ride.page.inbox.put_order(order)
+        ride.page.inbox.put_request(order)
         ride.wall.now += FRAME
         ride.tick()
         done += 1

@@ -31,7 +31,7 @@ LASER = str(
 )
 HEARD = """async () => {
   await new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)));
-  await urdfkit.connection.order("form", { topic: "/scan", type: "sensor_msgs/LaserScan" });
+  await urdfkit.connection.request("form", { topic: "/scan", type: "sensor_msgs/LaserScan" });
 }"""
 """Wait until what the page wants, which it says before a picture, is heard: words come in order, and so do answers."""
 MOVED = np.array([[0.0, -1, 0, 10], [1, 0, 0, 20], [0, 0, 1, 30], [0, 0, 0, 1]])
@@ -41,12 +41,12 @@ class Page:
     """A server that keeps what it is told."""
 
     def __init__(self) -> None:
-        self.hub = SimpleNamespace(takes=lambda key: key in self.wanted)
+        self.hub = SimpleNamespace(accepts=lambda key: key in self.wanted)
         self.wanted: set[str] = set()
         self.sensed: list[tuple[int, float, int, bytes]] = []
         self.declared: list[dict[str, Any]] = []
 
-    def declare(self, type: str, **values: Any) -> None:
+    def publish_latched(self, type: str, **values: Any) -> None:
         self.declared.append({"type": type, **values})
         self.wanted = {f"sensor:{each['topic']}" for each in values.get("sensors", ())}
 
@@ -187,7 +187,7 @@ def test_the_page_shows_points_and_pictures(serve_for_all, visits, keep, until) 
     keep(page, "scan")
     page.get_by_label("/scan").first.click()
     assert not page.evaluate("urdfkit.sensors.shown[0].points.visible")
-    until(lambda: not page.evaluate("urdfkit.connection.wanted.size"))
+    until(lambda: not page.evaluate("urdfkit.connection.subscriptions.size"))
     page.evaluate(HEARD)
     page.evaluate("urdfkit.sensors.frames = 0, urdfkit.page.on('sensed', () => (urdfkit.sensors.frames += 1))")
     now = page.evaluate("urdfkit.page.status.time")

@@ -290,7 +290,7 @@ def ride():
     server = Server("sim", port=0)  # not started: nobody looks
     made = DriveLoop(Simulator("simpleton", note=lambda text: None), server, clock=wall)
     made.wall = wall
-    made.server.driver._clock = wall
+    made.server.drive_lock._clock = wall
     made.pace.begin(0.0)
     yield made
     server.stop()
@@ -322,7 +322,7 @@ def test_the_robot_moves_while_a_page_drives_and_then_stops(ride: DriveLoop) -> 
     topic = ride.simulator.command_topics[0]
     ride.simulator.subscribe(topic, "geometry_msgs/msg/Twist", sent.append)
     for _ in range(60):
-        ride.server.driver.offer(1, AHEAD)
+        ride.server.drive_lock.update(1, AHEAD)
         spend(ride, FRAME)
     assert ride.simulator.state.v[0] == pytest.approx(0.5, abs=0.02)
     spend(ride, 2.0)  # the driver says nothing more
@@ -394,11 +394,11 @@ def test_the_view_is_of_the_robot_not_of_the_house_around_it(serve, visits, keep
       const THREE = MeshCat.THREE, { camera, controls } = stage.viewer;
       const at = scene.own[0].getWorldPosition(new THREE.Vector3());
       const [x, , z] = at.clone().lerp(camera.position, 0.5).toArray();
-      return page.connection.order("walls", { corners: [[x - 1, -z - 1], [x + 1, -z + 1]], thickness: 0.05 }); }"""
+      return page.connection.request("walls", { corners: [[x - 1, -z - 1], [x + 1, -z + 1]], thickness: 0.05 }); }"""
     name = page.evaluate(build, [None])["name"]
     until(lambda: page.evaluate("urdfkit.scene.faded.size") > 0)
     keep(page, "house-through-a-wall")
-    page.evaluate("(name) => urdfkit.connection.order('remove', { name })", name)
+    page.evaluate("(name) => urdfkit.connection.request('remove', { name })", name)
     until(lambda: page.evaluate("urdfkit.scene.faded.size") == 0)
     page.keyboard.press("f")
     assert page.evaluate(IN_THE_WAY) == []

@@ -28,7 +28,7 @@ from urdfkit.cli.topic.pub import message_of
 from urdfkit.cli.topic.rates import Window, report
 from urdfkit.errors import UsageError
 from urdfkit.sim import Simulator
-from urdfkit.view.server.running_simulations import noted
+from urdfkit.view.server.running_simulations import registered
 from urdfkit.view.server.server import Server
 
 ODOM, COMMAND = "/simpleton/odom", "/simpleton/cmd_vel"
@@ -50,7 +50,7 @@ def ride(tmp_path_factory) -> Iterator[DriveLoop]:
 
         thread = threading.Thread(target=run)
         thread.start()
-        with noted(server.port, server.url, "simpleton"):
+        with registered(server.port, server.url, "simpleton"):
             yield ride
         over.set()
         thread.join()
@@ -183,15 +183,15 @@ def test_without_a_simulation_the_error_shows_how_to_start_one(tmp_path: Path, m
 
 def test_a_simulation_that_is_starting_is_found_and_reports_its_progress(tmp_path: Path, monkeypatch, capsys) -> None:
     monkeypatch.setenv("XDG_RUNTIME_DIR", str(tmp_path))
-    with Server("sim", port=0) as server, noted(server.port, server.url, "simpleton"):
-        server.declare("progress", label="compiling …")
+    with Server("sim", port=0) as server, registered(server.port, server.url, "simpleton"):
+        server.publish_latched("progress", label="compiling …")
         monkeypatch.setattr("urdfkit.cli.topic.connection.READY", 0.3)
         assert main(["topic", "list"]) == 2
         first, second = capsys.readouterr().err.splitlines()
         assert first == "urdfkit: the simulation is starting: compiling …"
         assert "try again when it has started" in second
-        server.declare("progress", label=None)
-        server.declare("fault", message="no such wheel")
+        server.publish_latched("progress", label=None)
+        server.publish_latched("fault", message="no such wheel")
         assert main(["topic", "list"]) == 2
         assert capsys.readouterr().err == "urdfkit: the simulation reports: no such wheel\n"
 

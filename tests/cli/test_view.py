@@ -96,7 +96,7 @@ def test_typing_zero_filter_and_keys(arm_served, visits, keep, until) -> None:
         until(lambda: number.get_attribute("aria-invalid") == "true")
         words = page.locator("#toast").inner_text()
         assert words.startswith("shoulder: ")
-        assert ("the most is 1.5 rad" in words) is (refused[0] in "91" and "_" not in refused)
+        assert ("the maximum is 1.5 rad" in words) is (refused[0] in "91" and "_" not in refused)
         assert float(number.input_value()) == 0.5
     assert page.evaluate(Y_OF_UPPER) == pytest.approx(math.sin(0.25), abs=1e-6)
     number.fill("1.5")  # as it is written below the slider
@@ -191,7 +191,7 @@ def test_nobody_gets_in_without_the_key(arm_served, visits, keep) -> None:
     answer = other.goto(f"{arm_served.origin}/")
     assert answer is not None
     assert answer.status == 403
-    assert "needs its key" in other.content()
+    assert "requires its token" in other.content()
     keep(other, "refused")
 
 
@@ -292,7 +292,7 @@ def test_bad_input_is_one_line_and_exit_2(arm: Path, capfd, words: list[str], ex
 def test_a_busy_port_names_a_free_one(arm_served, arm: Path, capfd) -> None:
     port = arm_served.origin.rsplit(":", 1)[1]
     assert main(["view", str(arm), "--port", port, "--no-browser"]) == 2
-    assert capfd.readouterr().err.startswith(f"urdfkit: port {port} is busy; ")
+    assert capfd.readouterr().err.startswith(f"urdfkit: port {port} is in use; ")
 
 
 @pytest.mark.parametrize(

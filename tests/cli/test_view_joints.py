@@ -40,7 +40,7 @@ def test_a_typed_limit_is_taken_as_it_is_shown_and_no_more(page, until) -> None:
     until(lambda: values(page)["bend"] == pytest.approx(1.0))
     number.fill("57.4")
     number.press("Enter")
-    until(lambda: "bend: 57.4 ° is too much; the most is 57.296 °" in page.locator("#toast").inner_text())
+    until(lambda: "bend: 57.4 ° is too large; the maximum is 57.296 °" in page.locator("#toast").inner_text())
     assert values(page)["bend"] == 1.0
     page.get_by_label("Angles in").first.select_option("rad")
 
@@ -81,7 +81,7 @@ def test_the_filter_leaves_what_fits(page) -> None:
     page.get_by_label("Filter joints").fill("TI")
     assert page.locator("#joints li:visible").evaluate_all("rows => rows.map((r) => r.dataset.joint)") == ["tip"]
     page.get_by_label("Filter joints").fill("nothing")
-    assert page.get_by_text("No joint of this name.").is_visible()
+    assert page.get_by_text("No joint matches.").is_visible()
 
 
 def test_a_link_follows_the_handle_within_its_limits(page, until, keep) -> None:
@@ -104,7 +104,7 @@ def test_a_link_follows_the_handle_within_its_limits(page, until, keep) -> None:
     assert -2 <= now["bend"] <= 1
     assert -1.5 <= now["tip"] <= 1.5
     assert page.locator(".measure-label").count() == 0
-    page.get_by_label("Hold orientation").check()
+    page.get_by_label("Keep the orientation").check()
     assert page.evaluate("urdfkit.ik.gizmo.handles.filter((h) => h.userData.kind === 'about' && h.visible).length") == 6
     keep(page, "drag-rings")
 
@@ -145,7 +145,7 @@ def test_a_decimal_comma_is_as_good_as_a_point_and_words_are_refused(page, until
     assert number.input_value() == "0.500"
     number.fill("half")
     number.press("Enter")
-    until(lambda: page.locator("#toast").inner_text() == "bend: “half” is no number, such as 0.5")
+    until(lambda: page.locator("#toast").inner_text() == "bend: “half” is not a number, such as 0.5")
     assert number.input_value() == "0.500"
     assert values(page)["bend"] == 0.5
     keep(page, "no-number")

@@ -43,7 +43,7 @@ def test_a_badge_leads_to_the_finding_and_its_fix_is_applied(serve, visits, unti
     assert "J412" in card.inner_text()
     assert '<axis xyz="0 2 0"/>' in card.locator(".code").first.inner_text()
     assert [row[0] for row in card.locator(".diff .code-line").all_inner_texts()] == ["-", "+"]
-    card.get_by_text("The rule").click()
+    card.get_by_text("Rule", exact=True).click()
     assert card.locator(".prose h3").first.inner_text() == "axis-not-normalised (J412)"
     keep(page, "finding")
     camera = page.evaluate("urdfkit.stage.viewer.camera.position.toArray()")
@@ -60,11 +60,11 @@ def test_a_badge_leads_to_the_finding_and_its_fix_is_applied(serve, visits, unti
     glow = "urdfkit.scene.shapes('lower', 'visual')[0].children[0].children[0].material.emissive.getHex()"
     until(lambda: page.evaluate(glow) != 0)  # what was selected still shines
     keep(page, "fixed")
-    refused = page.evaluate("urdfkit.connection.order('fix', { finding: 1 }).catch((error) => error.message)")
+    refused = page.evaluate("urdfkit.connection.request('fix', { finding: 1 }).catch((error) => error.message)")
     assert "outdated" in refused
     for order, values_ in (("fix", {"finding": "../x"}), ("fix", {"finding": 1, "path": "x"}), ("write", {})):
         sent = page.evaluate(
-            "([o, v]) => urdfkit.connection.order(o, v).then(() => 'done', (e) => e.message)", [order, values_]
+            "([o, v]) => urdfkit.connection.request(o, v).then(() => 'done', (e) => e.message)", [order, values_]
         )
         assert sent != "done"
     assert visits.problems == []
@@ -180,7 +180,7 @@ def test_a_screenshot_and_a_turn_are_kept(page, keep) -> None:
 def test_colours_and_keys(page, keep) -> None:
     theme = "document.documentElement.dataset.theme"
     assert page.evaluate(theme) == "light"
-    page.get_by_role("button", name="Colours: as the system").click()
+    page.get_by_role("button", name="Colours: system").click()
     page.get_by_role("button", name="Colours: light").click()
     assert page.evaluate(theme) == "dark"
     keep(page, "dark")

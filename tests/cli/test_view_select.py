@@ -29,7 +29,7 @@ def test_a_click_selects_a_link_and_hovering_names_it(page, keep, until) -> None
     assert page.locator("#selection").inner_text().split()[:2] == ["link", "upper"]
     glow = "urdfkit.scene.shapes('upper', 'visual')[0].children[0].children[0].material.emissive.getHex()"
     assert page.evaluate(glow) != 0
-    page.get_by_role("button", name="Look at it").click()
+    page.get_by_role("button", name="Centre the view").click()
     target = page.evaluate("urdfkit.stage.viewer.controls.target.toArray()")
     assert target == pytest.approx([0, 0.25, 0], abs=1e-6)  # three.js has y up
     keep(page, "selected")
@@ -53,7 +53,7 @@ def test_the_tree_finds_and_selects(page, keep, until) -> None:
     assert seen == ["base", "upper", "lower", "hand", "left"]  # with what it hangs on
     keep(page, "tree")
     page.get_by_label("Find a link or joint").fill("")
-    page.get_by_role("button", name="Fold upper").click()
+    page.get_by_role("button", name="Collapse upper").click()
     assert page.locator(".tree .link-entry:visible").all_inner_texts() == ["base", "upper", "eye"]
 
 
@@ -116,7 +116,7 @@ def test_marks_names_wires_and_opacity(page, keep, until) -> None:
     )
     page.evaluate("urdfkit.page.select(null)")  # … but not of what is selected
     page.keyboard.press("f")
-    page.get_by_label("Size of marks").fill("1.5")
+    page.get_by_label("Marker size").fill("1.5")
     keep(page, "marks")
     # a solid ellipsoid of this mass has the inertia that is written
     a, b, c = sorted(page.evaluate("urdfkit.markers.made.inertia[1].scale.toArray()"))

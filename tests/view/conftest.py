@@ -55,7 +55,7 @@ def show(server: Server, scene: Scene) -> None:
 @pytest.fixture
 def server(scene: Scene) -> Iterator[Server]:
     with Server("view", port=0) as running:
-        running.driver._clock = lambda: 0.0  # on a busy machine what a page sent may be silence before it is seen
+        running.drive_lock._clock = lambda: 0.0  # on a busy machine what a page sent may be silence before it is seen
         show(running, scene)
         yield running
 

@@ -3,7 +3,7 @@ from pathlib import Path
 
 import pytest
 
-from urdfkit.view.file_watch import Watch
+from urdfkit.view.file_watch import FileWatch
 
 
 def save(path: Path, text: str) -> None:
@@ -21,7 +21,7 @@ def files(tmp_path: Path) -> list[Path]:
 
 
 def test_a_save_is_noticed_once_and_only_when_it_has_settled(files: list[Path]) -> None:
-    watch = Watch(files)
+    watch = FileWatch(files)
     assert not watch.changed()
     save(files[1], "two")
     assert not watch.changed()  # may still be being written
@@ -30,7 +30,7 @@ def test_a_save_is_noticed_once_and_only_when_it_has_settled(files: list[Path]) 
 
 
 def test_a_file_still_growing_is_waited_for(files: list[Path]) -> None:
-    watch = Watch(files)
+    watch = FileWatch(files)
     for text in ("x", "xx", "xxx"):
         save(files[0], text)
         assert not watch.changed()
@@ -38,7 +38,7 @@ def test_a_file_still_growing_is_waited_for(files: list[Path]) -> None:
 
 
 def test_saving_by_renaming_counts_once(files: list[Path], tmp_path: Path) -> None:
-    watch = Watch(files)
+    watch = FileWatch(files)
     files[0].unlink()
     assert not any(watch.changed() for _ in range(3))
     save(tmp_path / "new", "two")
@@ -47,7 +47,7 @@ def test_saving_by_renaming_counts_once(files: list[Path], tmp_path: Path) -> No
 
 
 def test_a_file_that_is_gone_is_missing_once_that_has_settled(files: list[Path], tmp_path: Path) -> None:
-    watch = Watch(files)
+    watch = FileWatch(files)
     files[0].rename(tmp_path / "aside")
     assert not watch.changed()
     assert watch.missing == ()  # somebody may be saving by renaming
@@ -59,7 +59,7 @@ def test_a_file_that_is_gone_is_missing_once_that_has_settled(files: list[Path],
 
 
 def test_files_can_come_and_go(files: list[Path], tmp_path: Path) -> None:
-    watch = Watch(files[:1])
+    watch = FileWatch(files[:1])
     watch.follow(files)
     assert watch.files == tuple(files)
     save(files[1], "two")
@@ -68,7 +68,7 @@ def test_files_can_come_and_go(files: list[Path], tmp_path: Path) -> None:
 
 
 def test_a_save_during_reading_is_not_lost(files: list[Path]) -> None:
-    watch = Watch(files)
+    watch = FileWatch(files)
     save(files[0], "two")
     watch.changed()
     assert watch.changed()

@@ -31,7 +31,7 @@ def page() -> str:
         name="toy", nodes=[link_path(body) for body in scene.bodies], draw=lambda r: draw(scene, r, r.geometries)
     )
     recording.publish(0.0, np.zeros((2, 7)))
-    recording.declare("fault", message="an end: </script><script>alert(1)</script>")
+    recording.publish_latched("fault", message="an end: </script><script>alert(1)</script>")
     return recording.html()
 
 

@@ -12,9 +12,9 @@ import websocket
 from urdfkit.view.protocol.page_requests import Schema, number, text, tree
 
 FRAMES = 10_000
-KINDS = ("joints", "axes", "control", "ack", "seen", "watch", "do", "hello", "", "__proto__", None, 7)
+KINDS = ("joints", "axes", "control", "ack", "seen", "subscribe", "request", "hello", "", "__proto__", None, 7)
 KEYS = (
-    "positions", "axes", "speed", "turn", "robot", "action", "sequence", "key", "wanted", "number", "order", "values",
+    "positions", "axes", "speed", "turn", "robot", "action", "sequence", "key", "keys", "number", "name", "values",
 )  # fmt: skip
 
 
@@ -46,7 +46,7 @@ def frame(chance: random.Random) -> str | bytes:
 
 @pytest.mark.slow
 def test_ten_thousand_random_frames_leave_it_serving(client, server, until, caplog) -> None:
-    server.orders.update({"move": Schema({"x": number()}, {"name": text(), "free": tree})})
+    server.requests.update({"move": Schema({"x": number()}, {"name": text(), "free": tree})})
     chance = random.Random(20)
     client.log_in()
     page, watching, lines = client.socket(), client.socket(), 1
@@ -65,20 +65,20 @@ def test_ten_thousand_random_frames_leave_it_serving(client, server, until, capl
     watching.send('{"type":"joints","positions":{"lift":0.25}}')
     until(lambda: server.inbox.take().joints.get("lift") == 0.25)
     assert client.get("/").status == 200
-    assert server.driver.holder is None or server.driver.axes is not None
-    assert len(server.hub.wanted) <= 2 * 64
+    assert server.drive_lock.holder is None or server.drive_lock.axes is not None
+    assert len(server.hub.subscribed_keys) <= 2 * 64
     assert 0 < caplog.text.count("dropped") <= 10 * lines  # said, but not ten thousand times
     assert "Traceback" not in caplog.text
 
 
 def test_a_page_that_wants_everything_gets_so_much_and_no_more(page, server, text, until) -> None:
-    page.send(json.dumps({"type": "watch", "wanted": [f"k{k}" for k in range(65)]}))
-    page.send(json.dumps({"type": "watch", "wanted": ["k" * 201]}))
-    page.send(json.dumps({"type": "watch", "wanted": [f"k{k}" for k in range(64)]}))
-    until(lambda: len(server.hub.wanted) == 64)
+    page.send(json.dumps({"type": "subscribe", "keys": [f"k{k}" for k in range(65)]}))
+    page.send(json.dumps({"type": "subscribe", "keys": ["k" * 201]}))
+    page.send(json.dumps({"type": "subscribe", "keys": [f"k{k}" for k in range(64)]}))
+    until(lambda: len(server.hub.subscribed_keys) == 64)
     for k in range(1000):
-        server.stream("k1", "samples", curve="k1", t=[k], values=[0])
-    server.tell("status", end=True)
+        server.send_chunk("k1", "samples", curve="k1", t=[k], values=[0])
+    server.broadcast("status", end=True)
     seen = []
     while True:
         message = page.recv()

@@ -12,7 +12,7 @@ from urdfkit.app.termination import ended_by_signals
 from urdfkit.errors import MissingDependencyError, UrdfkitError
 
 if TYPE_CHECKING:
-    from urdfkit.view.content.display import Board
+    from urdfkit.view.content.display import StatusDisplay
     from urdfkit.view.server.server import Server
 
 NEEDED = {"meshcat": "meshcat", "tornado": "tornado", "umsgpack": "u-msgpack-python", "trimesh": "trimesh"}
@@ -82,12 +82,12 @@ class Page:
 
 
 @contextmanager
-def faults_on_page(server: Board) -> Iterator[None]:
+def faults_on_page(server: StatusDisplay) -> Iterator[None]:
     """Run a block; show its error on open pages too, before the server stops."""
     try:
         yield
     except UrdfkitError as error:
-        server.declare("fault", message=str(error))
+        server.publish_latched("fault", message=str(error))
         time.sleep(FAULT_DELAY)
         raise
 

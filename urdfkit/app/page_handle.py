@@ -78,7 +78,7 @@ class PageHandle:
             run(self._stop)
         except Exception as error:
             self._error = error
-            self._server.declare("fault", message=str(error))
+            self._server.publish_latched("fault", message=str(error))
 
     def __enter__(self) -> Self:
         return self

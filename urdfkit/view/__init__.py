@@ -1,6 +1,6 @@
-"""The browser app: a server that shows a scene and takes wishes. Knows nothing of the simulator.
+"""The browser app: a server that shows a scene and receives requests. It does not depend on the simulator.
 
-`server.server.Server` runs in a thread of its own; `content.meshcat_objects.draw` puts a `urdfkit.scene.Scene` on it.
-Whoever owns the robot publishes poses and drains `Server.inbox` and `Server.driver` in their own thread, so that no
-browser can slow it down.
+`server.server.Server` runs in its own thread; `content.meshcat_objects.draw` sends a `urdfkit.scene.Scene` to it. The
+caller publishes poses and reads `Server.inbox` and `Server.drive_lock` in its own thread, so that no browser can slow
+it down.
 """

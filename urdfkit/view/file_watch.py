@@ -1,4 +1,4 @@
-"""Watch: which of some files changed on disk, by looking at them now and then."""
+"""FileWatch: detects changed files by polling their modification time and size."""
 
 from __future__ import annotations
 
@@ -8,14 +8,14 @@ from pathlib import Path
 Signature = tuple[int, int] | None
 
 
-class Watch:
-    """Notices saves. A change is reported once the files look the same twice in a row, so half-written saves pass by.
+class FileWatch:
+    """Detects saved files. A change is reported when two checks in a row agree, so half-written files are skipped.
 
     Attributes:
-        missing: files that were not there at the last two looks.
+        missing: files that did not exist at the last two checks.
 
     Args:
-        files: what to look at; a file that is not there counts as changed when it appears.
+        files: the watched files; a missing file counts as changed when it appears.
     """
 
     def __init__(self, files: Iterable[Path]) -> None:
@@ -26,18 +26,18 @@ class Watch:
 
     @property
     def files(self) -> tuple[Path, ...]:
-        """The files looked at."""
+        """The watched files."""
         return tuple(self._settled)
 
     def follow(self, files: Iterable[Path]) -> None:
-        """Look at these files from now on, as they are now."""
+        """Watch these files from now on, starting from their current state."""
         paths = dict.fromkeys(files)
-        # Keep what was known: a save between reading a file and this call must still be noticed.
+        # Keep the previous signatures: a save between reading a file and this call must still be detected.
         self._settled = {path: self._settled.get(path, _signature(path)) for path in paths}
         self._last = dict(self._settled)
 
     def changed(self) -> bool:
-        """Look; whether there is a new state to read since the last time this said so."""
+        """Check the files; return whether they have changed since the last call that returned True."""
         now = {path: _signature(path) for path in self._settled}
         steady = now == self._last
         self._last = now

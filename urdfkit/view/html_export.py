@@ -1,4 +1,4 @@
-"""The page in one file: all it is made of and all a browser would have been sent, to open without a server."""
+"""Export of the page to one HTML file with all its modules and messages, which opens without a server."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ _PREFIX = "urdfkit/"
 
 
 class Recording:
-    """Takes what a `Server` takes, and keeps what a browser that comes in late would get."""
+    """Records the messages of a `Server`, as far as a new browser would receive them."""
 
     def __init__(self) -> None:
         self.geometries = GeometryStore()
@@ -34,7 +34,7 @@ class Recording:
         self._poses: bytes | None = None
 
     def send(self, command: Any) -> None:
-        """Keep a meshcat command."""
+        """Record a meshcat command."""
         path, slot, packed = pack(command)
         if slot is None:
             self._commands = {key: kept for key, kept in self._commands.items() if not _below(key[0], path)}
@@ -52,17 +52,17 @@ class Recording:
     ) -> None:
         """Replace the scene; see `Server.show`."""
         draw(self)
-        self.declare("model", number=1, name=name, root=root, nodes=list(nodes), joints=list(joints))
+        self.publish_latched("model", number=1, name=name, root=root, nodes=list(nodes), joints=list(joints))
 
     def publish(self, time: float, poses: NDArray[np.float64]) -> None:
-        """Keep the poses of the links, shape (n, 7)."""
+        """Record the poses of the links, shape (n, 7)."""
         self._poses = protocol.pack_poses(1, time, poses, model=1)
 
-    def declare(self, type: str, **values: Any) -> None:
-        """Keep a text."""
+    def publish_latched(self, type: str, **values: Any) -> None:
+        """Record a message."""
         self._texts[type] = protocol.write(type, **values)
 
-    tell = declare
+    broadcast = publish_latched
 
     def html(self) -> str:
         """Return the page.
@@ -114,7 +114,7 @@ def _json(value: Any) -> str:
 
 
 def _bare(name: str, text: str) -> str:
-    """Return a module whose imports are names, which an import map can answer, and not places beside it."""
+    """Return a module with its relative imports replaced by names of the import map."""
 
     def bare(found: re.Match[str]) -> str:
         path = posixpath.normpath(posixpath.join(posixpath.dirname(name), found[3]))
@@ -128,12 +128,12 @@ def _style(found: re.Match[str]) -> str:
 
 
 def _inline(text: str) -> str:
-    """Return a script as it may stand in a page: nothing in it ends it."""
+    """Return a script with its end tags escaped, for use in a page."""
     return re.sub(r"</(?=script)", r"<\\/", text, flags=re.IGNORECASE)
 
 
 def _policy(scripts: Sequence[str]) -> str:
-    """Return the policy of the page: these scripts and no others, and nothing from anywhere."""
+    """Return the content security policy of the page: only these scripts, and no external resources."""
     digests = [hashlib.sha256(_inline(text).encode()).digest() for text in scripts]
     hashes = " ".join(f"'sha256-{_base64(digest)}'" for digest in digests)
     return (

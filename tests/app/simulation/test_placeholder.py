@@ -34,7 +34,7 @@ class Page:
     def publish(self, t: float, poses) -> None:
         self.poses = np.array(poses)
 
-    def declare(self, type: str, **values) -> None:
+    def publish_latched(self, type: str, **values) -> None:
         self.said.append((type, values))
 
 

@@ -12,7 +12,7 @@ class Page:
     def __init__(self) -> None:
         self.said: list[str | None] = []
 
-    def declare(self, type: str, **values: str | None) -> None:
+    def publish_latched(self, type: str, **values: str | None) -> None:
         assert type == "progress"
         self.said.append(values["label"])
 

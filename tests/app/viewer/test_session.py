@@ -10,13 +10,13 @@ pytest.importorskip("pinocchio")
 pytest.importorskip("meshcat")
 
 from urdfkit.app.viewer.findings_panel import Findings
-from urdfkit.app.viewer.session import CLICKED_POINT, Session, ShownRobot, orders
+from urdfkit.app.viewer.session import CLICKED_POINT, Session, ShownRobot, request_schemas
 from urdfkit.errors import UrdfkitError
 from urdfkit.resources import find_model
 from urdfkit.view.html_export import Recording
-from urdfkit.view.protocol.page_requests import Order, check
-from urdfkit.view.protocol.websocket_messages import Do, ProtocolError
-from urdfkit.view.server.request_inbox import Wishes
+from urdfkit.view.protocol.page_requests import Request, check
+from urdfkit.view.protocol.websocket_messages import ProtocolError, RawRequest
+from urdfkit.view.server.request_inbox import PageInput
 
 ROBOT = """<robot name="lab">
   <link name="base"/><link name="arm"/><link name="kite"/>
@@ -38,11 +38,11 @@ class Shown(Recording):
     def publish(self, time: float, poses: np.ndarray) -> None:
         self.poses = poses
 
-    def declare(self, type: str, **values) -> None:
-        super().declare(type, **values)
+    def publish_latched(self, type: str, **values) -> None:
+        super().publish_latched(type, **values)
         self.said[type] = values
 
-    tell = declare
+    broadcast = publish_latched
 
 
 @pytest.fixture
@@ -73,18 +73,18 @@ def test_a_pose_that_is_none_is_not_taken(session: Session) -> None:
 def test_a_point_is_published_in_the_frame_of_its_link(session: Session, capsys) -> None:
     heard = []
     session.bus.subscribe(CLICKED_POINT, "geometry_msgs/msg/PointStamped", heard.append)
-    assert session.execute(Order(1, 1, "point", {"frame": "arm", "position": [1.0, 2.0, 3.0]})) == {}
+    assert session.execute(Request(1, 1, "point", {"frame": "arm", "position": [1.0, 2.0, 3.0]})) == {}
     (point,) = heard
     assert (point.header.frame_id, point.point.x, point.point.y, point.point.z) == ("arm", 1.0, 2.0, 3.0)
     assert "/clicked_point: 1 2 3 in arm" in capsys.readouterr().err
     with pytest.raises(UrdfkitError, match="no frame"):
-        session.execute(Order(1, 2, "point", {"frame": "../arm", "position": [0.0, 0.0, 0.0]}))
+        session.execute(Request(1, 2, "point", {"frame": "../arm", "position": [0.0, 0.0, 0.0]}))
 
 
 def test_a_fix_is_ordered_by_its_number(session: Session) -> None:
     session.lint()
     number = next(row["number"] for row in session.server.said["findings"]["findings"] if row["code"] == "J412")
-    assert session.execute(Order(1, 1, "fix", {"finding": number}))["done"].startswith("J412: ")
+    assert session.execute(Request(1, 1, "fix", {"finding": number}))["done"].startswith("J412: ")
     assert 'xyz="0 0 1"' in session.model.path.read_text()
 
 
@@ -114,16 +114,16 @@ def test_pages_hear_something_before_they_take_the_line_for_lost(session: Sessio
     class Inbox:
         looks = 0
 
-        def wait(self, timeout: float) -> Wishes:
+        def wait(self, timeout: float) -> PageInput:
             self.looks += 1
             monkeypatch.setattr("time.monotonic", lambda: start + self.looks * timeout)
             if self.looks * timeout > 6.0:  # the page's patience, connection.js
                 raise EndedError
-            return Wishes()
+            return PageInput()
 
     heard = []
     session.server.inbox = Inbox()
-    session.server.tell = lambda kind, **values: heard.append(kind)
+    session.server.broadcast = lambda kind, **values: heard.append(kind)
     with pytest.raises(EndedError):
         session.run()
     assert heard.count("alive") >= 3
@@ -148,4 +148,4 @@ def test_pages_hear_something_before_they_take_the_line_for_lost(session: Sessio
 )
 def test_orders_that_make_no_sense_are_refused(name: str, values: dict) -> None:
     with pytest.raises(ProtocolError):
-        check(orders(), 1, Do(1, name, values))
+        check(request_schemas(), 1, RawRequest(1, name, values))

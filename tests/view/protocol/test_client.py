@@ -23,11 +23,11 @@ def talk(url: str, work: Callable[[Client], Awaitable[Any]]) -> Any:
 
 def test_what_is_wanted_comes_and_what_is_not_does_not(server: Server) -> None:
     async def work(client: Client) -> dict[str, Any]:
-        await client.watch("field:a")
-        while "field:a" not in server.hub.wanted:
+        await client.subscribe("field:a")
+        while "field:a" not in server.hub.subscribed_keys:
             await asyncio.sleep(0.005)
-        server.stream("field:b", "samples", of="b")
-        server.stream("field:a", "samples", of="a")
+        server.send_chunk("field:b", "samples", of="b")
+        server.send_chunk("field:a", "samples", of="a")
         while (found := await client.text(PATIENCE)) is not None and found["type"] != "samples":
             pass
         assert found is not None
@@ -37,13 +37,13 @@ def test_what_is_wanted_comes_and_what_is_not_does_not(server: Server) -> None:
 
 
 def test_an_order_is_answered_and_what_came_meanwhile_is_not_lost(server: Server) -> None:
-    server.orders["greet"] = Schema({"name": text()}, changes=False)
+    server.requests["greet"] = Schema({"name": text()}, changes=False)
 
     async def work(client: Client) -> tuple[dict[str, Any], list[str]]:
-        order = asyncio.ensure_future(client.order("greet", name="you"))
-        while not (found := server.inbox.take().orders):
+        order = asyncio.ensure_future(client.request("greet", name="you"))
+        while not (found := server.inbox.take().requests):
             await asyncio.sleep(0.005)
-        server.tell("status", time=1.0)
+        server.broadcast("status", time=1.0)
         server.answer(found[0], hello="you")
         values = await order
         seen = []
@@ -57,18 +57,18 @@ def test_an_order_is_answered_and_what_came_meanwhile_is_not_lost(server: Server
 
 
 def test_an_order_that_is_refused_says_why(server: Server) -> None:
-    with pytest.raises(UsageError, match="no order `gret`"):
-        talk(server.url, lambda client: client.order("gret"))
-    with pytest.raises(UsageError, match="at most 65536 are taken"):
-        talk(server.url, lambda client: client.order("gret", text="x" * 70_000))
+    with pytest.raises(UsageError, match="unknown request `gret`"):
+        talk(server.url, lambda client: client.request("gret"))
+    with pytest.raises(UsageError, match="at most 65536 are accepted"):
+        talk(server.url, lambda client: client.request("gret", text="x" * 70_000))
 
 
 def test_who_is_no_server_or_has_another_key_is_said(server: Server) -> None:
     wrong = server.url[:-4] + "nope"
-    with pytest.raises(ResourceError, match="the key in the address does not fit"):
+    with pytest.raises(ResourceError, match="wrong token"):
         talk(wrong, lambda client: client.text())
     server.stop()
-    with pytest.raises(ResourceError, match="no simulation answers"):
+    with pytest.raises(ResourceError, match="cannot connect"):
         talk(server.url, lambda client: client.text())
 
 

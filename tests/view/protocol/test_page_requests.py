@@ -4,7 +4,7 @@ import random
 import pytest
 
 from urdfkit.view.protocol.page_requests import (
-    Order,
+    Request,
     Schema,
     check,
     choice,
@@ -17,7 +17,7 @@ from urdfkit.view.protocol.page_requests import (
     tree,
     whole,
 )
-from urdfkit.view.protocol.websocket_messages import Do, ProtocolError
+from urdfkit.view.protocol.websocket_messages import ProtocolError, RawRequest
 
 TABLE = {
     "move": Schema({"name": text(5), "pose": numbers(3, 7)}, {"fast": flag}),
@@ -34,12 +34,12 @@ TABLE = {
 
 
 def checked(order: str, /, **values) -> dict:
-    return check(TABLE, 3, Do(7, order, values)).values
+    return check(TABLE, 3, RawRequest(7, order, values)).values
 
 
 def test_an_order_comes_through_as_it_is_meant() -> None:
-    found = check(TABLE, 3, Do(7, "move", {"name": "box", "pose": [1, 2.5, 0]}))
-    assert found == Order(3, 7, "move", {"name": "box", "pose": [1.0, 2.5, 0.0]})
+    found = check(TABLE, 3, RawRequest(7, "move", {"name": "box", "pose": [1, 2.5, 0]}))
+    assert found == Request(3, 7, "move", {"name": "box", "pose": [1.0, 2.5, 0.0]})
     assert checked("move", name="box", pose=[0] * 7, fast=True)["fast"] is True
     assert checked("all", kind="b", rows=[{"x": 1}], free={"a": [None, {"b": "c"}]})["rows"] == [{"x": 1.0}]
 
@@ -47,24 +47,24 @@ def test_an_order_comes_through_as_it_is_meant() -> None:
 @pytest.mark.parametrize(
     ("name", "values", "why"),
     [
-        ("mvoe", {}, "no order `mvoe`; did you mean `move`?"),
+        ("mvoe", {}, "unknown request `mvoe`; did you mean `move`?"),
         ("move", {"name": "box"}, "move: the pose is missing"),
-        ("move", {"name": "box", "pose": [1, 2, 3], "psoe": 1}, "takes no `psoe`; did you mean `pose`?"),
+        ("move", {"name": "box", "pose": [1, 2, 3], "psoe": 1}, "has no value `psoe`; did you mean `pose`?"),
         ("move", {"name": "box", "pose": [1, 2]}, "pose: 2 numbers instead of a list of 3 to 7 numbers"),
-        ("move", {"name": "box", "pose": [1, 2, float("nan")]}, "pose: “nan” is no number, such as 0.5"),
-        ("move", {"name": "box", "pose": [1, 2, True]}, "“True” is no number"),
-        ("move", {"name": "box", "pose": [1, 2, 1e7]}, "pose: 1e+07 is too much; the most is 1e+06"),
+        ("move", {"name": "box", "pose": [1, 2, float("nan")]}, "pose: “nan” is not a number, such as 0.5"),
+        ("move", {"name": "box", "pose": [1, 2, True]}, "“True” is not a number"),
+        ("move", {"name": "box", "pose": [1, 2, 1e7]}, "pose: 1e+07 is too large; the maximum is 1e+06"),
         ("move", {"name": "boxes!", "pose": [1, 2, 3]}, "at most 5 characters"),
-        ("move", {"name": "a\x00", "pose": [1, 2, 3]}, "name: “a\\x00” is no text"),
-        ("move", {"name": 3, "pose": [1, 2, 3]}, "name: “3” is no text"),
+        ("move", {"name": "a\x00", "pose": [1, 2, 3]}, "name: “a\\x00” is not a text"),
+        ("move", {"name": 3, "pose": [1, 2, 3]}, "name: “3” is not a text"),
         ("move", {"name": "box", "pose": [1, 2, 3], "fast": 1}, "fast: “1” is neither true nor false"),
-        ("count", {"steps": 11}, "steps: 11 is too much; the most is 10"),
-        ("count", {"steps": 2.0}, "steps: “2.0” is no whole number, such as 1"),
-        ("weigh", {"mass": -3}, "mass: -3 kg is too little; the least is 0.001 kg"),
-        ("weigh", {"mass": "1,5"}, "mass: “1,5” is no number, such as 0.5 kg"),
-        ("all", {"kind": "bb"}, "kind: “bb” is none of a, b; did you mean `b`?"),
-        ("all", {"kind": ["a"]}, "none of a, b"),
-        ("all", {"rows": [{"x": 0, "y": 0}]}, "no object with x"),
+        ("count", {"steps": 11}, "steps: 11 is too large; the maximum is 10"),
+        ("count", {"steps": 2.0}, "steps: “2.0” is not an integer, such as 1"),
+        ("weigh", {"mass": -3}, "mass: -3 kg is too small; the minimum is 0.001 kg"),
+        ("weigh", {"mass": "1,5"}, "mass: “1,5” is not a number, such as 0.5 kg"),
+        ("all", {"kind": "bb"}, "kind: “bb” is not one of a, b; did you mean `b`?"),
+        ("all", {"kind": ["a"]}, "not one of a, b"),
+        ("all", {"rows": [{"x": 0, "y": 0}]}, "not an object with x"),
         ("all", {"rows": [{}] * 3}, "3 entries instead of a list of 0 to 2 entries"),
         ("all", {"free": [float("inf")]}, "not finite"),
     ],
@@ -116,23 +116,23 @@ def test_random_values_never_do_anything_but_pass_or_be_refused() -> None:
 
 @pytest.fixture
 def doing(server):
-    server.orders.update(TABLE)
+    server.requests.update(TABLE)
     return server
 
 
 def do(page, number: int, order: str, /, **values) -> None:
-    page.send(json.dumps({"type": "do", "number": number, "order": order, "values": values}))
+    page.send(json.dumps({"type": "request", "number": number, "name": order, "values": values}))
 
 
 def test_an_order_is_done_and_answered_to_who_ordered_it(client, page, doing, text, until) -> None:
     other = client.socket()
     do(page, 9, "count", steps=3)
-    (order,) = until(lambda: doing.inbox.take().orders)
+    (order,) = until(lambda: doing.inbox.take().requests)
     assert (order.name, order.values) == ("count", {"steps": 3})
     doing.answer(order, found=[1, 2])
-    doing.tell("status", end=True)
+    doing.broadcast("status", end=True)
     assert text(page, "answer") == {
-        "type": "answer", "number": 9, "order": "count", "error": None, "values": {"found": [1, 2]},
+        "type": "answer", "number": 9, "name": "count", "error": None, "values": {"found": [1, 2]},
     }  # fmt: skip
     while (frame := other.recv()) and not (isinstance(frame, str) and "end" in frame):
         assert "answer" not in str(frame)
@@ -140,39 +140,39 @@ def test_an_order_is_done_and_answered_to_who_ordered_it(client, page, doing, te
 
 def test_nonsense_is_answered_and_logged(page, doing, text, caplog) -> None:
     do(page, 1, "count", steps="many")
-    assert text(page, "answer")["error"] == "steps: “many” is no whole number, such as 1"
+    assert text(page, "answer")["error"] == "steps: “many” is not an integer, such as 1"
     do(page, 2, "format_disk")
-    assert "no order `format_disk`" in text(page, "answer")["error"]
+    assert "unknown request `format_disk`" in text(page, "answer")["error"]
     assert "dropped a message" in caplog.text
 
 
 def test_while_somebody_drives_nobody_else_changes_anything(client, page, doing, text, until) -> None:
     other = client.socket()
     page.send('{"type":"axes","axes":[1,0,0,0],"speed":0.5,"turn":1}')
-    until(lambda: doing.driver.axes)
+    until(lambda: doing.drive_lock.axes)
     do(other, 1, "move", name="box", pose=[0, 0, 0])
-    assert "somebody else is driving" in text(other, "answer")["error"]
+    assert "another page is driving" in text(other, "answer")["error"]
     do(other, 2, "count", steps=1)  # looking is allowed
-    until(lambda: doing.inbox.take().orders)
+    until(lambda: doing.inbox.take().requests)
     page.send('{"type":"axes","axes":[0,0,0,0],"speed":0.5,"turn":1}')
-    until(lambda: doing.driver.holder is None)
+    until(lambda: doing.drive_lock.holder is None)
     do(other, 3, "move", name="box", pose=[0, 0, 0])
-    until(lambda: doing.inbox.take().orders)
+    until(lambda: doing.inbox.take().requests)
 
 
 def test_too_many_orders_are_refused_not_piled_up(page, doing, text) -> None:
-    from urdfkit.view.server.request_inbox import MAX_ORDERS
+    from urdfkit.view.server.request_inbox import MAX_REQUESTS
 
-    for k in range(MAX_ORDERS + 5):
+    for k in range(MAX_REQUESTS + 5):
         do(page, k, "count", steps=1)
-    assert "too much is waiting" in text(page, "answer")["error"]
-    assert len(doing.inbox.take().orders) == MAX_ORDERS
+    assert "too many requests are waiting" in text(page, "answer")["error"]
+    assert len(doing.inbox.take().requests) == MAX_REQUESTS
 
 
 def test_a_file_is_handed_to_who_ordered_it(client, page, doing, until) -> None:
     do(page, 4, "count", steps=1)
-    (order,) = until(lambda: doing.inbox.take().orders)
-    doing.hand_over(order, "wörld.sdf", b"<sdf/>")
+    (order,) = until(lambda: doing.inbox.take().requests)
+    doing.send_file(order, "wörld.sdf", b"<sdf/>")
     while not (isinstance(frame := page.recv(), bytes) and frame[0] == 3):
         pass
     length = int.from_bytes(frame[2:4], "little")
@@ -182,14 +182,14 @@ def test_a_file_is_handed_to_who_ordered_it(client, page, doing, until) -> None:
 
 def test_what_a_page_wants_it_gets_and_nothing_else(client, page, doing, text, until) -> None:
     other = client.socket()
-    page.send('{"type":"watch","wanted":["sensor:/scan","topics"]}')
-    until(lambda: doing.hub.wanted == {"sensor:/scan", "topics"})
-    assert doing.hub.takes("sensor:/scan")
+    page.send('{"type":"subscribe","keys":["sensor:/scan","topics"]}')
+    until(lambda: doing.hub.subscribed_keys == {"sensor:/scan", "topics"})
+    assert doing.hub.accepts("sensor:/scan")
     for k in range(20):
         doing.sense("sensor:/scan", 0, float(k), 0, b"x" * 12)
-        doing.tell_who_wants("topics", "topics", rows=[k])
-        doing.tell_who_wants("secret", "secret")
-    doing.tell("status", end=True)
+        doing.send_to_subscribers("topics", "topics", rows=[k])
+        doing.send_to_subscribers("secret", "secret")
+    doing.broadcast("status", end=True)
     kinds = []
     while (frame := page.recv()) and "end" not in str(frame):
         kinds.append(frame[0] if isinstance(frame, bytes) else json.loads(frame)["type"])
@@ -201,16 +201,16 @@ def test_what_a_page_wants_it_gets_and_nothing_else(client, page, doing, text, u
 
     def full() -> bool:
         doing.sense("sensor:/scan", 0, 0.0, 0, b"")
-        return not doing.hub.takes("sensor:/scan")
+        return not doing.hub.accepts("sensor:/scan")
 
     until(full)  # two are on their way: no more until they have been shown
-    page.send('{"type":"watch","wanted":[]}')
-    until(lambda: not doing.hub.wanted)
+    page.send('{"type":"subscribe","keys":[]}')
+    until(lambda: not doing.hub.subscribed_keys)
 
 
 def test_frames_that_were_shown_make_room_for_the_newest(page, doing, until) -> None:
-    page.send('{"type":"watch","wanted":["a"]}')
-    until(lambda: doing.hub.takes("a"))
+    page.send('{"type":"subscribe","keys":["a"]}')
+    until(lambda: doing.hub.accepts("a"))
     for k in range(50):
         doing.sense("a", 0, float(k), 0, b"")
     seen = []

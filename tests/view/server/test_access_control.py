@@ -2,15 +2,15 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from urdfkit.view.server.access_control import Gate, headers, host_name, is_loopback
+from urdfkit.view.server.access_control import AccessControl, headers, host_name, is_loopback
 
-GATE = Gate(7007)
-OPEN = Gate(7007, names=("localhost", "127.0.0.1", "::1", "bench"), open_to_network=True)
+GATE = AccessControl(7007)
+OPEN = AccessControl(7007, names=("localhost", "127.0.0.1", "::1", "bench"), open_to_network=True)
 
 
 @pytest.mark.parametrize("host", ["127.0.0.1:7007", "localhost:7007", "LOCALHOST", "[::1]:7007", "localhost:9000"])
 def test_own_hosts_are_let_in(host: str) -> None:
-    assert GATE.host_fits(host)
+    assert GATE.accepts_host(host)
 
 
 @pytest.mark.parametrize(
@@ -19,35 +19,35 @@ def test_own_hosts_are_let_in(host: str) -> None:
      "localhost/evil", "localhost:port", "localhost evil.example", "[::1", "127.0.0.1:7007:1"],
 )  # fmt: skip
 def test_foreign_hosts_are_not(host: str) -> None:
-    assert not GATE.host_fits(host)
+    assert not GATE.accepts_host(host)
 
 
 def test_the_network_may_use_addresses_and_our_name_but_no_other() -> None:
-    assert OPEN.host_fits("192.168.1.5:7007")
-    assert OPEN.host_fits("bench:7007")
-    assert not OPEN.host_fits("evil.example:7007")
+    assert OPEN.accepts_host("192.168.1.5:7007")
+    assert OPEN.accepts_host("bench:7007")
+    assert not OPEN.accepts_host("evil.example:7007")
 
 
 def test_origin_must_be_exactly_the_page() -> None:
     host = "127.0.0.1:7007"
-    assert GATE.origin_fits("http://127.0.0.1:7007", host)
+    assert GATE.accepts_origin("http://127.0.0.1:7007", host)
     for origin in (None, "null", "", "https://127.0.0.1:7007", "http://127.0.0.1:7008", "http://127.0.0.1",
                    "http://127.0.0.1:7007.evil.example", "http://evil.example"):  # fmt: skip
-        assert not GATE.origin_fits(origin, host)
+        assert not GATE.accepts_origin(origin, host)
 
 
 @given(st.text())
 def test_no_other_token_or_cookie_fits(text: str) -> None:
-    assert not GATE.token_fits(text)
-    assert not GATE.session_fits(text)
+    assert not GATE.accepts_token(text)
+    assert not GATE.accepts_session(text)
 
 
 def test_token_and_cookie_fit_and_differ() -> None:
-    assert GATE.token_fits(GATE.token)
-    assert GATE.session_fits(GATE.session)
-    assert not GATE.session_fits(None)
+    assert GATE.accepts_token(GATE.token)
+    assert GATE.accepts_session(GATE.session)
+    assert not GATE.accepts_session(None)
     assert GATE.token != GATE.session
-    assert len({Gate(1).token for _ in range(20)}) == 20
+    assert len({AccessControl(1).token for _ in range(20)}) == 20
     assert len(GATE.token) >= 32
     assert GATE.token not in repr(GATE)
 

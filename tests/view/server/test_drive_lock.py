@@ -1,7 +1,7 @@
 import pytest
 
 from urdfkit.view.protocol.websocket_messages import Axes
-from urdfkit.view.server.drive_lock import DEADMAN, Driver
+from urdfkit.view.server.drive_lock import DEADMAN, DriveLock
 
 AHEAD = Axes((1.0, 0.0, 0.0, 0.0), 0.5, 1.0)
 BACK = Axes((-1.0, 0.0, 0.0, 0.0), 0.5, 1.0)
@@ -21,85 +21,85 @@ def clock() -> Clock:
 
 
 @pytest.fixture
-def driver(clock: Clock) -> Driver:
-    return Driver(clock=clock)
+def lock(clock: Clock) -> DriveLock:
+    return DriveLock(clock=clock)
 
 
-def test_what_is_held_counts_until_it_is_let_go(driver: Driver) -> None:
-    assert driver.axes is None
-    assert driver.offer(1, AHEAD)
-    assert driver.axes == AHEAD
-    driver.offer(1, NOTHING)
-    assert driver.axes is None
-    assert driver.holder is None
+def test_what_is_held_counts_until_it_is_let_go(lock: DriveLock) -> None:
+    assert lock.axes is None
+    assert lock.update(1, AHEAD)
+    assert lock.axes == AHEAD
+    lock.update(1, NOTHING)
+    assert lock.axes is None
+    assert lock.holder is None
 
 
-def test_silence_stops_the_robot(driver: Driver, clock: Clock) -> None:
-    driver.offer(1, AHEAD)
+def test_silence_stops_the_robot(lock: DriveLock, clock: Clock) -> None:
+    lock.update(1, AHEAD)
     clock.now += DEADMAN - 0.01
-    assert driver.axes == AHEAD
+    assert lock.axes == AHEAD
     clock.now += 0.02
-    assert driver.axes is None
-    assert driver.holder is None
+    assert lock.axes is None
+    assert lock.holder is None
 
 
-def test_a_word_in_time_keeps_it_going(driver: Driver, clock: Clock) -> None:
+def test_a_word_in_time_keeps_it_going(lock: DriveLock, clock: Clock) -> None:
     for _ in range(20):
-        driver.offer(1, AHEAD)
+        lock.update(1, AHEAD)
         clock.now += DEADMAN * 0.9
-        assert driver.axes == AHEAD
+        assert lock.axes == AHEAD
 
 
-def test_stop_takes_the_wheel_out_of_any_hands(driver: Driver) -> None:
-    driver.offer(1, AHEAD)
-    driver.stop()
-    assert driver.axes is None
-    assert driver.holder is None
-    assert driver.offer(2, BACK)
+def test_stop_takes_the_wheel_out_of_any_hands(lock: DriveLock) -> None:
+    lock.update(1, AHEAD)
+    lock.release()
+    assert lock.axes is None
+    assert lock.holder is None
+    assert lock.update(2, BACK)
 
 
-def test_closing_the_page_stops_the_robot_at_once(driver: Driver) -> None:
-    driver.offer(1, AHEAD)
-    driver.leave(2)
-    assert driver.axes == AHEAD
-    driver.leave(1)
-    assert driver.axes is None
+def test_closing_the_page_stops_the_robot_at_once(lock: DriveLock) -> None:
+    lock.update(1, AHEAD)
+    lock.leave(2)
+    assert lock.axes == AHEAD
+    lock.leave(1)
+    assert lock.axes is None
 
 
-def test_one_drives_and_the_others_watch(driver: Driver, clock: Clock) -> None:
-    driver.offer(1, AHEAD)
-    assert not driver.offer(2, BACK)
-    assert not driver.offer(2, NOTHING)
-    assert driver.axes == AHEAD
-    assert driver.holder == 1
-    driver.offer(1, NOTHING)
-    assert driver.offer(2, BACK)
-    assert driver.axes == BACK
+def test_one_drives_and_the_others_watch(lock: DriveLock, clock: Clock) -> None:
+    lock.update(1, AHEAD)
+    assert not lock.update(2, BACK)
+    assert not lock.update(2, NOTHING)
+    assert lock.axes == AHEAD
+    assert lock.holder == 1
+    lock.update(1, NOTHING)
+    assert lock.update(2, BACK)
+    assert lock.axes == BACK
     clock.now += DEADMAN + 0.01
-    assert driver.offer(1, AHEAD)
+    assert lock.update(1, AHEAD)
 
 
 def test_while_one_page_drives_another_may_not_change_anything() -> None:
     now = [0.0]
-    driver = Driver(clock=lambda: now[0])
-    assert driver.may(1)
-    assert driver.may(2)
-    driver.offer(1, AHEAD)
-    assert driver.may(1)
-    assert not driver.may(2)
+    lock = DriveLock(clock=lambda: now[0])
+    assert lock.allows(1)
+    assert lock.allows(2)
+    lock.update(1, AHEAD)
+    assert lock.allows(1)
+    assert not lock.allows(2)
     now[0] += DEADMAN + 0.01
-    assert driver.may(2)
+    assert lock.allows(2)
 
 
 def test_who_moves_an_arm_drives_for_a_while() -> None:
     now = [0.0]
-    driver = Driver(clock=lambda: now[0])
-    driver.touch(1)
-    assert (driver.holder, driver.axes) == (1, None)
-    driver.touch(2)
-    assert driver.holder == 1
-    assert not driver.offer(2, AHEAD)
+    lock = DriveLock(clock=lambda: now[0])
+    lock.claim(1)
+    assert (lock.holder, lock.axes) == (1, None)
+    lock.claim(2)
+    assert lock.holder == 1
+    assert not lock.update(2, AHEAD)
     now[0] += DEADMAN + 0.01
-    assert driver.offer(2, AHEAD)
-    driver.touch(2)  # does not take the wheel out of its hands
-    assert driver.axes == AHEAD
+    assert lock.update(2, AHEAD)
+    lock.claim(2)  # does not take the wheel out of its hands
+    assert lock.axes == AHEAD

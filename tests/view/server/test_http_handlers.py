@@ -27,12 +27,12 @@ def test_the_key_becomes_a_cookie_and_leaves_the_address(client, server) -> None
     name, *attributes = answer.headers["set-cookie"].split("; ")
     assert name.startswith(f"urdfkit-{server.port}=")
     assert {"HttpOnly", "Path=/", "SameSite=Strict"} == set(attributes)
-    assert server.gate.token not in answer.headers["set-cookie"]
+    assert server.access.token not in answer.headers["set-cookie"]
     client.cookie = name
     page = client.get("/")
     assert page.status == 200
     assert b"/app/app.js" in page.body
-    assert server.gate.token.encode() not in page.body
+    assert server.access.token.encode() not in page.body
 
 
 @pytest.mark.parametrize("path", ["/", f"/geometry/{ZEROS}", "/ws", "/nothing", "/?token=", "/?token=wrong",
@@ -48,7 +48,7 @@ def test_without_the_key_nobody_gets_in(client, path: str) -> None:
     "cookie", ["urdfkit-{port}=wrong", "urdfkit-1={session}", "urdfkit-{port}=", "{session}", ";;=;"]
 )
 def test_a_wrong_cookie_is_no_cookie(client, server, cookie: str) -> None:
-    client.cookie = cookie.format(port=server.port, session=server.gate.session)
+    client.cookie = cookie.format(port=server.port, session=server.access.session)
     assert client.get("/").status == 403
 
 
@@ -58,7 +58,7 @@ def test_a_wrong_cookie_is_no_cookie(client, server, cookie: str) -> None:
 @pytest.mark.parametrize("path", ["/", "/app/app.js", f"/geometry/{ZEROS}", "/ws", "/?token={token}"])
 def test_a_foreign_host_is_refused_even_with_the_key(client, server, host: str | None, path: str) -> None:
     client.log_in()
-    answer = client.get(path.format(token=server.gate.token), Host=host and host.format(port=server.port))
+    answer = client.get(path.format(token=server.access.token), Host=host and host.format(port=server.port))
     assert answer.status in (400, 403)
     assert "set-cookie" not in answer.headers
 
@@ -67,7 +67,7 @@ def test_a_foreign_host_is_refused_even_with_the_key(client, server, host: str |
 def test_a_foreign_page_is_refused_even_with_the_cookie(client, server, origin: str) -> None:
     client.log_in()
     assert client.get("/", Origin=origin).status == 403
-    assert client.get(f"/?token={server.gate.token}", Origin=origin).status == 403
+    assert client.get(f"/?token={server.access.token}", Origin=origin).status == 403
     assert client.get(f"/geometry/{ZEROS}", Origin=origin).status == 403
 
 
@@ -178,7 +178,7 @@ def test_a_frame_over_the_cap_closes_the_line_and_nothing_else(client, page, ser
     read_to_the_end(page)
     other.send('{"type":"joints","positions":{"lift":0.2}}')
     assert until(server.inbox.take).joints == {"lift": 0.2}
-    assert until(lambda: "longer than 65536 bytes; the line is cut" in caplog.text)
+    assert until(lambda: "longer than 65536 bytes; connection closed" in caplog.text)
 
 
 def test_a_frame_that_is_none_closes_the_line_with_a_word(page, until, caplog) -> None:
@@ -194,14 +194,14 @@ def test_a_page_that_says_goodbye_is_no_refusal(page, server, until, caplog, sta
     page.sock.sendall(bytes((0x88, 0x80 | len(code))) + bytes(4) + code)  # a tab that is closed says 1001 or nothing
     read_to_the_end(page)
     until(lambda: not server.hub.watchers)
-    assert "refused" not in caplog.text
+    assert "rejected" not in caplog.text
 
 
 def test_a_page_that_goes_away_is_no_refusal(page, server, until, caplog) -> None:
     until(lambda: server.hub.watchers)
     page.sock.close()
     until(lambda: not server.hub.watchers)
-    assert "refused" not in caplog.text
+    assert "rejected" not in caplog.text
 
 
 @pytest.mark.parametrize("frame", ["", "nonsense", "{}", '{"type":"joints","positions":{"lift":NaN}}',
@@ -213,7 +213,7 @@ def test_nonsense_is_dropped_with_a_word_in_the_log(page, server, until, caplog,
         page.send('{"type":"joints","positions":{"lift":0.2}}')
         assert until(server.inbox.take).joints == {"lift": 0.2}
     assert "dropped a message" in caplog.text
-    assert server.driver.axes is None
+    assert server.drive_lock.axes is None
 
 
 def test_a_page_that_talks_nonsense_all_day_does_not_fill_the_log(page, server, until, caplog) -> None:
@@ -267,14 +267,14 @@ def test_geometry_is_served_by_its_content_and_may_be_kept(client, server) -> No
 
 def test_refusals_are_logged_without_the_key(client, server, caplog) -> None:
     client.get("/?token=guess")
-    client.get(f"/?token={server.gate.token}", Origin="http://evil.example")
+    client.get(f"/?token={server.access.token}", Origin="http://evil.example")
     client.get("/", Host="evil.example")
     lines = [record.getMessage() for record in caplog.records if record.levelno == logging.WARNING]
-    assert [line.partition(": ")[0] for line in lines[:3]] == ["refused GET / from 127.0.0.1"] * 3
-    assert "key in the address is wrong" in lines[0]
+    assert [line.partition(": ")[0] for line in lines[:3]] == ["rejected GET / from 127.0.0.1"] * 3
+    assert "token in the address is wrong" in lines[0]
     assert "another site" in lines[1]
-    assert "not one this server answers to" in lines[2]
-    assert server.gate.token not in caplog.text
+    assert "not accepted by this server" in lines[2]
+    assert server.access.token not in caplog.text
     assert "guess" not in caplog.text
 
 

@@ -18,7 +18,7 @@ def busy() -> int:
 def test_a_busy_port_is_one_line_that_names_a_free_one(busy: int) -> None:
     with pytest.raises(UsageError) as caught:
         bind("127.0.0.1", busy)
-    found = re.fullmatch(rf"port {busy} is busy; (\d+) is free", str(caught.value))
+    found = re.fullmatch(rf"port {busy} is in use; (\d+) is free", str(caught.value))
     assert found
     listening, port = bind("127.0.0.1", int(found[1]))
     listening.close()
@@ -35,7 +35,7 @@ def test_the_usual_port_gives_way_to_the_next() -> None:
 
 def test_a_second_server_cannot_share_the_port() -> None:
     listening, port = bind("127.0.0.1", 0)
-    with listening, pytest.raises(UsageError, match="busy"):
+    with listening, pytest.raises(UsageError, match="in use"):
         bind("127.0.0.1", port)
 
 

@@ -1,6 +1,6 @@
 import threading
 
-from urdfkit.view.server.request_inbox import MAX_ACTIONS, Inbox, Wishes
+from urdfkit.view.server.request_inbox import MAX_ACTIONS, Inbox, PageInput
 
 
 def test_of_several_positions_for_a_joint_the_last_counts() -> None:
@@ -8,7 +8,7 @@ def test_of_several_positions_for_a_joint_the_last_counts() -> None:
     inbox.put_joints({"a": 1.0, "b": 2.0})
     inbox.put_joints({"a": 3.0})
     inbox.put_action("pause")
-    assert inbox.take() == Wishes({"a": 3.0, "b": 2.0}, ("pause",))
+    assert inbox.take() == PageInput({"a": 3.0, "b": 2.0}, ("pause",))
     assert not inbox.take()
 
 
@@ -24,5 +24,5 @@ def test_wait_returns_what_comes_in_and_gives_up_in_time() -> None:
     assert not inbox.wait(0.0)
     thread = threading.Thread(target=lambda: inbox.put_joints({"a": 1.0}))
     thread.start()
-    assert inbox.wait(10.0) == Wishes({"a": 1.0})
+    assert inbox.wait(10.0) == PageInput({"a": 1.0})
     thread.join()

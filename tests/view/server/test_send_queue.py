@@ -78,7 +78,7 @@ def test_a_browser_that_reads_nothing_costs_one_frame_of_each_kind() -> None:
     async def scenario(channel, browser, settle) -> None:
         for number in range(1000):
             channel.poses(number, b"p%d" % number)
-            channel.news("status", f"s{number}")
+            channel.update("status", f"s{number}")
             await settle()
         browser.read(10)
         for _ in range(3):
@@ -104,7 +104,7 @@ def test_acknowledging_what_was_never_sent_changes_nothing(sequence: int) -> Non
 def test_lines_overtake_news_and_news_overtake_poses() -> None:
     async def scenario(channel, browser, settle) -> None:
         channel.poses(1, b"poses")
-        channel.news("status", "news")
+        channel.update("status", "news")
         channel.line("line")
         browser.read(3)
         await settle()
@@ -146,16 +146,16 @@ def test_cut_ends_the_sender() -> None:
 
 def test_of_a_stream_of_large_frames_few_wait_and_the_newest_always_does() -> None:
     async def scenario(channel, browser, settle) -> None:
-        channel.want(frozenset({"whole:/image"}))
+        channel.subscribe(frozenset({"whole:/image"}))
         for name in "abcd":
-            channel.stream("whole:/image", name * (MAX_STREAM_BYTES // 3))
-        channel.stream("whole:/image", "e" * (MAX_STREAM_BYTES // 4))
+            channel.send_chunk("whole:/image", name * (MAX_STREAM_BYTES // 3))
+        channel.send_chunk("whole:/image", "e" * (MAX_STREAM_BYTES // 4))
         browser.read(10)
         await settle()
         assert [frame[0] for frame in browser.frames] == ["c", "d", "e"]
         browser.frames.clear()
-        channel.stream("whole:/image", "f")
-        channel.stream("whole:/image", "g" * (MAX_STREAM_BYTES + 1))
+        channel.send_chunk("whole:/image", "f")
+        channel.send_chunk("whole:/image", "g" * (MAX_STREAM_BYTES + 1))
         await settle()
         assert [frame[0] for frame in browser.frames] == ["g"]
 

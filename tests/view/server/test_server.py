@@ -54,7 +54,7 @@ def test_a_page_that_acknowledges_nothing_gets_three_frames_and_later_the_newest
     assert received == [0.0, 1.0, 2.0]
     for number in range(3, 100):
         server.publish(float(number), POSES)
-    server.tell("status", mark="end")
+    server.broadcast("status", mark="end")
     text(page, "status")  # arrives though poses are held back
     page.send('{"type":"ack","sequence":2}')
     assert struct.unpack_from("<d", poses(page), 8)[0] == 99.0
@@ -67,7 +67,7 @@ def test_a_page_that_does_not_read_holds_nobody_up(client, server, text, poses) 
     text(watching, "model")
     for number in range(2000):
         server.publish(float(number), POSES)
-        server.tell("status", number=number)
+        server.broadcast("status", number=number)
     page_time, sequence = -1.0, 0
     while page_time < 1999.0:
         frame = poses(watching)
@@ -85,32 +85,32 @@ def test_wishes_reach_the_caller(page, server, until) -> None:
 
 def test_the_wheel_is_let_go_with_the_key_the_page_and_the_line(client, page, server, until) -> None:
     page.send(AHEAD)
-    assert until(lambda: server.driver.axes) == Axes((1.0, 0.0, 0.0, 0.0), 0.5, 1.0)
+    assert until(lambda: server.drive_lock.axes) == Axes((1.0, 0.0, 0.0, 0.0), 0.5, 1.0)
     page.send(NOTHING)
-    until(lambda: server.driver.axes is None)
+    until(lambda: server.drive_lock.axes is None)
 
     page.send(AHEAD)
-    until(lambda: server.driver.axes)
+    until(lambda: server.drive_lock.axes)
     page.shutdown()  # no goodbye: the line is cut
-    until(lambda: server.driver.axes is None)
+    until(lambda: server.drive_lock.axes is None)
 
     again = client.socket()
     again.send(AHEAD)
-    until(lambda: server.driver.axes)
-    server.driver._clock = lambda: DEADMAN + 0.01
-    assert server.driver.axes is None  # silence
+    until(lambda: server.drive_lock.axes)
+    server.drive_lock._clock = lambda: DEADMAN + 0.01
+    assert server.drive_lock.axes is None  # silence
 
 
 def test_a_second_page_watches_while_the_first_drives(client, page, server, until) -> None:
     second = client.socket()
     page.send(AHEAD)
-    until(lambda: server.driver.axes)
-    holder = server.driver.holder
+    until(lambda: server.drive_lock.axes)
+    holder = server.drive_lock.holder
     second.send('{"type":"axes","axes":[-1,0,0,0],"speed":0.5,"turn":1}')
     second.send('{"type":"control","action":"play"}')  # comes after
     until(lambda: server.inbox.take().actions)
-    assert server.driver.holder == holder
-    assert server.driver.axes.axes[0] == 1.0
+    assert server.drive_lock.holder == holder
+    assert server.drive_lock.axes.axes[0] == 1.0
 
 
 def test_stop_ends_the_thread_and_frees_the_port(scene) -> None:
@@ -127,7 +127,7 @@ def test_stop_ends_the_thread_and_frees_the_port(scene) -> None:
 
 
 def test_a_busy_port_is_refused_before_anything_runs(server) -> None:
-    with pytest.raises(UsageError, match="is busy"):
+    with pytest.raises(UsageError, match="is in use"):
         Server("view", port=server.port)
 
 
@@ -139,7 +139,7 @@ def test_pages_are_said_goodbye_to(scene) -> None:
             f"ws://127.0.0.1:{server.port}/ws",
             timeout=PATIENCE,
             origin=f"http://127.0.0.1:{server.port}",
-            cookie=f"{server.gate.cookie}={server.gate.session}",
+            cookie=f"{server.access.cookie}={server.access.session}",
         )
         connected.recv()
     with contextlib.suppress(websocket.WebSocketConnectionClosedException, ConnectionError):
@@ -151,8 +151,8 @@ def test_pages_are_said_goodbye_to(scene) -> None:
 
 def test_other_machines_are_let_in_only_when_asked_for() -> None:
     closed, opened = Server("view", port=0), Server("view", host="0.0.0.0", port=0)
-    assert not closed.gate.open_to_network
-    assert opened.gate.open_to_network
+    assert not closed.access.open_to_network
+    assert opened.access.open_to_network
     assert all("token=" in url for url in opened.urls)
     closed.stop()
     opened.stop()

@@ -104,17 +104,17 @@ def driving(
     from urdfkit.app.simulation.placeholder import Placeholder
     from urdfkit.app.simulation.progress import compile_kernel, compile_rays, progress
     from urdfkit.sim import Simulator
-    from urdfkit.view.server.running_simulations import noted
+    from urdfkit.view.server.running_simulations import registered
 
     server = page.server
     try:
         placeholder = Placeholder(robot, world)
         page.open()  # the browser starts and shows the robot while the engine is compiled
         # `urdfkit topic` finds the simulation from here on
-        with noted(server.port, server.url, robot.name or "robot"):
+        with registered(server.port, server.url, robot.name or "robot"):
             with faults_on_page(server):
                 placeholder.show(server)
-                server.declare("progress", label="preparing the engine …")
+                server.publish_latched("progress", label="preparing the engine …")
                 compile_kernel(server)
                 with progress(server, "loading meshes, building the world …"):
                     simulator = Simulator(

@@ -34,7 +34,7 @@ if TYPE_CHECKING:
 
     from urdfkit.app.simulation.features.feature import Done
     from urdfkit.sim.simulator import Simulator
-    from urdfkit.view.protocol.page_requests import Order, Schema
+    from urdfkit.view.protocol.page_requests import Request, Schema
     from urdfkit.view.server.server import Server
 
 STATUS = 0.1
@@ -84,7 +84,7 @@ class DriveLoop:
         self._clock, self._sleep = clock, sleep
         self._driven = ""
         self._failed = False
-        self._orders: deque[Order] = deque()
+        self._requests: deque[Request] = deque()
         self._reported = -math.inf
         self._warnings: list[str] = []
         self._log, simulator.note.report = simulator.note.report, self._warn
@@ -94,17 +94,17 @@ class DriveLoop:
         self.scene_bodies = SceneBodies(simulator, server)
         self.features: tuple[Feature, ...] = tuple(part(simulator, server, clock) for part in FEATURES)
         self.replay = next(part for part in self.features if isinstance(part, Replay))
-        self._takes: dict[str, tuple[Schema, Callable[[Order], Done]]] = {}
+        self._takes: dict[str, tuple[Schema, Callable[[Request], Done]]] = {}
         for part in self.features:
             if isinstance(part, Playback):
                 part.pace = self.pace
             self._takes.update(part.takes)
-        server.orders.update({name: schema for name, (schema, _) in self._takes.items()})
+        server.requests.update({name: schema for name, (schema, _) in self._takes.items()})
 
     def show(self) -> None:
         """Show robots and bodies on the page, and publish the controls of all features."""
         self.scene_bodies.show()
-        self.server.declare("teleop", **drive_controls(self.simulator))
+        self.server.publish_latched("teleop", **drive_controls(self.simulator))
         for part in self.features:
             part.show()
         self.server.publish(self.simulator.t, self.scene_bodies.poses())
@@ -131,13 +131,13 @@ class DriveLoop:
 
     def tick(self) -> None:
         """Run one iteration: requests, drive commands, physics, poses."""
-        requests = self.server.inbox.take()
-        for action in requests.actions:
+        inputs = self.server.inbox.take()
+        for action in inputs.actions:
             self._act(action)
-        self._orders.extend(requests.orders)
+        self._requests.extend(inputs.requests)
         begin = self._clock()
-        while self._orders and self._clock() - begin <= PATIENCE:
-            self._do(self._orders.popleft())
+        while self._requests and self._clock() - begin <= PATIENCE:
+            self._do(self._requests.popleft())
         if not self.replay.playing:
             self._drive()
             if not self.simulator.paused:
@@ -150,7 +150,7 @@ class DriveLoop:
         if action == "reset":
             simulator.reset()
             simulator.paused = self._failed = False
-            self.server.declare("fault", message=None)
+            self.server.publish_latched("fault", message=None)
             for part in self.features:
                 part.forget()
             self.show()
@@ -163,27 +163,27 @@ class DriveLoop:
 
     def _stop(self) -> None:
         """Send zero velocity to every drive, whichever page drives, and release the controls of all pages."""
-        self.server.driver.stop()
-        self.server.tell("stop")
+        self.server.drive_lock.release()
+        self.server.broadcast("stop")
         self._driven = ""
         for name, robot in self.simulator.world.robots.items():
             if command_topics(robot):
                 self._command(name, STOP)
 
-    def _do(self, order: Order) -> None:
+    def _do(self, request: Request) -> None:
         if self._failed:  # its state is NaN
-            self.server.answer(order, "the simulation has diverged; press Reset")
+            self.server.answer(request, "the simulation has diverged; press Reset")
             return
         self._warnings.clear()
         try:
-            values = self._takes[order.name][1](order)
+            values = self._takes[request.name][1](request)
         except (UrdfkitError, OSError) as error:
-            self.server.answer(order, str(error))
+            self.server.answer(request, str(error))
         else:
             answer: dict[str, Any] = dict(values or {})
             if self._warnings:
-                answer["remarks"] = list(self._warnings)
-            self.server.answer(order, **answer)
+                answer["warnings"] = list(self._warnings)
+            self.server.answer(request, **answer)
         # A repeated request gets the same warnings again.
         self.simulator.note.forget(self._warnings)
         self._warnings.clear()
@@ -192,12 +192,12 @@ class DriveLoop:
         """Print a warning in the terminal and show it on the page."""
         self._log(text)
         self._warnings.append(text)
-        self.server.tell("notice", text=text, tone="warning")
+        self.server.broadcast("notice", text=text, tone="warning")
 
     def _fail(self, error: SimulationError) -> None:
         self.simulator.paused = self._failed = True
         note(f"urdfkit: {error}")
-        self.server.declare("fault", message=f"{error}; press Reset")
+        self.server.publish_latched("fault", message=f"{error}; press Reset")
 
     def _physics(self) -> None:
         simulator, pace = self.simulator, self.pace
@@ -212,7 +212,7 @@ class DriveLoop:
 
     def _drive(self) -> None:
         """Publish the command of the driver; zero once when the driver releases the controls."""
-        held, robots = self.server.driver.axes, self.simulator.world.robots
+        held, robots = self.server.drive_lock.axes, self.simulator.world.robots
         driven, motion = "", None
         if held is not None:
             x, y, z, turn = held.axes
@@ -250,7 +250,7 @@ class DriveLoop:
         if now - self._reported >= STATUS:
             self._reported = now
             self.pace.mark(simulator.t)
-            self.server.tell("status", **self._status(poses))
+            self.server.broadcast("status", **self._status(poses))
 
     def _status(self, poses: NDArray[Any]) -> dict[str, Any]:
         simulator, factor = self.simulator, self.pace.factor
@@ -271,7 +271,7 @@ class DriveLoop:
             "tip": self.scene_bodies.tip,
             "robots": robots,
             "odometry": {frame: [*pose[:2], yaw_of(turn)] for frame, (pose, turn) in simulator.odometry().items()},
-            "driver": self.server.driver.holder,
+            "driver": self.server.drive_lock.holder,
             "watchers": self.server.hub.watchers,
         }
 

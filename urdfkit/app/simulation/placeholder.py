@@ -12,7 +12,7 @@ from urdfkit.sim.construction.spawn import Spawn
 if TYPE_CHECKING:
     from urdfkit.description import Robot
     from urdfkit.description.sdf import World
-    from urdfkit.view.content.display import Screen
+    from urdfkit.view.content.display import Display
 
 
 class Placeholder:
@@ -39,7 +39,7 @@ class Placeholder:
         self._q = spawn.configuration(kinematics, base)[0]
         require_masses(kinematics, self._q, lambda _: None)  # the simulation reports them
 
-    def show(self, server: Screen) -> None:
+    def show(self, server: Display) -> None:
         """Show the robot on the page."""
         from urdfkit.view.content.meshcat_objects import draw, link_path
 

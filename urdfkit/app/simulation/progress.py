@@ -10,38 +10,38 @@ from typing import TYPE_CHECKING
 from urdfkit.app.page import note
 
 if TYPE_CHECKING:
-    from urdfkit.view.content.display import Board
+    from urdfkit.view.content.display import StatusDisplay
 
 PATIENCE = 1.0
 """Seconds that an operation may take before it is reported."""
 
 
-def compile_kernel(server: Board) -> None:
+def compile_kernel(server: StatusDisplay) -> None:
     """Compile the physics kernel if it is not cached."""
     from urdfkit.sim.engine.kernel_cache import announcement, warmup
 
     _compile(warmup, announcement(), server)
 
 
-def compile_rays(server: Board) -> None:
+def compile_rays(server: StatusDisplay) -> None:
     """Compile the ray-casting kernels of sensors if they are not cached; see `compile_kernel`."""
     from urdfkit.scene.rays import announcement, warmup
 
     _compile(warmup, announcement(), server)
 
 
-def _compile(warmup: Callable[[Callable[[int], None]], bool], label: str, server: Board) -> None:
+def _compile(warmup: Callable[[Callable[[int], None]], bool], label: str, server: StatusDisplay) -> None:
     def report(functions: int) -> None:
         if functions == 0:
             note(label)
-        server.declare("progress", label=f"{label} {functions} functions" if functions else label)
+        server.publish_latched("progress", label=f"{label} {functions} functions" if functions else label)
 
     warmup(report)
-    server.declare("progress", label=None)
+    server.publish_latched("progress", label=None)
 
 
 @contextmanager
-def progress(server: Board, label: str) -> Iterator[None]:
+def progress(server: StatusDisplay, label: str) -> Iterator[None]:
     """Report an operation in the terminal and on the page if it takes longer than `PATIENCE`.
 
     Args:
@@ -56,7 +56,7 @@ def progress(server: Board, label: str) -> Iterator[None]:
             if not timer.finished.is_set():
                 reported = True
                 note(label)
-                server.declare("progress", label=label)
+                server.publish_latched("progress", label=label)
 
     timer = threading.Timer(PATIENCE, report)
     timer.daemon = True
@@ -67,4 +67,4 @@ def progress(server: Board, label: str) -> Iterator[None]:
         timer.cancel()
         with over:
             if reported:
-                server.declare("progress", label=None)
+                server.publish_latched("progress", label=None)

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from urdfkit.description import Robot
     from urdfkit.scene import Shape
     from urdfkit.sim.simulator import Simulator
-    from urdfkit.view.content.display import Screen
+    from urdfkit.view.content.display import Display
 
 BODY = "world/"
 """Prefix of the names of the world's bodies; no name of a link begins with it."""
@@ -32,7 +32,7 @@ class SceneBodies:
         tip: link with the most moving joints between it and the root, e.g. the end of an arm.
     """
 
-    def __init__(self, simulator: Simulator, server: Screen) -> None:
+    def __init__(self, simulator: Simulator, server: Display) -> None:
         self._simulator, self._server = simulator, server
         self._drawn: tuple[str, ...] = ()
         self._shown: dict[str, tuple[Any, ...]] = {}
@@ -62,14 +62,14 @@ class SceneBodies:
         if first:
             scene = Scene(bodies, (*simulator.scene.shapes, *(each for some in shapes.values() for each in some)))
 
-            def picture(server: Screen) -> None:
+            def picture(server: Display) -> None:
                 draw(scene, server, server.geometries)
 
         else:
             removed = [name for name in before if name not in looks or looks[name] != before[name]]
             added = [name for name in drawn if looks[name] != before.get(name)]
 
-            def picture(server: Screen) -> None:
+            def picture(server: Display) -> None:
                 draw_more(
                     [shape for name in added for shape in shapes.get(name, ())],
                     server,

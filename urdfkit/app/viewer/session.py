@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from urdfkit.resources import ModelArgument
     from urdfkit.scene import Scene
     from urdfkit.view.html_export import Recording
-    from urdfkit.view.protocol.page_requests import Order, Schema
+    from urdfkit.view.protocol.page_requests import Request, Schema
     from urdfkit.view.server.server import Server
 
 CHECK_PERIOD = 0.15
@@ -32,7 +32,7 @@ CLICKED_POINT = "/clicked_point"
 POINT_STAMPED = "geometry_msgs/msg/PointStamped"
 
 
-def orders() -> dict[str, Schema]:
+def request_schemas() -> dict[str, Schema]:
     """Return the requests of the page: a fix by the number of its finding, a point in a link's frame."""
     from urdfkit.view.protocol.page_requests import Schema, numbers, text, whole
 
@@ -70,13 +70,13 @@ class Session:
 
     def __init__(self, server: Server | Recording, model: ModelArgument, shown: ShownRobot, findings: Findings) -> None:
         from urdfkit.bus import Bus
-        from urdfkit.view.file_watch import Watch
+        from urdfkit.view.file_watch import FileWatch
 
         self.server = server
         self.model = model
         self.shown = shown
         self.findings = findings
-        self.watch = Watch(shown.files)
+        self.watch = FileWatch(shown.files)
         self.positions: dict[str, float] = {}
         self.bus = Bus()
         self.bus.subscribe(JOINT_STATES, "sensor_msgs/msg/JointState", self._place)
@@ -92,16 +92,16 @@ class Session:
         due = 0.0
         while not stop.is_set():
             if (now := time.monotonic()) >= due:
-                server.tell("alive")
+                server.broadcast("alive")
                 due = now + KEEPALIVE_PERIOD
-            requests = server.inbox.wait(CHECK_PERIOD)
-            if requests.joints:
-                self.move(requests.joints)
-            for order in requests.orders:
+            inputs = server.inbox.wait(CHECK_PERIOD)
+            if inputs.joints:
+                self.move(inputs.joints)
+            for request in inputs.requests:
                 try:
-                    server.answer(order, **self.execute(order))
+                    server.answer(request, **self.execute(request))
                 except UrdfkitError as error:
-                    server.answer(order, str(error))
+                    server.answer(request, str(error))
             self.check_files()
 
     def move(self, joints: Mapping[str, float]) -> None:
@@ -114,17 +114,17 @@ class Session:
             self.positions = before
             self._publish()
 
-    def execute(self, order: Order) -> dict[str, Any]:
+    def execute(self, request: Request) -> dict[str, Any]:
         """Execute a request of a page and return its response.
 
         Raises:
             UrdfkitError: the request cannot be executed.
         """
-        if order.name == "fix":
-            done = self.findings.apply_fix(order.values["finding"])
+        if request.name == "fix":
+            done = self.findings.apply_fix(request.values["finding"])
             note(f"fixed {done}")
             return {"done": done}
-        frame, position = order.values["frame"], order.values["position"]
+        frame, position = request.values["frame"], request.values["position"]
         self.shown.kinematics.frame(frame)
         self._publish_point(frame, position)
         return {}
@@ -132,7 +132,7 @@ class Session:
     def lint(self, *, stale: bool = False) -> None:
         """Publish the findings; `stale` where the robot on the page differs from the files."""
         robot = None if stale else self.shown.kinematics.robot
-        self.server.declare("findings", **self.findings.lint(robot))
+        self.server.publish_latched("findings", **self.findings.lint(robot))
 
     def check_files(self) -> None:
         """Reload changed files, and report missing files."""
@@ -147,7 +147,7 @@ class Session:
         names = ", ".join(str(path) for path in missing)
         text = f"{names} not found; the page shows the robot that was read last"
         note(f"urdfkit: {text}")
-        self.server.declare("fault", message=text)
+        self.server.publish_latched("fault", message=text)
 
     def _reload(self) -> None:
         """Read the files again; keep the last valid robot on an error."""
@@ -155,7 +155,7 @@ class Session:
             self.shown = ShownRobot.read(self.model)
         except UrdfkitError as error:
             note(f"urdfkit: {error}")
-            self.server.declare("fault", message=str(error))
+            self.server.publish_latched("fault", message=str(error))
             self.lint(stale=True)
         else:
             self.watch.follow(self.shown.files)
@@ -181,8 +181,8 @@ class Session:
             draw=lambda server: draw(scene, server, server.geometries),
         )
         self.server.publish(0.0, kinematics.link_poses(q))  # before message types are loaded, which takes longer
-        self.server.declare("inspect", **inspection(kinematics))
-        self.server.declare("fault", message=None)
+        self.server.publish_latched("inspect", **inspection(kinematics))
+        self.server.publish_latched("fault", message=None)
         self._publish()
 
     def _publish(self) -> None:
@@ -214,4 +214,4 @@ class Session:
         positions = {n: float(p) for n, p in zip(message.name, message.position, strict=True)}
         q = kinematics.configuration({name: position for name, position in positions.items() if name in own})
         self.server.publish(0.0, kinematics.link_poses(q))
-        self.server.tell("joints", positions=positions)
+        self.server.broadcast("joints", positions=positions)

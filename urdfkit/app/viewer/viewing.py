@@ -64,17 +64,17 @@ def viewing(page: Page, model: ModelArgument, shown: ShownRobot) -> Iterator[Ses
         shown: the robot.
     """
     from urdfkit.app.viewer.findings_panel import Findings
-    from urdfkit.app.viewer.session import Session, orders
+    from urdfkit.app.viewer.session import Session, request_schemas
     from urdfkit.view.server.access_control import is_loopback
 
     server = page.server
-    server.orders.update(orders())
+    server.requests.update(request_schemas())
     try:
         session = Session(server, model, shown, Findings(model, may_write=is_loopback(page.host)))
-        server.declare("progress", label="Preparing shapes")
+        server.publish_latched("progress", label="Preparing shapes")
         page.open()  # the browser starts while the shapes are prepared
         session.show()
-        server.declare("progress", label=None)
+        server.publish_latched("progress", label=None)
         yield session
     finally:
         server.stop()

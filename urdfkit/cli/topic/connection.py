@@ -74,7 +74,7 @@ async def topics(client: Client) -> list[Row]:
     Raises:
         ResourceError: the page is not a simulation, the list does not arrive, or the simulation has failed.
     """
-    await client.watch("topics")
+    await client.subscribe("topics")
     reported = False
     while (text := await client.text(READY)) is not None:
         if text["type"] == "hello" and text["mode"] != "sim":
@@ -85,7 +85,7 @@ async def topics(client: Client) -> list[Row]:
         if text["type"] == "fault" and text["message"]:
             raise ResourceError(f"the simulation reports: {text['message']}")
         if text["type"] == "topics":
-            await client.watch()
+            await client.subscribe()
             return sorted(
                 (Row(name, kind, count, subscribers) for name, kind, count, _, subscribers in text["rows"]),
                 key=lambda row: row.name,
@@ -120,12 +120,12 @@ async def messages(
         every: yield an empty list after every such period [s]; None for never.
     """
     key = f"{kind}:{topic}"
-    await client.watch(key)
+    await client.subscribe(key)
     loop = asyncio.get_running_loop()
     due = None if every is None else loop.time() + every
     while True:
         text = await client.text(None if due is None else max(0.0, due - loop.time()))
-        if text is not None and text["type"] == "heard" and text["source"] == key:
+        if text is not None and text["type"] == "messages" and text["source"] == key:
             for row in text["rows"]:
                 yield row
             if text["missed"]:

@@ -70,7 +70,7 @@ async def run(client: Client, arguments: argparse.Namespace) -> int:
     loop = asyncio.get_running_loop()
     due, sent = loop.time(), 0
     while True:
-        await client.order("publish", topic=name, type=kind, message=values)
+        await client.request("publish", topic=name, type=kind, message=values)
         sent += 1
         if sent == number:
             return 0

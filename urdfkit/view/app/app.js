@@ -1,4 +1,4 @@
-// Wires the page together: connection ↔ stage, panels, features.
+// Entry point of the page: connects the WebSocket with the viewport, the panels and the features.
 
 import { Connection } from "./page/connection.js";
 import { drawnBy } from "./viewport/graphics_device.js";
@@ -9,12 +9,12 @@ import { simFeatures } from "./simulation/simulation_features.js";
 import { Stage } from "./viewport/viewport.js";
 import { viewFeatures } from "./robot/robot_features.js";
 
-const PROTOCOL = 2;
+const PROTOCOL = 3;
 const $ = (id) => document.getElementById(id);
 
 if (drawnBy === null) {
   $("fault").hidden = false;
-  $("fault").textContent = "This browser shows no 3-D graphics (WebGL 2): turn on hardware acceleration in its settings, or try another one.";
+  $("fault").textContent = "This browser does not support WebGL 2. Enable hardware acceleration in its settings, or use another browser.";
 }
 
 const stage = new Stage($("pane"));
@@ -22,15 +22,15 @@ const scene = new Scene(stage);
 const page = new Page(stage, scene, new Panels($("panel"), $("rail")));
 let root = 0;
 let fitted = false;
-let changed = false; // whether the robot is another one than what the view was fitted to
-let touched = false; // whether a person has turned the view themselves
+let changed = false; // whether the robot has changed since the view was fitted
+let touched = false; // whether the user has moved the camera
 stage.viewer.controls.addEventListener("start", () => (touched = true));
 
-// For tests and for the curious at the console; features add to it by page.expose.
+// For tests and the console; features add to it with page.expose.
 Object.defineProperty(window, "urdfkit", { value: { page, stage, scene, link: (index) => scene.nodes[index ?? root] } });
 
 page.on("hello", (message) => {
-  if (message.protocol !== PROTOCOL) return location.reload(); // the server is of another version than this page
+  if (message.protocol !== PROTOCOL) return location.reload(); // the server has another version than this page
   page.mode = message.mode;
   page.settings = message;
   document.body.dataset.mode = message.mode;
@@ -47,7 +47,7 @@ page.on("model", (message) => {
   scene.use(message);
 });
 page.on("teleop", () => {
-  // What was shown so far was the robot alone, before there was a world around it.
+  // Until now only the robot was shown, without its world.
   if (!document.body.dataset.running && !touched) fitted = false;
 });
 page.on("status", () => (document.body.dataset.running = true));
@@ -78,7 +78,7 @@ page.expose("connection", page.connection);
 
 function applied(sequence, time) {
   page.send("ack", { sequence });
-  const followed = scene.nodes[page.followed ?? root]; // of several robots the one that is driven
+  const followed = scene.nodes[page.followed ?? root]; // the driven robot
   const { x, y, z } = page.mode === "sim" && followed ? followed.position : { x: 0, y: 0, z: 0 };
   if (page.mode === "sim" || !fitted) stage.at(x, y, z, page.mode === "sim" && page.following !== false && !page.cameras.tracks);
   page.emit("poses", time);

@@ -1,4 +1,4 @@
-"""What the page shows, as messages: meshcat objects, meshes, joints, properties of links.
+"""Content of the page as messages: meshcat objects, meshes, joints, properties of links.
 
-A robot or a scene goes in; commands for the browser come out.
+Input: a robot or a scene. Output: commands for the browser.
 """

@@ -1,4 +1,4 @@
-"""Screen: what of a server somebody needs who only shows something, or only says how it goes."""
+"""Interfaces of the server for code that only shows a scene or publishes messages."""
 
 from __future__ import annotations
 
@@ -12,25 +12,25 @@ if TYPE_CHECKING:
     from urdfkit.view.content.mesh_store import GeometryStore
 
 
-class Board(Protocol):
-    """Where something is said that holds until the next of its type; see `Server.declare`."""
+class StatusDisplay(Protocol):
+    """Publishes latched messages; see `Server.publish_latched`."""
 
-    def declare(self, type: str, **values: Any) -> None:
-        """Say it."""
+    def publish_latched(self, type: str, **values: Any) -> None:
+        """Publish a message."""
 
 
-class Screen(Board, Protocol):
-    """What robots are drawn on; see `Server`."""
+class Display(StatusDisplay, Protocol):
+    """Shows scenes and poses; see `Server`."""
 
     @property
     def geometries(self) -> GeometryStore:
-        """The meshes it has."""
+        """The stored meshes."""
 
     def send(self, command: Any, /) -> None:
         """Send a meshcat command."""
 
-    def show(self, *, name: str, nodes: Sequence[str], root: int = 0, draw: Callable[[Screen], None]) -> None:
+    def show(self, *, name: str, nodes: Sequence[str], root: int = 0, draw: Callable[[Display], None]) -> None:
         """Replace the scene."""
 
     def publish(self, time: float, poses: NDArray[np.floating[Any]], /) -> None:
-        """Put everything where it is."""
+        """Publish the poses of the nodes."""

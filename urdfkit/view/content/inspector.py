@@ -1,4 +1,4 @@
-"""What the page knows of a robot beyond its looks: masses, origins, limits, and where each thing is written."""
+"""Properties of links and joints for the page: masses, origins, limits and source locations."""
 
 from __future__ import annotations
 
@@ -29,11 +29,11 @@ if TYPE_CHECKING:
     Array = NDArray[np.float64]
 
 LINES = 16
-"""Most lines of source shown of one element."""
+"""Maximum number of source lines of an element."""
 
 
 def inspection(kinematics: Kinematics) -> dict[str, Any]:
-    """Return links and joints as plain values for the page.
+    """Return links and joints as JSON values for the page.
 
     Args:
         kinematics: the robot.
@@ -51,7 +51,7 @@ def inspection(kinematics: Kinematics) -> dict[str, Any]:
 
 
 def excerpts() -> Callable[[Element], dict[str, Any]]:
-    """Return what gives an element's place: file, line, column, its source lines and the chain of macro calls."""
+    """Return a function for the location of an element: file, line, column, source lines and chain of macro calls."""
 
     @cache
     def source(file: str) -> Source | None:
@@ -92,7 +92,7 @@ def _link(link: Link, excerpt: Callable[[Element], dict[str, Any]]) -> dict[str,
 
 
 def _inertial(inertial: Inertial, excerpt: Callable[[Element], dict[str, Any]]) -> dict[str, Any]:
-    """Return mass, centre of mass and tensor, and the solid ellipsoid that has them where there is one."""
+    """Return mass, centre of mass, tensor, and the equivalent solid ellipsoid if one exists."""
     found: dict[str, Any] = {
         "mass": inertial.mass,
         "origin": pose(inertial.origin),
@@ -110,7 +110,7 @@ def _inertial(inertial: Inertial, excerpt: Callable[[Element], dict[str, Any]]) 
 def ellipsoid(mass: float, tensor: Sequence[float]) -> dict[str, Any] | None:
     """Return the solid ellipsoid of uniform density with this inertia.
 
-    Of half axes a, b, c its moments are m/5·(b² + c²), …: a² = 5/(2m)·(I₂ + I₃ - I₁).
+    With half axes a, b, c its moments are m/5·(b² + c²), …: a² = 5/(2m)·(I₂ + I₃ - I₁).
 
     Args:
         mass: [kg].
@@ -118,7 +118,7 @@ def ellipsoid(mass: float, tensor: Sequence[float]) -> dict[str, Any] | None:
 
     Returns:
         ``moments`` [kg·m²], ``axes`` (half axes) [m], ``turn``, the quaternion x y z w of the principal axes in the
-        inertial frame; None where no body has this inertia.
+        inertial frame; None if the inertia is not physically valid.
     """
     ixx, ixy, ixz, iyy, iyz, izz = tensor
     matrix = np.array([[ixx, ixy, ixz], [ixy, iyy, iyz], [ixz, iyz, izz]])
@@ -155,7 +155,7 @@ def _shapes(shapes: Sequence[Visual | Collision], excerpt: Callable[[Element], d
 
 
 def describe(geometry: Geometry | None) -> str:
-    """Return a geometry in words, lengths in metres."""
+    """Return a description of a geometry, lengths in metres."""
     if isinstance(geometry, Box):
         return f"box {' × '.join(f'{edge:g}' for edge in geometry.size)} m"
     if isinstance(geometry, Cylinder):
@@ -199,7 +199,7 @@ def _joint(joint: Joint, kinematics: Kinematics, excerpt: Callable[[Element], di
 
 
 def finite(value: float | None) -> float | None:
-    """Return a number, or None where there is none that JSON can say."""
+    """Return a number, or None if it is missing or not finite."""
     return value if value is not None and math.isfinite(value) else None
 
 
@@ -212,8 +212,8 @@ def pose(origin: Pose) -> list[float]:
 def quaternion(R: Array) -> Array:
     """Return the unit quaternion x y z w of a rotation matrix, w not negative; shape (4,).
 
-    Shepperd's method: the largest of the four squares is taken first, so that nothing is divided by a small number
-    (J. Guidance and Control 1, 1978).
+    Shepperd's method: the largest of the four squares is computed first, to avoid division by a small number (J.
+    Guidance and Control 1, 1978).
     """
     trace = float(np.trace(R))
     i = int(np.argmax([R[0, 0], R[1, 1], R[2, 2], trace]))

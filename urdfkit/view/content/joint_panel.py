@@ -1,4 +1,4 @@
-"""What the joint panel knows of each joint."""
+"""Rows of the joint panel."""
 
 from __future__ import annotations
 
@@ -11,17 +11,17 @@ TURN = math.pi
 
 
 def joint_rows(kinematics: Kinematics, positions: dict[str, float]) -> list[dict[str, Any]]:
-    """Return one row per number that a person can set or see, in document order.
+    """Return one row per joint variable, in document order.
 
-    A planar or floating joint has a row for each of its variables, named as `Kinematics.variable_names` has them.
+    A planar or floating joint has a row for each of its variables, named as in `Kinematics.variable_names`.
 
     Args:
         kinematics: the robot.
         positions: joint or variable → position [rad or m].
 
     Returns:
-        name, type, lower and upper (of the slider; ±π where there is no limit to an angle), limited, position, unit
-        (empty for the parts of a quaternion), mimic (the joint followed, or None) and its multiplier and offset.
+        name, type, lower and upper (of the slider; ±π for an angle without limits), limited, position, unit (empty for
+        the components of a quaternion), mimic (the followed joint or None) and its multiplier and offset.
     """
     rows = []
     for name in [*kinematics.variable_names, *kinematics.mimic_names]:
@@ -58,7 +58,7 @@ def _unit(type: str, part: str) -> str:
 
 
 def home(kinematics: Kinematics) -> dict[str, float]:
-    """Return zero for every joint, or the limit nearest to it [rad or m]; a floating joint is unturned."""
+    """Return zero for every joint, or the limit nearest to it [rad or m]; floating joints are not rotated."""
     positions = {}
     for name in kinematics.variable_names:
         if name in kinematics.joint_names:

@@ -1,4 +1,4 @@
-"""Triangle meshes for the browser, known by the hash of their content and by nothing else."""
+"""Triangle meshes for the browser, addressed by the hash of their content."""
 
 from __future__ import annotations
 
@@ -16,26 +16,26 @@ if TYPE_CHECKING:
     from urdfkit.scene import TriMesh
 
 HEADER = struct.Struct("<III")
-"""Vertices, triangles, whether there are colours. Then per vertex 3 × float32 position and 3 × float32 normal, per
-triangle 3 × uint32, and per vertex 4 × uint8 colour if there are any."""
+"""Number of vertices and triangles, whether the mesh has colours. Then per vertex 3 × float32 position and 3 × float32
+normal, per triangle 3 × uint32, and per vertex 4 × uint8 colour if the mesh has colours."""
 
 CREASE = np.deg2rad(35.0)
 """Neighbouring faces that meet at less than this angle are shaded as one smooth surface [rad]."""
 
 
 class GeometryStore:
-    """Packed meshes by content hash. Filled by the caller's thread, read by the server's."""
+    """Packed meshes by content hash. Written by the thread of the caller, read by the thread of the server."""
 
     def __init__(self) -> None:
         self._packed: dict[str, bytes] = {}
-        self._known: dict[str, str] = {}
+        self._names: dict[str, str] = {}
 
     def add(self, mesh: TriMesh) -> str:
-        """Keep a mesh and return its name, 64 hexadecimal digits; one that is there already costs nothing."""
-        name = self._known.get(mesh.hash)
+        """Store a mesh unless it is already stored; return its name, 64 hexadecimal digits."""
+        name = self._names.get(mesh.hash)
         if name is None:
             packed = pack(mesh)
-            name = self._known[mesh.hash] = hashlib.sha256(packed).hexdigest()
+            name = self._names[mesh.hash] = hashlib.sha256(packed).hexdigest()
             self._packed[name] = packed
         return name
 
@@ -44,8 +44,8 @@ class GeometryStore:
         return self._packed.get(name)
 
     def keep_only(self, names: Collection[str]) -> None:
-        """Forget all other meshes."""
-        self._known = {mesh: name for mesh, name in self._known.items() if name in names}
+        """Remove all other meshes."""
+        self._names = {mesh: name for mesh, name in self._names.items() if name in names}
         self._packed = {name: packed for name, packed in self._packed.items() if name in names}
 
     def __len__(self) -> int:
@@ -57,7 +57,7 @@ class GeometryStore:
 
 
 def pack(mesh: TriMesh) -> bytes:
-    """Return a mesh as it travels; where the file has no normals they are made so that creases stay sharp."""
+    """Return a mesh in its binary format; missing normals are computed so that creases stay sharp."""
     points: NDArray[Any] = mesh.vertices
     faces: NDArray[Any] = mesh.faces
     normals: NDArray[Any]
@@ -65,7 +65,7 @@ def pack(mesh: TriMesh) -> bytes:
     if mesh.normals is not None:
         normals = mesh.normals
     elif colors is not None:
-        # Corners of one place may differ in colour: shade flat, each corner on its own.
+        # Corners at the same position may differ in colour: shade flat, with separate corners.
         corners = faces.reshape(-1)
         points, colors, faces = points[corners], colors[corners], np.arange(len(corners)).reshape(-1, 3)
         normals = np.repeat(_flat(points[faces])[1], 3, axis=0)
@@ -81,7 +81,7 @@ def pack(mesh: TriMesh) -> bytes:
 
 
 def _flat(sides: NDArray[Any]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Return the area vectors (twice the area long) and unit normals (or zero) of triangles of shape (m, 3, 3)."""
+    """Return area vectors (of length twice the area) and unit normals (or zero) of triangles of shape (m, 3, 3)."""
     sides = sides.astype(float)
     area = np.cross(sides[:, 1] - sides[:, 0], sides[:, 2] - sides[:, 0])
     length = np.linalg.norm(area, axis=1, keepdims=True)
@@ -91,7 +91,7 @@ def _flat(sides: NDArray[Any]) -> tuple[NDArray[np.float64], NDArray[np.float64]
 def crease(
     vertices: NDArray[np.float64], faces: NDArray[np.int64], *, angle: float = CREASE
 ) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.int64]]:
-    """Give every corner of every face a normal: the mean over the faces around its vertex that it is smooth with.
+    """Compute a normal for every corner of every face: the mean over the smoothly adjacent faces at its vertex.
 
     Args:
         vertices: shape (n, 3).
@@ -103,8 +103,8 @@ def crease(
     """
     if len(faces) == 0:
         return np.zeros((0, 3)), np.zeros((0, 3)), np.zeros((0, 3), dtype=np.int64)
-    # STL has no shared vertices: merge what is in the same place first.
-    vertices = vertices.astype(np.float32) + np.float32(0)  # there is one zero, not two
+    # STL has no shared vertices: merge equal positions first.
+    vertices = vertices.astype(np.float32) + np.float32(0)  # -0.0 becomes 0.0
     kept, where = unique_rows(vertices.view(np.uint32))
     places = vertices[kept]
     faces = where[faces]
@@ -114,7 +114,7 @@ def crease(
     rough = np.flatnonzero(~even[corner_vertex])
     normals = _paired(rough, corner_vertex, area, flat, angle)
 
-    # Where a surface is even its vertices stay one; at creases each direction gets one of its own.
+    # A smooth vertex is kept; at a crease each normal gets its own vertex.
     rows = np.hstack([corner_vertex[rough, None], np.round(normals * 32767).astype(np.int64)])
     kept, index = unique_rows(rows)
     smooth = np.flatnonzero(even)
@@ -129,7 +129,7 @@ def crease(
 def _even(
     count: int, corner_vertex: NDArray[np.int64], area: NDArray[Any], flat: NDArray[Any], angle: float
 ) -> tuple[NDArray[np.bool_], NDArray[np.float64]]:
-    """Return which vertices have no crease, and the mean normal at each: faces all within half of `angle` of it."""
+    """Return which vertices have no crease, and their mean normals: all faces are within half of `angle` of it."""
     total: NDArray[np.float64] = np.stack(
         [np.bincount(corner_vertex, np.repeat(area[:, k], 3), count) for k in range(3)], axis=1
     )
@@ -142,8 +142,8 @@ def _even(
 def _paired(
     corners: NDArray[np.int64], corner_vertex: NDArray[np.int64], area: NDArray[Any], flat: NDArray[Any], angle: float
 ) -> NDArray[np.float64]:
-    """Return the normals of some corners, all those of their vertices: the mean over faces they are smooth with."""
-    # All pairs (corner, corner) that share a vertex, by sorting corners by vertex and pairing at growing distance.
+    """Return the normals of corners (all corners of their vertices): the mean over smoothly adjacent faces."""
+    # All pairs of corners with the same vertex: sort the corners by vertex, then pair them at increasing distance.
     order = np.argsort(corner_vertex[corners], kind="stable")
     sorted_vertex = corner_vertex[corners[order]]
     face_of = corners[order] // 3
@@ -165,7 +165,7 @@ def _paired(
 
 
 def _unit(vectors: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return vectors of shape (n, 3) one long; those of no length point up."""
+    """Normalize vectors of shape (n, 3); zero vectors become the z axis."""
     size = np.linalg.norm(vectors, axis=1, keepdims=True)
     found: NDArray[np.float64] = np.tile([0.0, 0.0, 1.0], (len(vectors), 1))
     np.divide(vectors, size, out=found, where=size > 0)

@@ -29,34 +29,34 @@ COLLISION_RGBA = (0.95, 0.55, 0.10, 0.45)
 """Colour of collision geometry."""
 CAPSULE_SEGMENTS = 24
 
-# meshcat's cylinders stand along y, URDF's along z.
+# The axis of a cylinder is y in meshcat and z in URDF.
 Y_TO_Z = np.array([[1.0, 0, 0, 0], [0, 0, -1.0, 0], [0, 1.0, 0, 0], [0, 0, 0, 1.0]])
 
 
 class SharedGeometry(meshcat.geometry.Geometry):  # type: ignore[misc]
-    """A mesh the browser fetches by its content hash, once, however many shapes use it."""
+    """A mesh that the browser fetches once by its content hash, for all shapes that use it."""
 
     def __init__(self, name: str) -> None:
         super().__init__()
         self.name = name
 
     def lower(self, object_data: dict[str, Any]) -> dict[str, Any]:
-        """Return what travels."""
+        """Return the message for the browser."""
         return {"uuid": self.uuid, "type": "_shared", "name": self.name}
 
 
 def link_path(link: str) -> str:
-    """Return the scene path of a link. meshcat parts paths at slashes, so those in names are written ``%2F``."""
+    """Return the scene path of a link. meshcat splits paths at slashes, so slashes in names are escaped as ``%2F``."""
     return f"{LINKS}/{link.replace('%', '%25').replace('/', '%2F')}"
 
 
 def draw(scene: Scene, window: Any, geometries: GeometryStore) -> None:
-    """Send a scene's shapes, replacing what was there.
+    """Send the shapes of a scene, replacing the previous scene.
 
     Args:
         scene: bodies and shapes.
-        window: takes meshcat commands by ``send``.
-        geometries: takes the meshes; those the scene does not have are forgotten.
+        window: receives meshcat commands by ``send``.
+        geometries: receives the meshes; meshes of the previous scene are removed.
     """
     used = set()
     root = meshcat.Visualizer.view_into(window, meshcat.path.Path())
@@ -77,7 +77,7 @@ def draw(scene: Scene, window: Any, geometries: GeometryStore) -> None:
 
 
 def geometry_of(shape: Shape, geometries: GeometryStore) -> tuple[Any, NDArray[np.float64]]:
-    """Return a shape's meshcat geometry and its placement in the shape's frame; None when there is nothing to draw."""
+    """Return a shape's meshcat geometry, None if it has none, and its placement in the shape's frame."""
     geometry = shape.geometry
     if shape.mesh is not None:
         return SharedGeometry(geometries.add(shape.mesh)), np.eye(4)
@@ -109,11 +109,11 @@ def material(shape: Shape) -> Any:
 
 
 def capsule(radius: float, length: float) -> TriMesh:
-    """Return a capsule along z; `length` is that of its cylindrical part [m]."""
+    """Return a capsule along z; `length` is the length of its cylindrical part [m]."""
     n, rings = CAPSULE_SEGMENTS, CAPSULE_SEGMENTS // 4
     quarter = np.linspace(0, np.pi / 2, rings + 1)
     polar = np.concatenate([quarter, np.pi - quarter[::-1]])
-    out = np.sin(polar) * (np.abs(np.cos(polar)) < 1)  # exactly nothing at the poles
+    out = np.sin(polar) * (np.abs(np.cos(polar)) < 1)  # exactly zero at the poles
     lift = np.repeat([length / 2, -length / 2], rings + 1) + radius * np.cos(polar)
     turn = np.arange(n) * 2 * np.pi / n
     ring = np.stack([np.cos(turn), np.sin(turn), np.zeros(n)], axis=1)

@@ -1,4 +1,4 @@
-"""Shapes added to a scene that is shown, and bodies taken out of it, without drawing the rest again."""
+"""Adding shapes to the shown scene and removing bodies, without drawing the rest again."""
 
 from __future__ import annotations
 
@@ -17,15 +17,15 @@ if TYPE_CHECKING:
 def draw_more(
     shapes: Sequence[Shape], window: Any, geometries: GeometryStore, *, instead_of: Sequence[str] = ()
 ) -> None:
-    """Send shapes beside those that are there.
+    """Add shapes to the shown scene.
 
     Args:
-        shapes: to be added.
-        window: takes meshcat commands by ``send``.
-        geometries: takes the meshes; none is forgotten, see `forget_others`.
-        instead_of: bodies whose shapes are taken out first.
+        shapes: the added shapes.
+        window: receives meshcat commands by ``send``.
+        geometries: receives the meshes; none is removed, see `forget_others`.
+        instead_of: bodies whose shapes are removed first.
     """
-    import meshcat  # after `meshcat_objects`, which knows what it warns of
+    import meshcat  # after `meshcat_objects`, which suppresses its warnings
 
     root = meshcat.Visualizer.view_into(window, meshcat.path.Path())
     for body in instead_of:
@@ -43,6 +43,6 @@ def draw_more(
 
 
 def forget_others(shapes: Iterable[Shape], geometries: GeometryStore) -> None:
-    """Forget all meshes but those of these shapes."""
+    """Remove all meshes except those of these shapes."""
     used = (geometry_of(shape, geometries)[0] for shape in shapes)
     geometries.keep_only({geometry.name for geometry in used if isinstance(geometry, SharedGeometry)})

@@ -1,4 +1,4 @@
-"""What travels between page and server: messages, requests with their checks, and a client for programs.
+"""The protocol between page and server: messages, requests with their checks, and a client for programs.
 
-Bytes and JSON go in; checked values come out (docs/protocol.md).
+Input: bytes and JSON. Output: checked values (docs/protocol.md).
 """

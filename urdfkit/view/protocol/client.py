@@ -1,4 +1,4 @@
-"""Client: a program's own line to a running page's server, as docs/protocol.md tells it; for commands, not browsers."""
+"""Client: connects commands and other programs to the server of a running page; see docs/protocol.md."""
 
 from __future__ import annotations
 
@@ -17,18 +17,18 @@ from tornado.websocket import WebSocketClientConnection, WebSocketClosedError, w
 from urdfkit.errors import ResourceError, UrdfkitError, UsageError
 from urdfkit.view.protocol import websocket_messages as protocol
 
-LONGEST = 256 * 1024 * 1024
-"""Longest frame taken from the server [byte]: a scene with its meshes named, or a message with all its entries."""
-PATIENCE = 20.0
+MAX_FRAME = 256 * 1024 * 1024
+"""Longest frame accepted from the server [byte], such as a scene or a message with all its entries."""
+TIMEOUT = 20.0
 """Seconds to wait for a connection and for an answer."""
-GOODBYE = 2.0
-"""Seconds to wait for the other side's goodbye."""
+CLOSE_TIMEOUT = 2.0
+"""Seconds to wait for the close frame of the server."""
 
 
 class Client:
-    """One connection. Frames of poses and scenes are dropped; texts are returned.
+    """One connection. It returns JSON messages and drops binary frames.
 
-    Made by `connect`; an ``async with`` closes it.
+    Created by `connect`; ``async with`` closes it.
     """
 
     def __init__(self, line: WebSocketClientConnection) -> None:
@@ -44,35 +44,35 @@ class Client:
     async def __aexit__(self, *_: object) -> None:
         self._line.close()
         with contextlib.suppress(ResourceError, WebSocketClosedError):
-            end = asyncio.get_running_loop().time() + GOODBYE
+            end = asyncio.get_running_loop().time() + CLOSE_TIMEOUT
             while (
                 not self._ended and (left := end - asyncio.get_running_loop().time()) > 0
-            ):  # what is on its way comes before the end
+            ):  # frames sent before the close frame arrive first
                 await self.text(left)
         if self._reading is not None:
             self._reading.cancel()
 
-    async def watch(self, *keys: str) -> None:
-        """Want these keys from now on, and no others."""
-        await self._line.write_message(protocol.write("watch", wanted=list(keys)))
+    async def subscribe(self, *keys: str) -> None:
+        """Subscribe to exactly these keys."""
+        await self._line.write_message(protocol.write("subscribe", keys=list(keys)))
 
-    async def order(self, name: str, /, **values: Any) -> dict[str, Any]:
-        """Have an order done and return the values of its answer.
+    async def request(self, name: str, /, **values: Any) -> dict[str, Any]:
+        """Send a request and return the values of its answer.
 
         Raises:
-            UsageError: it was not done, or is too long to be sent; says why.
-            ResourceError: no answer came.
+            UsageError: the server rejected the request, or the request is too long.
+            ResourceError: no answer arrived.
         """
         self._number += 1
-        frame = protocol.write("do", number=self._number, order=name, values=values)
+        frame = protocol.write("request", number=self._number, name=name, values=values)
         if len(frame.encode()) > protocol.MAX_INBOUND:
             raise UsageError(
-                f"the message is {len(frame.encode())} bytes long; at most {protocol.MAX_INBOUND} are taken"
+                f"the message is {len(frame.encode())} bytes long; at most {protocol.MAX_INBOUND} are accepted"
             )
         await self._line.write_message(frame)
         others: list[dict[str, Any]] = []
         try:
-            while (text := await self.text(PATIENCE)) is not None:
+            while (text := await self.text(TIMEOUT)) is not None:
                 if text["type"] == "answer" and text["number"] == self._number:
                     if text["error"] is not None:
                         raise UsageError(text["error"])
@@ -80,13 +80,13 @@ class Client:
                 others.append(text)
         finally:
             self._waiting.extendleft(reversed(others))
-        raise ResourceError(f"the simulation has not answered for {PATIENCE:g} s")
+        raise ResourceError(f"no answer from the simulation within {TIMEOUT:g} s")
 
     async def text(self, seconds: float | None = None) -> dict[str, Any] | None:
-        """Return the next text; None when none comes in time.
+        """Return the next JSON message; None if none arrives in time.
 
         Args:
-            seconds: to wait; None for ever.
+            seconds: time to wait; None to wait without limit.
 
         Raises:
             ResourceError: the simulation has ended.
@@ -99,7 +99,7 @@ class Client:
             if self._reading is None:
                 self._reading = asyncio.ensure_future(self._line.read_message())
             left = None if end is None else max(0.0, end - loop.time())
-            # Waited for from outside: a read that is cancelled could take a frame along.
+            # The read is never cancelled, because a cancelled read could lose a frame.
             await asyncio.wait({self._reading}, timeout=left)
             if not self._reading.done():
                 return None
@@ -115,32 +115,32 @@ async def connect(url: str) -> Client:
     """Return a connection to a page.
 
     Args:
-        url: its address with the key.
+        url: its URL with the token.
 
     Raises:
-        ResourceError: nobody answers there, or the key does not fit.
+        ResourceError: no server responds, or the token is wrong.
     """
     parts = urlsplit(url)
     place = f"http://{parts.netloc}"
     http = SimpleAsyncHTTPClient(force_instance=True)
     try:
         answer = await http.fetch(
-            HTTPRequest(f"{place}/?{parts.query}", follow_redirects=False, request_timeout=PATIENCE), raise_error=False
+            HTTPRequest(f"{place}/?{parts.query}", follow_redirects=False, request_timeout=TIMEOUT), raise_error=False
         )
         cookies = [each.split(";")[0] for each in answer.headers.get_list("Set-Cookie")]
         if answer.code != 303 or not cookies:
             raise ResourceError(f"{place}: {_refusal(answer.code)}")
         headers = HTTPHeaders({"Cookie": "; ".join(cookies), "Origin": place})
         line = await websocket_connect(
-            HTTPRequest(f"ws://{parts.netloc}/ws", headers=headers, request_timeout=PATIENCE),
-            max_message_size=LONGEST,
+            HTTPRequest(f"ws://{parts.netloc}/ws", headers=headers, request_timeout=TIMEOUT),
+            max_message_size=MAX_FRAME,
         )
     except UrdfkitError:
         raise
     except HTTPClientError as error:
         raise ResourceError(f"{place}: {_refusal(error.code)}") from error
     except OSError as error:
-        raise ResourceError(f"{place}: no simulation answers: {error.strerror or error}") from error
+        raise ResourceError(f"{place}: cannot connect: {error.strerror or error}") from error
     finally:
         http.close()
     return Client(line)
@@ -148,7 +148,7 @@ async def connect(url: str) -> Client:
 
 def _refusal(code: int) -> str:
     if code == 403:
-        return "the key in the address does not fit; it is another one for every simulation"
+        return "wrong token; open the address that this simulation printed"
     if code == 599:
-        return f"no simulation answers within {PATIENCE:g} s"
-    return f"what answers there is no simulation of ours (HTTP {code})"
+        return f"no response within {TIMEOUT:g} s"
+    return f"the server is not a page of urdfkit (HTTP {code})"

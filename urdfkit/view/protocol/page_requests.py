@@ -1,7 +1,6 @@
-"""What a page may order, and the checks on every value of an order.
+"""Requests of a page, and the checks on their values.
 
-An order is a name and values; a table of `Schema` says what there is. Like everything that comes in, values are bounded
-and finite before anybody else sees them.
+A request has a name and values; a table of `Schema` defines the accepted ones. Checked values are bounded and finite.
 """
 
 from __future__ import annotations
@@ -12,23 +11,23 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from urdfkit.errors import did_you_mean
-from urdfkit.view.protocol.websocket_messages import MAX_MAGNITUDE, MAX_NAME, Do, ProtocolError
+from urdfkit.view.protocol.websocket_messages import MAX_MAGNITUDE, MAX_NAME, ProtocolError, RawRequest
 
 Check = Callable[[Any], Any]
-"""Returns a value as it is to be used; raises `ProtocolError` where it makes no sense."""
+"""Returns the checked value; raises `ProtocolError` if it is invalid."""
 
 DEPTH = 12
-"""Deepest nesting of what is written freely."""
+"""Maximum nesting of a message."""
 
 
 @dataclass(frozen=True, slots=True)
 class Schema:
-    """What an order takes.
+    """The values that a request accepts.
 
     Attributes:
-        values: name → check of what it needs.
-        optional: name → check of what may be left out.
-        changes: whether it changes something: while somebody drives, nobody else may.
+        values: name → check of a required value.
+        optional: name → check of an optional value.
+        changes: whether the request changes the simulation; while one page drives, other pages may not.
     """
 
     values: Mapping[str, Check] = field(default_factory=dict)
@@ -37,14 +36,14 @@ class Schema:
 
 
 @dataclass(frozen=True, slots=True)
-class Order:
-    """A checked order.
+class Request:
+    """A checked request.
 
     Attributes:
         client: the page that waits for the answer.
-        number: of the order, that page's own.
-        name: of the order.
-        values: as its `Schema` returned them.
+        number: number of the request, counted by that page.
+        name: name of the request.
+        values: the values, as the checks of its `Schema` returned them.
     """
 
     client: int
@@ -53,42 +52,42 @@ class Order:
     values: dict[str, Any]
 
 
-def check(table: Mapping[str, Schema], client: int, wish: Do) -> Order:
-    """Return a page's wish as an order.
+def check(table: Mapping[str, Schema], client: int, raw: RawRequest) -> Request:
+    """Check a request of a page.
 
     Raises:
-        ProtocolError: there is no such order, or a value is missing, unknown or makes no sense.
+        ProtocolError: the request is unknown, or a value is missing, unknown or invalid.
     """
-    schema = table.get(wish.order)
+    schema = table.get(raw.name)
     if schema is None:
-        raise ProtocolError(f"no order `{wish.order}`{did_you_mean(wish.order, table)}")
-    known = {**schema.values, **schema.optional}
-    for name in wish.values:
-        if name not in known:
-            raise ProtocolError(f"`{wish.order}` takes no `{name}`{did_you_mean(name, known)}")
+        raise ProtocolError(f"unknown request `{raw.name}`{did_you_mean(raw.name, table)}")
+    checks = {**schema.values, **schema.optional}
+    for name in raw.values:
+        if name not in checks:
+            raise ProtocolError(f"`{raw.name}` has no value `{name}`{did_you_mean(name, checks)}")
     for name in schema.values:
-        if name not in wish.values:
-            raise ProtocolError(f"{_words(wish.order)}: the {_words(name)} is missing")
-    found = {}
-    for name, value in wish.values.items():
+        if name not in raw.values:
+            raise ProtocolError(f"{_words(raw.name)}: the {_words(name)} is missing")
+    values = {}
+    for name, value in raw.values.items():
         try:
-            found[name] = known[name](value)
+            values[name] = checks[name](value)
         except ProtocolError as error:
             raise ProtocolError(f"{_words(name)}: {error}") from None
-    return Order(client, wish.number, wish.order, found)
+    return Request(client, raw.number, raw.name, values)
 
 
 def _words(name: str) -> str:
-    """Return the name of an order or value as people say it."""
+    """Return the name of a request or value with spaces instead of underscores."""
     return name.replace("_", " ")
 
 
 def number(least: float = -MAX_MAGNITUDE, most: float = MAX_MAGNITUDE, *, unit: str = "") -> Check:
-    """Return a check for a finite number in these bounds; `unit` is what it is counted in, for who is told."""
+    """Return a check for a finite number within these bounds; `unit` is the unit in error messages."""
 
     def read(value: Any) -> float:
         if isinstance(value, bool) or not isinstance(value, int | float) or value != value:
-            raise ProtocolError(f"{_shown(value)} is no number, such as {_plain(max(0.5, least), unit)}")
+            raise ProtocolError(f"{_shown(value)} is not a number, such as {_plain(max(0.5, least), unit)}")
         _require_within(value, least, most, unit)
         return float(value)
 
@@ -96,11 +95,11 @@ def number(least: float = -MAX_MAGNITUDE, most: float = MAX_MAGNITUDE, *, unit: 
 
 
 def whole(least: int = 0, most: int = 2**31, *, unit: str = "") -> Check:
-    """Return a check for a whole number in these bounds."""
+    """Return a check for an integer within these bounds."""
 
     def read(value: Any) -> int:
         if isinstance(value, bool) or not isinstance(value, int):
-            raise ProtocolError(f"{_shown(value)} is no whole number, such as {_plain(max(1, least), unit)}")
+            raise ProtocolError(f"{_shown(value)} is not an integer, such as {_plain(max(1, least), unit)}")
         _require_within(value, least, most, unit)
         return value
 
@@ -109,9 +108,9 @@ def whole(least: int = 0, most: int = 2**31, *, unit: str = "") -> Check:
 
 def _require_within(value: float, least: float, most: float, unit: str) -> None:
     if value < least:
-        raise ProtocolError(f"{_plain(value, unit)} is too little; the least is {_plain(least, unit)}")
+        raise ProtocolError(f"{_plain(value, unit)} is too small; the minimum is {_plain(least, unit)}")
     if value > most:
-        raise ProtocolError(f"{_plain(value, unit)} is too much; the most is {_plain(most, unit)}")
+        raise ProtocolError(f"{_plain(value, unit)} is too large; the maximum is {_plain(most, unit)}")
 
 
 def _plain(value: float, unit: str) -> str:
@@ -119,7 +118,7 @@ def _plain(value: float, unit: str) -> str:
 
 
 def _shown(value: Any) -> str:
-    """Return a value as it was written, not too long, without what a terminal would act on."""
+    """Return a value for a message, shortened, with control characters escaped."""
     return f"“{ascii(value)[:40]}”" if not isinstance(value, str) else f"“{ascii(value[:40])[1:-1]}”"
 
 
@@ -132,14 +131,14 @@ def text(most: int = MAX_NAME) -> Check:
             or len(value) > most
             or any(ord(each) < 32 and each not in "\n\t" for each in value)
         ):
-            raise ProtocolError(f"{_shown(value)} is no text of at most {most} characters")
+            raise ProtocolError(f"{_shown(value)} is not a text of at most {most} characters")
         return str(value)
 
     return read
 
 
 def flag(value: Any) -> bool:
-    """Return a truth value."""
+    """Return a boolean."""
     if not isinstance(value, bool):
         raise ProtocolError(f"{_shown(value)} is neither true nor false")
     return value
@@ -151,19 +150,19 @@ def choice(*names: str) -> Check:
     def read(value: Any) -> str:
         if value not in names or not isinstance(value, str):
             near = did_you_mean(value, names) if isinstance(value, str) else ""
-            raise ProtocolError(f"{_shown(value)} is none of {', '.join(names)}{near}")
+            raise ProtocolError(f"{_shown(value)} is not one of {', '.join(names)}{near}")
         return value
 
     return read
 
 
 def numbers(least: int, most: int | None = None, *, bound: float = MAX_MAGNITUDE, unit: str = "") -> Check:
-    """Return a check for a list of so many finite numbers."""
+    """Return a check for a list of `least` to `most` finite numbers."""
     return listing(number(-bound, bound, unit=unit), least, least if most is None else most, "numbers")
 
 
 def listing(each: Check, least: int, most: int, what: str = "entries") -> Check:
-    """Return a check for a list of so many entries."""
+    """Return a check for a list of `least` to `most` entries."""
 
     def read(value: Any) -> list[Any]:
         if not isinstance(value, list) or not least <= len(value) <= most:
@@ -180,7 +179,7 @@ def record(**fields: Check) -> Check:
 
     def read(value: Any) -> dict[str, Any]:
         if not isinstance(value, dict) or value.keys() != fields.keys():
-            raise ProtocolError(f"{_shown(value)} is no object with {', '.join(fields)}")
+            raise ProtocolError(f"{_shown(value)} is not an object with {', '.join(fields)}")
         found = {}
         for name, check in fields.items():
             try:
@@ -193,7 +192,7 @@ def record(**fields: Check) -> Check:
 
 
 def tree(value: Any) -> Any:
-    """Return anything that JSON can say, not nested deeper than `DEPTH`."""
+    """Return any JSON value that is not nested deeper than `DEPTH`."""
     _require_shallow(value, DEPTH)
     return value
 

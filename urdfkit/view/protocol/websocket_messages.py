@@ -1,15 +1,14 @@
-"""What travels on the websocket, and the checks on every value that comes in; docs/protocol.md tells it in full.
+"""Messages of the WebSocket and the checks on every received value; docs/protocol.md describes them completely.
 
-Version 2. Text frames are JSON objects with a ``type``; binary frames whose first byte is 0x01 are packed poses, 0x02
-what a sensor sees, 0x03 a file to keep; other binary frames are meshcat commands (msgpack maps, whose first byte is
-none of these).
+Version 3. Text frames are JSON objects with a ``type``. Binary frames whose first byte is 0x01 are packed poses, 0x02
+sensor data, 0x03 a file to save; other binary frames are meshcat commands (msgpack maps, whose first byte differs).
 
-Browser → Python: ``joints`` {positions: {name: value}}, ``axes`` {axes: [x, y, z, turn] each -1..1, speed, turn, and
-which robot}, ``control`` {action}, ``ack`` {sequence}, ``seen`` {key, sequence}, ``watch`` {wanted: [key]}, ``do``
-{number, order, values}.
+Browser → Python: ``joints`` {positions: {name: value}}, ``axes`` {axes: [x, y, z, turn] each -1..1, speed, turn,
+robot}, ``control`` {action}, ``ack`` {sequence}, ``seen`` {key, sequence}, ``subscribe`` {keys: [key]}, ``request``
+{number, name, values}.
 
 Python → browser: ``hello``, ``you``, ``model``, ``status``, ``fault``, ``progress``, ``joints``, ``sensors``,
-``stop``, ``answer``, and what the mode adds.
+``stop``, ``answer``, and the messages of the mode.
 """
 
 from __future__ import annotations
@@ -24,7 +23,7 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-VERSION = 2
+VERSION = 3
 MAX_INBOUND = 64 * 1024
 """Longest frame accepted from a browser [byte]."""
 MAX_JOINTS = 2000
@@ -33,39 +32,39 @@ MAX_MAGNITUDE = 1e6
 MAX_SPEED = 1000.0
 """Largest speed accepted [m/s, rad/s]; the default limit of teleop_twist_keyboard."""
 MAX_NAME = 200
-"""Longest name of an order, a robot or a key [characters]."""
-MAX_WANTED = 64
-"""Most keys one page may want."""
+"""Longest name of a request, a robot or a key [characters]."""
+MAX_KEYS = 64
+"""Maximum number of keys that a page may subscribe to."""
 ACTIONS = ("play", "pause", "reset", "stop")
 
 POSE_HEADER = struct.Struct("<BBHId")
 """0x01, number of the model modulo 256, number of objects, sequence, time [s]: 16 bytes."""
 POSE_MARK = 0x01
 SENSED_MARK = 0x02
-"""As `POSE_HEADER`: mark, kind, number of the source, sequence, time [s]; then the content."""
+"""Header as `POSE_HEADER`: mark, kind, number of the source, sequence, time [s]; then the content."""
 POINTS, PICTURE, ARROWS, COLORED = 0, 1, 2, 3
-"""Kinds of what is sensed: float32 x y z [m] in the world; a JPEG or WebP; float32 x y z [m] and a vector, six each;
+"""Kinds of sensor data: float32 x y z [m] in the world; a JPEG or WebP; float32 x y z [m] and a vector, six each;
 float32 x y z [m] and red, green, blue and 255, a byte each."""
 FILE_MARK = 0x03
-"""As `POSE_HEADER`: mark, 0, length of the name, 0, 0; then the name in UTF-8 and the content."""
+"""Header as `POSE_HEADER`: mark, 0, length of the name, 0, 0; then the name in UTF-8 and the content."""
 
 
 class ProtocolError(Exception):
-    """A frame from a browser that is dropped; the text says why."""
+    """A frame from a browser is invalid and is dropped; the text gives the reason."""
 
 
 @dataclass(frozen=True, slots=True)
 class Joints:
-    """Joint positions set by hand [rad or m]."""
+    """Joint positions set with the sliders [rad or m]."""
 
     positions: dict[str, float]
 
 
 @dataclass(frozen=True, slots=True)
 class Axes:
-    """What a driver holds: `axes` (x, y, z, turn) in -1..1, `speed` [m/s] and `turn` [rad/s] to scale them with.
+    """Input of the driver: `axes` (x, y, z, turn) in -1..1, scaled by `speed` [m/s] and `turn` [rad/s].
 
-    `robot` is the one driven; the first where it is empty.
+    `robot` is the name of the driven robot; empty for the first one.
     """
 
     axes: tuple[float, float, float, float]
@@ -75,13 +74,13 @@ class Axes:
 
     @property
     def is_zero(self) -> bool:
-        """Whether nothing is held."""
+        """Whether all axes are zero."""
         return not any(self.axes)
 
 
 @dataclass(frozen=True, slots=True)
 class Control:
-    """A button of the page: one of `ACTIONS`."""
+    """A pressed button of the page: one of `ACTIONS`."""
 
     action: str
 
@@ -95,41 +94,41 @@ class Ack:
 
 @dataclass(frozen=True, slots=True)
 class Seen:
-    """The browser has shown a frame of a source, and can take another."""
+    """The browser has shown a frame of a source and can receive another."""
 
     key: str
     sequence: int
 
 
 @dataclass(frozen=True, slots=True)
-class Watch:
-    """What the browser wants to be sent beside what everybody gets, all of it."""
+class Subscribe:
+    """All keys that the browser subscribes to; replaces its previous subscriptions."""
 
-    wanted: frozenset[str]
+    keys: frozenset[str]
 
 
 @dataclass(frozen=True, slots=True)
-class Do:
-    """Something to be done and answered. The values are not yet checked: what they may be depends on the order."""
+class RawRequest:
+    """A request that expects an answer. Its values are not yet checked, see `page_requests.check`."""
 
     number: int
-    order: str
+    name: str
     values: dict[str, Any]
 
 
-Message = Joints | Axes | Control | Ack | Seen | Watch | Do
+Message = Joints | Axes | Control | Ack | Seen | Subscribe | RawRequest
 
 
 def read(text: str | bytes) -> Message:
     """Read and check one frame from a browser.
 
     Raises:
-        ProtocolError: anything but exactly one of the messages above with finite values inside the limits.
+        ProtocolError: the frame is not exactly one of the messages above with finite values within the limits.
     """
     if isinstance(text, bytes):
         raise ProtocolError("binary frames are not accepted")
     try:
-        message = json.loads(text, parse_constant=_refuse)
+        message = json.loads(text, parse_constant=_reject)
     except (ValueError, RecursionError) as error:
         raise ProtocolError("not JSON") from error
     if not isinstance(message, dict):
@@ -140,12 +139,12 @@ def read(text: str | bytes) -> Message:
     except (KeyError, TypeError):
         raise ProtocolError("unknown type") from None
     if not keys <= message.keys() <= keys | optional:
-        raise ProtocolError(f"`{kind}` takes {', '.join(sorted(keys))} and nothing else")
-    wish: Message = reader(message)
-    return wish
+        raise ProtocolError(f"`{kind}` accepts exactly {', '.join(sorted(keys))}")
+    checked: Message = reader(message)
+    return checked
 
 
-def _refuse(constant: str) -> NoReturn:
+def _reject(constant: str) -> NoReturn:
     raise ProtocolError(f"{constant} is not a number")
 
 
@@ -190,18 +189,18 @@ def _seen(message: dict[str, Any]) -> Seen:
     return Seen(_name(message["key"]), _sequence(message["sequence"]))
 
 
-def _watch(message: dict[str, Any]) -> Watch:
-    wanted = message["wanted"]
-    if not isinstance(wanted, list) or len(wanted) > MAX_WANTED:
-        raise ProtocolError(f"`wanted` must be a list of at most {MAX_WANTED} keys")
-    return Watch(frozenset(_name(key) for key in wanted))
+def _subscribe(message: dict[str, Any]) -> Subscribe:
+    keys = message["keys"]
+    if not isinstance(keys, list) or len(keys) > MAX_KEYS:
+        raise ProtocolError(f"`keys` must be a list of at most {MAX_KEYS} keys")
+    return Subscribe(frozenset(_name(key) for key in keys))
 
 
-def _do(message: dict[str, Any]) -> Do:
+def _request(message: dict[str, Any]) -> RawRequest:
     values = message["values"]
     if not isinstance(values, dict):
         raise ProtocolError("`values` must be an object")
-    return Do(_sequence(message["number"]), _name(message["order"]), values)
+    return RawRequest(_sequence(message["number"]), _name(message["name"]), values)
 
 
 def _sequence(value: Any) -> int:
@@ -222,35 +221,35 @@ _READERS: dict[object, tuple[Any, set[str], set[str]]] = {
     "control": (_control, {"action"}, set()),
     "ack": (_ack, {"sequence"}, set()),
     "seen": (_seen, {"key", "sequence"}, set()),
-    "watch": (_watch, {"wanted"}, set()),
-    "do": (_do, {"number", "order", "values"}, set()),
+    "subscribe": (_subscribe, {"keys"}, set()),
+    "request": (_request, {"number", "name", "values"}, set()),
 }
 
 
 def write(type: str, **values: Any) -> str:
-    """Return a text frame for the browser; NaN and infinities are refused.
+    """Return a text frame for the browser.
 
     Raises:
-        ValueError: a value is not finite.
+        ValueError: a value is NaN or infinite.
     """
     return json.dumps({"type": type, **values}, separators=(",", ":"), allow_nan=False)
 
 
 def pack_sensed(index: int, time: float, kind: int, content: bytes, sequence: int = 0) -> bytes:
-    """Pack what a sensor sees for the browser.
+    """Pack sensor data for the browser.
 
     Args:
         index: number of the source in the last ``sensors``, modulo 2¹⁶.
         time: simulated time [s].
         kind: `POINTS`, `PICTURE`, `ARROWS` or `COLORED`.
-        content: these.
+        content: the data in the format of the kind.
         sequence: counts frames, modulo 2³².
     """
     return POSE_HEADER.pack(SENSED_MARK, kind, index & 0xFFFF, sequence & 0xFFFFFFFF, time) + content
 
 
 def pack_file(name: str, content: bytes) -> bytes:
-    """Pack a file that the browser is to keep."""
+    """Pack a file that the browser saves."""
     encoded = name.encode()[:0xFFFF]
     return POSE_HEADER.pack(FILE_MARK, 0, len(encoded), 0, 0.0) + encoded + content
 

@@ -1,4 +1,4 @@
-"""The server of the page: HTTP, websocket, access control, broadcast to every browser.
+"""The server of the page: HTTP, WebSocket, access control, broadcast to every browser.
 
-The scene and messages of the caller go in; requests of the browsers come out.
+Input: the scene and the messages of the caller. Output: the requests of the browsers.
 """

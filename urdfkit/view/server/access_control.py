@@ -1,4 +1,4 @@
-"""Who may talk to the server: the token, the cookie, the Host and Origin rules, and the headers of every answer."""
+"""Access control of the server: token, cookie, the rules for Host and Origin, and the headers of every response."""
 
 from __future__ import annotations
 
@@ -11,24 +11,24 @@ from dataclasses import dataclass, field
 LOOPBACK_NAMES = ("localhost", "127.0.0.1", "::1")
 
 EMPTY_STYLE = "'sha256-47DEQpj8HBSa+/TImW+5JCeuQeRkm5NMpJWZG3hSuFU='"
-"""Hash of the empty string: meshcat's bundle makes one empty style element and fills it by the object model."""
+"""Hash of the empty string: meshcat's bundle creates an empty style element and fills it through the DOM."""
 
 DAT_GUI_STYLES = ("'sha256-K7kXOYqP8pf16L5/PaLZ4u9Lt5q3nTyjCvyGtO/Af2k='",)
-"""Hashes of the style sheets that meshcat's bundle injects for its own (here hidden) control panel."""
+"""Hashes of the style sheets that meshcat's bundle injects for its own control panel, which is hidden here."""
 
 
 _HOST = re.compile(r"(?:(?P<name>[A-Za-z0-9._-]+)|\[(?P<address>[0-9A-Fa-f:.]+)\])(?::[0-9]{1,5})?", re.ASCII)
 
 
 @dataclass(frozen=True)
-class Gate:
-    """Decides on every request.
+class AccessControl:
+    """Rules that decide whether a request is accepted.
 
     Attributes:
         port: the port served.
-        names: host names under which the server may be addressed, beside IP literals when `open_to_network`.
-        open_to_network: bound to more than the loopback interface.
-        token: goes into the URL that is printed; whoever has it gets the cookie.
+        names: accepted host names; IP literals are accepted as well when `open_to_network`.
+        open_to_network: whether the server is bound to more than the loopback interface.
+        token: the secret in the printed URL; a request with it gets the cookie.
         session: value of the cookie.
     """
 
@@ -40,37 +40,37 @@ class Gate:
 
     @property
     def cookie(self) -> str:
-        """Name of the cookie. Browsers do not part cookies by port, so the name does."""
+        """Name of the cookie. Browsers share cookies between ports, so the name contains the port."""
         return f"urdfkit-{self.port}"
 
-    def token_fits(self, token: str) -> bool:
-        """Whether this is the token, compared in constant time."""
+    def accepts_token(self, token: str) -> bool:
+        """Whether this is the token; compared in constant time."""
         return hmac.compare_digest(token.encode("utf-8", "surrogatepass"), self.token.encode())
 
-    def session_fits(self, cookie: str | None) -> bool:
-        """Whether this is the cookie's value, compared in constant time."""
+    def accepts_session(self, cookie: str | None) -> bool:
+        """Whether this is the value of the cookie; compared in constant time."""
         return cookie is not None and hmac.compare_digest(
             cookie.encode("utf-8", "surrogatepass"), self.session.encode()
         )
 
-    def host_fits(self, host: str) -> bool:
+    def accepts_host(self, host: str) -> bool:
         """Whether the Host header names this server: the defence against DNS rebinding.
 
-        Any port is accepted, so that a port forwarded by ssh works; the Origin rule keeps other ports' pages out.
-        An IP literal cannot be rebound, so it is accepted where the network may connect at all.
+        Any port is accepted, so that a port forwarded by ssh works; the Origin rule rejects pages of other ports.
+        An IP literal cannot be rebound, so it is accepted if the server is open to the network.
         """
         name = host_name(host)
         if name is None:
             return False
         return name in self.names or (self.open_to_network and is_ip_literal(name))
 
-    def origin_fits(self, origin: str | None, host: str) -> bool:
-        """Whether the Origin header is exactly the page this server handed out under `host`."""
+    def accepts_origin(self, origin: str | None, host: str) -> bool:
+        """Whether the Origin header is exactly the origin of the page that this server sent under `host`."""
         return origin is not None and origin.lower() == f"http://{host.lower()}"
 
 
 def host_name(host: str) -> str | None:
-    """Return the name in a Host header without port and brackets, in lower case; None when it makes no sense."""
+    """Return the name in a Host header without port and brackets, in lower case; None if the header is invalid."""
     found = _HOST.fullmatch(host)
     return (found["name"] or found["address"]).lower() if found else None
 
@@ -95,11 +95,11 @@ def is_loopback(host: str) -> bool:
 
 
 def headers(host: str, *, framed: bool = False) -> dict[str, str]:
-    """Return the headers of every answer.
+    """Return the headers of every response.
 
     Args:
-        host: the Host header, for the websocket's address (older Safari does not count it as 'self').
-        framed: whether another page, such as a notebook, may show the answer in a frame.
+        host: the Host header, for the address of the WebSocket (older Safari does not count it as 'self').
+        framed: whether another page, such as a notebook, may show the response in a frame.
     """
     policy = {
         "default-src": "'none'",

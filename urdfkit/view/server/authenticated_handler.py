@@ -1,4 +1,4 @@
-"""Guarded: what every request has to show before anything else is done with it."""
+"""AuthenticatedHandler: base class of all handlers; checks host, origin and cookie before a request is processed."""
 
 from __future__ import annotations
 
@@ -6,21 +6,23 @@ from typing import TYPE_CHECKING, Any
 
 from tornado.web import RequestHandler
 
-from urdfkit.view.server.access_control import Gate, headers
+from urdfkit.view.server.access_control import AccessControl, headers
 
 if TYPE_CHECKING:
     from urdfkit.view.server.page_server import PageServer
 
-REFUSED = """<!doctype html><html lang="en"><meta charset="utf-8"><meta name="viewport" content="width=device-width">
-<title>urdfkit: not let in</title><link rel="stylesheet" href="/app/styles/refused.css">
-<main><h1>This page needs its key</h1>
+NO_COOKIE = "This browser has not sent the token yet, or urdfkit was restarted with a new token."
+
+REJECTED = """<!doctype html><html lang="en"><meta charset="utf-8"><meta name="viewport" content="width=device-width">
+<title>urdfkit: access denied</title><link rel="stylesheet" href="/app/styles/refused.css">
+<main><h1>This page requires its token</h1>
 <p>{reason}</p>
-<p>Open the full address that urdfkit printed in the terminal, the one with <code>?token=…</code> at its end.
-If you just did, <a href="/">go on</a>.</p></main></html>"""
+<p>Open the full address that urdfkit printed in the terminal. It ends with <code>?token=…</code>.
+If you have just opened it, <a href="/">continue</a>.</p></main></html>"""
 
 
-class Guarded(RequestHandler):
-    """Refuses requests without the cookie or the token, under an unknown Host, or from a page of another site.
+class AuthenticatedHandler(RequestHandler):
+    """Rejects requests without the cookie or the token, with an unknown Host, and from pages of other origins.
 
     A page in a frame sends the token with each request, because browsers keep cookies from frames of other sites.
     """
@@ -28,49 +30,51 @@ class Guarded(RequestHandler):
     open_to_all = False
 
     def initialize(self, server: PageServer) -> None:
-        """Take what the route hands over."""
+        """Store the arguments of the route."""
         self.server = server
 
     @property
-    def gate(self) -> Gate:
-        """The rules."""
-        return self.server.gate
+    def access(self) -> AccessControl:
+        """The access rules."""
+        return self.server.access
 
     @property
     def host(self) -> str:
-        """The Host header, empty when there is none."""
+        """The Host header; empty if the request has none."""
         return self.request.headers.get("Host", "")
 
     def set_default_headers(self) -> None:
-        """Set the headers of every answer, errors included."""
+        """Set the headers of every response, including errors."""
         self.clear_header("Server")
         for name, value in headers(self.host).items():
             self.set_header(name, value)
 
     def prepare(self) -> None:
-        """Refuse before any handler runs."""
+        """Reject the request before any handler runs."""
         origin = self.request.headers.get("Origin")
-        if not self.gate.host_fits(self.host):
-            self.refuse("The address in the browser's address bar is not one this server answers to.")
-        elif origin is not None and not self.gate.origin_fits(origin, self.host):
-            self.refuse("The request came from a page of another site.")
-        elif not (self.open_to_all or self.gate.session_fits(self.get_cookie(self.gate.cookie)) or self.has_token):
-            self.refuse("This browser has not sent the token yet, or urdfkit has been restarted since.")
+        if not self.access.accepts_host(self.host):
+            self.reject("The host name in the browser's address bar is not accepted by this server.")
+        elif origin is not None and not self.access.accepts_origin(origin, self.host):
+            self.reject("The request came from a page of another site.")
+        elif not (
+            self.open_to_all or self.access.accepts_session(self.get_cookie(self.access.cookie)) or self.has_token
+        ):
+            self.reject(NO_COOKIE)
 
     @property
     def has_token(self) -> bool:
         """Whether the address has the token."""
         tokens = self.get_query_arguments("token")
-        return len(tokens) == 1 and self.gate.token_fits(tokens[0])
+        return len(tokens) == 1 and self.access.accepts_token(tokens[0])
 
-    def refuse(self, reason: str) -> None:
-        """Answer 403 with a page that says what to do."""
-        self.server.refusals.tell(str(self.request.remote_ip), f"{self.request.method} {self.request.path}", reason)
+    def reject(self, reason: str) -> None:
+        """Respond with 403 and a page that explains what to do."""
+        self.server.rejections.add(str(self.request.remote_ip), f"{self.request.method} {self.request.path}", reason)
         self.set_status(403)
         self.set_header("Content-Type", "text/html; charset=utf-8")
-        self.finish(REFUSED.format(reason=reason))
+        self.finish(REJECTED.format(reason=reason))
 
     def write_error(self, status_code: int, **_: Any) -> None:
-        """Answer errors in one plain line."""
+        """Respond with the error as one line of text."""
         self.set_header("Content-Type", "text/plain; charset=utf-8")
         self.finish(f"{status_code} {self._reason}\n")

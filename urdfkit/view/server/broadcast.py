@@ -1,4 +1,4 @@
-"""Hub: hands scene commands and poses to every browser, and keeps the scene for those who come later."""
+"""Hub: sends scene commands, messages and poses to every browser, and keeps the state for browsers that join later."""
 
 from __future__ import annotations
 
@@ -14,17 +14,17 @@ CLEAR = umsgpack.packb({"type": "delete", "path": "/robot"})
 
 
 class Hub:
-    """The scene as it stands, and the browsers that watch it. Lives in the server's loop."""
+    """The current scene and the connected browsers. Used in the event loop of the server."""
 
     def __init__(self) -> None:
-        self._channels: tuple[Channel, ...] = ()  # replaced, never changed: other threads look at it
+        self._channels: tuple[Channel, ...] = ()  # replaced, never modified: other threads read it
         self._clients: dict[int, Channel] = {}
         self._scene: dict[str, dict[str, bytes]] = {}
-        self._lasting: dict[str, Frame] = {}
+        self._latched: dict[str, Frame] = {}
         self._poses: tuple[int, bytes] | None = None
 
     def join(self, channel: Channel, client: int = 0) -> None:
-        """Bring a browser up to date, then keep it so; `client` is its number."""
+        """Send a browser the current state, then all changes; `client` is its number."""
         for frame in self.snapshot():
             channel.line(frame)
         if self._poses is not None:
@@ -33,89 +33,89 @@ class Hub:
         self._clients[client] = channel
 
     def leave(self, channel: Channel) -> None:
-        """Forget a browser."""
+        """Remove a browser."""
         self._channels = tuple(each for each in self._channels if each is not channel)
         self._clients = {client: each for client, each in self._clients.items() if each is not channel}
 
     @property
     def watchers(self) -> int:
-        """How many browsers watch."""
+        """Number of connected browsers."""
         return len(self._channels)
 
     @property
-    def wanted(self) -> frozenset[str]:
-        """What any browser wants beside what everybody gets; may be asked from any thread."""
-        return frozenset().union(*(channel.wanted for channel in self._channels))
+    def subscribed_keys(self) -> frozenset[str]:
+        """The keys that any browser has subscribed to; may be called from any thread."""
+        return frozenset().union(*(channel.subscribed_keys for channel in self._channels))
 
-    def takes(self, key: str) -> bool:
-        """Whether a browser wants a source and can take another frame of it; may be asked from any thread."""
-        return any(channel.takes(key) for channel in self._channels)
+    def accepts(self, key: str) -> bool:
+        """Whether a browser has subscribed to a source and can receive another frame; may be called from any thread."""
+        return any(channel.accepts(key) for channel in self._channels)
 
     def snapshot(self) -> Iterator[Frame]:
-        """Yield what a browser needs to see what all others see: scene commands, then the lasting texts."""
+        """Yield the current state for a new browser: scene commands, then the latched messages."""
         for slots in self._scene.values():
             yield from slots.values()
-        yield from self._lasting.values()
+        yield from self._latched.values()
 
     def command(self, path: str, slot: str | None, packed: bytes) -> None:
-        """Keep a meshcat command and send it to all.
+        """Keep a meshcat command and send it to all browsers.
 
         Args:
-            path: the scene path it is about.
-            slot: commands with the same path and slot replace each other; None deletes the path and all below it.
-            packed: the command as it travels.
+            path: the scene path of the command.
+            slot: commands with the same path and slot replace each other; None deletes the path and its children.
+            packed: the encoded command.
         """
         if slot is None:
-            for known in [known for known in self._scene if known == path or known.startswith(f"{path}/")]:
-                del self._scene[known]
+            for node in [node for node in self._scene if node == path or node.startswith(f"{path}/")]:
+                del self._scene[node]
         else:
             self._scene.setdefault(path, {})[slot] = packed
         for channel in self._channels:
             self._line(channel, packed)
 
-    def lasting(self, topic: str, frame: Frame) -> None:
-        """Send a text to all; who comes later gets the last one of its topic."""
-        self._lasting[topic] = frame
+    def latch(self, topic: str, frame: Frame) -> None:
+        """Send a message to all browsers, without loss; browsers that join later get the last one of its topic."""
+        self._latched[topic] = frame
         for channel in self._channels:
             self._line(channel, frame)
 
-    def news(self, topic: str, frame: Frame) -> None:
-        """Send a text that a newer one of its topic may overtake; who comes later gets the last one."""
-        self._lasting[topic] = frame
+    def update(self, topic: str, frame: Frame) -> None:
+        """Send the state of a topic to all browsers; only the newest one is kept, also for browsers that join later."""
+        self._latched[topic] = frame
         for channel in self._channels:
-            channel.news(topic, frame)
+            channel.update(topic, frame)
 
-    def news_for(self, key: str, frame: Frame) -> None:
-        """Send a text to who wants it; a newer one may overtake it."""
+    def update_subscribers(self, key: str, frame: Frame) -> None:
+        """Send the state of a key to its subscribers; only the newest one is kept."""
         for channel in self._channels:
-            if key in channel.wanted:
-                channel.news(key, frame)
+            if key in channel.subscribed_keys:
+                channel.update(key, frame)
 
-    def stream(self, key: str, frame: Frame) -> None:
-        """Send a part of something that goes on to who wants it; see `Channel.stream`."""
+    def send_chunk(self, key: str, frame: Frame) -> None:
+        """Send the next part of a stream to the subscribers of its key; see `Channel.send_chunk`."""
         for channel in self._channels:
-            if key in channel.wanted:
-                channel.stream(key, frame)
+            if key in channel.subscribed_keys:
+                channel.send_chunk(key, frame)
 
     def view(self, key: str, sequence: int, frame: bytes) -> None:
-        """Send a picture or points to who wants them; newest wins."""
+        """Send an image or points to the subscribers of their key; only the newest frame is kept."""
         for channel in self._channels:
-            if key in channel.wanted:
+            if key in channel.subscribed_keys:
                 channel.view(key, sequence, frame)
 
-    def tell(self, client: int, frame: Frame) -> None:
-        """Send something to one browser, if it is still there."""
+    def send_to(self, client: int, frame: Frame) -> None:
+        """Send a frame to one browser, if it is still connected."""
         if (channel := self._clients.get(client)) is not None:
             self._line(channel, frame)
 
     def poses(self, sequence: int, frame: bytes) -> None:
-        """Send a pose frame; newest wins."""
+        """Send a pose frame; only the newest one is kept."""
         self._poses = (sequence, frame)
         for channel in self._channels:
             channel.poses(sequence, frame)
 
     def forget_poses(self) -> None:
-        """Forget the last pose frame: it belonged to another scene."""
+        """Drop the last pose frame, which belongs to another scene."""
         self._poses = None
 
     def _line(self, channel: Channel, frame: Frame) -> None:

@@ -1,4 +1,4 @@
-"""Driver: whose hands are on the wheel, and the dead man's switch."""
+"""DriveLock: the page that drives the robot, and the deadman timeout."""
 
 from __future__ import annotations
 
@@ -9,14 +9,14 @@ from threading import Lock
 from urdfkit.view.protocol.websocket_messages import Axes
 
 DEADMAN = 0.4
-"""Seconds of silence after which the robot is stopped; pages repeat what is held twenty times a second."""
+"""Seconds without input after which the robot stops; pages repeat their input twenty times a second."""
 
 
-class Driver:
-    """One page drives, the others watch.
+class DriveLock:
+    """Lets one page drive at a time.
 
-    The first page that holds something has the wheel until it lets go, closes, or is silent for `deadman` seconds;
-    then whoever holds something next. Called from the server's thread and from the simulation's.
+    The first page with an input other than zero holds the lock until its input is zero, it closes, or it sends nothing
+    for `deadman` seconds. Called from the thread of the server and from the thread of the simulation.
 
     Args:
         deadman: [s].
@@ -29,61 +29,61 @@ class Driver:
         self._lock = Lock()
         self._holder: int | None = None
         self._axes: Axes | None = None
-        self._heard = 0.0
+        self._received = 0.0
 
-    def offer(self, client: int, axes: Axes) -> bool:
-        """Take what a page holds; returns whether that page has the wheel now."""
+    def update(self, client: int, axes: Axes) -> bool:
+        """Store the input of a page; return whether the page holds the lock now."""
         with self._lock:
             self._expire()
             if self._holder not in (None, client):
                 return False
             if axes.is_zero:
-                self._let_go()
+                self._free()
                 return False
-            self._holder, self._axes, self._heard = client, axes, self._clock()
+            self._holder, self._axes, self._received = client, axes, self._clock()
             return True
 
-    def may(self, client: int) -> bool:
-        """Whether a page may change something: not while another one drives."""
+    def allows(self, client: int) -> bool:
+        """Whether a page may change the simulation: not while another page drives."""
         with self._lock:
             self._expire()
             return self._holder in (None, client)
 
-    def touch(self, client: int) -> None:
-        """Count a page that holds something other than the wheel, such as an arm, as driving for a while."""
+    def claim(self, client: int) -> None:
+        """Give the lock for `deadman` seconds to a page that moves something else, such as an arm."""
         with self._lock:
             self._expire()
             if self._holder is None or (self._holder == client and self._axes is None):
-                self._holder, self._heard = client, self._clock()
+                self._holder, self._received = client, self._clock()
 
-    def stop(self) -> None:
-        """Take the wheel out of whoever's hands."""
+    def release(self) -> None:
+        """Release the lock, whichever page holds it."""
         with self._lock:
-            self._let_go()
+            self._free()
 
     def leave(self, client: int) -> None:
-        """Forget a page that closed or lost its connection; if it drove, the robot stops now."""
+        """Remove a page that closed or lost its connection; if it was driving, the robot stops now."""
         with self._lock:
             if self._holder == client:
-                self._let_go()
+                self._free()
 
     @property
     def holder(self) -> int | None:
-        """The page that has the wheel."""
+        """The page that holds the lock."""
         with self._lock:
             self._expire()
             return self._holder
 
     @property
     def axes(self) -> Axes | None:
-        """What the driver holds now; None when nobody holds anything."""
+        """The current input of the page that drives; None if no page does."""
         with self._lock:
             self._expire()
             return self._axes
 
     def _expire(self) -> None:
-        if self._holder is not None and self._clock() - self._heard > self._deadman:
-            self._let_go()
+        if self._holder is not None and self._clock() - self._received > self._deadman:
+            self._free()
 
-    def _let_go(self) -> None:
+    def _free(self) -> None:
         self._holder = self._axes = None

@@ -1,4 +1,4 @@
-"""The http and websocket side: which request gets what."""
+"""HTTP routes: the page, its files, meshes and the WebSocket."""
 
 from __future__ import annotations
 
@@ -13,20 +13,20 @@ from tornado.web import Application, HTTPError
 from urdfkit.errors import MissingDependencyError
 from urdfkit.view.protocol import websocket_messages
 from urdfkit.view.server.access_control import headers
-from urdfkit.view.server.authenticated_handler import Guarded
-from urdfkit.view.server.websocket import Socket
+from urdfkit.view.server.authenticated_handler import NO_COOKIE, AuthenticatedHandler
+from urdfkit.view.server.websocket import PageSocket
 
 if TYPE_CHECKING:
     from urdfkit.view.server.page_server import PageServer
 
 PING = 5.0
-"""Seconds between pings; a browser that does not answer one before the next is gone."""
+"""Seconds between pings; a browser that has not answered one before the next is disconnected."""
 
 APP = Path(__file__).parents[1] / "app"
 TYPES = {".html": "text/html", ".css": "text/css", ".js": "text/javascript", ".svg": "image/svg+xml"}
 MESHCAT = "meshcat.js"
 OFFLINE = "page/offline.js"
-"""The module that only a page in one file begins with."""
+"""The module that only a page in a single file loads first."""
 
 
 def application(server: PageServer) -> Application:
@@ -39,9 +39,9 @@ def application(server: PageServer) -> Application:
             (r"/frame", FramedPage, {"server": server}),
             (r"/app/([\w./-]+)", AppFile, {"server": server}),
             (r"/geometry/([0-9a-f]{64})", Geometry, {"server": server}),
-            (r"/ws", Socket, {"server": server}),
+            (r"/ws", PageSocket, {"server": server}),
         ],
-        default_handler_class=Nothing,
+        default_handler_class=NotFound,
         default_handler_args={"server": server},
         files=files,
         compress_response=True,
@@ -63,18 +63,18 @@ def meshcat_bundle() -> Path:
     return Path(spec.submodule_search_locations[0]) / "viewer" / "dist" / "main.min.js"
 
 
-class Nothing(Guarded):
-    """Every other path."""
+class NotFound(AuthenticatedHandler):
+    """All other paths."""
 
     def prepare(self) -> None:
-        """Answer 404, but only to those let in."""
+        """Respond with 404, but only to authenticated requests."""
         super().prepare()
         if not self._finished:
             raise HTTPError(404)
 
 
-class Page(Guarded):
-    """The page. With the token in the address it sets the cookie and sends the browser to the bare address."""
+class Page(AuthenticatedHandler):
+    """The page. With the token in the URL it sets the cookie and redirects to the URL without the token."""
 
     open_to_all = True
 
@@ -82,20 +82,20 @@ class Page(Guarded):
         """Serve the page."""
         if self.get_query_arguments("token"):
             if not self.has_token:
-                self.refuse("The key in the address is wrong: it changes whenever urdfkit is started.")
+                self.reject("The token in the address is wrong. Each start of urdfkit may create a new one.")
                 return
             self.set_cookie(
-                self.gate.cookie, self.gate.session, expires_days=None, path="/", httponly=True, samesite="Strict"
+                self.access.cookie, self.access.session, expires_days=None, path="/", httponly=True, samesite="Strict"
             )
             self.redirect("/", status=303)
-        elif not self.gate.session_fits(self.get_cookie(self.gate.cookie)):
-            self.refuse("This browser has not sent the token yet, or urdfkit has been restarted since.")
+        elif not self.access.accepts_session(self.get_cookie(self.access.cookie)):
+            self.reject(NO_COOKIE)
         else:
             self.set_header("Content-Type", "text/html; charset=utf-8")
             self.finish(page())
 
 
-class FramedPage(Guarded):
+class FramedPage(AuthenticatedHandler):
     """The page for a frame of a notebook; only who knows the token can embed it, which prevents clickjacking."""
 
     open_to_all = True
@@ -103,7 +103,7 @@ class FramedPage(Guarded):
     def get(self) -> None:
         """Serve the page; the token stays in its address, and the page sends it with its requests."""
         if not self.has_token:
-            self.refuse("The token in the address is missing or wrong: it changes whenever urdfkit is started.")
+            self.reject("The token in the address is missing or wrong. Each start of urdfkit may create a new one.")
             return
         for name, value in headers(self.host, framed=True).items():
             self.set_header(name, value)
@@ -113,7 +113,7 @@ class FramedPage(Guarded):
 
 
 def page() -> str:
-    """Return the page, with all its modules named at the top, so that a browser need not find one through another."""
+    """Return the page with all its modules preloaded, so that a browser need not discover them one by one."""
     text = (APP / "index.html").read_text("utf-8")
     modules = {path.relative_to(APP).as_posix() for path in APP.rglob("*.js")} - {OFFLINE}
     links = "".join(f'  <link rel="modulepreload" href="/app/{name}">\n' for name in sorted(modules))
@@ -122,18 +122,18 @@ def page() -> str:
 
 @lru_cache(maxsize=256)
 def packed(path: Path, _changed: int) -> bytes:
-    """Return a file as gzip packs it; the second argument is when it was changed, so that an old one is not kept."""
+    """Return a file compressed by gzip; the second argument, its modification time, makes the cache follow changes."""
     return gzip.compress(path.read_bytes(), 6, mtime=0)
 
 
-class AppFile(Guarded):
-    """The page's own files, from a list made at the start: nothing is looked up by the path in a request."""
+class AppFile(AuthenticatedHandler):
+    """The files of the page, from a list made at the start: the path in a request is never used as a file path."""
 
-    open_to_all = True  # nothing in them is anybody's secret, and the refusal page wants its style
+    open_to_all = True  # they contain no secrets, and the page for rejected requests needs its style
 
     @property
     def files(self) -> dict[str, Path]:
-        """Path below the folder → file."""
+        """Path relative to the folder → file."""
         found: dict[str, Path] = self.settings["files"]
         return found
 
@@ -150,7 +150,7 @@ class AppFile(Guarded):
             self.finish(path.read_bytes())
 
 
-class Geometry(Guarded):
+class Geometry(AuthenticatedHandler):
     """A mesh by the hash of its content."""
 
     def get(self, name: str) -> None:
@@ -159,5 +159,5 @@ class Geometry(Guarded):
         if packed is None:
             raise HTTPError(404)
         self.set_header("Content-Type", "application/octet-stream")
-        self.set_header("Cache-Control", "private, max-age=31536000, immutable")  # its name is its content
+        self.set_header("Cache-Control", "private, max-age=31536000, immutable")  # the name is a content hash
         self.finish(packed)

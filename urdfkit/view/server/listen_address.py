@@ -1,4 +1,4 @@
-"""Find a port and say under which addresses the page is reached."""
+"""Bind a free port and return the URLs of the page."""
 
 from __future__ import annotations
 
@@ -18,14 +18,14 @@ def bind(host: str, port: int | None) -> tuple[socket.socket, int]:
     """Bind an address.
 
     Args:
-        host: address or name.
-        port: exactly this port, 0 for any; None for the first free one from `DEFAULT_PORT` on.
+        host: address or host name.
+        port: exactly this port, 0 for any free port; None for the first free one starting at `DEFAULT_PORT`.
 
     Returns:
         The listening socket and the port.
 
     Raises:
-        UsageError: the port is busy (names a free one) or the address is not ours.
+        UsageError: the port is in use (the message names a free one) or the address does not belong to this machine.
     """
     if port is not None and not 0 <= port <= 65535:
         raise UsageError(f"port {port} is outside 0..65535")
@@ -38,10 +38,10 @@ def bind(host: str, port: int | None) -> tuple[socket.socket, int]:
                 continue
             if error.errno == errno.EACCES:
                 free = _free_port(host, DEFAULT_PORT)
-                raise UsageError(f"port {candidate} needs privileges; {free} does not") from error
+                raise UsageError(f"port {candidate} requires privileges; use {free}") from error
             raise UsageError(f"cannot listen on `{host}`: {_reason(error)}") from error
         return listening, int(listening.getsockname()[1])
-    raise UsageError(f"port {port} is busy; {_free_port(host, (port or 0) + 1)} is free")
+    raise UsageError(f"port {port} is in use; {_free_port(host, (port or 0) + 1)} is free")
 
 
 def _bind(host: str, port: int) -> socket.socket:
@@ -70,7 +70,7 @@ def _reason(error: OSError) -> str:
 
 
 def urls(host: str, port: int, token: str) -> list[str]:
-    """Return the addresses of the page, the one to open on this machine first."""
+    """Return the URLs of the page; the first one is for a browser on this machine."""
     if is_loopback(host):
         names = ["[::1]" if ":" in host else "127.0.0.1"]
     elif host in WILDCARDS:
@@ -81,7 +81,7 @@ def urls(host: str, port: int, token: str) -> list[str]:
 
 
 def _network_addresses() -> list[str]:
-    """Return this machine's address on the network, as its routing table has it; nothing is sent."""
+    """Return the network address of this machine from its routing table; nothing is sent."""
     with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as probe:
         try:
             probe.connect(("192.0.2.1", 9))  # TEST-NET-1, RFC 5737

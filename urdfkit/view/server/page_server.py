@@ -1,4 +1,4 @@
-"""PageServer: what the handlers of requests need of the server."""
+"""PageServer: the interface of the server that the request handlers use."""
 
 from __future__ import annotations
 
@@ -6,21 +6,21 @@ from typing import TYPE_CHECKING, Protocol
 
 if TYPE_CHECKING:
     from urdfkit.view.content.mesh_store import GeometryStore
-    from urdfkit.view.server.access_control import Gate
+    from urdfkit.view.server.access_control import AccessControl
     from urdfkit.view.server.broadcast import Hub
-    from urdfkit.view.server.drive_lock import Driver
-    from urdfkit.view.server.rejection_log import Refusals
+    from urdfkit.view.server.drive_lock import DriveLock
+    from urdfkit.view.server.rejection_log import RejectionLog
     from urdfkit.view.server.send_queue import Channel
 
 
 class PageServer(Protocol):
-    """What serves a page, see `urdfkit.view.server.server.Server`."""
+    """Server of a page; see `urdfkit.view.server.server.Server`."""
 
-    gate: Gate
+    access: AccessControl
     hub: Hub
-    driver: Driver
-    refusals: Refusals
+    drive_lock: DriveLock
+    rejections: RejectionLog
     geometries: GeometryStore
 
-    def heard(self, client: int, channel: Channel, frame: str | bytes) -> None:
-        """Check a frame from a page and pass it on."""
+    def receive(self, client: int, channel: Channel, frame: str | bytes) -> None:
+        """Check and process a frame from a page."""

@@ -1,4 +1,4 @@
-"""Who was not let in, in the log: a line each, but never a flood of them."""
+"""RejectionLog: logs rejected requests, with a limit on repetitions and on lines per minute."""
 
 from __future__ import annotations
 
@@ -7,18 +7,18 @@ import time
 from collections.abc import Callable
 
 AGAIN = 600.0
-"""Seconds after which the same refusal is said again."""
+"""Seconds after which the same rejection is logged again."""
 MOST = 10
-"""Lines a minute."""
+"""Maximum number of lines per minute."""
 MINUTE = 60.0
-KNOWN = 1000
-"""Refusals that are remembered."""
+REMEMBERED = 1000
+"""Maximum number of rejections that are remembered."""
 
 log = logging.getLogger("urdfkit.view")
 
 
-class Refusals:
-    """Says what is refused, in the server's thread.
+class RejectionLog:
+    """Logs rejected requests; used in the thread of the server.
 
     Args:
         clock: seconds.
@@ -26,28 +26,28 @@ class Refusals:
 
     def __init__(self, clock: Callable[[], float] = time.monotonic) -> None:
         self._clock = clock
-        self._said: dict[str, float] = {}
+        self._logged: dict[str, float] = {}
         self._begun = clock()
         self._lines = 0
 
-    def tell(self, who: str, what: str, why: str) -> None:
-        """Say that something was refused.
+    def add(self, client: str, request: str, reason: str) -> None:
+        """Log a rejected request.
 
         Args:
-            who: address of who asked.
-            what: was asked for; signs that a terminal would act on are spelled out.
-            why: in words.
+            client: address of the client.
+            request: method and path; control characters are escaped.
+            reason: the reason, as a sentence.
         """
-        now, line = self._clock(), f"refused {ascii(what)[1:-1][:200]} from {who}: {why}"
+        now, line = self._clock(), f"rejected {ascii(request)[1:-1][:200]} from {client}: {reason}"
         if now - self._begun >= MINUTE:
             self._begun, self._lines = now, 0
-        if now - self._said.get(line, -AGAIN) < AGAIN or self._lines > MOST:
+        if now - self._logged.get(line, -AGAIN) < AGAIN or self._lines > MOST:
             return
         self._lines += 1
         if self._lines > MOST:
-            log.warning("more than %d refusals in a minute: those to come in it are not told", MOST)
+            log.warning("more than %d rejections in a minute; further ones are not logged until it ends", MOST)
             return
-        if len(self._said) >= KNOWN:
-            self._said.clear()
-        self._said[line] = now
+        if len(self._logged) >= REMEMBERED:
+            self._logged.clear()
+        self._logged[line] = now
         log.warning("%s", line)

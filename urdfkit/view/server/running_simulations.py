@@ -1,8 +1,8 @@
-"""Which simulations are running: a note of each, so that a command finds it.
+"""Registry of running simulations, with which commands find their pages.
 
-While a simulation is driven, a file that only this user can read says where its page is, with the key. It lies beside
-the keys of pages (see `saved_tokens`), is named by the port and goes when the simulation ends. Where no file can be
-kept safely there is no note, and the address has to be given.
+While `sim teleop` runs, a file that only this user can read contains the URL of its page, with the token. The file is
+in the folder of the tokens (see `saved_tokens`), is named after the port, and is removed when the simulation ends. If
+no private file can be written, the simulation is not registered and its URL has to be passed.
 """
 
 from __future__ import annotations
@@ -20,17 +20,17 @@ from urllib.parse import urlsplit
 from urdfkit.errors import ResourceError, UsageError, did_you_mean
 from urdfkit.view.server.saved_tokens import private_folder, read_private, write_private
 
-NONE = "no simulation is running; start one with `urdfkit sim teleop ROBOT`, or name its address with --url"
+NONE = "no simulation is running; start one with `urdfkit sim teleop ROBOT`, or pass its address with --url"
 
 
 @dataclass(frozen=True, slots=True)
 class Running:
-    """A simulation that is running.
+    """A running simulation.
 
     Attributes:
-        url: of its page, with the key.
-        robot: the first robot's name.
-        process: number of the process.
+        url: URL of its page, with the token.
+        robot: name of the first robot.
+        process: process ID.
     """
 
     url: str
@@ -39,19 +39,19 @@ class Running:
 
     @property
     def origin(self) -> str:
-        """The address without the key."""
+        """The URL without the token."""
         return origin(self.url)
 
 
 def origin(url: str) -> str:
-    """Return an address without what comes after host and port."""
+    """Return scheme, host and port of a URL."""
     parts = urlsplit(url)
     return f"{parts.scheme}://{parts.netloc}"
 
 
 @contextmanager
-def noted(port: int, url: str, robot: str) -> Iterator[None]:
-    """Keep a note of a running simulation for as long as the block runs."""
+def registered(port: int, url: str, robot: str) -> Iterator[None]:
+    """Register a running simulation for the duration of the block."""
     path = _write(port, Running(url, robot, os.getpid()))
     try:
         yield
@@ -66,7 +66,7 @@ def _write(port: int, running: Running) -> Path | None:
         return None
     try:
         path = private_folder() / f"running-{port}.json"
-        for _, each in _notes(path.parent, lives=False):
+        for _, each in _registered(path.parent, lives=False):
             each.unlink(missing_ok=True)
         write_private(path, json.dumps(asdict(running)))
     except OSError:
@@ -75,52 +75,52 @@ def _write(port: int, running: Running) -> Path | None:
 
 
 def all_running() -> list[Running]:
-    """Return the simulations of this user that are running, in the order of their ports."""
+    """Return the running simulations of this user, in the order of their ports."""
     if sys.platform == "win32":
         return []
     try:
-        return [running for running, _ in _notes(private_folder(), lives=True)]
+        return [running for running, _ in _registered(private_folder(), lives=True)]
     except OSError:
         return []
 
 
 def find(url: str | None = None) -> str:
-    """Return the address, with the key, of the simulation to talk to.
+    """Return the URL, with the token, of the simulation to connect to.
 
     Args:
-        url: names it: the address as it was printed, or without the key that its note has; None for the only one.
+        url: the printed URL; the token may be omitted if the simulation is registered. None for the only simulation.
 
     Raises:
-        ResourceError: none is running, or several are.
-        UsageError: `url` is no address, or lacks a key that no note has.
+        ResourceError: no simulation or several simulations are running.
+        UsageError: `url` is invalid, or has no token and belongs to no registered simulation.
     """
-    known = all_running()
+    simulations = all_running()
     if url is None:
-        if not known:
+        if not simulations:
             raise ResourceError(NONE)
-        if len(known) > 1:
-            names = ", ".join(f"{each.origin} ({each.robot})" for each in known)
-            raise ResourceError(f"{len(known)} simulations are running: {names}; name one with --url")
-        return known[0].url
+        if len(simulations) > 1:
+            names = ", ".join(f"{each.origin} ({each.robot})" for each in simulations)
+            raise ResourceError(f"{len(simulations)} simulations are running: {names}; select one with --url")
+        return simulations[0].url
     try:
         parts = urlsplit(url if "://" in url else f"http://{url}")
-        fits = parts.scheme == "http" and parts.hostname and parts.port
+        valid = parts.scheme == "http" and parts.hostname and parts.port
     except ValueError:
-        fits = False
-    if not fits:
-        raise UsageError(f"--url {url}: an address is as `sim teleop` prints it, http://HOST:PORT/?token=KEY")
+        valid = False
+    if not valid:
+        raise UsageError(f"--url {url}: invalid address; expected http://HOST:PORT/?token=TOKEN")
     if parts.query:
         return parts.geturl()
     place = f"http://{parts.netloc}"
-    for each in known:
+    for each in simulations:
         if each.origin == place.replace("localhost", "127.0.0.1"):
             return each.url
-    near = did_you_mean(place, [each.origin for each in known])
-    raise UsageError(f"--url {url}: no running simulation of yours is known there, so the address needs its key{near}")
+    near = did_you_mean(place, [each.origin for each in simulations])
+    raise UsageError(f"--url {url}: you have no running simulation at this address; pass it with its token{near}")
 
 
-def _notes(folder: Path, *, lives: bool) -> Iterator[tuple[Running, Path]]:
-    """Yield what is noted of simulations whose process lives, or is gone."""
+def _registered(folder: Path, *, lives: bool) -> Iterator[tuple[Running, Path]]:
+    """Yield the registered simulations whose process is running (`lives`) or has ended."""
     for path in sorted(folder.glob("running-*.json")):
         try:
             found = json.loads(read_private(path) or "")

@@ -1,9 +1,9 @@
-"""The key of a page, kept for a while, so that a page finds its way back when urdfkit is started anew.
+"""Tokens that are saved for some hours, so that an open page can reconnect after urdfkit was restarted.
 
-Token and cookie are written to a file that only this user can read, named by the port, in the folder that the system
-empties when the user logs out (``XDG_RUNTIME_DIR``), or in the user's cache. They are used again by a server on the
-same port within `AGE` of the last one's start; the page that was open then goes on. Where no file can be kept safely,
-every start has a new key, and the page says that the new address has to be opened.
+Token and cookie are written to a file that only this user can read, named after the port, in the folder that the
+system empties when the user logs out (``XDG_RUNTIME_DIR``), or in the cache of the user. A server on the same port
+uses them again if the last one was started less than `AGE` ago. If no private file can be written, each start has a
+new token, and open pages instruct the user to open the new address.
 """
 
 from __future__ import annotations
@@ -20,12 +20,12 @@ import time
 from pathlib import Path
 
 AGE = 12 * 3600.0
-"""Seconds after which a key is not used again."""
+"""Seconds after which a token is not used again."""
 WELL_FORMED = re.compile(r"[\w-]{32}")
 
 
-def keys_of(port: int) -> dict[str, str]:
-    """Return token and session of a port: those of the last hours, or new ones; nothing where none can be kept."""
+def tokens_of(port: int) -> dict[str, str]:
+    """Return token and session of a port, saved or new; an empty dictionary if no file can be written."""
     if sys.platform == "win32":
         return {}
     try:
@@ -38,10 +38,10 @@ def keys_of(port: int) -> dict[str, str]:
 
 
 def private_folder() -> Path:
-    """Return the folder, which nobody else may look into.
+    """Return the folder for private files, readable by this user only.
 
     Raises:
-        OSError: it cannot be made, or it is somebody else's.
+        OSError: it cannot be created, or belongs to another user.
     """
     runtime = os.environ.get("XDG_RUNTIME_DIR")
     cache = Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache")
@@ -49,7 +49,7 @@ def private_folder() -> Path:
     folder.mkdir(mode=0o700, parents=True, exist_ok=True)
     status = folder.lstat()
     if not stat.S_ISDIR(status.st_mode) or status.st_uid != os.getuid():
-        raise PermissionError(f"{folder} belongs to somebody else")
+        raise PermissionError(f"{folder} belongs to another user")
     if status.st_mode & 0o077:
         folder.chmod(0o700)
     return folder
@@ -61,21 +61,21 @@ def _read(path: Path) -> dict[str, str] | None:
         return None
     try:
         found = json.loads(text)
-        keys = {name: str(found[name]) for name in ("token", "session")}
+        tokens = {name: str(found[name]) for name in ("token", "session")}
     except (ValueError, KeyError, TypeError):
         return None
-    return keys if all(WELL_FORMED.fullmatch(key) for key in keys.values()) else None
+    return tokens if all(WELL_FORMED.fullmatch(token) for token in tokens.values()) else None
 
 
 def read_private(path: Path, *, age: float = math.inf) -> str | None:
-    """Return what is in a file that only this user can read; None where there is none, or it is not to be trusted.
+    """Return the content of a private file; None if it is missing, too old or accessible to other users.
 
     Args:
         path: the file.
-        age: seconds after which it counts as none.
+        age: seconds after which the content is ignored.
 
     Raises:
-        OSError: it cannot be read, or is a link.
+        OSError: the file cannot be read, or is a symbolic link.
     """
     try:
         handle = os.open(path, os.O_RDONLY | os.O_NOFOLLOW)
@@ -89,10 +89,10 @@ def read_private(path: Path, *, age: float = math.inf) -> str | None:
 
 
 def write_private(path: Path, text: str) -> None:
-    """Write a file anew that nobody else can read.
+    """Write a new file that only this user can read, replacing an existing one.
 
     Raises:
-        OSError: it cannot be written.
+        OSError: the file cannot be written.
     """
     with contextlib.suppress(FileNotFoundError):
         path.unlink()

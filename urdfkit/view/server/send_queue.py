@@ -1,4 +1,4 @@
-"""Channel: what is on its way to one browser. Bounded, and a slow browser holds up nobody but itself."""
+"""Channel: bounded queue of the frames for one browser; a slow browser does not delay others."""
 
 from __future__ import annotations
 
@@ -11,51 +11,54 @@ Frame = str | bytes
 MAX_IN_FLIGHT = 3
 """Pose frames sent but not yet acknowledged."""
 MAX_WAITING = 64 * 1024 * 1024
-"""Bytes of scene commands that may wait for one browser before it is cut off (it reconnects and starts afresh)."""
+"""Bytes of scene commands that may wait for one browser; beyond this it is disconnected and has to reconnect."""
 
 
 MAX_UNSEEN = 2
 """Frames of one source sent but not yet shown."""
 MAX_STREAM = 120
-"""Frames of one stream that may wait; the oldest are lost first."""
+"""Frames of one stream that may wait; beyond this the oldest are dropped."""
 MAX_STREAM_BYTES = 16 * 1024 * 1024
-"""Bytes of one stream that may wait, of frames beside the newest."""
+"""Bytes of one stream that may wait; the newest frame is always kept."""
 
 
 class ChannelFullError(Exception):
-    """A browser does not read what it must not miss."""
+    """A browser does not read the frames that must not be dropped."""
 
 
 class Channel:
-    """Outgoing frames of one browser, in five grades.
+    """Outgoing frames of one browser, in five classes with different rules for dropping.
 
-    Lines that must all arrive (scene commands) queue up; streams (curves) do, up to `MAX_STREAM` and
-    `MAX_STREAM_BYTES` of each; news (status)
-    is kept per topic, newest wins; poses are kept newest wins too, and at most `MAX_IN_FLIGHT` of them are
-    unacknowledged; so are pictures and points, `MAX_UNSEEN` of each source. Lives in the server's loop.
+    - Lines, such as scene commands, are never dropped.
+    - Streams, such as plots, keep the newest `MAX_STREAM` frames and `MAX_STREAM_BYTES` of each key.
+    - Updates, such as the status, keep the newest frame of each topic.
+    - Of poses the newest frame is kept; at most `MAX_IN_FLIGHT` frames are unacknowledged.
+    - Of images and points the newest frame of each source is kept; at most `MAX_UNSEEN` are not yet shown.
+
+    Used in the event loop of the server.
 
     Attributes:
-        wanted: keys of what this browser wants beside what everybody gets.
+        subscribed_keys: the keys that this browser has subscribed to.
     """
 
     def __init__(self) -> None:
         self._lines: deque[Frame] = deque()
         self._waiting = 0
-        self._news: dict[str, Frame] = {}
+        self._updates: dict[str, Frame] = {}
         self._poses: tuple[int, bytes] | None = None
         self._in_flight: deque[int] = deque()
         self._streams: dict[str, deque[Frame]] = {}
         self._views: dict[str, tuple[int, bytes]] = {}
         self._unseen: dict[str, deque[int]] = {}
-        self.wanted: frozenset[str] = frozenset()
+        self.subscribed_keys: frozenset[str] = frozenset()
         self._ready = asyncio.Event()
         self._cut = False
 
     def line(self, frame: Frame) -> None:
-        """Send this, in order, without fail.
+        """Send a frame in order; it is never dropped.
 
         Raises:
-            ChannelFullError: too much is waiting already.
+            ChannelFullError: too many bytes are waiting.
         """
         self._waiting += len(frame)
         if self._waiting > MAX_WAITING and self._lines:
@@ -63,25 +66,25 @@ class Channel:
         self._lines.append(frame)
         self._ready.set()
 
-    def news(self, topic: str, frame: Frame) -> None:
-        """Send this unless something newer on the same topic comes first."""
-        self._news[topic] = frame
+    def update(self, topic: str, frame: Frame) -> None:
+        """Send a frame unless a newer one of its topic replaces it."""
+        self._updates[topic] = frame
         self._ready.set()
 
     def poses(self, sequence: int, frame: bytes) -> None:
-        """Send this pose frame unless a newer one comes first."""
+        """Send a pose frame unless a newer one replaces it."""
         self._poses = (sequence, frame)
         self._ready.set()
 
     def acknowledge(self, sequence: int) -> None:
-        """Note that a pose frame was applied; older ones count as applied too, unknown ones are ignored."""
+        """Record that the browser has applied a pose frame and all older ones; unknown numbers are ignored."""
         if sequence in self._in_flight:
             while self._in_flight.popleft() != sequence:
                 pass
             self._ready.set()
 
-    def stream(self, key: str, frame: Frame) -> None:
-        """Send this in order, unless the browser is so slow that newer ones push it out."""
+    def send_chunk(self, key: str, frame: Frame) -> None:
+        """Send the next frame of a stream, in order; a slow browser loses the oldest ones."""
         stream = self._streams.setdefault(key, deque(maxlen=MAX_STREAM))
         stream.append(frame)
         while len(stream) > 1 and sum(map(len, stream)) > MAX_STREAM_BYTES:
@@ -89,41 +92,41 @@ class Channel:
         self._ready.set()
 
     def view(self, key: str, sequence: int, frame: bytes) -> None:
-        """Send this picture or these points unless newer ones of this source come first."""
+        """Send an image or points unless a newer frame of the source replaces them."""
         self._views[key] = (sequence, frame)
         self._ready.set()
 
-    def takes(self, key: str) -> bool:
-        """Whether this browser wants a source, and has shown what it was sent of it."""
-        return key in self.wanted and len(self._unseen.get(key, ())) < MAX_UNSEEN and key not in self._views
+    def accepts(self, key: str) -> bool:
+        """Whether this browser has subscribed to a source and has shown the frames it was sent."""
+        return key in self.subscribed_keys and len(self._unseen.get(key, ())) < MAX_UNSEEN and key not in self._views
 
     def seen(self, key: str, sequence: int) -> None:
-        """Note that a frame of a source was shown; older ones count as shown too, unknown ones are ignored."""
+        """Record that the browser has shown a frame of a source and all older ones; unknown numbers are ignored."""
         unseen = self._unseen.get(key)
         if unseen and sequence in unseen:
             while unseen.popleft() != sequence:
                 pass
             self._ready.set()
 
-    def want(self, wanted: frozenset[str]) -> None:
-        """Take note of what the browser wants from now on; what waits of anything else is dropped."""
-        self.wanted = wanted
+    def subscribe(self, keys: frozenset[str]) -> None:
+        """Replace the subscriptions of the browser; waiting frames of other keys are dropped."""
+        self.subscribed_keys = keys
         for waiting in (self._streams, self._views, self._unseen):
-            for key in [key for key in waiting if key not in wanted]:
+            for key in [key for key in waiting if key not in keys]:
                 del waiting[key]
 
     def cut(self) -> None:
-        """End `run`: what waits is lost."""
+        """End `run`; waiting frames are dropped."""
         self._cut = True
         self._ready.set()
 
     @property
     def in_flight(self) -> int:
-        """Pose frames sent and not yet acknowledged."""
+        """Number of pose frames sent and not yet acknowledged."""
         return len(self._in_flight)
 
     async def run(self, write: Callable[[Frame], Awaitable[None]]) -> None:
-        """Write frames as they come, one at a time, until `write` raises, `cut` or the task is cancelled."""
+        """Write the frames one at a time until `write` raises, `cut` is called or the task is cancelled."""
         while not self._cut:
             frame = self._next()
             if frame is None:
@@ -137,8 +140,8 @@ class Channel:
             frame = self._lines.popleft()
             self._waiting -= len(frame)
             return frame
-        if self._news:
-            return self._news.pop(next(iter(self._news)))
+        if self._updates:
+            return self._updates.pop(next(iter(self._updates)))
         for key, stream in self._streams.items():
             chunk = stream.popleft()
             if not stream:

@@ -1,4 +1,4 @@
-"""Server: tornado in a background thread; the caller's thread shows scenes, publishes poses, takes wishes."""
+"""Server: tornado in a background thread; the caller's thread shows scenes, publishes poses and reads requests."""
 
 from __future__ import annotations
 
@@ -14,15 +14,15 @@ from tornado.httpserver import HTTPServer
 
 from urdfkit.view.content.mesh_store import GeometryStore
 from urdfkit.view.protocol import websocket_messages as protocol
-from urdfkit.view.protocol.page_requests import Order, Schema, check
-from urdfkit.view.server.access_control import LOOPBACK_NAMES, Gate, is_loopback
+from urdfkit.view.protocol.page_requests import Request, Schema, check
+from urdfkit.view.server.access_control import LOOPBACK_NAMES, AccessControl, is_loopback
 from urdfkit.view.server.broadcast import Hub, pack
-from urdfkit.view.server.drive_lock import Driver
+from urdfkit.view.server.drive_lock import DriveLock
 from urdfkit.view.server.http_handlers import application
 from urdfkit.view.server.listen_address import bind, urls
-from urdfkit.view.server.rejection_log import Refusals
+from urdfkit.view.server.rejection_log import RejectionLog
 from urdfkit.view.server.request_inbox import Inbox
-from urdfkit.view.server.saved_tokens import keys_of
+from urdfkit.view.server.saved_tokens import tokens_of
 
 if TYPE_CHECKING:
     import numpy as np
@@ -33,19 +33,19 @@ if TYPE_CHECKING:
 
 
 class Server:
-    """The page and its websocket.
+    """The page and its WebSocket.
 
-    Every method may be called from the caller's thread at any time; none waits for a browser.
+    Every method may be called from the caller's thread at any time; no method waits for a browser.
 
     Args:
         mode: ``view`` (sliders move joints) or ``sim`` (keys drive).
-        host: address to bind; anything but loopback lets the network in.
-        port: port to bind, 0 for any; None for the first free one from the usual one on.
-        settings: further values for the page's first message.
-        orders: what pages may order, beside what the protocol has anyway.
+        host: address to bind; with any other than a loopback address the page is open to the network.
+        port: port to bind, 0 for any free port; None for the first free one starting at the default port.
+        settings: additional values of the first message to the page.
+        requests: the requests that pages may send, with the schemas of their values.
 
     Raises:
-        UsageError: the port is busy or the address cannot be bound.
+        UsageError: the port is in use or the address cannot be bound.
     """
 
     def __init__(
@@ -55,23 +55,23 @@ class Server:
         host: str = "127.0.0.1",
         port: int | None = None,
         settings: dict[str, Any] | None = None,
-        orders: Mapping[str, Schema] | None = None,
+        requests: Mapping[str, Schema] | None = None,
     ) -> None:
         self._socket, self.port = bind(host, port)
         loopback = is_loopback(host)
         names = LOOPBACK_NAMES if loopback else (*LOOPBACK_NAMES, *local_names(host))
-        # A port that is any port is another one the next time: there is nobody to know again.
-        secrets = {} if port == 0 else keys_of(self.port)
-        self.gate = Gate(self.port, names=names, open_to_network=not loopback, **secrets)
-        self.urls = urls(host, self.port, self.gate.token)
+        # With port 0 the next start has another port, so no page can reconnect.
+        secrets = {} if port == 0 else tokens_of(self.port)
+        self.access = AccessControl(self.port, names=names, open_to_network=not loopback, **secrets)
+        self.urls = urls(host, self.port, self.access.token)
         self.inbox = Inbox()
-        self.driver = Driver()
+        self.drive_lock = DriveLock()
         self.hub = Hub()
-        self.refusals = Refusals()
+        self.rejections = RejectionLog()
         self.geometries = GeometryStore()
         self.joints: frozenset[str] = frozenset()
         self.mode = mode
-        self.orders: dict[str, Schema] = dict(orders or {})
+        self.requests: dict[str, Schema] = dict(requests or {})
         self._seen = itertools.count(1)
         self._model = itertools.count(1)
         self._model_number = 0
@@ -81,20 +81,20 @@ class Server:
         self._loop = asyncio.new_event_loop()
         self._thread = threading.Thread(target=self._serve, name="urdfkit-view", daemon=True)
         self._started: Future[None] = Future()
-        self.hub.lasting("hello", protocol.write("hello", protocol=protocol.VERSION, mode=mode, **(settings or {})))
+        self.hub.latch("hello", protocol.write("hello", protocol=protocol.VERSION, mode=mode, **(settings or {})))
 
     @property
     def url(self) -> str:
-        """The address to open, with the token."""
+        """The URL to open, with the token."""
         return self.urls[0]
 
     def start(self) -> None:
-        """Begin to serve."""
+        """Start the server."""
         self._thread.start()
         self._started.result()
 
     def stop(self) -> None:
-        """Close all connections and end the thread; stopping twice is harmless."""
+        """Close all connections and end the thread; may be called twice."""
         if self._thread.is_alive():
             self._loop.call_soon_threadsafe(self._loop.stop)
             self._thread.join()
@@ -109,10 +109,10 @@ class Server:
     def __exit__(self, *_: object) -> None:
         self.stop()
 
-    # What the caller shows
+    # Messages of the caller
 
     def send(self, command: Any) -> None:
-        """Send a meshcat command: this makes the server the ``window`` of a ``meshcat.Visualizer``."""
+        """Send a meshcat command; with this method the server is the ``window`` of a ``meshcat.Visualizer``."""
         packed = pack(command)
         self._post(self.hub.command, *packed)
 
@@ -128,11 +128,11 @@ class Server:
         """Replace the scene.
 
         Args:
-            name: the robot's.
+            name: name of the robot.
             nodes: scene paths that poses move, in the order of the rows of `publish`.
-            joints: what the joint panel needs of each joint: name, type, lower, upper, position, mimic.
-            root: which of the nodes is the root link.
-            draw: sends the scene's commands through `send`, its meshes into `geometries`.
+            joints: rows of the joint panel: name, type, lower, upper, position, mimic.
+            root: index of the root link in `nodes`.
+            draw: function that sends the scene with `send` and adds its meshes to `geometries`.
         """
         self._model_number = next(self._model)
         self.joints = frozenset(joint["name"] for joint in joints if not joint.get("mimic"))
@@ -141,14 +141,14 @@ class Server:
         message = protocol.write(
             "model", number=self._model_number & 0xFF, name=name, root=root, nodes=list(nodes), joints=list(joints)
         )
-        self._post(self.hub.lasting, "model", message)
+        self._post(self.hub.latch, "model", message)
 
     def publish(self, time: float, poses: NDArray[np.floating[Any]]) -> None:
-        """Send poses to all browsers; costs the caller microseconds, however many watch.
+        """Send poses to all browsers; takes the caller microseconds, independent of the number of browsers.
 
         Args:
             time: simulated time [s].
-            poses: shape (n, 7) in the order of the nodes shown, position [m] and quaternion x, y, z, w.
+            poses: shape (n, 7) in the order of the shown nodes, position [m] and quaternion x, y, z, w.
         """
         self._sequence = (self._sequence + 1) & 0xFFFFFFFF
         frame = protocol.pack_poses(self._sequence, time, poses, model=self._model_number & 0xFF)
@@ -165,74 +165,74 @@ class Server:
             self.hub.poses(*latest)
 
     def sense(self, key: str, index: int, time: float, kind: int, content: bytes) -> None:
-        """Send what a source sees to who wants its key, until the next from it; see `pack_sensed`."""
+        """Send a frame of a source to its subscribers; only the newest one is kept; see `pack_sensed`."""
         sequence = next(self._seen) & 0xFFFFFFFF
         self._post(self.hub.view, key, sequence, protocol.pack_sensed(index, time, kind, content, sequence))
 
-    def tell(self, type: str, **values: Any) -> None:
-        """Send a text that matters only until the next of its type, such as ``status``."""
-        self._post(self.hub.news, type, protocol.write(type, **values))
+    def broadcast(self, type: str, **values: Any) -> None:
+        """Send a message to all pages; slow pages get only the newest of its type, such as ``status``."""
+        self._post(self.hub.update, type, protocol.write(type, **values))
 
-    def declare(self, type: str, **values: Any) -> None:
-        """Send a text that holds until the next of its type; pages that open later get it too."""
-        self._post(self.hub.lasting, type, protocol.write(type, **values))
+    def publish_latched(self, type: str, **values: Any) -> None:
+        """Send a message to all pages without loss; pages that open later get the last one of its type."""
+        self._post(self.hub.latch, type, protocol.write(type, **values))
 
-    def tell_who_wants(self, key: str, type: str, **values: Any) -> None:
-        """Send a text to who wants its key; it matters only until the next."""
-        self._post(self.hub.news_for, key, protocol.write(type, **values))
+    def send_to_subscribers(self, key: str, type: str, **values: Any) -> None:
+        """Send a message to the subscribers of a key; slow pages get only the newest one."""
+        self._post(self.hub.update_subscribers, key, protocol.write(type, **values))
 
-    def stream(self, key: str, type: str, **values: Any) -> None:
-        """Send a part of something that goes on to who wants its key."""
-        self._post(self.hub.stream, key, protocol.write(type, **values))
+    def send_chunk(self, key: str, type: str, **values: Any) -> None:
+        """Send the next part of a stream to the subscribers of a key, in order."""
+        self._post(self.hub.send_chunk, key, protocol.write(type, **values))
 
-    def answer(self, order: Order, error: str | None = None, **values: Any) -> None:
-        """Tell the page that ordered something that it is done, or why not."""
-        message = protocol.write("answer", number=order.number, order=order.name, error=error, values=values)
-        self._post(self.hub.tell, order.client, message)
+    def answer(self, request: Request, error: str | None = None, **values: Any) -> None:
+        """Answer the page that sent a request, with values or an error."""
+        message = protocol.write("answer", number=request.number, name=request.name, error=error, values=values)
+        self._post(self.hub.send_to, request.client, message)
 
-    def hand_over(self, order: Order, name: str, content: bytes) -> None:
-        """Give a file to the page that ordered it."""
-        self._post(self.hub.tell, order.client, protocol.pack_file(name, content))
+    def send_file(self, request: Request, name: str, content: bytes) -> None:
+        """Send a file to the page that requested it."""
+        self._post(self.hub.send_to, request.client, protocol.pack_file(name, content))
 
-    # What the pages say, in the server's thread
+    # Frames of the pages, in the thread of the server
 
-    def heard(self, client: int, channel: Channel, frame: str | bytes) -> None:
-        """Check a frame from a page and pass it on.
+    def receive(self, client: int, channel: Channel, frame: str | bytes) -> None:
+        """Check and process a frame from a page.
 
         Raises:
-            ProtocolError: it makes no sense.
+            ProtocolError: the frame is invalid.
         """
-        wish = protocol.read(frame)
-        if isinstance(wish, protocol.Ack):
-            channel.acknowledge(wish.sequence)
-        elif isinstance(wish, protocol.Seen):
-            channel.seen(wish.key, wish.sequence)
-        elif isinstance(wish, protocol.Watch):
-            channel.want(wish.wanted)
-        elif isinstance(wish, protocol.Joints):
-            self.inbox.put_joints({name: value for name, value in wish.positions.items() if name in self.joints})
-        elif isinstance(wish, protocol.Axes):
-            self.driver.offer(client, wish)
-        elif isinstance(wish, protocol.Control):
-            self.inbox.put_action(wish.action)
+        message = protocol.read(frame)
+        if isinstance(message, protocol.Ack):
+            channel.acknowledge(message.sequence)
+        elif isinstance(message, protocol.Seen):
+            channel.seen(message.key, message.sequence)
+        elif isinstance(message, protocol.Subscribe):
+            channel.subscribe(message.keys)
+        elif isinstance(message, protocol.Joints):
+            self.inbox.put_joints({name: value for name, value in message.positions.items() if name in self.joints})
+        elif isinstance(message, protocol.Axes):
+            self.drive_lock.update(client, message)
+        elif isinstance(message, protocol.Control):
+            self.inbox.put_action(message.action)
         else:
-            self._ordered(client, wish)
+            self._receive_request(client, message)
 
-    def _ordered(self, client: int, wish: protocol.Do) -> None:
+    def _receive_request(self, client: int, raw: protocol.RawRequest) -> None:
         try:
-            order = check(self.orders, client, wish)
+            request = check(self.requests, client, raw)
         except protocol.ProtocolError as error:
-            self.answer(Order(client, wish.number, wish.order, {}), str(error))
+            self.answer(Request(client, raw.number, raw.name, {}), str(error))
             raise
-        if self.orders[order.name].changes and not self.driver.may(client):
-            self.answer(order, "somebody else is driving; wait until they let go")
-        elif not self.inbox.put_order(order):
-            self.answer(order, "too much is waiting to be done; try again in a moment")
+        if self.requests[request.name].changes and not self.drive_lock.allows(client):
+            self.answer(request, "another page is driving; wait until it stops")
+        elif not self.inbox.put_request(request):
+            self.answer(request, "too many requests are waiting; try again in a moment")
 
     # The thread
 
     def _post(self, function: Callable[..., None], *arguments: Any) -> None:
-        with contextlib.suppress(RuntimeError):  # the loop is closed: nobody is left to tell
+        with contextlib.suppress(RuntimeError):  # the loop is closed, so no page is connected
             self._loop.call_soon_threadsafe(function, *arguments)
 
     def _serve(self) -> None:
@@ -267,7 +267,7 @@ class Server:
 
 
 def local_names(host: str) -> tuple[str, ...]:
-    """Return the names under which the network may address this machine."""
+    """Return the host names of this machine that other machines may use."""
     import socket
 
     name = socket.gethostname().lower()

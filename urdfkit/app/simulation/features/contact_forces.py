@@ -21,7 +21,7 @@ class ContactForces(Feature):
     def tick(self) -> None:
         """Send forces and slip velocities to pages that are ready for them."""
         hub = self.server.hub
-        forces, slides = hub.takes(FORCES), hub.takes(SLIPS)
+        forces, slides = hub.accepts(FORCES), hub.accepts(SLIPS)
         if not (forces or slides) or not self.is_due(PERIOD):
             return
         simulator = self.simulator
@@ -39,7 +39,9 @@ class ContactForces(Feature):
             fastest: dict[str, float] = {}
             for each in found:
                 fastest[each.link] = max(fastest.get(each.link, 0.0), each.speed)
-            self.server.tell_who_wants(SLIPS, SLIPS, rows=[[link, round(v, 5)] for link, v in sorted(fastest.items())])
+            self.server.send_to_subscribers(
+                SLIPS, SLIPS, rows=[[link, round(v, 5)] for link, v in sorted(fastest.items())]
+            )
 
     def _links(self) -> set[str]:
         """Return the names of the links of robots in contacts: without the robot's name for the first robot."""

@@ -7,12 +7,12 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from urdfkit.sim.simulator import Simulator
-    from urdfkit.view.protocol.page_requests import Order, Schema
+    from urdfkit.view.protocol.page_requests import Request, Schema
     from urdfkit.view.server.server import Server
 
 Done = dict[str, Any] | None
 """Response to the page."""
-Takes = Mapping[str, "tuple[Schema, Callable[[Order], Done]]"]
+Takes = Mapping[str, "tuple[Schema, Callable[[Request], Done]]"]
 """Request → its schema and its handler."""
 
 

@@ -12,7 +12,7 @@ from urdfkit.sim.plugins.controllers.joints.forward_command import Forward, Forw
 from urdfkit.sim.plugins.controllers.joints.gripper import Gripper
 from urdfkit.sim.plugins.controllers.joints.pid_position import PidGroup, PidPosition, PidVelocity
 from urdfkit.sim.plugins.controllers.trajectory.joint_trajectory import TrajectoryFollower
-from urdfkit.view.protocol.page_requests import Order, Schema, number, text
+from urdfkit.view.protocol.page_requests import Request, Schema, number, text
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -158,7 +158,7 @@ class JointSliders(Feature):
 
     def _declare(self) -> None:
         self._states = self._now()
-        self.server.declare("arms", arms=[arm.row() for arm in self._arms.values()])
+        self.server.publish_latched("arms", arms=[arm.row() for arm in self._arms.values()])
 
     def _now(self) -> list[tuple[str, str]]:
         robots = self.simulator.world.robots.values()
@@ -171,7 +171,7 @@ class JointSliders(Feature):
 
     def tick(self) -> None:
         """Send the positions of the joints."""
-        if not self._arms or KEY not in self.server.hub.wanted or not self.is_due(PERIOD):
+        if not self._arms or KEY not in self.server.hub.subscribed_keys or not self.is_due(PERIOD):
             return
         if self._now() != self._states:  # a controller was loaded, started or stopped
             self.show()
@@ -180,17 +180,17 @@ class JointSliders(Feature):
             name: {joint: round(getattr(arm.robot.state, measure[arm.of])(joint), 6) for joint in arm.handles}
             for name, arm in self._arms.items()
         }
-        self.server.tell_who_wants(KEY, KEY + "_now", values=rows)
+        self.server.send_to_subscribers(KEY, KEY + "_now", values=rows)
 
-    def _command(self, order: Order) -> Done:
-        arm = self._arm(order.values["controller"])
-        self.server.driver.touch(order.client)
-        arm.command(self.simulator.bus, order.values["joint"], order.values["value"])
+    def _command(self, request: Request) -> Done:
+        arm = self._arm(request.values["controller"])
+        self.server.drive_lock.claim(request.client)
+        arm.command(self.simulator.bus, request.values["joint"], request.values["value"])
         return None
 
-    def _switch(self, order: Order) -> Done:
-        arm = self._arm(order.values["controller"])
-        if order.values["running"]:
+    def _switch(self, request: Request) -> Done:
+        arm = self._arm(request.values["controller"])
+        if request.values["running"]:
             arm.robot.controllers.start(arm.law.name)
         else:
             arm.robot.controllers.stop(arm.law.name)

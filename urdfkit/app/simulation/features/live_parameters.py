@@ -8,7 +8,7 @@ from urdfkit.app.simulation.features.feature import Done, Feature, Takes
 from urdfkit.sim.construction.loading import MAX_GRAVITY
 from urdfkit.sim.state.pid import Gains
 from urdfkit.sim.world.live_parameters import LEAST_MASS, Tuning
-from urdfkit.view.protocol.page_requests import Order, Schema, number, numbers, text
+from urdfkit.view.protocol.page_requests import Request, Schema, number, numbers, text
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -44,27 +44,27 @@ class LiveParameters(Feature):
                 links = [(name, each.name, each.mass, each.mu) for each in tuning.links(name)]
                 rows += [_row(name, link, mass, mu) for name, link, mass, mu in links]
         rows += [_row(each.name, "", each.mass, each.mu) for each in tuning.models]
-        self.server.declare(
-            "screws",
+        self.server.publish_latched(
+            "parameters",
             gravity=list(tuning.gravity),
             rows=[row for row in rows if row["mass"] is not None or row["mu"] is not None],
             gains=[{"path": path, "p": g.p, "i": g.i, "d": g.d, "clamp": g.i_max} for path, g in tuning.gains.items()],
         )
 
-    def _gravity(self, order: Order) -> Done:
-        self._tuning.set_gravity(order.values["gravity"])
+    def _gravity(self, request: Request) -> Done:
+        self._tuning.set_gravity(request.values["gravity"])
         return self._done()
 
-    def _mass(self, order: Order) -> Done:
-        self._tuning.set_mass(order.values["name"], order.values["mass"], order.values.get("link", ""))
+    def _mass(self, request: Request) -> Done:
+        self._tuning.set_mass(request.values["name"], request.values["mass"], request.values.get("link", ""))
         return self._done()
 
-    def _mu(self, order: Order) -> Done:
-        self._tuning.set_mu(order.values["name"], order.values["mu"], order.values.get("link", ""))
+    def _mu(self, request: Request) -> Done:
+        self._tuning.set_mu(request.values["name"], request.values["mu"], request.values.get("link", ""))
         return self._done()
 
-    def _gains(self, order: Order) -> Done:
-        values = order.values
+    def _gains(self, request: Request) -> Done:
+        values = request.values
         before = self._tuning.gains.get(values["path"], Gains(0.0))
         most = values.get("clamp", before.i_max)
         least = -most if "clamp" in values else before.i_min

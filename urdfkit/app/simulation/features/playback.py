@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from urdfkit.app.simulation.features.feature import Done, Feature, Takes
 from urdfkit.errors import SimulationError
-from urdfkit.view.protocol.page_requests import Order, Schema, number, whole
+from urdfkit.view.protocol.page_requests import Request, Schema, number, whole
 
 if TYPE_CHECKING:
     from urdfkit.app.simulation.clock_rate import ClockRate
@@ -35,10 +35,10 @@ class Playback(Feature):
             "speed": (Schema({}, {"factor": number(0.01, 1000)}), self._speed),
         }
 
-    def _step(self, order: Order) -> Done:
+    def _step(self, request: Request) -> Done:
         if not self.simulator.paused:
             raise SimulationError("the simulation is running: pause it to step")
-        wanted, done, begin = order.values["steps"], 0, self.clock()
+        wanted, done, begin = request.values["steps"], 0, self.clock()
         while done < wanted and self.clock() - begin < LONGEST:
             chunk = min(CHUNK, wanted - done)
             self.simulator.step(chunk)
@@ -48,8 +48,8 @@ class Playback(Feature):
             raise SimulationError(f"stopped after {LONGEST:g} s: {done} of {wanted} steps done; request the rest again")
         return {"time": self.simulator.t}
 
-    def _speed(self, order: Order) -> Done:
+    def _speed(self, request: Request) -> Done:
         """Change the factor; without one, run as fast as possible."""
-        self.pace.factor = order.values.get("factor", inf)
+        self.pace.factor = request.values.get("factor", inf)
         self.pace.restart(self.simulator.t)
         return None

@@ -35,7 +35,7 @@ class Plots(Feature):
         """Subscribe to the plotted topics, and send the samples."""
         if not self.is_due(PERIOD):
             return
-        wanted = {key for key in self.server.hub.wanted if key.startswith(FIELD)}
+        wanted = {key for key in self.server.hub.subscribed_keys if key.startswith(FIELD)}
         for key in [key for key in self._curves if key not in wanted]:
             self._curves.pop(key).close()
         for key in wanted:
@@ -74,13 +74,13 @@ class _Plot:
 
     def _report(self, error: str) -> None:
         self._error = error
-        self._part.server.stream(self._key, "samples", curve=self._key, error=error, t=[], values=[])
+        self._part.server.send_chunk(self._key, "samples", curve=self._key, error=error, t=[], values=[])
 
     def send(self) -> None:
         """Send the samples since the last call, if any."""
         samples, self._samples = self._samples, []
         if samples:
-            self._part.server.stream(
+            self._part.server.send_chunk(
                 self._key,
                 "samples",
                 curve=self._key,

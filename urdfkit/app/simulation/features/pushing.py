@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from urdfkit.app.simulation.features.feature import Done, Feature, Takes
 from urdfkit.errors import SimulationError
-from urdfkit.view.protocol.page_requests import Order, Schema, numbers, text
+from urdfkit.view.protocol.page_requests import Request, Schema, numbers, text
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -35,23 +35,23 @@ class Pushing(Feature):
         wrench = {"force": force, "torque": torque, "at": numbers(3, bound=1e3, unit="m")}
         return {
             "push": (Schema({"link": text(), **wrench}), self._push),
-            "let_go": (Schema(), self._let_go),
+            "release": (Schema(), self._let_go),
         }
 
     def forget(self) -> None:
         """Release all links."""
         self._held.clear()
 
-    def _push(self, order: Order) -> Done:
-        values = order.values
-        self._release(order.client)
+    def _push(self, request: Request) -> Done:
+        values = request.values
+        self._release(request.client)
         self.simulator.world.push(values["link"], values["force"], values["torque"], at=values["at"], for_seconds=HOLD)
-        self._held[order.client] = values["link"]
-        self.server.driver.touch(order.client)
+        self._held[request.client] = values["link"]
+        self.server.drive_lock.claim(request.client)
         return None
 
-    def _let_go(self, order: Order) -> Done:
-        self._release(order.client)
+    def _let_go(self, request: Request) -> Done:
+        self._release(request.client)
         return None
 
     def _release(self, client: int) -> None:

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from urdfkit.app.simulation.features.feature import Done, Feature, Takes
 from urdfkit.errors import SimulationError
-from urdfkit.view.protocol.page_requests import Order, Schema, choice, flag, number
+from urdfkit.view.protocol.page_requests import Request, Schema, choice, flag, number
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -64,7 +64,7 @@ class Replay(Feature):
 
     def show(self) -> None:
         """Publish the state of the recording."""
-        self.server.declare("tape", **self._state())
+        self.server.publish_latched("recorder", **self._state())
 
     def _state(self) -> dict[str, Any]:
         begin, end = (self._times[0], self._times[-1]) if self._times else (0.0, 0.0)
@@ -97,11 +97,11 @@ class Replay(Feature):
         if self._bytes > MOST_BYTES:
             self._stop(f"the memory limit was reached after {self._times[-1] - self._times[0]:.0f} s")
 
-    def _record(self, order: Order) -> Done:
-        if not order.values["on"]:
+    def _record(self, request: Request) -> Done:
+        if not request.values["on"]:
             if not self._recording:
                 raise SimulationError("nothing is being recorded")
-            response = self._end_topics(order)
+            response = self._end_topics(request)
             self._recording = False
             self.show()
             return response
@@ -109,11 +109,11 @@ class Replay(Feature):
             raise SimulationError("a recording is running already")
         self._times, self._frames, self._bytes = [], [], 0
         self.playing, self._revision = False, self.simulator.world.revision
-        if order.values.get("topics"):
+        if request.values.get("topics"):
             from urdfkit.bridges.recorder import Recorder
 
             folder = self._folder.enter_context(TemporaryDirectory())
-            bus: Any = self.simulator.bus if order.values.get("pictures") else WithoutPictures(self.simulator.bus)
+            bus: Any = self.simulator.bus if request.values.get("pictures") else WithoutPictures(self.simulator.bus)
             self._recorder = Recorder(bus, Path(folder) / "ride.mcap", lambda: self.simulator.t)
         self._recording = True
         self.show()
@@ -121,12 +121,12 @@ class Replay(Feature):
 
     def _stop(self, reason: str) -> None:
         self._recording = False
-        self.server.tell("notice", text=f"the recording was stopped: {reason}", tone="")
+        self.server.broadcast("notice", text=f"the recording was stopped: {reason}", tone="")
         if self._recorder is not None:
             self._leave(self._recorder, f"ride-{self.simulator.name}.mcap")
         self.show()
 
-    def _end_topics(self, order: Order) -> Done:
+    def _end_topics(self, request: Request) -> Done:
         recorder = self._recorder
         if recorder is None:
             return None
@@ -136,7 +136,7 @@ class Replay(Feature):
         size = recorder.path.stat().st_size
         if size > MOST_HANDED:
             return {"file": self._leave(recorder, name), "messages": recorder.count}
-        self.server.hand_over(order, name, recorder.path.read_bytes())
+        self.server.send_file(request, name, recorder.path.read_bytes())
         self._recorder = None
         self._folder.close()
         return {"messages": recorder.count, "bytes": size}
@@ -152,15 +152,15 @@ class Replay(Feature):
             name, k = f"{stem}-{k}.mcap", k + 1
         shutil.move(recorder.path, name)
         text = f"the recording was saved as {name} in the folder in which urdfkit was started"
-        self.server.tell("notice", text=text, tone="good")
+        self.server.broadcast("notice", text=text, tone="good")
         self._recorder = None
         self._folder.close()
         return name
 
     # Replay
 
-    def _replay(self, order: Order) -> Done:
-        action, values = order.values["action"], order.values
+    def _replay(self, request: Request) -> Done:
+        action, values = request.values["action"], request.values
         if action == "end":
             self.playing, self._since = False, None
             self.show()
@@ -191,7 +191,7 @@ class Replay(Feature):
             self._advance()
         index = int(np.searchsorted(self._times, self._at, side="right")) - 1
         if self.is_due(0.2):
-            self.server.tell("tape", **self._state())
+            self.server.broadcast("recorder", **self._state())
         return self._at, self._frames[max(0, index)]
 
     def _advance(self) -> None:
@@ -207,7 +207,7 @@ class Replay(Feature):
         if self._recorder is not None:
             self._recorder.look()
         if self._recording and self.is_due(0.5):
-            self.server.tell("tape", **self._state())
+            self.server.broadcast("recorder", **self._state())
 
     def forget(self) -> None:
         """Show the simulation again."""

@@ -108,7 +108,7 @@ class SensorViews:
             {"topic": view.topic.name, "picture": view.kind == PICTURE, "camera": isinstance(view.sensor, Camera)}
             for view in self._views
         ]
-        self._server.declare("sensors", sensors=names)
+        self._server.publish_latched("sensors", sensors=names)
         return bool(self._views)
 
     def prepare(self) -> None:
@@ -127,7 +127,7 @@ class SensorViews:
         waiting = [
             (k, each)
             for k, each in enumerate(self._views)
-            if each.due <= now and each.topic.count != each.shown and self._server.hub.takes(each.key)
+            if each.due <= now and each.topic.count != each.shown and self._server.hub.accepts(each.key)
         ]
         if not waiting:
             return 0.0

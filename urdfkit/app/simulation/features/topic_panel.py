@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 from urdfkit.app.simulation.features.feature import Done, Feature, Takes
 from urdfkit.app.simulation.features.message_values import as_json, numbers_in
 from urdfkit.errors import UsageError, did_you_mean
-from urdfkit.view.protocol.page_requests import Order, Schema, text, tree
+from urdfkit.view.protocol.page_requests import Request, Schema, text, tree
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -54,7 +54,7 @@ class TopicPanel(Feature):
 
     def tick(self) -> None:
         """Send the list and the messages that pages show."""
-        wanted = self.server.hub.wanted
+        wanted = self.server.hub.subscribed_keys
         if LIST in wanted and self.is_due(PERIOD):
             self._list()
         now = self.clock()
@@ -78,7 +78,7 @@ class TopicPanel(Feature):
                 continue  # a service's request
             rate = (topic.count - before.get(topic.name, topic.count)) / (t - begun) if t > begun else 0.0
             rows.append([topic.name, topic.type, topic.count, round(max(0.0, rate), 2), len(topic.subscribers)])
-        self.server.tell_who_wants(LIST, "topics", rows=rows)
+        self.server.send_to_subscribers(LIST, "topics", rows=rows)
 
     def _echo(self, key: str, shown: int) -> int:
         name = key.removeprefix(ECHO)
@@ -86,33 +86,33 @@ class TopicPanel(Feature):
         if topic is None or topic.count == shown:
             return shown
         message = topic.latest
-        self.server.tell_who_wants(
+        self.server.send_to_subscribers(
             key, "echo", topic=name, count=topic.count, message=None if message is None else as_json(message)
         )
         return topic.count
 
-    def _form(self, order: Order) -> Done:
+    def _form(self, request: Request) -> Done:
         """Respond with an empty message of a topic's type, and the paths of the numbers in its last message."""
         from urdfkit.messages import from_fields, full_type_name
 
-        name, kind = order.values["topic"], full_type_name(order.values["type"])
+        name, kind = request.values["topic"], full_type_name(request.values["type"])
         self._require_message(name, kind)
         empty = from_fields(kind, None)
         topic = next((each for each in self.simulator.bus.topics if each.name == name), None)
         latest = None if topic is None or not topic.count else topic.latest
         return {"message": as_json(empty), "numbers": list(numbers_in(empty if latest is None else latest))[:500]}
 
-    def _publish(self, order: Order) -> Done:
+    def _publish(self, request: Request) -> Done:
         from urdfkit.bus import absolute
         from urdfkit.messages import from_fields, full_type_name
 
-        name, kind = order.values["topic"], full_type_name(order.values["type"])
+        name, kind = request.values["topic"], full_type_name(request.values["type"])
         if len(absolute(name)) < 2:
             raise UsageError("the name of the topic is missing; enter a name such as /cmd_vel")
         _require_name(name, [topic.name for topic in self.simulator.bus.topics])
         self._require_message(absolute(name), kind)
         try:
-            self.simulator.bus.publish(name, kind, from_fields(kind, order.values["message"]))
+            self.simulator.bus.publish(name, kind, from_fields(kind, request.values["message"]))
         except (ArithmeticError, LookupError, TypeError, ValueError, struct.error) as error:
             # A value that a field cannot hold or a subscriber cannot use must not stop the simulation.
             raise UsageError(f"`{name}` does not accept this message: {error}") from error

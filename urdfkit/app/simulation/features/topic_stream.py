@@ -42,7 +42,7 @@ class TopicStreams(Feature):
 
     def tick(self) -> None:
         """Subscribe to the requested topics, and send their messages."""
-        wanted = {key for key in self.server.hub.wanted if key.startswith(KEYS)}
+        wanted = {key for key in self.server.hub.subscribed_keys if key.startswith(KEYS)}
         for key in [key for key in self._streams if key not in wanted]:
             self._streams.pop(key).close()
         topics = {topic.name: topic for topic in self.simulator.bus.topics} if wanted - self._streams.keys() else {}
@@ -92,7 +92,7 @@ class _Stream:
         rows, missed = self._rows, self._missed
         self._rows, self._missed = [], 0
         begin = self._part.clock()
-        self._part.server.stream(self._key, "heard", source=self._key, rows=rows, missed=missed)
+        self._part.server.send_chunk(self._key, "messages", source=self._key, rows=rows, missed=missed)
         self._owed += self._part.clock() - begin
 
     def close(self) -> None:

@@ -9,7 +9,7 @@ from urdfkit.app.simulation.features.feature import Done, Feature, Takes
 from urdfkit.app.simulation.features.wall_model import MOST, walls
 from urdfkit.errors import SimulationError
 from urdfkit.sim.state.quaternion import to_rpy
-from urdfkit.view.protocol.page_requests import Order, Schema, listing, number, numbers, record, text, whole
+from urdfkit.view.protocol.page_requests import Request, Schema, listing, number, numbers, record, text, whole
 
 NAME = 80
 """Maximum length of a name [characters]."""
@@ -31,7 +31,7 @@ class WorldObjects(Feature):
             "spawn": (Schema({"model": text(NAME)}, {"pose": pose, "name": text(NAME)}), self._spawn),
             "place": (Schema({"name": text(), "pose": pose}), self._place),
             "remove": (Schema({"name": text()}), self._remove),
-            "where": (Schema({"name": text()}, changes=False), self._where),
+            "get_pose": (Schema({"name": text()}, changes=False), self._where),
             "walls": (Schema({"corners": corners}, {**sizes, "doors": listing(door, 0, 50, "doors")}), self._walls),
             "save": (Schema({}, {"name": text(NAME)}, changes=False), self._save),
         }
@@ -47,7 +47,7 @@ class WorldObjects(Feature):
             first = name == self.simulator.name
             robot = first or any(each.has_plugins for each in world.builder.entity(name).robots)
             rows.append({"name": name, "robot": robot, "first": first, "static": world.is_static(name)})
-        self.server.declare(
+        self.server.publish_latched(
             "objects",
             objects=rows,
             models=[name for name in model_names() if name not in ("sun", "ground_plane")],
@@ -55,12 +55,12 @@ class WorldObjects(Feature):
             world=world.name,
         )
 
-    def _spawn(self, order: Order) -> Done:
-        name, model = order.values.get("name") or None, order.values["model"]
+    def _spawn(self, request: Request) -> Done:
+        name, model = request.values.get("name") or None, request.values["model"]
         self._require_plain(model)  # by name only: a page must not read files of this machine
         if len(self.simulator.world.names) >= MAX_OBJECTS:
             raise SimulationError(f"the world has {MAX_OBJECTS} objects, the maximum; remove one first")
-        pose = order.values.get("pose")
+        pose = request.values.get("pose")
         from urdfkit.resources import robot_names
         from urdfkit.sim import Spawn
 
@@ -77,26 +77,26 @@ class WorldObjects(Feature):
         if "/" in model or "\\" in model or "." in model or ":" in model:
             raise SimulationError(f"`{model}` is not the name of a model or robot of the library")
 
-    def _place(self, order: Order) -> Done:
-        name, pose = order.values["name"], order.values["pose"]
+    def _place(self, request: Request) -> Done:
+        name, pose = request.values["name"], request.values["pose"]
         world = self.simulator.world
         if name == world.names[0] and not self.simulator.kinematics.floating_base:
             raise SimulationError(f"`{name}` has a fixed base and cannot be moved")
         self.simulator.world.place(name, pose)
         return None
 
-    def _remove(self, order: Order) -> Done:
-        self.simulator.world.remove(order.values["name"])
+    def _remove(self, request: Request) -> Done:
+        self.simulator.world.remove(request.values["name"])
         return None
 
-    def _where(self, order: Order) -> Done:
-        pose = self.simulator.world.pose(order.values["name"])
+    def _where(self, request: Request) -> Done:
+        pose = self.simulator.world.pose(request.values["name"])
         return {"pose": [*pose[:3], *to_rpy(pose[3:])]}
 
-    def _walls(self, order: Order) -> Done:
+    def _walls(self, request: Request) -> Done:
         from urdfkit.sim.world.spawn_requests import spawn_request_of_text
 
-        values = order.values
+        values = request.values
         name = values.get("name") or self.simulator.world.free_name("walls")
         if not name.replace("_", "").replace("-", "").isalnum():
             raise SimulationError(f"`{name}` is not a name for walls: use letters, digits, _ and -")
@@ -109,12 +109,12 @@ class WorldObjects(Feature):
         )
         return {"name": self.simulator.world.spawn(spawn_request_of_text(document))}
 
-    def _save(self, order: Order) -> Done:
-        name = order.values.get("name") or self.simulator.world.name or "world"
+    def _save(self, request: Request) -> Done:
+        name = request.values.get("name") or self.simulator.world.name or "world"
         safe = "".join(each if each.isalnum() or each in "-_" else "_" for each in name) or "world"
         with TemporaryDirectory() as folder:
             file = Path(folder) / f"{safe}.sdf"
             self.simulator.world.save(file)
             content = file.read_bytes()
-        self.server.hand_over(order, file.name, content)
+        self.server.send_file(request, file.name, content)
         return {"bytes": len(content)}

@@ -1,20 +1,20 @@
-// The websocket: connects, comes back when the line breaks, orders things, and says how it stands.
+// The WebSocket: connects, reconnects, sends requests and reports the state of the connection.
 
-const SILENCE = 6000; // ms without a word from the server after which the line counts as dead
+const SILENCE = 6000; // ms without a message from the server after which the connection counts as lost
 const POSES = 0x01;
 const SENSED = 0x02;
 const FILE = 0x03;
-const ANSWER = 10000; // ms after which an order counts as unanswered
+const ANSWER = 10000; // ms after which a request counts as unanswered
 
 export class Connection {
   /** @param on {state(name, text), text(message), poses(frame), sensed(frame), command(bytes), file(name, bytes)} */
   constructor(on) {
     this.on = on;
     this.tries = 0;
-    this.heard = 0;
+    this.received = 0;
     this.number = 0;
-    this.waiting = new Map(); // number of an order → {resolve, reject, timer}
-    this.wanted = new Map(); // key → how many want it
+    this.waiting = new Map(); // number of a request → {resolve, reject, timer}
+    this.subscriptions = new Map(); // key → number of subscribers on this page
     setInterval(() => this.#watch(), 1000);
     addEventListener("online", () => this.#retryNow());
     document.addEventListener("visibilitychange", () => document.hidden || this.#retryNow());
@@ -29,14 +29,14 @@ export class Connection {
     if (this.open) this.socket.send(JSON.stringify({ type, ...values }));
   }
 
-  /** Have something done. Resolves with the answer's values; rejects with the reason why it was not done. */
-  order(order, values = {}) {
-    if (!this.open) return Promise.reject(new Error("the connection is lost"));
+  /** Send a request. Resolves with the values of the answer; rejects with its error. */
+  request(name, values = {}) {
+    if (!this.open) return Promise.reject(new Error("not connected"));
     const number = (this.number = (this.number + 1) >>> 0);
     return new Promise((resolve, reject) => {
-      const timer = setTimeout(() => this.#answered({ number, error: `no answer to ${order}` }), ANSWER);
+      const timer = setTimeout(() => this.#answered({ number, error: `no answer to the request “${name}”` }), ANSWER);
       this.waiting.set(number, { resolve, reject, timer });
-      this.send("do", { number, order, values });
+      this.send("request", { number, name, values });
     });
   }
 
@@ -49,17 +49,17 @@ export class Connection {
     else waiting.resolve(values);
   }
 
-  /** Want what is sent under a key, or no longer; several parts of the page may want the same. */
-  want(key, wanted) {
-    const count = (this.wanted.get(key) ?? 0) + (wanted ? 1 : -1);
-    if (count > 0) this.wanted.set(key, count);
-    else this.wanted.delete(key);
-    this.wishes ??= requestAnimationFrame(() => this.#wish());
+  /** Subscribe to the messages of a key, or unsubscribe; several parts of the page may subscribe to the same key. */
+  subscribe(key, on) {
+    const count = (this.subscriptions.get(key) ?? 0) + (on ? 1 : -1);
+    if (count > 0) this.subscriptions.set(key, count);
+    else this.subscriptions.delete(key);
+    this.scheduled ??= requestAnimationFrame(() => this.#sendSubscriptions());
   }
 
-  #wish() {
-    this.wishes = null;
-    this.send("watch", { wanted: [...this.wanted.keys()].slice(0, 64) });
+  #sendSubscriptions() {
+    this.scheduled = null;
+    this.send("subscribe", { keys: [...this.subscriptions.keys()].slice(0, 64) });
   }
 
   connect() {
@@ -70,12 +70,12 @@ export class Connection {
     socket.binaryType = "arraybuffer";
     socket.onopen = () => {
       this.tries = 0;
-      this.heard = performance.now();
+      this.received = performance.now();
       this.on.state("connected", "connected");
-      this.#wish();
+      this.#sendSubscriptions();
     };
     socket.onmessage = ({ data }) => {
-      this.heard = performance.now();
+      this.received = performance.now();
       if (typeof data === "string") this.#text(JSON.parse(data));
       else this.#binary(data, new Uint8Array(data, 0, 1)[0]);
     };
@@ -94,7 +94,7 @@ export class Connection {
     else this.on.command(new Uint8Array(data));
   }
 
-  // A file to keep: hand it to the browser's downloads.
+  // Save a file with the downloads of the browser.
   #file(data) {
     const length = new DataView(data).getUint16(2, true);
     const name = new TextDecoder().decode(new Uint8Array(data, 16, length));
@@ -106,18 +106,18 @@ export class Connection {
   }
 
   #lost() {
-    for (const number of [...this.waiting.keys()]) this.#answered({ number, error: "the connection was lost" });
+    for (const number of [...this.waiting.keys()]) this.#answered({ number, error: "connection lost" });
     this.on.state("lost", "connection lost");
     this.tries += 1;
     this.timer = setTimeout(() => this.connect(), Math.min(4000, 250 * 2 ** this.tries));
-    this.#askWhy();
+    this.#findReason();
   }
 
-  // A websocket does not say why it was refused; a plain request does.
-  async #askWhy() {
+  // A WebSocket does not report why it was rejected; a plain request does.
+  async #findReason() {
     try {
       const answer = await fetch(location.pathname + location.search, { method: "GET", cache: "no-store" });
-      if (answer.status === 403) this.on.state("lost", "urdfkit was started anew: open its new address");
+      if (answer.status === 403) this.on.state("lost", "urdfkit was restarted: open its new address");
     } catch {
       this.on.state("lost", "urdfkit is not running");
     }
@@ -127,9 +127,9 @@ export class Connection {
     if (this.socket?.readyState === WebSocket.CLOSED) this.connect();
   }
 
-  // Twice in a row: after a long picture this may run before what has come meanwhile is heard.
+  // Two checks in a row: after a slow frame, this may run before waiting messages are processed.
   #watch() {
-    const silent = this.open && performance.now() - this.heard > SILENCE && !document.hidden;
+    const silent = this.open && performance.now() - this.received > SILENCE && !document.hidden;
     if (silent && this.silent) this.socket.close();
     this.silent = silent;
   }

@@ -1,10 +1,10 @@
-// Small words for making elements: no templates, no framework, nothing parsed from text.
+// Functions that create DOM elements, without templates or a framework.
 
 const SVG = "http://www.w3.org/2000/svg";
 
 /**
- * Make an element: h("button.quiet#go", { type: "button", onclick: go, "aria-label": "Go" }, icon(GO), "Go").
- * Functions become listeners, booleans become attributes that are there or not, the rest attributes.
+ * Create an element: h("button.quiet#go", { type: "button", onclick: go, "aria-label": "Go" }, icon(GO), "Go").
+ * Functions become event handlers; booleans set or omit an attribute; other values become attributes.
  */
 export function h(spec, attributes = {}, ...children) {
   const [, tag, rest] = spec.match(/^([\w-]*)(.*)$/);
@@ -34,20 +34,20 @@ export function icon(d, { stroke = true } = {}) {
   return svg;
 }
 
-/** A checkbox with its words. `changed` is called with whether it is ticked. */
+/** Create a checkbox with a label. `changed` is called with its state. */
 export function check(words, { id, checked = false, title, changed } = {}) {
   const box = h("input", { type: "checkbox", id, checked });
   box.addEventListener("change", () => changed?.(box.checked));
   return { box, label: h("label.check", { title }, box, ` ${words}`) };
 }
 
-/** A number as people read it: at most `digits` decimals, no zeros behind, never minus zero. */
+/** Format a number with at most `digits` decimals, without trailing zeros and without a negative zero. */
 export function short(value, digits = 3) {
   const text = String(Number(value.toFixed(digits)));
   return text === "-0" ? "0" : text;
 }
 
-/** Like toFixed, but nothing is minus zero. */
+/** Like toFixed, but without a negative zero. */
 export function fixed(value, digits) {
   const text = value.toFixed(digits);
   return Number(text) === 0 ? text.replace("-", "") : text;

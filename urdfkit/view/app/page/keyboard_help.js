@@ -1,4 +1,4 @@
-// The list of keys, under ?.
+// The dialog with the keyboard shortcuts (?).
 
 import { h, icon } from "./dom.js";
 
@@ -14,8 +14,8 @@ export function help(page) {
   const button = h("button.bare#help-open", { type: "button", title: "Keys (?)", "aria-label": "Keys" }, icon(QUESTION));
   button.addEventListener("click", open);
   document.querySelector(".bar").append(button);
-  page.shortcut({ key: "?", does: "this list", modes: ["view", "sim"], run: open });
-  page.shortcut({ key: "Escape", does: "put the tool down, then select nothing", modes: ["view", "sim"], run: away });
+  page.shortcut({ key: "?", does: "show the keyboard shortcuts", modes: ["view", "sim"], run: open });
+  page.shortcut({ key: "Escape", does: "deactivate the tool, then clear the selection", modes: ["view", "sim"], run: cancel });
 
   function open() {
     const groups = new Map();
@@ -24,13 +24,13 @@ export function help(page) {
       groups.set(shortcut.group, [...(groups.get(shortcut.group) ?? []), shortcut]);
     }
     const lists = [...groups].map(([name, shortcuts]) => h("section", {}, h("h3", {}, name), h("dl", {}, shortcuts.map(row))));
-    const mouse = ["drag: turn the view", "right drag, or two fingers: move it", "wheel or pinch: nearer, farther", "click: select a link", "double click: look there"];
-    lists.push(h("section", {}, h("h3", {}, "Mouse and fingers"), h("ul.plain", {}, mouse.map((line) => h("li", {}, line)))));
+    const mouse = ["drag: rotate the view", "right drag or two fingers: pan the view", "wheel or pinch: zoom", "click: select a link", "double click: centre the view on a point"];
+    lists.push(h("section", {}, h("h3", {}, "Mouse and touch"), h("ul.plain", {}, mouse.map((line) => h("li", {}, line)))));
     body.replaceChildren(...lists);
     dialog.showModal();
   }
 
-  function away() {
+  function cancel() {
     if (page.tools.held) page.tools.hold(null);
     else page.select(null);
   }

@@ -1,8 +1,8 @@
-// The little Markdown that rule pages are written in: headings, paragraphs, lists, code.
+// Renders the Markdown of rule pages: headings, paragraphs, lists, code.
 
 import { h } from "./dom.js";
 
-/** Return elements for a text. */
+/** Return the elements of a Markdown text. */
 export function markdown(text) {
   const found = [];
   const lines = text.split("\n");
@@ -40,7 +40,7 @@ export function markdown(text) {
   return found;
 }
 
-/** Words with `code` in them. */
+/** Return the parts of a line with `code`. */
 export function inline(text) {
   return text.split(/(``[^`]+``|`[^`]+`)/).map((part) => (/^`/.test(part) ? h("code", {}, part.replace(/^`+|`+$/g, "")) : part));
 }

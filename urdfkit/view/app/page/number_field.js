@@ -1,40 +1,40 @@
-// Fields for numbers: a decimal comma is as good as a point; what is no number, or out of bounds, is said and not taken.
+// Number fields that accept a decimal comma or point, and reject invalid and out-of-range input with a message.
 
 import { h } from "./dom.js";
 
 const PLAIN = /^[+-]?(\d+\.?\d*|\.\d+)(e[+-]?\d+)?$/i;
 
-/** The number that a person wrote, NaN where it is none: 0.5 and 0,5 are the same, 1,234.5 is neither. */
+/** Parse a number, NaN if invalid: 0.5 and 0,5 are equal, 1,234.5 is invalid. */
 export function readNumber(text) {
   const written = text.trim().replace("−", "-").replaceAll(/\s/g, "");
   const plain = /^[^.,]*,[^.,]*$/.test(written) ? written.replace(",", ".") : written;
   return PLAIN.test(plain) ? Number(plain) : NaN;
 }
 
-/** What is wrong with a number that was written, in words; nothing where it is fine. */
+/** Return the error message for the text of a number field; empty if it is valid. */
 export function wrong(text, { min = null, max = null, unit = "", whole = false } = {}) {
   const value = readNumber(text);
   const with_ = unit ? ` ${unit}` : "";
-  if (text.trim() === "") return "a number is missing";
-  if (Number.isNaN(value)) return `“${text.trim()}” is no number, such as 0.5`;
-  if (whole && !Number.isInteger(value)) return `${value} is no whole number: ${Math.floor(value)} or ${Math.ceil(value)}`;
-  if (min !== null && value < min) return `${value}${with_} is too little; the least is ${Number(min.toPrecision(6))}${with_}`;
-  if (max !== null && value > max) return `${value}${with_} is too much; the most is ${Number(max.toPrecision(6))}${with_}`;
+  if (text.trim() === "") return "enter a number";
+  if (Number.isNaN(value)) return `“${text.trim()}” is not a number, such as 0.5`;
+  if (whole && !Number.isInteger(value)) return `${value} is not an integer; enter ${Math.floor(value)} or ${Math.ceil(value)}`;
+  if (min !== null && value < min) return `${value}${with_} is too small; the minimum is ${Number(min.toPrecision(6))}${with_}`;
+  if (max !== null && value > max) return `${value}${with_} is too large; the maximum is ${Number(max.toPrecision(6))}${with_}`;
   return "";
 }
 
 /**
- * Make a field for a number. It has `valueAsNumber`; its listeners of "change" hear of numbers only.
- * @param bounds {min, max, step, unit, whole} and what else an input takes; "aria-label" says what it is
+ * Create a number field with `valueAsNumber`; "change" events are only delivered for valid numbers.
+ * @param bounds {min, max, step, unit, whole} and attributes of the input; "aria-label" is its name
  */
 export function numberField({ min = null, max = null, step = null, unit = "", whole = false, ...attributes } = {}) {
   const input = h("input.number", { type: "text", inputmode: "decimal", autocomplete: "off", spellcheck: "false", ...attributes });
   const bounds = { min, max, unit, whole };
-  input.bounds = bounds; // whoever made it may change them
-  let good = input.value; // what stood there before a person began to write
-  let writing = false;
+  input.bounds = bounds; // may be changed by the caller
+  let good = input.value; // the last valid text
+  let writing = false; // whether the user is typing
   Object.defineProperty(input, "valueAsNumber", { get: () => readNumber(input.value) });
-  let marked = null; // until when it is marked as refused
+  let marked = null; // timer that removes the mark of a rejected value
   const clear = () => {
     clearTimeout(marked);
     input.removeAttribute("aria-invalid");
@@ -45,11 +45,11 @@ export function numberField({ min = null, max = null, step = null, unit = "", wh
     input.setAttribute("aria-invalid", "true");
     input.dispatchEvent(new CustomEvent("refused", { bubbles: true, detail: words }));
     writing = false;
-    if (input.form) return; // it stays, so that the form is not sent without it
+    if (input.form) return; // keep the text, so that the form is not sent without it
     input.value = good;
     marked = setTimeout(clear, 4000);
   };
-  // Typing says so before the text changes; what writes otherwise (pasting by script, some keyboards) does not.
+  // Typing fires "beforeinput"; scripts and some keyboards change the text without it.
   input.addEventListener("focus", () => {
     if (!wrong(input.value, bounds)) good = input.value;
   });
@@ -64,7 +64,7 @@ export function numberField({ min = null, max = null, step = null, unit = "", wh
     good = input.value = String(readNumber(input.value));
     writing = false;
   });
-  // As fields of the browser's own do; where there is no step it is a tenth of the size of the number.
+  // Arrow keys step the value like a native number field; the default step is a tenth of its magnitude.
   input.addEventListener("keydown", (event) => {
     const sign = { ArrowUp: 1, ArrowDown: -1 }[event.key];
     const now = readNumber(input.value);

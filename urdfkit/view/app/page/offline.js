@@ -1,4 +1,4 @@
-// Stands in for the server in a page that was written to one file: replays what was recorded, moves the robot itself.
+// Replaces the server in a page that was exported to one file: replays the recorded messages and moves the robot.
 
 import { Kinematics } from "../robot/kinematics.js";
 
@@ -13,7 +13,7 @@ export class Offline {
     this.on = on;
     this.values = {};
     this.open = false;
-    setTimeout(() => this.#begin(), 0); // as a real connection, it speaks later
+    setTimeout(() => this.#begin(), 0); // asynchronous, like a real connection
   }
 
   #begin() {
@@ -50,14 +50,14 @@ export class Offline {
     return buffer;
   }
 
-  order() {
-    return Promise.reject(new Error("this page has no server; open the robot with urdfkit view"));
+  request() {
+    return Promise.reject(new Error("this exported page has no server; open the robot with `urdfkit view`"));
   }
 
-  want() {}
+  subscribe() {}
 }
 
-/** A mesh by the hash of its content, as the server would have sent it. */
+/** Return a mesh by the hash of its content, in the format of the server. */
 async function mesh(name) {
   const packed = recording.meshes[name];
   if (!packed) throw new Error("not in this file");

@@ -1,40 +1,40 @@
-// What every feature of the page gets: the stage, the panels, messages in and out, the selection, shortcuts.
+// Page: the shared object of all features, with viewport, panels, messages, selection and shortcuts.
 
 export class Page {
-  /** @param stage the 3-D view; @param scene what stands on it; @param panels the panels */
+  /** @param stage the 3-D viewport; @param scene its scene; @param panels the panels */
   constructor(stage, scene, panels) {
     Object.assign(this, { stage, scene, panels });
-    this.mode = null; // "view" or "sim", from the first message on
+    this.mode = null; // "view" or "sim", set by the first message
     this.model = null; // the last message `model`
     this.selected = null; // {link} or {joint}, by name
     this.connection = null;
     this.shortcuts = [];
-    this.heard = new Map();
+    this.handlers = new Map();
     addEventListener("keydown", (event) => this.#key(event));
     addEventListener("refused", ({ detail }) => this.toast(detail, "error"));
   }
 
   /**
-   * Hear a message of Python by its type, or an event of the page:
+   * Register a handler for a type of message from the server, or for an event of the page:
    * poses (the links have moved), select ({link} or {joint} or null), hover (a link or null), lost, theme, tool, drawn.
    */
-  on(type, listener) {
-    if (!this.heard.has(type)) this.heard.set(type, []);
-    this.heard.get(type).push(listener);
+  on(type, handler) {
+    if (!this.handlers.has(type)) this.handlers.set(type, []);
+    this.handlers.get(type).push(handler);
   }
 
-  /** Hand a message or an event to all who listen; an error in one of them does not keep it from the others. */
+  /** Call all handlers of a message or event; an error in one handler does not affect the others. */
   emit(type, message) {
-    for (const listener of this.heard.get(type) ?? []) {
+    for (const handler of this.handlers.get(type) ?? []) {
       try {
-        listener(message);
+        handler(message);
       } catch (error) {
         reportError(error);
       }
     }
   }
 
-  /** Send a message to Python; see protocol.py for what it takes. */
+  /** Send a message to the server; see docs/protocol.md. */
   send(type, values) {
     this.connection?.send(type, values);
   }
@@ -46,7 +46,7 @@ export class Page {
     this.emit("select", selected);
   }
 
-  /** Say something for a few seconds. */
+  /** Show a message for a few seconds. */
   toast(text, tone = "") {
     const box = document.getElementById("toast");
     box.textContent = text;
@@ -56,15 +56,15 @@ export class Page {
     this.timer = setTimeout(() => (box.hidden = true), 3000 + 40 * text.length);
   }
 
-  /** Say that an order was done, and what is to be known about it. */
-  done(words, { remarks = [] } = {}) {
-    this.toast([words, ...remarks].join("; "), remarks.length ? "warning" : "good");
+  /** Show that a request succeeded, with its warnings. */
+  done(words, { warnings = [] } = {}) {
+    this.toast([words, ...warnings].join("; "), warnings.length ? "warning" : "good");
   }
 
   /**
-   * Add a key.
-   * @param key as KeyboardEvent.key; @param does words for the list under ?; @param modes where it works
-   * @param run called with the event; @param group heading in the list
+   * Add a keyboard shortcut.
+   * @param key value of KeyboardEvent.key; @param does description for the help dialog; @param modes modes in which it is active
+   * @param run called with the event; @param group heading in the help dialog
    */
   shortcut({ key, does, modes = ["view"], group = "Page", run }) {
     this.shortcuts.push({ key, does, modes, group, run });

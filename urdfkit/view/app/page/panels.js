@@ -1,12 +1,12 @@
-// The panels at the side (on a phone: the sheet at the bottom) and the rail of buttons that opens them.
+// The panels at the side (on a phone: the sheet at the bottom) and the rail of buttons that open them.
 
 import { h, icon } from "./dom.js";
 
 const PIN = "M9 3h6l-1 6 4 4v2H6v-2l4-4zM12 15v6";
-const SETTLE = 800; // ms in which a panel that opened may get its content
+const SETTLE = 800; // ms within which an opened panel receives its content
 const CLOSE = "M6 6l12 12M18 6L6 18";
 
-/** One panel. Fill `body`; tell people to look with `badge`. */
+/** One panel. Its content goes into `body`; `badge` shows a count on the rail. */
 class Panel {
   constructor(panels, { id, title, icon: path, modes, order, element, pinned }) {
     Object.assign(this, { id, title, modes, order, pinned, available: true });
@@ -19,7 +19,7 @@ class Panel {
       this.count,
     );
     this.button.addEventListener("click", () => panels.toggle(id));
-    this.pin = h("button.bare.pin", { type: "button", "aria-pressed": String(pinned), title: "Keep open beside others" }, icon(PIN));
+    this.pin = h("button.bare.pin", { type: "button", "aria-pressed": String(pinned), title: "Keep open when another panel opens" }, icon(PIN));
     this.pin.setAttribute("aria-label", `Keep ${title} open`);
     this.pin.addEventListener("click", () => {
       this.pinned = !this.pinned;
@@ -40,7 +40,7 @@ class Panel {
     return !this.section.hidden;
   }
 
-  /** Show a number (or nothing, for null) on the rail; `tone` is error, warning, note or nothing. */
+  /** Show a count on the rail, or hide it (null); `tone` is error, warning, note or empty. */
   badge(text, tone = "") {
     this.count.hidden = text === null || text === "";
     this.count.textContent = text ?? "";
@@ -49,22 +49,22 @@ class Panel {
 }
 
 export class Panels {
-  /** @param host the element the panels are in; @param rail the element of the buttons */
+  /** @param host container of the panels; @param rail container of the buttons */
   constructor(host, rail) {
     this.host = host;
     this.rail = rail;
     this.all = new Map();
     this.mode = null;
-    this.chosen = false; // whether a person has said which panels they want
+    this.chosen = false; // whether the user has opened or closed a panel
     this.narrow = matchMedia("(max-width: 760px)");
   }
 
   /**
    * Add a panel.
-   * @param id a word, unique; @param title what people read; @param icon the `d` of a 24 × 24 line drawing
-   * @param modes where it is offered: ["view"], ["sim"] or both; @param order place on the rail, small first
-   * @param element an element to use as its body, otherwise an empty one is made
-   * @param pinned whether it stays open when another opens, until a person says otherwise
+   * @param id unique name; @param title label; @param icon the `d` of a 24 × 24 line drawing
+   * @param modes modes in which it is available: ["view"], ["sim"] or both; @param order position on the rail, ascending
+   * @param element its body; a new element if null
+   * @param pinned whether it initially stays open when another panel opens
    * @returns the panel: {body, tools, badge(text, tone), open}
    */
   add({ id, title, icon = null, modes = ["view", "sim"], order = 50, element = null, pinned = false }) {
@@ -77,7 +77,7 @@ export class Panels {
     return panel;
   }
 
-  /** Offer the panels of a mode, and open the first of them (and those pinned) where there is room. */
+  /** Show the panels of a mode; open the first one and the pinned ones if there is enough space. */
   use(mode) {
     if (this.mode === mode) return;
     this.mode = mode;
@@ -85,7 +85,7 @@ export class Panels {
     this.#settle();
   }
 
-  // As long as nobody has chosen: the first that has anything to show, and those pinned.
+  // Until the user opens or closes a panel, the first available one and the pinned ones are open.
   #settle() {
     if (this.mode !== null && !this.narrow.matches && !this.chosen) {
       const offered = [...this.all.values()].filter((panel) => this.#offered(panel)).sort((a, b) => a.order - b.order);
@@ -94,7 +94,7 @@ export class Panels {
     this.#changed();
   }
 
-  /** Say whether a panel has anything to show; one that has not is not on the rail. */
+  /** Set whether a panel has content; a panel without content is not on the rail. */
   available(id, is) {
     const panel = this.all.get(id);
     const came = is && !panel.available;
@@ -109,18 +109,18 @@ export class Panels {
     else this.open(id);
   }
 
-  /** Open a panel; others close unless they are pinned (on a phone there is room for one). */
+  /** Open a panel; others close unless they are pinned (on a phone only one is open). */
   open(id) {
     const opened = this.all.get(id);
     if (!this.#offered(opened)) return;
     this.chosen = true;
     for (const panel of this.all.values()) this.#show(panel, panel === opened || (panel.open && panel.pinned && !this.narrow.matches));
     this.#changed();
-    this.#bring(opened.section);
+    this.#scrollTo(opened.section);
   }
 
-  // To the top of the column, below what is pinned above it; what fills it may come later and move it.
-  #bring(section) {
+  // Scroll a panel to the top of the column; content that arrives later may move it, so repeat this for a while.
+  #scrollTo(section) {
     const show = () => (this.host.scrollTop += section.getBoundingClientRect().top - this.host.getBoundingClientRect().top);
     show();
     this.watching?.disconnect();

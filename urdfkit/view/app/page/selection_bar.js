@@ -1,4 +1,4 @@
-// The strip at the foot of the stage: what is selected and what can be done with it.
+// The bar at the bottom of the viewport: the selected link or joint and its actions.
 
 import { h, icon } from "./dom.js";
 
@@ -19,8 +19,8 @@ export function selection(page) {
     strip.replaceChildren(
       h("span.selected-name", { title: name }, h("small", {}, selected.link ? "link" : "joint"), h("bdi", {}, name)),
       button("Inspect", CARD, () => page.panels.open("inspect")),
-      button("Look at it", TARGET, () => look(selected)),
-      button("Select nothing", CLOSE, () => page.select(null)),
+      button("Centre the view", TARGET, () => look(selected)),
+      button("Clear the selection", CLOSE, () => page.select(null)),
     );
   }
 
@@ -29,5 +29,5 @@ export function selection(page) {
     page.cameras.look(link);
   }
 
-  page.shortcut({ key: "e", does: "look at what is selected", group: "View", run: () => page.selected && look(page.selected) });
+  page.shortcut({ key: "e", does: "centre the view on the selection", group: "View", run: () => page.selected && look(page.selected) });
 }

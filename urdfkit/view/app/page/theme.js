@@ -1,9 +1,9 @@
-// Light and dark: as the system has it, or as chosen here, for the page and the stage alike.
+// Light and dark theme of page and viewport: that of the system, or chosen here.
 
 import { h, icon } from "./dom.js";
 
 const CHOICES = {
-  system: ["As the system", "M4 5h16v11H4zM9 20h6M12 16v4"],
+  system: ["System", "M4 5h16v11H4zM9 20h6M12 16v4"],
   light: ["Light", "M12 8a4 4 0 1 0 0 8a4 4 0 0 0 0-8zM12 2v2M12 20v2M2 12h2M20 12h2M5 5l1.4 1.4M17.6 17.6L19 19M5 19l1.4-1.4M17.6 6.4L19 5"],
   dark: ["Dark", "M20 14.5A8.5 8.5 0 0 1 9.5 4a8.5 8.5 0 1 0 10.5 10.5z"],
 };
@@ -34,11 +34,11 @@ export function theme(page) {
   }
   button.addEventListener("click", next);
   system.addEventListener("change", apply);
-  page.shortcut({ key: "L", does: "colours: as the system, light, dark", modes: ["view"], group: "View", run: next });
+  page.shortcut({ key: "L", does: "colours: system, light, dark", modes: ["view"], group: "View", run: next });
   apply();
 }
 
-// A browser may forbid to keep anything.
+// A browser may deny access to its storage.
 function read() {
   try {
     const kept = localStorage.getItem(KEY);
@@ -52,6 +52,6 @@ function write(choice) {
   try {
     localStorage.setItem(KEY, choice);
   } catch {
-    // then it lasts as long as the page
+    // the choice lasts until the page is closed
   }
 }

@@ -1,4 +1,4 @@
-// The buttons on the stage: things to do once, and tools that stay in hand until another is taken.
+// The toolbar of the viewport: buttons for single actions, and tools that stay active.
 
 import { h, icon } from "./dom.js";
 
@@ -12,14 +12,14 @@ export class Tools {
     this.buttons = new Map();
   }
 
-  /** Add a button that does something once. @param order place in the bar @returns the button */
+  /** Add a button for a single action. @param order position in the bar @returns the button */
   action({ id, title, icon: path, modes = ["view", "sim"], order = 50, run }) {
     const button = h("button.tool", { type: "button", id: `tool-${id}`, title, "aria-label": title, onclick: run }, icon(path));
     this.#put(button, order, modes);
     return button;
   }
 
-  /** Add a tool; `take(held)` is called when it is taken in hand and put down; with `clicks` it gets clicks (click3d). */
+  /** Add a tool; `take(held)` is called when it is activated or deactivated; with `clicks` it receives clicks (click3d). */
   tool({ id, title, icon: path, modes = ["view", "sim"], order = 50, clicks = true, take = () => {} }) {
     const button = this.action({ id, title, icon: path, modes, order, run: () => this.hold(this.held === id ? null : id) });
     button.setAttribute("aria-pressed", "false");
@@ -31,7 +31,7 @@ export class Tools {
     return this.buttons.get(id)?.clicks ?? false;
   }
 
-  /** Take a tool in hand, or put it down (null). */
+  /** Activate a tool, or deactivate the active one (null). */
   hold(id) {
     if (id === this.held) return;
     const [before, now] = [this.held, id];
@@ -58,11 +58,11 @@ export class Tools {
 export function tools(page) {
   page.tools = new Tools(page, document.getElementById("tools"));
   page.on("hello", () => page.tools.offer());
-  /** Bring the robot into the picture; `direction` null looks from where it is looked from now. */
+  /** Fit the view to the robot; `direction` null keeps the current direction of the camera. */
   page.fit = (direction) => {
-    // In the simulation from behind, so that forward is away from the driver and left is left.
+    // In the simulation the camera is behind the robot, so that forward is away from the driver and left is left.
     const sim = page.mode === "sim";
-    const room = sim ? (page.drives === false ? 1.2 : 1.9) : 1; // who drives wants to see where to
+    const room = sim ? (page.drives === false ? 1.2 : 1.9) : 1; // a driver needs to see the surroundings
     const box = page.scene.bounds();
     const view = sim && !box.isEmpty() ? page.sight.clear(box, [-1, -0.55, 0.75], page.stage.distance(box, room)) : { direction: [1, 0.75, 0.6], part: 1 };
     const done = page.stage.fit(box, direction === null ? null : view.direction, room * view.part);

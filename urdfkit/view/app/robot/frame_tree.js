@@ -1,4 +1,4 @@
-// The frame tree with the transform of every frame, live, in a frame of choice.
+// The frame tree with the live transform of every frame in a selected frame.
 
 import { h, icon, short } from "../page/dom.js";
 import { copyText } from "./inspector.js";
@@ -20,7 +20,7 @@ export function tf(page) {
 
   page.on("robot", ({ kinematics }) => {
     const before = choice.value;
-    choice.replaceChildren(h("option", { value: PARENT }, "the frame above"), ...kinematics.links.map((link) => h("option", { value: link }, link)));
+    choice.replaceChildren(h("option", { value: PARENT }, "parent frame"), ...kinematics.links.map((link) => h("option", { value: link }, link)));
     choice.value = kinematics.links.includes(before) ? before : PARENT;
     rows = [...walk(kinematics, kinematics.root, 0)].map(row);
     list.replaceChildren(...rows.map(({ item }) => item));

@@ -1,4 +1,4 @@
-// What is known of the selected link or joint: numbers, and where in the source it is written.
+// Properties of the selected link or joint with their source locations.
 
 import { h, icon, short } from "../page/dom.js";
 
@@ -19,7 +19,7 @@ export function inspector(page) {
 }
 
 function nothing() {
-  return [h("p.quiet", {}, "Click a link on the stage, or choose one in the tree.")];
+  return [h("p.quiet", {}, "Click a link in the viewport, or select one in the tree.")];
 }
 
 function aboutLink(page, link) {
@@ -27,11 +27,11 @@ function aboutLink(page, link) {
   const above = kinematics.above.get(link.name);
   const below = kinematics.below.get(link.name) ?? [];
   const parts = [title("Link", link.name)];
-  if (above) parts.push(go(page, "Held by joint", { joint: above.name }, above.name, `from ${above.parent}`));
+  if (above) parts.push(go(page, "Parent joint", { joint: above.name }, above.name, `from ${above.parent}`));
   else parts.push(h("p.quiet", {}, "The root link."));
-  if (below.length) parts.push(h("div.go-list", {}, h("span.quiet", {}, "Carries"), below.map((joint) => go(page, null, { link: joint.child }, joint.child, joints.get(joint.name).type))));
+  if (below.length) parts.push(h("div.go-list", {}, h("span.quiet", {}, "Children"), below.map((joint) => go(page, null, { link: joint.child }, joint.child, joints.get(joint.name).type))));
   parts.push(source(link.source, true));
-  parts.push(link.inertial ? inertial(link.inertial) : h("section.fact", {}, h("h3", {}, "Inertial"), h("p.quiet", {}, "None is written: a simulator takes this link as part of its parent, or refuses it.")));
+  parts.push(link.inertial ? inertial(link.inertial) : h("section.fact", {}, h("h3", {}, "Inertial"), h("p.quiet", {}, "The link has no <inertial>: simulators merge it with its parent or reject it.")));
   for (const [words, shapes] of [["Visual", link.visuals], ["Collision", link.collisions]]) {
     shapes.forEach((shape, i) => parts.push(aboutShape(shapes.length > 1 ? `${words} ${i + 1}` : words, shape)));
     if (shapes.length === 0) parts.push(h("section.fact", {}, h("h3", {}, words), h("p.quiet", {}, "none")));
@@ -44,7 +44,7 @@ function inertial({ mass, origin, rpy, tensor, ellipsoid, source: place }) {
   if (tensor) {
     const [xx, xy, xz, yy, yz, zz] = tensor;
     rows.push(["ixx iyy izz", numbers([xx, yy, zz], "kg·m²")], ["ixy ixz iyz", numbers([xy, xz, yz], "kg·m²")]);
-    rows.push(ellipsoid ? ["principal", numbers(ellipsoid.moments, "kg·m²")] : ["principal", "no body has this inertia"]);
+    rows.push(ellipsoid ? ["principal", numbers(ellipsoid.moments, "kg·m²")] : ["principal", "not physically valid"]);
   }
   return h("section.fact", {}, h("h3", {}, "Inertial"), table(rows), source(place));
 }
@@ -98,10 +98,10 @@ export function table(rows) {
   return h("dl.facts", {}, rows.map(([name, value]) => h("div", {}, h("dt", {}, name), h("dd", {}, value))));
 }
 
-/** Where something is written: file:line, the macro calls that led there, and with `lines` the text itself. */
+/** The source location of an element: file:line, its macro calls, and with `lines` the text. */
 export function source(place, lines = false) {
   const where = `${place.file}:${place.line}`;
-  const copy = h("button.place", { type: "button", title: `Copy ${where}`, "aria-label": `Copy the place ${where}` }, h("bdi", {}, where), icon(COPY));
+  const copy = h("button.place", { type: "button", title: `Copy ${where}`, "aria-label": `Copy the source location ${where}` }, h("bdi", {}, where), icon(COPY));
   copy.addEventListener("click", () => copyText(where, copy));
   const chain = (place.chain ?? []).map((call) => h("li", {}, "in macro ", h("code", {}, call.macro), ", called at ", h("bdi", { title: call.file }, `${call.file.split("/").pop()}:${call.line}`)));
   return h(
@@ -113,7 +113,7 @@ export function source(place, lines = false) {
   );
 }
 
-/** Lines of source with their numbers, without the indentation they share. */
+/** Source lines with their numbers, without their common indentation. */
 export function excerpt(lines, first, more = 0) {
   const indents = lines.filter((line) => line.trim()).map((line) => line.match(/^\s*/)[0].length);
   const cut = Math.min(...indents, Infinity) === Infinity ? 0 : Math.min(...indents);
@@ -128,6 +128,6 @@ export async function copyText(text, button) {
     button.dataset.copied = "";
     setTimeout(() => delete button.dataset.copied, 1200);
   } catch {
-    getSelection().selectAllChildren(button); // no clipboard here: at least it is marked
+    getSelection().selectAllChildren(button); // no clipboard access: select the text instead
   }
 }

@@ -1,4 +1,4 @@
-// Dragging a link: the handle says where it shall be, inverse kinematics finds the joints.
+// Dragging a link: inverse kinematics computes the joint positions for the pose of the handle.
 /* global MeshCat */
 
 import { check, h, short } from "../page/dom.js";
@@ -7,9 +7,9 @@ import { compose } from "./pose.js";
 
 const THREE = MeshCat.THREE;
 const HAND = "M12 2v20M2 12h20M12 2l-3 3M12 2l3 3M12 22l-3-3M12 22l3-3M2 12l3-3M2 12l3 3M22 12l-3-3M22 12l-3 3";
-const RESTARTS = 3; // beginnings elsewhere for each move of the hand
-const ALL = 40; // … and when it lets go
-const SIZE = 0.14; // of the picture's height, or width where that is less
+const RESTARTS = 3; // additional starting points per move of the handle
+const ALL = 40; // … and when the handle is released
+const SIZE = 0.14; // of the smaller of height and width of the viewport
 
 export class Dragging {
   constructor(page) {
@@ -31,7 +31,7 @@ export class Dragging {
     page.on("poses", () => this.gizmo.visible && page.stage.dirty());
   }
 
-  /** The link with the handle: the one selected, where anything moves it. */
+  /** The link with the handle: the selected link, if a joint moves it. */
   get link() {
     if (this.page.tools.held !== "ik" || !this.page.robot) return null;
     const { link, joint } = this.page.selected ?? {};
@@ -45,7 +45,7 @@ export class Dragging {
     this.page.stage.dirty();
   }
 
-  // The handle stands at the link's frame, always of the same size in the picture; while dragged, where it is dragged to.
+  // The handle is at the frame of the link, or at the target while it is dragged; its size on the screen is constant.
   #place() {
     if (!this.gizmo.visible) return;
     const at = this.drag?.at ?? this.page.labels.at(this.link);
@@ -76,7 +76,7 @@ export class Dragging {
     this.viewer.controls.enabled = false;
   }
 
-  // Where the pointer grips, on the handle's plane or axis, in the world.
+  // The point under the pointer, on the plane or axis of the handle, in the world.
   #grip(event) {
     const ray = this.page.pick.aim(event);
     const { kind, axis, plane, at } = this.drag;
@@ -100,7 +100,7 @@ export class Dragging {
     this.#reach(RESTARTS);
   }
 
-  // While the hand moves there is time for few beginnings, other ones each time; when it lets go for all.
+  // While the handle moves there is time for a few starting points, different ones each time; on release, for all.
   #reach(restarts) {
     const { drag, page } = this;
     const found = page.robot.kinematics.inverse(drag.link, drag.goal, drag.values, { turn: this.turn, limits: !page.ignoreLimits, restarts, first: drag.tried });
@@ -108,7 +108,7 @@ export class Dragging {
     drag.tried = found.reached ? 0 : drag.tried + restarts;
     Object.assign(drag.values, found.values);
     page.setJoints(found.values);
-    this.#tell(found);
+    this.#showError(found);
     page.stage.dirty();
   }
 
@@ -134,7 +134,7 @@ export class Dragging {
     return axis.clone().transformDirection(this.#root.matrixWorld.clone().invert());
   }
 
-  #tell({ error, turned }) {
+  #showError({ error, turned }) {
     const away = error > 5e-4 ? `${short(1000 * error, 0)} mm out of reach` : turned > 5e-3 && this.turn ? `${short((turned * 180) / Math.PI, 0)}° out of reach` : "";
     if (!away && this.label) this.#quiet();
     else if (away && !this.label) this.label = this.page.labels.add(h("span.measure-label"), () => this.drag?.at ?? null);
@@ -162,17 +162,17 @@ export class Dragging {
 
 export function ik(page) {
   const dragging = new Dragging(page);
-  const hold = check("Hold orientation, show rings", { id: "ik-turn", changed: (on) => ((dragging.turn = on), dragging.show()) });
+  const hold = check("Keep the orientation, show rings", { id: "ik-turn", changed: (on) => ((dragging.turn = on), dragging.show()) });
   const strip = h("div#ik-strip", { hidden: true }, h("span.quiet"), hold.label);
   document.getElementById("stage").append(strip);
   page.tools.tool({ id: "ik", title: "Drag the selected link", icon: HAND, modes: ["view"], order: 40, clicks: false });
   page.shortcut({ key: "k", does: "drag the selected link", group: "Tools", run: () => page.tools.hold(page.tools.held === "ik" ? null : "ik") });
-  const tell = () => {
+  const showHint = () => {
     strip.hidden = page.tools.held !== "ik";
     const name = page.selected?.link ?? page.selected?.joint;
     strip.firstChild.textContent = dragging.link ? `Drag the handle of ${dragging.link}.` : name ? "No joint moves this link." : "Click the link to drag.";
     hold.label.hidden = !dragging.link;
   };
-  for (const event of ["tool", "select", "robot"]) page.on(event, tell);
+  for (const event of ["tool", "select", "robot"]) page.on(event, showHint);
   page.expose("ik", dragging);
 }

@@ -1,11 +1,11 @@
-// The joint panel: a slider and a number for every joint, in radians or degrees, inside the limits or beyond them.
+// The joint panel: a slider and a number for every joint, in radians or degrees, with or without limits.
 
 import { check, h, short } from "../page/dom.js";
 import { numberField } from "../page/number_field.js";
 
 const SLIDERS = "M4 7h9M17 7h3M15 5v4M4 17h3M11 17h9M9 15v4";
 const DEGREES = 180 / Math.PI;
-const BEYOND = { rad: 2 * Math.PI, m: 2, "": 1 }; // how far sliders go where limits are ignored, at least
+const BEYOND = { rad: 2 * Math.PI, m: 2, "": 1 }; // minimum range of the sliders if limits are ignored
 
 export function joints(page) {
   const panel = page.panels.add({ id: "joints", title: "Joints", icon: SLIDERS, modes: ["view"], order: 10 });
@@ -19,7 +19,7 @@ export function joints(page) {
   page.setJoints = (values) => made.set(values);
   page.shortcut({ key: "0", does: "all joints to zero", group: "Joints", run: () => made.zero() });
   page.shortcut({ key: "5", does: "all joints to the middle of their range", group: "Joints", run: () => made.centre() });
-  page.shortcut({ key: "r", does: "all joints anywhere in their range", group: "Joints", run: () => made.random() });
+  page.shortcut({ key: "r", does: "all joints to random positions in their range", group: "Joints", run: () => made.random() });
   page.expose("joints", made);
 }
 
@@ -33,20 +33,20 @@ export class Joints {
     this.list = h("ul#joints");
     this.filter = h("input#filter", { type: "search", placeholder: "Filter joints", "aria-label": "Filter joints", autocomplete: "off", spellcheck: "false" });
     this.filter.addEventListener("input", () => this.#filter());
-    this.none = h("p.quiet", { hidden: true }, "No joint of this name.");
+    this.none = h("p.quiet", { hidden: true }, "No joint matches.");
     const free = check("Ignore limits", { id: "ignore-limits", changed: (on) => this.#free(on) });
     const unit = h("select#angle-unit", { "aria-label": "Angles in" }, h("option", { value: "rad" }, "rad"), h("option", { value: "deg" }, "deg"));
     unit.addEventListener("change", () => this.#unit(unit.value === "deg"));
     const button = (words, title, run) => h("button", { type: "button", title, onclick: run }, words);
     const all = [
-      button("Zero all", "Every joint to zero, or as near as its limits allow (0)", () => this.zero()),
-      button("Centre", "Every joint to the middle of its range (5)", () => this.centre()),
-      button("Random", "Every joint anywhere in its range (R)", () => this.random()),
+      button("Zero all", "Set every joint to zero, or to the limit nearest to it (0)", () => this.zero()),
+      button("Centre", "Set every joint to the middle of its range (5)", () => this.centre()),
+      button("Random", "Set every joint to a random position in its range (R)", () => this.random()),
     ];
     panel.body.append(h("div.row.wrap.joint-all", {}, all), h("div.row.wrap", {}, free.label, h("span.space"), h("label.inline", {}, "Angles in ", unit)), this.filter, this.list, this.none);
   }
 
-  /** Build the rows for a robot; the filter stays. */
+  /** Create the rows of a robot; the filter is kept. */
   show(joints) {
     this.rows.clear();
     this.list.replaceChildren(...joints.map((joint) => this.#row(joint)));
@@ -55,7 +55,7 @@ export class Joints {
     this.mark(this.page.selected);
   }
 
-  /** Values from Python; what a person is moving at this moment stays under their hand. */
+  /** Show positions from the server, except for a slider that the user is moving. */
   update(positions) {
     for (const [name, value] of Object.entries(positions)) {
       const row = this.rows.get(name);
@@ -75,7 +75,7 @@ export class Joints {
     this.#all(({ joint }) => joint.lower + Math.random() * (joint.upper - joint.lower));
   }
 
-  /** Set several joints [rad or m], as a hand would. */
+  /** Set several joints [rad or m], like the sliders. */
   set(values) {
     for (const [name, value] of Object.entries(values)) if (this.rows.has(name)) this.#move(name, value);
   }
@@ -124,7 +124,7 @@ export class Joints {
     return this.degrees && joint.unit === "rad" ? DEGREES : 1;
   }
 
-  // What a slider spans and what is written below it.
+  // The range of a slider and the text below it.
   #range(row) {
     const { joint } = row;
     const free = this.page.ignoreLimits;
@@ -138,7 +138,7 @@ export class Joints {
     row.number.setAttribute("aria-label", unit ? `${joint.name} [${unit}]` : joint.name);
     const texts = joint.mimic ? [law(joint), ""] : joint.limited ? [short(joint.lower * factor), short(joint.upper * factor)] : ["no limit", ""];
     if (joint.limited && !joint.mimic && free) texts.splice(0, 2, `limits ${texts[0]} … ${texts[1]}`, "ignored");
-    // What is written below the slider may be typed, though it is rounded.
+    // The rounded limits below the slider are accepted as input.
     const typed = (end, outer) => (joint.limited && !free ? outer(end * factor, Number(short(end * factor))) : null);
     Object.assign(row.number.bounds, { min: typed(joint.lower, Math.min), max: typed(joint.upper, Math.max), unit: unit === "deg" ? "°" : unit });
     [...row.ends.children].forEach((end, i) => (end.textContent = texts[i]));
@@ -154,7 +154,7 @@ export class Joints {
     for (const row of this.rows.values()) {
       this.#range(row);
       this.#put(row, row.value);
-      // Who goes back inside the limits takes the robot along.
+      // When limits apply again, the robot moves back within them.
       if (!on && row.joint.mimic === null && (row.value < row.lower || row.value > row.upper) && row.joint.limited) this.#move(row.joint.name, row.value);
     }
   }
@@ -207,7 +207,7 @@ export class Joints {
   }
 }
 
-/** How a joint follows another, in words. */
+/** Description of the mimic relation of a joint. */
 function law({ mimic, multiplier, offset }) {
   const factor = multiplier === 1 ? "" : `${short(multiplier)} × `;
   const more = offset === 0 ? "" : ` ${offset < 0 ? "−" : "+"} ${short(Math.abs(offset))}`;

@@ -1,11 +1,11 @@
-// Forward and inverse kinematics of the robot as Python describes it (`inspect`), in double precision.
+// Forward and inverse kinematics of the robot described by the message `inspect`, in double precision.
 
 import { IDENTITY, about, add, compose, conjugate, cross, multiply, rotate, subtract, turnOf, turnVector } from "./pose.js";
 
-const STEPS = 40; // of damped least squares per call
-const CLOSE = 1e-5; // [m] and [rad] at which a goal counts as reached
-const NEAR = 1e-4; // [m] and [rad] at which no other beginning is tried
-const RESTARTS = 40; // beginnings elsewhere where the first one ends in a hollow that is not the goal's
+const STEPS = 40; // damped least squares iterations per call
+const CLOSE = 1e-5; // [m] and [rad]: error at which the target counts as reached
+const NEAR = 1e-4; // [m] and [rad]: error at which no further starting point is tried
+const RESTARTS = 40; // additional starting points if the first one ends in a local minimum
 const PRIMES = [2, 3, 5, 7, 11, 13, 17, 19, 23, 29];
 const DAMPING = 0.02; // of the error's length; Buss, "Introduction to inverse kinematics", 2004, section 6
 
@@ -26,14 +26,14 @@ export class Kinematics {
     }
   }
 
-  /** The position of a joint of one degree of freedom, mimics followed [rad or m]. */
+  /** Position of a joint with one degree of freedom, with mimic relations applied [rad or m]. */
   value(joint, values) {
     if (!joint.mimic) return values[joint.name] ?? 0;
     const { master, multiplier, offset } = joint.mimic;
     return offset + (master === null ? 0 : multiplier * (values[master] ?? 0));
   }
 
-  /** Where every link is in the root link, by name; `values` are joint positions by name [rad or m]. */
+  /** Pose of every link in the root link, by name; `values` are joint positions by name [rad or m]. */
   forward(values) {
     const poses = new Map([[this.root, IDENTITY]]);
     for (const joint of this.order) {
@@ -66,7 +66,7 @@ export class Kinematics {
     }
   }
 
-  // As `forward`, of the links that a link hangs on only.
+  // Like `forward`, but only for the ancestors of a link.
   #poses(chain, values) {
     const poses = new Map([[this.root, IDENTITY]]);
     for (const joint of chain) poses.set(joint.child, compose(compose(poses.get(joint.parent), joint.origin), this.#motion(joint, values)));
@@ -80,7 +80,7 @@ export class Kinematics {
     return joints;
   }
 
-  /** The joints that move a link and can be set, by name. */
+  /** The actuated joints that move a link, by name. */
   movers(link) {
     const found = new Map();
     for (const joint of this.chain(link)) {
@@ -91,7 +91,7 @@ export class Kinematics {
     return [...found.values()];
   }
 
-  /** Columns (linear, angular at a point) of the Jacobian of a link for the joints of `movers`. */
+  /** Columns (linear and angular part at a point) of the Jacobian of a link for the joints of `movers`. */
   #jacobian(chain, movers, poses, point) {
     const columns = new Map(movers.map((joint) => [joint.name, [0, 0, 0, 0, 0, 0]]));
     for (const joint of chain) {
@@ -109,11 +109,11 @@ export class Kinematics {
   }
 
   /**
-   * Joint positions that bring a link to a goal, as near as limits allow: damped least squares, joints that meet a limit
-   * are held there and the rest goes on. Where that ends short of the goal, it begins anew from elsewhere.
-   * @param goal placement of the link in the root link; @param options {turn: also its orientation, limits: keep them,
-   * restarts: how many beginnings elsewhere, first: number of the first of them}
-   * @returns {values, error: what is left [m], turned: [rad]}
+   * Joint positions that bring a link as near to a target as the limits allow, by damped least squares. Joints that
+   * reach a limit are fixed there. If the target is not reached, the search is repeated from other starting points.
+   * @param goal pose of the link in the root link; @param options {turn: also its orientation, limits: observe them,
+   * restarts: number of other starting points, first: number of the first of them}
+   * @returns {values, error: remaining distance [m], turned: remaining angle [rad]}
    */
   inverse(link, goal, values, { turn = false, limits = true, restarts = RESTARTS, first = 0 } = {}) {
     const movers = this.movers(link);
@@ -147,7 +147,7 @@ export class Kinematics {
     return { values: Object.fromEntries(movers.map(({ name }) => [name, found[name] ?? 0])), error, turned, reached };
   }
 
-  // How far the sliding joints of a chain can go at most [m].
+  // Sum of the ranges of the prismatic joints of a chain [m].
   #slides(chain) {
     return chain.filter(({ type }) => type === "prismatic").reduce((sum, { lower, upper }) => sum + Math.max(Math.abs(lower ?? 1e3), Math.abs(upper ?? 1e3)), 0);
   }
@@ -178,13 +178,13 @@ export class Kinematics {
     }
   }
 
-  /** Roughly how far a link can get from the root [m]: the sum of the origins above it. */
+  /** Approximate reach of a link from the root [m]: the sum of the lengths of its ancestors' origins. */
   #reach(link) {
     return Math.max(0.05, this.chain(link).reduce((sum, { origin }) => sum + Math.hypot(origin[0], origin[1], origin[2]), 0));
   }
 }
 
-/** Joint positions to begin from: the farther from those that are the higher `k`; the same each time. */
+/** Starting joint positions, farther from the current ones for larger `k`; deterministic. */
 function elsewhere(movers, values, k, limits) {
   const part = Math.min(1, 0.3 + 0.1 * k);
   const found = {};
@@ -198,7 +198,7 @@ function elsewhere(movers, values, k, limits) {
   return found;
 }
 
-/** Numbers from 0 to 1 that are spread evenly; Halton, 1960. */
+/** Halton sequence in 0..1; Halton, 1960. */
 function halton(index, base) {
   let [found, part] = [0, 1];
   for (let i = index; i > 0; i = Math.floor(i / base)) found += (part /= base) * (i % base);
@@ -217,7 +217,7 @@ function leastSquares(columns, wanted, lambda) {
   return columns.map((column) => column.reduce((sum, x, i) => sum + x * y[i], 0));
 }
 
-/** Solve A x = b for a symmetric positive definite A, by Gauss with the pivot on the diagonal. */
+/** Solve A x = b for a symmetric positive definite A by Gaussian elimination with the pivot on the diagonal. */
 function solve(A, b) {
   const n = b.length;
   for (let i = 0; i < n; i++) {
@@ -234,7 +234,7 @@ function solve(A, b) {
   return b;
 }
 
-/** A place given in a frame, in what the frame is given in. */
+/** Transform a point from a frame to its reference frame. */
 export function place(pose, point) {
   return add(pose, rotate(turnOf(pose), point));
 }

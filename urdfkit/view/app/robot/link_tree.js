@@ -1,4 +1,4 @@
-// The tree of links and joints, with search; what is selected here is selected on the stage, and the other way round.
+// The tree of links and joints with search; its selection is synchronized with the viewport.
 
 import { h, icon } from "../page/dom.js";
 
@@ -9,7 +9,7 @@ export function tree(page) {
   const panel = page.panels.add({ id: "tree", title: "Tree", icon: TREE, modes: ["view"], order: 20 });
   const search = h("input#tree-search", { type: "search", placeholder: "Find a link or joint", "aria-label": "Find a link or joint", autocomplete: "off", spellcheck: "false" });
   const list = h("ul.tree", { role: "tree", "aria-label": "Links and joints" });
-  const none = h("p.quiet", { hidden: true }, "Nothing of this name.");
+  const none = h("p.quiet", { hidden: true }, "No link or joint matches.");
   panel.body.append(search, list, none);
   let rows = [];
 
@@ -30,7 +30,7 @@ export function tree(page) {
     const below = kinematics.below.get(link) ?? [];
     const children = h("ul", { role: "group" });
     const item = h("li", { role: "treeitem", "aria-expanded": below.length ? "true" : null });
-    const fold = below.length ? h("button.fold", { type: "button", tabindex: "-1", "aria-label": `Fold ${link}` }, icon(OPEN)) : h("span.fold");
+    const fold = below.length ? h("button.fold", { type: "button", tabindex: "-1", "aria-label": `Collapse ${link}` }, icon(OPEN)) : h("span.fold");
     fold.addEventListener("click", () => item.setAttribute("aria-expanded", item.getAttribute("aria-expanded") !== "true"));
     const linkButton = h("button.entry.link-entry", { type: "button", tabindex: "-1", onclick: () => page.select({ link }) }, link);
     linkButton.dataset.link = link;
@@ -60,7 +60,7 @@ export function tree(page) {
     if (rows.length && !rows.some((row) => row.button.tabIndex === 0)) rows[0].button.tabIndex = 0;
   }
 
-  // What fits stays, and what it hangs on.
+  // Show the matches and their ancestors.
   function filter() {
     const wanted = search.value.trim().toLowerCase();
     const kept = new Set();
@@ -75,7 +75,7 @@ export function tree(page) {
     none.hidden = kept.size > 0 || rows.length === 0;
   }
 
-  // Enter takes the first that fits best; the arrows go through all that fit, while one goes on writing.
+  // Enter selects the best match; the arrow keys move through all matches while the search field keeps the focus.
   function take(event) {
     const wanted = search.value.trim().toLowerCase();
     const found = rows.filter(({ name }) => wanted !== "" && name.toLowerCase().includes(wanted));

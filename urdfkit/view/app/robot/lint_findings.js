@@ -1,4 +1,4 @@
-// What the linter finds: badges on the links, and a list with the lines, the rule and the fix.
+// Findings of the linter: badges on the links, and a list with source lines, rule and fix.
 
 import { h, icon } from "../page/dom.js";
 import { excerpt, source } from "./inspector.js";
@@ -11,7 +11,7 @@ const worst = (findings) => TONES.find((tone) => findings.some((finding) => find
 
 export function findings(page) {
   const panel = page.panels.add({ id: "findings", title: "Findings", icon: SHIELD, modes: ["view"], order: 50 });
-  const summary = h("p.quiet", { role: "status" }, "Looking …");
+  const summary = h("p.quiet", { role: "status" }, "Checking …");
   const all = h("button.chip", { type: "button", hidden: true }, "Show all");
   const list = h("ol.findings");
   panel.body.append(h("div.row", {}, summary, all), list);
@@ -19,7 +19,7 @@ export function findings(page) {
   let rules = {};
   let only = null; // a link
   let badges = [];
-  const open = new Set(); // codes and places of rule pages left open
+  const open = new Set(); // codes and locations of expanded rule pages
 
   page.on("findings", (message) => {
     known = message.findings.map((finding) => ({ ...finding, at: finding.link ?? page.childOf(finding.joint) }));
@@ -36,7 +36,7 @@ export function findings(page) {
 
   function draw(fault) {
     const shown = only ? known.filter((finding) => finding.links.includes(only)) : known;
-    summary.textContent = fault ?? (known.length === 0 ? "Nothing found: the linter has no complaint." : only ? `${shown.length} about ${only}` : words(known));
+    summary.textContent = fault ?? (known.length === 0 ? "No findings." : only ? `${shown.length} about ${only}` : words(known));
     all.hidden = only === null;
     list.replaceChildren(...shown.map(card));
   }
@@ -65,7 +65,7 @@ export function findings(page) {
 
   function card(finding) {
     const key = `${finding.code} ${finding.file}:${finding.line}`;
-    const rule = h("details.rule", { open: open.has(key) }, h("summary", {}, "The rule"), h("div.prose", {}, markdown(rules[finding.code] ?? "")));
+    const rule = h("details.rule", { open: open.has(key) }, h("summary", {}, "Rule"), h("div.prose", {}, markdown(rules[finding.code] ?? "")));
     rule.addEventListener("toggle", () => (rule.open ? open.add(key) : open.delete(key)));
     const tone = h("span.tone", {}, finding.severity);
     tone.dataset.tone = finding.severity;
@@ -81,12 +81,12 @@ export function findings(page) {
       copies,
       finding.lines.length ? excerpt(finding.lines, finding.line) : null,
       finding.help ? h("p.help", {}, inline(finding.help)) : null,
-      finding.fix ? mend(finding) : null,
+      finding.fix ? fixPanel(finding) : null,
       rule,
     );
   }
 
-  function mend(finding) {
+  function fixPanel(finding) {
     const { title, safety, diff, may } = finding.fix;
     const lines = diff.filter((line) => !line.startsWith("@@")).map((line) => {
       const row = h("span.code-line", {}, `${line}\n`);
@@ -97,14 +97,14 @@ export function findings(page) {
     button.addEventListener("click", async () => {
       button.disabled = true;
       try {
-        const { done } = await page.connection.order("fix", { finding: finding.number });
+        const { done } = await page.connection.request("fix", { finding: finding.number });
         page.toast(`Fixed ${done}`, "good");
       } catch (error) {
         button.disabled = false;
         page.toast(error.message, "error");
       }
     });
-    const how = h("p.quiet", {}, safety === "safe" ? "Apply it with " : "It guesses what was meant; apply it with ", h("code", {}, `urdfkit lint --fix${safety === "safe" ? "" : " --unsafe-fixes"}`));
+    const how = h("p.quiet", {}, safety === "safe" ? "Apply it with " : "This fix is unsafe; review it and apply it with ", h("code", {}, `urdfkit lint --fix${safety === "safe" ? "" : " --unsafe-fixes"}`));
     return h("div.fix", {}, h("p", {}, h("strong", {}, "Fix: "), inline(title)), lines.length ? h("pre.code.diff", { tabindex: "0" }, lines) : null, may ? button : how);
   }
 }
@@ -117,7 +117,7 @@ function words(findings) {
     .join(", ");
 }
 
-/** The links a finding is about: of a macro that was called several times, one for each call it was found in. */
+/** The links of a finding; in a macro, one per call with the finding. */
 function everywhere(page, { at, chains }) {
   if (!at) return [];
   const place = ({ source: { file, line, column } }) => `${file}:${line}:${column}`;
@@ -129,7 +129,7 @@ function everywhere(page, { at, chains }) {
   return [at, ...others.map((link) => link.name)];
 }
 
-/** The middle of what there is to see of a link, or its frame's place, in the world. */
+/** The centre of the shapes of a link, or the origin of its frame, in the world. */
 function middle(page, link) {
   const node = page.scene.byLink.get(link);
   if (!node) return null;

@@ -1,4 +1,4 @@
-// Measuring between two points, and publishing a point. Points stay on the links they were put on.
+// Measuring between two points, and publishing a point. Points move with their links.
 /* global MeshCat */
 
 import { h, icon, short } from "../page/dom.js";
@@ -9,7 +9,7 @@ const RULER = "M3 16L16 3l5 5L8 21zM7 12l2 2M10 9l3 3M13 6l2 2";
 const POINT = "M12 10a2 2 0 1 0 0 4a2 2 0 0 0 0-4zM7.8 7.8a6 6 0 0 0 0 8.4M16.2 7.8a6 6 0 0 1 0 8.4M5 5a10 10 0 0 0 0 14M19 5a10 10 0 0 1 0 14";
 const CLOSE = "M6 6l12 12M18 6L6 18";
 const COLOUR = 0xe0399b;
-const WORLD = "world"; // the frame of a simulation's grid
+const WORLD = "world"; // the world frame of a simulation
 
 class Points {
   constructor(page) {
@@ -24,7 +24,7 @@ class Points {
     }
   }
 
-  /** Where a point is now, in the frame of the grid [m]; on a link that is gone it stays where it was. */
+  /** Current position of a point in the frame of the grid [m]; the last position if its link was removed. */
   at(point) {
     const world = point.link ? this.page.labels.at(point.link, point.local) : null;
     if (world) point.point = this.page.stage.viewer.scene.worldToLocal(world).toArray();
@@ -42,7 +42,7 @@ class Points {
 export function measure(page) {
   const points = new Points(page);
   const panel = page.panels.add({ id: "measure", title: "Measure", icon: RULER, order: 47 });
-  const hint = h("p.quiet", {}, "Take the ruler, or the dot with waves, on the stage; then click on the robot or the ground. Near a corner, the corner is taken.");
+  const hint = h("p.quiet", {}, "Select the ruler or the point tool in the toolbar, then click on the robot or the ground. Clicks snap to corners.");
   const list = h("ol.measures");
   const clear = h("button", { type: "button", hidden: true, onclick: () => (items.slice().forEach(remove), (first = null)) }, "Clear");
   panel.tools.append(clear);
@@ -83,7 +83,7 @@ export function measure(page) {
     add([point]);
     const { order, values, place, frame } = page.mode === "sim" ? inWorld(point) : onLink(point);
     try {
-      await page.connection.order(order, values);
+      await page.connection.request(order, values);
       page.toast(`Published ${place.map((x) => short(x, 4)).join(", ")} in ${frame}`, "good");
     } catch (error) {
       page.toast(error.message, "error");
@@ -96,7 +96,7 @@ export function measure(page) {
     return { order: "point", values: { frame, position: place }, place, frame };
   }
 
-  // A simulation has topics to publish to; what is clicked may be anybody's, so the point is the world's.
+  // A simulation publishes the point in the world frame, because the clicked link may belong to any model.
   function inWorld({ point: place }) {
     const [x, y, z] = place;
     const message = { header: { frame_id: WORLD }, point: { x, y, z } };

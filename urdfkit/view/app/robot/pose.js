@@ -1,4 +1,4 @@
-// Placements as seven numbers, x y z and quaternion x y z w, in double precision.
+// Poses as seven numbers, x y z and quaternion x y z w, in double precision.
 
 export const IDENTITY = Object.freeze([0, 0, 0, 0, 0, 0, 1]);
 
@@ -12,7 +12,7 @@ export function multiply([ax, ay, az, aw], [bx, by, bz, bw]) {
   ];
 }
 
-/** A vector turned by a quaternion. */
+/** Rotate a vector by a quaternion. */
 export function rotate([x, y, z, w], [vx, vy, vz]) {
   const tx = 2 * (y * vz - z * vy);
   const ty = 2 * (z * vx - x * vz);
@@ -23,7 +23,7 @@ export function rotate([x, y, z, w], [vx, vy, vz]) {
 export const turnOf = (pose) => [pose[3], pose[4], pose[5], pose[6]];
 export const conjugate = ([x, y, z, w]) => [-x, -y, -z, w];
 
-/** The placement b, given in a, in what a is given in. */
+/** Product of two poses: b relative to a, expressed in the reference frame of a. */
 export function compose(a, b) {
   const turn = turnOf(a);
   const [x, y, z] = rotate(turn, b);
@@ -36,13 +36,13 @@ export function inverse(a) {
   return [-x, -y, -z, ...turn];
 }
 
-/** The quaternion of a turn by an angle [rad] about a unit vector. */
+/** Quaternion of a rotation by an angle [rad] about a unit vector. */
 export function about([x, y, z], angle) {
   const s = Math.sin(angle / 2);
   return [x * s, y * s, z * s, Math.cos(angle / 2)];
 }
 
-/** A quaternion as a turn vector, angle times axis [rad], of length at most π. */
+/** Rotation vector of a quaternion, angle times axis [rad], of length at most π. */
 export function turnVector([x, y, z, w]) {
   const sign = w < 0 ? -1 : 1;
   const s = Math.hypot(x, y, z);

@@ -1,4 +1,4 @@
-// Everything there is to see and do with a robot's figure, in the order it is set up.
+// Features of the robot's page, in the order of their installation.
 
 import { cameras } from "../viewport/cameras.js";
 import { capture } from "../viewport/screen_capture.js";

@@ -1,4 +1,4 @@
-// The robot as Python describes it: links and joints by name, its kinematics, and where its joints stand.
+// The robot from the message `inspect`: links and joints by name, kinematics, joint positions.
 
 import { Kinematics } from "./kinematics.js";
 
@@ -13,7 +13,7 @@ export function robot(page) {
       kinematics: new Kinematics(message),
     };
     page.expose("kinematics", page.robot.kinematics);
-    // What was selected stays so, unless it is gone.
+    // Keep the selection unless the selected link or joint was removed.
     const { link, joint } = page.selected ?? {};
     if ((link && !page.robot.links.has(link)) || (joint && !page.robot.joints.has(joint))) page.select(null);
     page.emit("robot", page.robot);

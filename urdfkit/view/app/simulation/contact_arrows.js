@@ -1,4 +1,4 @@
-// Contact forces and slip, as arrows where they act.
+// Contact forces and slip, as arrows at their contact points.
 /* global MeshCat */
 
 import { check, h, short } from "../page/dom.js";
@@ -8,7 +8,7 @@ const HEADER = 16;
 const ARROWS = 2;
 const ROOM = 400;
 
-/** Many arrows in two draw calls, whose buffers stay. */
+/** Many arrows in two draw calls with reused buffers. */
 class Arrows {
   constructor(stage, colour) {
     this.stage = stage;
@@ -32,13 +32,13 @@ class Arrows {
     this.stage.dirty();
   }
 
-  /** @param values x y z and a vector of each; the longest is drawn as long as the robot is large */
+  /** @param values x y z and a vector of each arrow; the longest arrow is as long as the robot */
   take(values) {
     this.count = Math.min(ROOM, values.length / 6);
     let longest = 0;
     for (let i = 0; i < this.count; i += 1) longest = Math.max(longest, Math.hypot(values[6 * i + 3], values[6 * i + 4], values[6 * i + 5]));
     this.longest = longest;
-    this.measure = Math.max(longest, (this.measure ?? 0) * 0.98); // does not jump about
+    this.measure = Math.max(longest, (this.measure ?? 0) * 0.98); // decreases slowly, so that the scale is steady
     const reach = this.measure > 0 ? (0.9 * this.stage.radius) / this.measure : 0;
     const at = this.shafts.geometry.getAttribute("position");
     const [up, from, along, turn, size] = [new THREE.Vector3(0, 1, 0), new THREE.Vector3(), new THREE.Vector3(), new THREE.Quaternion(), new THREE.Vector3()];
@@ -73,7 +73,7 @@ export function arrows(page) {
     const { label } = check(each.words, {
       id: `show-${each.key}`,
       changed: (shown) => {
-        page.connection.want(each.key, shown);
+        page.connection.subscribe(each.key, shown);
         each.arrows.show(shown);
         each.note.textContent = "";
         if (each.key === "slip") rows.hidden = !shown;

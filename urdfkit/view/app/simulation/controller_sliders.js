@@ -1,29 +1,29 @@
-// Arms: a slider for every joint of every controller, with where the joint really is.
+// Arms: a slider with the target of every joint of every controller, and the measured position.
 
 import { h, short } from "../page/dom.js";
 import { numberField } from "../page/number_field.js";
 
 const ARM = "M5 20h6M8 20v-6l-2-4 5-5 4 2M15 7l3-3M15 7l4 1M6 10a1 1 0 1 0 0 .1";
-const MANY = 4; // controllers beyond which their joints are folded away
+const MANY = 4; // controllers with more joints than this are collapsed
 const PERIOD = 60; // ms between two commands while a slider is dragged
 
 export function arms(page) {
   const panel = page.panels.add({ id: "arms", title: "Arms", icon: ARM, modes: ["sim"], order: 15 });
   page.panels.available("arms", false);
   const rows = new Map(); // controller → joint → row
-  const unfolded = new Map(); // controller → whether a person has folded its joints out or away
+  const unfolded = new Map(); // controller → whether the user has expanded or collapsed it
   let waiting = new Map();
   let timer = null;
-  const say = (error) => page.toast(error.message, "error");
+  const showError = (error) => page.toast(error.message, "error");
 
   function flush() {
     timer = null;
     const [now, empty] = [waiting, new Map()];
     waiting = empty;
-    for (const [key, values] of now) page.connection.order("arm", values).catch(say), waiting.delete(key);
+    for (const [key, values] of now) page.connection.request("arm", values).catch(showError), waiting.delete(key);
   }
 
-  function tell(controller, joint, value) {
+  function command(controller, joint, value) {
     waiting.set(`${controller}/${joint}`, { controller, joint, value });
     timer ??= setTimeout(flush, PERIOD);
   }
@@ -33,16 +33,16 @@ export function arms(page) {
     const number = numberField({ min: joint.lower, max: joint.upper, unit: joint.unit, value: short(joint.value, 3), "aria-label": `${joint.name} of ${controller} [${joint.unit}]` });
     const slider = h("input", { type: "range", id, min: joint.lower, max: joint.upper, step: "any" });
     slider.value = joint.value;
-    const real = h("span.real.quiet", { title: "where it is" }, "");
+    const real = h("span.real.quiet", { title: "measured position" }, "");
     const mark = h("span.mark", { "aria-hidden": "true" });
     slider.addEventListener("input", () => {
       number.value = short(slider.valueAsNumber, 3);
-      tell(controller, joint.name, slider.valueAsNumber);
+      command(controller, joint.name, slider.valueAsNumber);
     });
     number.addEventListener("change", () => {
       const value = number.valueAsNumber;
       slider.value = value;
-      tell(controller, joint.name, value);
+      command(controller, joint.name, value);
     });
     const head = h("div.arm-head", {}, h("label", { for: id, title: joint.name }, joint.name), number, h("span.unit", {}, joint.unit));
     const item = h("li", { "data-joint": joint.name }, head, h("div.track", {}, slider, mark), real);
@@ -53,7 +53,7 @@ export function arms(page) {
     const joints = new Map(arm.joints.map((joint) => [joint.name, row(arm.name, joint)]));
     rows.set(arm.name, joints);
     const switched = h("button.bare", { type: "button", "aria-label": `${arm.running ? "Stop" : "Start"} ${arm.name}` }, arm.running ? "Stop" : "Start");
-    switched.addEventListener("click", () => page.connection.order("controller", { controller: arm.name, running: !arm.running }).catch(say));
+    switched.addEventListener("click", () => page.connection.request("controller", { controller: arm.name, running: !arm.running }).catch(showError));
     const list = h("ul.bare-list", {}, ...[...joints.values()].map(({ item }) => item));
     const fold = h("button.bare.unfold", { type: "button", "aria-label": `Joints of ${arm.name}`, hidden: all.length <= MANY });
     const show = (open) => {
@@ -78,9 +78,9 @@ export function arms(page) {
         const found = rows.get(controller)?.get(name);
         if (!found) continue;
         const { lower, upper, unit } = found.joint;
-        found.real.textContent = `is at ${short(value, 3)} ${unit}`;
+        found.real.textContent = `at ${short(value, 3)} ${unit}`;
         const part = Math.min(1, Math.max(0, (value - lower) / (upper - lower)));
-        found.mark.style.left = `calc(${part} * (100% - 16px) + 8px)`; // as the middle of the slider's knob goes
+        found.mark.style.left = `calc(${part} * (100% - 16px) + 8px)`; // like the centre of the slider's thumb
       }
     }
   });

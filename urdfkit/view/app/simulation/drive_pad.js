@@ -1,4 +1,4 @@
-// The round pad: drag the knob, let go to stop. Mouse, touch and pen alike.
+// The drive pad: drag the knob to drive, release it to stop; for mouse, touch and pen.
 
 export class Pad {
   /** @param moved called with (forward, left), each -1..1 */

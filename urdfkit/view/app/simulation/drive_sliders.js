@@ -1,10 +1,10 @@
-// Driving by sliders that stay where they are put, by a gamepad, and which of several robots is driven.
+// Drive sliders that keep their value, gamepad input, and the selection of the driven robot.
 
 import { h } from "../page/dom.js";
 
-const DEAD = 0.12; // of a stick's way in which it counts as let go
+const DEAD = 0.12; // dead zone of a stick, as a fraction of its range
 
-/** The sliders of rqt's robot steering: they hold what they are put to until Stop. */
+/** Sliders like those of rqt_robot_steering; they keep their value until Stop. */
 export function steering(page, drive, host) {
   const make = (id, words, low, high) => {
     const output = h("output", { for: id }, "0 %");
@@ -13,7 +13,7 @@ export function steering(page, drive, host) {
     host.append(h("label.field", { for: id }, `${words} `, output, input), ends);
     return { input, output };
   };
-  const forward = make("steer-forward", "Go", "back", "forward");
+  const forward = make("steer-forward", "Forward", "backward", "forward");
   const turn = make("steer-turn", "Turn", "right", "left");
   const sides = make("steer-sides", "Sideways", "right", "left");
   const all = [forward, turn, sides];
@@ -34,9 +34,9 @@ export function steering(page, drive, host) {
   drive.released = reset;
 }
 
-/** The sticks of a gamepad: the left one drives and strafes, the right one turns; a button held drives without strafing. */
+/** The sticks of a gamepad: the left one drives, and strafes with the left trigger held; the right one turns. */
 export function gamepad(page, drive, host) {
-  const line = h("p.quiet", { id: "gamepad" }, "A gamepad drives too: press one of its buttons.");
+  const line = h("p.quiet", { id: "gamepad" }, "To drive with a gamepad, press one of its buttons.");
   host.append(line);
   let running = false;
   const stick = (value) => (Math.abs(value ?? 0) < DEAD ? 0 : -(value - Math.sign(value) * DEAD) / (1 - DEAD));
@@ -45,7 +45,7 @@ export function gamepad(page, drive, host) {
     if (!pad) {
       running = false;
       drive.hold("gamepad", [0, 0, 0, 0]);
-      line.textContent = "A gamepad drives too: press one of its buttons.";
+      line.textContent = "To drive with a gamepad, press one of its buttons.";
       return;
     }
     line.textContent = `Gamepad: ${pad.id.replace(/\(.*/, "").trim() || "connected"}. Left stick drives, right stick turns, trigger left + stick strafes.`;
@@ -64,7 +64,7 @@ export function gamepad(page, drive, host) {
   if ([...(navigator.getGamepads?.() ?? [])].some((each) => each?.connected)) start();
 }
 
-/** Which robot is driven, where there are several; the view follows it. */
+/** Select the driven robot if there are several; the view follows it. */
 export function chooser(page, drive, host) {
   const select = h("select", { id: "driven", "aria-label": "Robot to drive" });
   const field = h("label.field", { hidden: true }, "Robot ", select);

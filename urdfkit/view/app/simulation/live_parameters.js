@@ -1,4 +1,4 @@
-// Parameters that can be changed while it runs: gravity, friction, masses, gains.
+// Parameters that can be changed during the simulation: gravity, friction, masses, gains.
 
 import { h, short } from "../page/dom.js";
 import { numberField } from "../page/number_field.js";
@@ -6,17 +6,17 @@ import { numberField } from "../page/number_field.js";
 const SCREW = "M12 3v6M9 3h6M9 9h6l-1 9-2 3-2-3zM9.4 12h5.2M9.8 15h4.4";
 const PLANETS = { Earth: -9.81, Mars: -3.72, Moon: -1.62, none: 0 };
 
-export function screws(page) {
-  const panel = page.panels.add({ id: "screws", title: "Physics", icon: SCREW, modes: ["sim"], order: 35 });
-  const filter = h("input", { type: "search", id: "screw-filter", placeholder: "Filter links, models, controllers", "aria-label": "Filter parameters", autocomplete: "off" });
+export function liveParameters(page) {
+  const panel = page.panels.add({ id: "physics", title: "Physics", icon: SCREW, modes: ["sim"], order: 35 });
+  const filter = h("input", { type: "search", id: "parameter-filter", placeholder: "Filter links, models, controllers", "aria-label": "Filter parameters", autocomplete: "off" });
   const gravity = h("div.row.gravity");
-  const table = h("table.screws");
+  const table = h("table.parameters");
   const gains = h("div.gains");
   panel.body.append(h("h3", {}, "Gravity [m/s²]"), gravity, h("h3", {}, "Mass and friction"), filter, table, gains);
   let state = null;
 
-  function order(name, values, input) {
-    return page.connection.order(name, values).then(
+  function request(name, values, input) {
+    return page.connection.request(name, values).then(
       () => input?.classList.add("done"),
       (error) => {
         page.toast(error.message, "error");
@@ -36,19 +36,19 @@ export function screws(page) {
     const inputs = [..."xyz"].map((axis, i) => {
       const input = number(state.gravity[i], `gravity along ${axis}`, () => {
         const values = inputs.map(({ valueAsNumber }) => valueAsNumber);
-        order("gravity", { gravity: values }, input);
+        request("gravity", { gravity: values }, input);
       }, { min: -1e4, max: 1e4, unit: "m/s²" });
       return input;
     });
-    const pick = h("select", { "aria-label": "Gravity of", id: "planet" }, h("option", { value: "" }, "other"));
+    const pick = h("select", { "aria-label": "Gravity of a planet", id: "planet" }, h("option", { value: "" }, "other"));
     const [x, y, z] = state.gravity;
     for (const [name, g] of Object.entries(PLANETS)) {
       const is = x === 0 && y === 0 && Math.abs(z - g) < 0.01;
       pick.append(h("option", { value: g, selected: is }, name));
     }
     pick.addEventListener("change", () => {
-      pick.blur(); // so that the numbers beside it may change
-      if (pick.value) order("gravity", { gravity: [0, 0, Number(pick.value)] });
+      pick.blur(); // so that the fields are updated
+      if (pick.value) request("gravity", { gravity: [0, 0, Number(pick.value)] });
     });
     gravity.replaceChildren(...inputs, pick);
   }
@@ -61,8 +61,8 @@ export function screws(page) {
       "tr",
       { "data-of": link ? `${name}/${link}` : name },
       h("th", { scope: "row", title: link ? `${name}: ${link}` : name }, words),
-      cell(mass, "mass", (value, input) => order("mass", { ...where, mass: value }, input), { min: 1e-6, max: 1e6, unit: "kg" }),
-      cell(mu, "mu", (value, input) => order("mu", { ...where, mu: value }, input), { min: 0, max: 1e4 }),
+      cell(mass, "mass", (value, input) => request("mass", { ...where, mass: value }, input), { min: 1e-6, max: 1e6, unit: "kg" }),
+      cell(mu, "mu", (value, input) => request("mu", { ...where, mu: value }, input), { min: 0, max: 1e4 }),
     );
   }
 
@@ -71,7 +71,7 @@ export function screws(page) {
     const entry = (name) =>
       h("label", {}, name === "clamp" ? "i clamp" : name, number(values[name], `${name} of ${path}`, (value, input) => {
         values[name] = value;
-        order("gains", { path, p: values.p, i: values.i, d: values.d, clamp: values.clamp }, input);
+        request("gains", { path, p: values.p, i: values.i, d: values.d, clamp: values.clamp }, input);
       }));
     return h("fieldset", { "data-of": path }, h("legend", {}, path.split("/").slice(1).join(" · ")), ...Object.keys(values).map(entry));
   }
@@ -92,7 +92,7 @@ export function screws(page) {
   }
 
   filter.addEventListener("input", draw);
-  page.on("screws", (message) => {
+  page.on("parameters", (message) => {
     state = message;
     draw();
   });

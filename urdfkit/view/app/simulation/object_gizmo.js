@@ -1,14 +1,14 @@
-// Moving an object by hand: a handle with arrows and rings, and a box that shows where it will be.
+// Moving an object with the mouse: a handle with arrows and rings, and a box at the target pose.
 /* global MeshCat */
 
 import { Gizmo, nearest } from "../viewport/gizmo.js";
 
 const THREE = MeshCat.THREE;
-const SIZE = 0.13; // of the picture's height
+const SIZE = 0.13; // of the viewport's height
 const UP = new THREE.Vector3(0, 0, 1);
 
 export class Mover {
-  /** @param moved called with x y z and a quaternion x y z w when the hand lets go */
+  /** @param moved called with x y z and a quaternion x y z w when the handle is released */
   constructor(page, moved) {
     this.page = page;
     this.moved = moved;
@@ -29,7 +29,7 @@ export class Mover {
     return this.gizmo.visible;
   }
 
-  /** Put the handle on an object. @param links its; @param pose x y z roll pitch yaw */
+  /** Attach the handle to an object. @param links its links; @param pose x y z roll pitch yaw */
   take(links, pose) {
     const turn = new THREE.Quaternion().setFromEuler(new THREE.Euler(pose[3], pose[4], pose[5], "ZYX"));
     this.ghost.position.set(...pose.slice(0, 3));
@@ -43,7 +43,7 @@ export class Mover {
     this.#follow();
   }
 
-  // The edges of a box in the window's world, as a child of the ghost.
+  // The edges of a box in the viewport's world, as a child of the preview.
   #frame(box) {
     const [size, middle] = [box.getSize(new THREE.Vector3()), box.getCenter(new THREE.Vector3())];
     const edges = new THREE.LineSegments(new THREE.EdgesGeometry(new THREE.BoxGeometry(size.x, size.y, size.z)), new THREE.LineBasicMaterial({ color: 0xf5a524 }));
@@ -83,7 +83,7 @@ export class Mover {
     event.preventDefault();
     const at = this.viewer.scene.localToWorld(this.ghost.position.clone());
     const axis = handle.axis?.clone().transformDirection(this.viewer.scene.matrixWorld) ?? null;
-    // The ball slides over the ground; rings turn in their plane.
+    // The ball moves parallel to the ground; rings rotate in their plane.
     const normal = handle.kind === "about" ? axis : UP.clone().transformDirection(this.viewer.scene.matrixWorld);
     this.drag = { pointer: event.pointerId, ...handle, at, world: axis, plane: new THREE.Plane().setFromNormalAndCoplanarPoint(normal, at) };
     Object.assign(this.drag, { from: this.#grip(event), position: this.ghost.position.clone(), turn: this.ghost.quaternion.clone() });

@@ -1,10 +1,10 @@
-// Where the robot has been, and where its odometry believes it has been.
+// Trails of the robot: its true path and the path of its odometry.
 /* global MeshCat */
 
 import { check, h } from "../page/dom.js";
 
 const THREE = MeshCat.THREE;
-const ROOM = 6000; // points of a trail; then every second one is left out
+const ROOM = 6000; // maximum number of points of a trail; beyond this every second point is dropped
 const STEP = 0.005; // metres between two points
 
 class Trail {
@@ -53,7 +53,7 @@ export function trails(page) {
   const real = new Trail(page.stage, 0x3b7df5, 0.004);
   const believed = new Trail(page.stage, 0xe0399b, 0.006);
   let last = 0;
-  let from = null; // where the odometry began: turn and shift into the world
+  let from = null; // pose of the odometry frame in the world
   const clear = () => {
     real.clear();
     believed.clear();
@@ -66,7 +66,7 @@ export function trails(page) {
     box.append(label);
   };
   tick("Trail", "show-trail", real);
-  tick("Odometry’s trail", "show-odometry", believed);
+  tick("Odometry trail", "show-odometry", believed);
   box.append(h("button", { type: "button", id: "clear-trail", onclick: clear }, "Clear trails"));
   page.panels.all.get("show").body.append(box);
   let driven = null;

@@ -1,12 +1,12 @@
-// Points in the scene, whose buffers are used again for the next ones, and the same points from above.
+// Point clouds in the scene with reused buffers, and a view of the points from above.
 /* global MeshCat */
 
 const THREE = MeshCat.THREE;
-const ROOM = 1.5; // how much larger a buffer is made than it has to be
+const ROOM = 1.5; // factor of spare space in a buffer
 const BACK = { light: "#e9edf2", dark: "#0f141b" };
 
 export class Cloud {
-  /** @param stage the 3-D view; @param colour of points without one of their own */
+  /** @param stage the 3-D viewport; @param colour of points without their own colour */
   constructor(stage, colour, size = 4) {
     this.stage = stage;
     this.colour = colour;
@@ -18,7 +18,7 @@ export class Cloud {
     stage.viewer.scene.add(this.points);
   }
 
-  /** Take x y z (and red, green, blue, 255 where `colored`) of each point from a frame behind its header. */
+  /** Read x y z (and red, green, blue, 255 if `colored`) of each point from a frame after its header. */
   take(buffer, header, colored) {
     const stride = colored ? 16 : 12;
     this.count = Math.floor((buffer.byteLength - header) / stride);
@@ -51,7 +51,7 @@ export class Cloud {
     Object.assign(this, { capacity, colored });
   }
 
-  /** Draw the points from above, the robot in the middle and heading up; pose is {x, y, yaw}. */
+  /** Draw the points from above, with the robot in the centre and heading up; pose is {x, y, yaw}. */
   draw(canvas, { x, y, yaw } = { x: 0, y: 0, yaw: 0 }) {
     const { width, height } = canvas;
     const pen = canvas.getContext("2d");
@@ -62,7 +62,7 @@ export class Cloud {
     if (!at) return;
     let far = 1;
     for (let i = 0; i < this.count; i += 1) far = Math.max(far, Math.abs(at[3 * i] - x), Math.abs(at[3 * i + 1] - y));
-    this.reach = Math.max(far * 1.05, (this.reach ?? 0) * 0.97); // does not jump about
+    this.reach = Math.max(far * 1.05, (this.reach ?? 0) * 0.97); // decreases slowly, so that the scale is steady
     const scale = height / 2 / this.reach;
     this.#rings(pen, width, height, scale, dark);
     const [c, s] = [Math.cos(yaw), Math.sin(yaw)];

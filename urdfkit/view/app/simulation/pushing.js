@@ -1,11 +1,11 @@
-// Pushing a link with the mouse: grab it and pull; a force at that point, or a torque.
+// Pushing a link with the mouse: drag from a point of the link to apply a force there, or a torque.
 /* global MeshCat */
 
 import { h, short } from "../page/dom.js";
 
 const THREE = MeshCat.THREE;
 const PUSH = "M4 12h11M11 7l5 5-5 5M20 5v14";
-const PERIOD = 50; // ms between two orders while it is held
+const PERIOD = 50; // ms between two requests during a drag
 
 export class Push {
   constructor(page) {
@@ -26,7 +26,7 @@ export class Push {
     for (const end of ["pointerup", "pointercancel"]) pane.addEventListener(end, (event) => this.#up(event), { capture: true });
     addEventListener("blur", () => this.release());
     page.on("lost", () => this.release());
-    page.on("screws", ({ rows }) => this.#suit(rows));
+    page.on("parameters", ({ rows }) => this.#suit(rows));
     page.on("poses", () => this.grip && this.#pull());
   }
 
@@ -34,20 +34,20 @@ export class Push {
     this.panel = this.page.panels.add({ id: "push", title: "Push", icon: PUSH, modes: ["sim"], order: 37 });
     this.strength = h("input", { id: "push-strength", type: "range", min: -1, max: 4, step: 0.01, value: 1 });
     this.words = h("output", { for: "push-strength" });
-    const say = () => (this.words.textContent = `${short(this.gain, this.gain < 10 ? 1 : 0)} ${this.torque ? "N·m" : "N"}/m`);
-    this.strength.addEventListener("input", say);
+    const showGain = () => (this.words.textContent = `${short(this.gain, this.gain < 10 ? 1 : 0)} ${this.torque ? "N·m" : "N"}/m`);
+    this.strength.addEventListener("input", showGain);
     const kind = (value, words) => {
       const input = h("input", { type: "radio", name: "push-kind", value, checked: value === "force" });
-      input.addEventListener("change", () => ((this.torque = value === "torque"), say()));
+      input.addEventListener("change", () => ((this.torque = value === "torque"), showGain()));
       return h("label.check", {}, input, ` ${words}`);
     };
-    this.now = h("p.now", { role: "status", id: "push-now" }, "Grab a link and pull.");
-    const hold = h("button.wide", { type: "button", id: "push-hold", onclick: () => this.page.tools.hold(this.page.tools.held === "push" ? null : "push") }, "Take the tool in hand");
-    this.panel.body.append(hold, h("div.checks", {}, kind("force", "Force, at the point"), kind("torque", "Torque")), h("label.field", { for: "push-strength" }, "Strength ", this.words, this.strength), this.now);
-    say();
+    this.now = h("p.now", { role: "status", id: "push-now" }, "Drag a link to push it.");
+    const hold = h("button.wide", { type: "button", id: "push-hold", onclick: () => this.page.tools.hold(this.page.tools.held === "push" ? null : "push") }, "Activate the tool");
+    this.panel.body.append(hold, h("div.checks", {}, kind("force", "Force at the point"), kind("torque", "Torque")), h("label.field", { for: "push-strength" }, "Strength ", this.words, this.strength), this.now);
+    showGain();
   }
 
-  // At first, what pulls a robot of this mass with 4 m/s² for every metre.
+  // Default: accelerates a robot of this mass with 4 m/s² per metre.
   #suit(rows) {
     if (this.suited) return;
     const robot = rows.filter(({ name, link }) => link && name === rows[0].name);
@@ -58,7 +58,7 @@ export class Push {
     this.strength.dispatchEvent(new Event("input"));
   }
 
-  /** Newtons (or newton metres) for each metre that is pulled. */
+  /** Force [N] or torque [N·m] per metre of the drag. */
   get gain() {
     return 10 ** this.strength.valueAsNumber;
   }
@@ -66,7 +66,7 @@ export class Push {
   #held(held) {
     if (!held) this.release();
     this.page.stage.pane.classList.toggle("pushing", held);
-    document.getElementById("push-hold").textContent = held ? "Put the tool down" : "Take the tool in hand";
+    document.getElementById("push-hold").textContent = held ? "Deactivate the tool" : "Activate the tool";
   }
 
   #down(event) {
@@ -104,12 +104,12 @@ export class Push {
     clearInterval(this.timer);
     this.arrow.visible = false;
     this.viewer.controls.enabled = true;
-    this.now.textContent = "Grab a link and pull.";
-    if (this.page.connection.open) this.page.connection.order("let_go").catch(() => {});
+    this.now.textContent = "Drag a link to push it.";
+    if (this.page.connection.open) this.page.connection.request("release").catch(() => {});
     this.page.stage.dirty();
   }
 
-  // From the gripped point to the pointer, in the plane of the screen; along the world's axes.
+  // From the gripped point to the pointer, parallel to the screen, in world axes.
   #pull() {
     const { grip } = this;
     const ray = this.page.pick.aim(grip.event);
@@ -137,7 +137,7 @@ export class Push {
     const values = grip.wrench.toArray();
     const still = [0, 0, 0];
     this.page.connection
-      .order("push", { link: grip.link.replace(/^world\//, ""), force: this.torque ? still : values, torque: this.torque ? values : still, at: grip.local })
+      .request("push", { link: grip.link.replace(/^world\//, ""), force: this.torque ? still : values, torque: this.torque ? values : still, at: grip.local })
       .catch((error) => {
         this.page.toast(error.message, "error");
         this.release();

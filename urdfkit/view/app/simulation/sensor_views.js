@@ -1,4 +1,4 @@
-// What lidars and cameras see: points in the scene and from above, pictures in the panel. What is not ticked is not looked at.
+// Views of lidars and cameras: points in the scene and from above, images in the panel. Only selected topics are subscribed.
 
 import { check, h } from "../page/dom.js";
 import { Cloud } from "./point_cloud.js";
@@ -25,11 +25,11 @@ export class Sensors {
 
   #make(sensor, i) {
     const Kind = sensor.picture ? Picture : Points;
-    // A camera's cloud has as many points as the picture has pixels: it waits until it is asked for.
+    // The point cloud of a camera has one point per pixel, so it is initially off.
     return new Kind(this.page, this.list, sensor.topic, { on: sensor.picture || !sensor.camera, colour: COLOURS[i % COLOURS.length] });
   }
 
-  /** Take one binary frame. */
+  /** Show a binary frame. */
   frame(buffer) {
     const view = new DataView(buffer);
     const kind = view.getUint8(1);
@@ -40,7 +40,7 @@ export class Sensors {
   }
 }
 
-/** One topic: a tick, and what comes on it. */
+/** The view of one topic, with a checkbox. */
 class Sight {
   constructor(page, list, topic, { on }) {
     this.page = page;
@@ -56,7 +56,7 @@ class Sight {
   tick(on) {
     if (on === this.on) return;
     this.on = on;
-    this.page.connection.want(this.key, on);
+    this.page.connection.subscribe(this.key, on);
     this.show(on);
   }
 
@@ -110,7 +110,7 @@ class Picture extends Sight {
   kinds = [PICTURE];
   constructor(page, list, topic, options) {
     super(page, list, topic, options);
-    this.image = h("img", { alt: `what comes on ${topic}` });
+    this.image = h("img", { alt: `image of ${topic}` });
     this.url = null;
     this.item.append(this.image);
     this.tick(options.on);

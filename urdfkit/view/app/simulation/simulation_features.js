@@ -1,4 +1,4 @@
-// What the simulation adds to the page, in the order it is set up.
+// Features of a simulation's page, in the order of their installation.
 
 import { arms } from "./controller_sliders.js";
 import { arrows } from "./contact_arrows.js";
@@ -7,10 +7,10 @@ import { Drive } from "./teleop.js";
 import { objects } from "./world_objects.js";
 import { plots } from "../topics/plots_panel.js";
 import { push } from "./pushing.js";
-import { screws } from "./live_parameters.js";
+import { liveParameters } from "./live_parameters.js";
 import { Sensors } from "./sensor_views.js";
 import { chooser, gamepad, steering } from "./drive_sliders.js";
-import { tape } from "./replay.js";
+import { recorder } from "./replay.js";
 import { topics } from "../topics/topic_list.js";
 import { trails } from "./odometry_trail.js";
 import { walls } from "./wall_drawing.js";
@@ -20,11 +20,11 @@ const $ = (id) => document.getElementById(id);
 const WHEEL = "M12 3a9 9 0 1 0 0 18a9 9 0 0 0 0-18zM12 10a2 2 0 1 0 0 4a2 2 0 0 0 0-4zM3.5 10l6.5 1M20.5 10l-6.5 1M12 14v7";
 const EYE = "M2 12s4-7 10-7 10 7 10 7-4 7-10 7-10-7-10-7zM12 9a3 3 0 1 0 0 6a3 3 0 0 0 0-6z";
 
-export const simFeatures = [common, drive, clock, sensing, arms, topics, plots, tape, objects, walls, screws, push, arrows, trails];
+export const simFeatures = [common, drive, clock, sensing, arms, topics, plots, recorder, objects, walls, liveParameters, push, arrows, trails];
 
 function common(page) {
   const watched = new Set();
-  /** Want what is sent under a key while a panel is open. */
+  /** Subscribe to a key while a panel is open. */
   page.whileOpen = (panel, key) => {
     if (watched.has(key)) return;
     watched.add(key);
@@ -32,7 +32,7 @@ function common(page) {
     const look = () => {
       if (panel.open === wanted) return;
       wanted = panel.open;
-      page.connection.want(key, wanted);
+      page.connection.subscribe(key, wanted);
     };
     new MutationObserver(look).observe(panel.section, { attributes: true, attributeFilter: ["hidden"] });
     look();
@@ -42,7 +42,7 @@ function common(page) {
 function drive(page) {
   page.panels.add({ id: "drive", title: "Drive", icon: WHEEL, modes: ["sim"], order: 10, element: $("drive-section"), pinned: true });
   const wheel = new Drive((held) => page.send("axes", held), () => $("pause").click(), () => page.send("control", { action: "stop" }));
-  const more = h("details", { id: "steering" }, h("summary", {}, "Sliders that stay, and gamepad"));
+  const more = h("details", { id: "steering" }, h("summary", {}, "Drive sliders and gamepad"));
   $("keys").before(more);
   chooser(page, wheel, $("drive-section"));
   steering(page, wheel, more);

@@ -1,4 +1,4 @@
-// Hands on the wheel: keys, pad, sliders and gamepad → axes, twenty times a second while something is held, and zero after.
+// Teleoperation: input of keys, pad, sliders and gamepad, sent as axes twenty times a second until it is zero.
 
 import { Pad } from "./drive_pad.js";
 
@@ -15,7 +15,7 @@ export class Drive {
     this.down = new Map(); // KeyboardEvent.code → key
     this.shift = false;
     this.stick = [0, 0];
-    this.held = new Map(); // what else is held: a name → [x, y, z, turn]
+    this.held = new Map(); // other inputs: name → [x, y, z, turn]
     this.timer = null;
     this.speed = new Speed("speed", "m/s");
     this.turn = new Speed("turn", "rad/s");
@@ -26,7 +26,7 @@ export class Drive {
     });
   }
 
-  /** Take the key tables and speeds from Python, and begin to listen. */
+  /** Set the key tables and speeds of the server, and handle key events. */
   use({ moves, factors, speed, turn }) {
     const listening = Object.keys(this.moves).length > 0;
     Object.assign(this, { moves, factors });
@@ -35,27 +35,27 @@ export class Drive {
     this.turn.set(turn);
     addEventListener("keydown", (event) => this.#keydown(event));
     addEventListener("keyup", (event) => this.#keyup(event));
-    // Whatever takes the keyboard away from the page also takes the hands off the wheel.
+    // When the page loses the keyboard, all input is released.
     addEventListener("blur", () => this.release());
     addEventListener("pagehide", () => this.release());
     document.addEventListener("visibilitychange", () => document.hidden && this.release());
   }
 
-  /** Hold something that is neither key nor pad: axes [x, y, z, turn], each -1..1. */
+  /** Set the input of another source than keys and pad: axes [x, y, z, turn], each -1..1. */
   hold(name, axes) {
     if (axes.some(Boolean)) this.held.set(name, axes);
     else if (!this.held.delete(name)) return;
     this.changed();
   }
 
-  /** Drive another robot from now on. */
+  /** Select the driven robot. */
   take(robot) {
     if (robot === this.robot) return;
     this.release();
     this.robot = robot;
   }
 
-  /** Stop what moves, whoever made it move. */
+  /** Stop all robots, whichever page drives. */
   stop() {
     this.release();
     this.halt();
@@ -100,10 +100,10 @@ export class Drive {
   #keyup(event) {
     this.shift = event.shiftKey;
     if (this.down.delete(event.code || event.key.toLowerCase()) || event.key === "Shift") this.changed();
-    if (event.key === "Meta") this.release(); // macOS swallows the keyups of keys held with it
+    if (event.key === "Meta") this.release(); // macOS sends no keyup events for keys held with it
   }
 
-  /** What is held now: x, y, z, turn, each -1..1. */
+  /** The current input: x, y, z, turn, each -1..1. */
   axes() {
     const sum = [this.stick[0], this.shift ? this.stick[1] : 0, 0, this.shift ? 0 : this.stick[1]];
     const add = (axes) => axes.forEach((value, i) => (sum[i] += value));
@@ -138,7 +138,7 @@ class Speed {
     this.output = document.getElementById(`${id}-value`);
     this.unit = unit;
     this.input.addEventListener("input", () => this.set(this.input.valueAsNumber));
-    // Give the arrows back to driving once the mouse or finger has let go.
+    // After the pointer is released, the arrow keys drive again.
     this.input.addEventListener("pointerup", () => this.input.blur());
   }
 

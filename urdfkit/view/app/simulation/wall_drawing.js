@@ -1,4 +1,4 @@
-// Drawing walls: click corner after corner, put doors in, build.
+// Drawing walls: click the corners, add doors, build.
 /* global MeshCat */
 
 import { h, short } from "../page/dom.js";
@@ -40,28 +40,28 @@ export class Walls {
     host.append(draw, this.box);
     page.tools.tool({ id: "walls", title: "Draw walls", icon: WALL, modes: ["sim"], order: 62, take: (held) => this.#held(held) });
     page.on("click3d", (hit) => page.tools.held === "walls" && this.click(hit.point, hit.event));
-    page.shortcut({ key: "Enter", does: "build the walls drawn", modes: ["sim"], group: "World", run: () => (page.tools.held === "walls" ? void this.finish() : false) });
-    page.shortcut({ key: "Escape", does: "put the tool down", modes: ["sim"], group: "World", run: () => (page.tools.held ? void page.tools.hold(null) : false) });
+    page.shortcut({ key: "Enter", does: "build the drawn walls", modes: ["sim"], group: "World", run: () => (page.tools.held === "walls" ? void this.finish() : false) });
+    page.shortcut({ key: "Escape", does: "deactivate the tool", modes: ["sim"], group: "World", run: () => (page.tools.held ? void page.tools.hold(null) : false) });
   }
 
   #held(held) {
     this.box.hidden = !held;
     if (held) this.page.panels.open("world");
     else this.clear();
-    this.#say();
+    this.#showHint();
   }
 
   #mode(door) {
     this.door = door;
     this.doorButton.setAttribute("aria-pressed", door);
-    this.#say();
+    this.#showHint();
   }
 
-  #say() {
+  #showHint() {
     const count = this.corners.length;
-    if (this.door) this.words.textContent = "Click on a wall where the door shall be.";
-    else if (count < 2) this.words.textContent = count ? "Click the next corner." : "Click the first corner on the ground. Corners snap to 10 cm (with Alt they do not).";
-    else this.words.textContent = `${count - 1} walls, ${short(this.length(count - 2), 2)} m the last. Click on, or build.`;
+    if (this.door) this.words.textContent = "Click the position of the door on a wall.";
+    else if (count < 2) this.words.textContent = count ? "Click the next corner." : "Click the first corner on the ground. Corners snap to 10 cm; hold Alt to place them freely.";
+    else this.words.textContent = `${count - 1} walls, the last one ${short(this.length(count - 2), 2)} m long. Click the next corner, or build.`;
     this.build.disabled = count < 2;
   }
 
@@ -77,7 +77,7 @@ export class Walls {
     const [first, last] = [this.corners[0], this.corners.at(-1)];
     if (this.corners.length > 2 && Math.hypot(first[0] - x, first[1] - y) < CLOSE) corner = [...first];
     if (last && Math.hypot(last[0] - corner[0], last[1] - corner[1]) < 0.02) return;
-    if (this.corners.length >= MOST) return this.page.toast(`${MOST} corners are enough; build these first`, "error");
+    if (this.corners.length >= MOST) return this.page.toast(`at most ${MOST} corners; build these walls first`, "error");
     this.corners.push(corner);
     this.#draw();
   }
@@ -96,7 +96,7 @@ export class Walls {
     if (best.length < width) return this.page.toast(`this wall is ${short(best.length, 2)} m long: too short for a door of ${short(width, 2)} m`, "error");
     const at = Math.min(best.length - width / 2, Math.max(width / 2, best.along));
     const taken = this.doors.some((door) => door.segment === best.segment && Math.abs(door.at - at) < (door.width + width) / 2);
-    if (taken) return this.page.toast("there is a door already", "error");
+    if (taken) return this.page.toast("there is already a door", "error");
     this.doors.push({ segment: best.segment, at, width });
     this.#draw();
   }
@@ -119,7 +119,7 @@ export class Walls {
     if (this.corners.length < 2) return;
     const values = { corners: this.corners, doors: this.doors, height: this.height.valueAsNumber, thickness: this.thickness.valueAsNumber };
     try {
-      const done = await this.page.connection.order("walls", values);
+      const done = await this.page.connection.request("walls", values);
       this.page.done(`built ${done.name}`, done);
       this.clear();
     } catch (error) {
@@ -144,7 +144,7 @@ export class Walls {
       });
     });
     replace(this.gaps, ends);
-    this.#say();
+    this.#showHint();
     this.page.stage.dirty();
   }
 }

@@ -1,4 +1,4 @@
-// The world: a library to insert from, what stands there, moving, turning, deleting, walls, saving.
+// The world: a library of models to insert; a list of objects to move, rotate and delete; walls; saving.
 
 import { h, short } from "../page/dom.js";
 import { Mover } from "./object_gizmo.js";
@@ -11,20 +11,20 @@ const FIELDS = ["x", "y", "z", "roll", "pitch", "yaw"];
 export class Objects {
   constructor(page) {
     this.page = page;
-    this.chosen = null; // the model to be placed by a click
-    this.picked = null; // the object that is selected
+    this.chosen = null; // the model that a click inserts
+    this.picked = null; // the selected object
     this.objects = [];
     this.panel = page.panels.add({ id: "world", title: "World", icon: WORLD, modes: ["sim"], order: 30 });
     this.filter = h("input", { type: "search", id: "library-filter", placeholder: "Filter the library", "aria-label": "Filter the library", autocomplete: "off" });
     this.filter.addEventListener("input", () => this.#library());
     this.library = h("div.library", { role: "listbox", "aria-label": "Library" });
-    this.hint = h("p.quiet", {}, "Choose something, then click where it shall stand.");
+    this.hint = h("p.quiet", {}, "Select a model, then click its position.");
     this.form = this.#typed();
     this.list = h("ul.bare-list.objects", { "aria-label": "In the world" });
     this.detail = h("section.object", { hidden: true });
-    const save = h("button.wide", { type: "button", id: "save-world", onclick: () => this.#order("save", {}).then((done) => done && page.toast(`saved ${done.bytes} bytes`, "good")) }, "Save the world as SDF");
+    const save = h("button.wide", { type: "button", id: "save-world", onclick: () => this.#request("save", {}).then((done) => done && page.toast(`saved ${done.bytes} bytes`, "good")) }, "Save the world as SDF");
     this.panel.body.append(h("h3", {}, "Insert"), this.filter, this.library, this.hint, this.form, (this.extra = h("div")), h("h3", {}, "In the world"), this.list, this.detail, save);
-    page.tools.tool({ id: "place", title: "Insert what is chosen in the library", icon: PLACE, modes: ["sim"], order: 60, take: (held) => held || this.#choose(null) });
+    page.tools.tool({ id: "place", title: "Insert the selected model", icon: PLACE, modes: ["sim"], order: 60, take: (held) => held || this.#choose(null) });
     this.mover = new Mover(page, (pose) => this.#place(pose));
     page.on("objects", (message) => this.#take(message));
     page.on("select", (selected) => this.#select(selected));
@@ -38,14 +38,14 @@ export class Objects {
     return link.startsWith("world/") ? link.slice(6).split("::")[0] : (this.objects.find(({ first }) => first)?.name ?? null);
   }
 
-  #order(name, values) {
-    return this.page.connection.order(name, values).catch((error) => this.page.toast(error.message, "error"));
+  #request(name, values) {
+    return this.page.connection.request(name, values).catch((error) => this.page.toast(error.message, "error"));
   }
 
   #take(message) {
     Object.assign(this, { objects: message.objects, models: message.models, robots: message.robots });
     this.#library();
-    const kind = ({ robot, static: still }) => (robot ? "robot" : still ? "stands" : "moves");
+    const kind = ({ robot, static: still }) => (robot ? "robot" : still ? "static" : "movable");
     this.list.replaceChildren(
       ...this.objects.map((object) => {
         const button = h("button.topic", { type: "button" }, h("span.name", {}, object.name), h("span.rate.quiet", {}, kind(object)));
@@ -71,29 +71,29 @@ export class Objects {
   #choose(name) {
     if (name === this.chosen) return;
     this.chosen = name;
-    this.hint.textContent = name ? `Click in the picture where ${name.replaceAll("_", " ")} shall stand.` : "Choose something, then click where it shall stand.";
+    this.hint.textContent = name ? `Click the position of ${name.replaceAll("_", " ")}.` : "Select a model, then click its position.";
     if (name) this.page.tools.hold("place");
     else if (this.page.tools.held === "place") this.page.tools.hold(null);
     this.form.hidden = !name;
     this.#library();
   }
 
-  /** Where it shall stand, for those who type rather than click. */
+  /** Fields for the pose of the inserted model. */
   #typed() {
     const field = (name, unit, step) => {
-      const input = numberField({ step, unit, value: "0", id: `insert-${name}`, "aria-label": `${name} of what is inserted [${unit}]` });
+      const input = numberField({ step, unit, value: "0", id: `insert-${name}`, "aria-label": `${name} of the inserted model [${unit}]` });
       return [input, h("label", {}, `${name} `, input, h("span.unit", {}, unit))];
     };
     const [[x, atX], [y, atY], [yaw, turned]] = [field("x", "m", 0.1), field("y", "m", 0.1), field("yaw", "°", 5)];
     const insert = () => this.#insert([x.valueAsNumber, y.valueAsNumber, 0], (yaw.valueAsNumber * Math.PI) / 180);
-    return h("div", { hidden: true }, h("div.pose", {}, atX, atY, turned), h("button.wide", { type: "button", id: "insert-typed", onclick: insert }, "Insert there"));
+    return h("div", { hidden: true }, h("div.pose", {}, atX, atY, turned), h("button.wide", { type: "button", id: "insert-typed", onclick: insert }, "Insert at this pose"));
   }
 
   async #insert([x, y, z], yaw = 0) {
     if (!this.chosen) return this.page.panels.open("world");
     const robot = this.robots.includes(this.chosen);
-    const done = await this.#order("spawn", { model: this.chosen, pose: robot ? [x, y, 0, yaw] : [x, y, Math.max(0, z), yaw] });
-    if (done) this.page.done(`${done.name} is there`, done);
+    const done = await this.#request("spawn", { model: this.chosen, pose: robot ? [x, y, 0, yaw] : [x, y, Math.max(0, z), yaw] });
+    if (done) this.page.done(`inserted ${done.name}`, done);
   }
 
   /** Select an object by name. */
@@ -112,7 +112,7 @@ export class Objects {
     this.detail.hidden = !name;
     this.mover.drop();
     if (!name) return;
-    const done = await this.#order("where", { name });
+    const done = await this.#request("get_pose", { name });
     if (done && this.picked === name) this.#show(name, done.pose);
   }
 
@@ -130,7 +130,7 @@ export class Objects {
     const grid = h("div.pose", {}, ...FIELDS.map((field, i) => h("label", {}, `${field} `, inputs[i], h("span.unit", {}, i > 2 ? "°" : "m"))));
     const away = h("button.danger", { type: "button", onclick: () => this.remove() }, "Delete");
     away.hidden = Boolean(object?.first);
-    const hold = h("button", { type: "button", id: "move-object", "aria-pressed": "false" }, "Move by hand");
+    const hold = h("button", { type: "button", id: "move-object", "aria-pressed": "false" }, "Move with the mouse");
     hold.addEventListener("click", () => {
       if (this.mover.held) this.mover.drop();
       else this.mover.take(this.#links(name), pose);
@@ -145,9 +145,9 @@ export class Objects {
 
   async #place(pose) {
     const name = this.picked;
-    const done = await this.#order("place", { name, pose });
+    const done = await this.#request("place", { name, pose });
     if (!done) return;
-    const now = await this.#order("where", { name });
+    const now = await this.#request("get_pose", { name });
     if (!now || this.picked !== name) return;
     const held = this.mover.held;
     this.#show(name, now.pose);
@@ -158,8 +158,8 @@ export class Objects {
   async remove() {
     if (!this.picked) return false;
     const name = this.picked;
-    if (await this.#order("remove", { name })) {
-      this.page.toast(`${name} is gone`);
+    if (await this.#request("remove", { name })) {
+      this.page.toast(`deleted ${name}`);
       this.page.select(null);
     }
     return true;

@@ -1,10 +1,10 @@
-// A form for a message: a field for every value, nested as the message is.
+// A form for a message: a field for every value, nested like the message.
 
 import { h } from "../page/dom.js";
 import { numberField, readNumber } from "../page/number_field.js";
 
 export class Form {
-  /** @param message an empty message, whose values say of what kind they are */
+  /** @param message an empty message, whose values define the types of the fields */
   constructor(message) {
     this.readers = [];
     this.element = h("div.fields", {}, ...this.#fields(message, []));
@@ -32,7 +32,7 @@ export class Form {
       input = numberField({ value });
       read = () => {
         const written = readNumber(input.value);
-        if (Number.isNaN(written)) throw new Error(`${words}: “${input.value}” is no number, such as 0.5`);
+        if (Number.isNaN(written)) throw new Error(`${words}: “${input.value}” is not a number, such as 0.5`);
         return written;
       };
     } else if (Array.isArray(value)) {
@@ -43,7 +43,7 @@ export class Form {
           return JSON.parse(input.value || "[]");
         } catch {
           input.setAttribute("aria-invalid", "true");
-          throw new Error(`${words} is no list, such as [1, 2]`);
+          throw new Error(`${words} is not a list, such as [1, 2]`);
         }
       };
       input.addEventListener("input", () => input.removeAttribute("aria-invalid"));
@@ -56,7 +56,7 @@ export class Form {
     return h("label.value", {}, h("span", {}, name), input);
   }
 
-  /** What is filled in. */
+  /** The entered message. */
   get value() {
     const filled = {};
     for (const [path, read] of this.readers) {

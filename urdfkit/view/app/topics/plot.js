@@ -1,13 +1,13 @@
-// One plot on a canvas: curves over time, a window that follows or stands still, values under the mouse.
+// A plot on a canvas: curves over time, a window that follows the time or is fixed, values under the mouse.
 
 import { Grip } from "./plot_zoom.js";
 
 export const COLOURS = ["#3b7df5", "#e0399b", "#0aa37f", "#e08a00", "#7a5cff", "#00a3c4", "#d1453b", "#6b8e23"];
-const KEPT = 30000; // samples of a curve
+const KEPT = 30000; // maximum number of samples of a curve
 const LEFT = 46;
 const BELOW = 20;
 
-/** Samples of one number: t rises; the oldest are dropped when there are too many. */
+/** Samples of one number with increasing t; beyond `KEPT` the oldest are dropped. */
 export class Curve {
   constructor(name, colour) {
     this.name = name;
@@ -18,7 +18,7 @@ export class Curve {
   }
 
   push(t, values) {
-    if (this.t.length && t.length && t[0] < this.t.at(-1) - 1e-9) this.clear(); // time began anew
+    if (this.t.length && t.length && t[0] < this.t.at(-1) - 1e-9) this.clear(); // the simulation was reset
     for (let i = 0; i < t.length; i += 1) this.t.push(t[i]), this.values.push(values[i] ?? NaN);
     if (this.t.length > KEPT) this.t.splice(0, this.t.length - KEPT * 0.9), this.values.splice(0, this.values.length - KEPT * 0.9);
   }
@@ -43,11 +43,11 @@ export class Plot {
   constructor(canvas) {
     this.canvas = canvas;
     [this.left, this.below] = [LEFT, BELOW];
-    this.range = [-1, 1]; // of the values, as drawn last
+    this.range = [-1, 1]; // range of the values in the last drawing
     this.curves = [];
     this.span = 10; // seconds shown
-    this.end = null; // right edge when it stands still; null while it follows
-    this.vertical = null; // [low, high] when zoomed by hand
+    this.end = null; // right edge of a fixed window; null while it follows the time
+    this.vertical = null; // [low, high] after the user has zoomed
     this.pointer = null;
     new Grip(this);
     new ResizeObserver(() => this.dirty()).observe(canvas);
@@ -79,7 +79,7 @@ export class Plot {
     });
   }
 
-  /** Show more or less of the time; `at` is the part of the window from the left that stays where it is. */
+  /** Zoom in time; `at` is the fixed point, as a fraction of the window from the left. */
   zoom(factor, at) {
     const right = this.end ?? this.latest;
     const time = right - this.span * (1 - at);
@@ -89,7 +89,7 @@ export class Plot {
     this.dirty();
   }
 
-  /** Show more or less of the values; `at` is the part of the window from the top that stays where it is. */
+  /** Zoom in value; `at` is the fixed point, as a fraction of the window from the top. */
   scale(factor, at) {
     const [low, high] = this.range;
     const middle = high - at * (high - low);
@@ -97,21 +97,21 @@ export class Plot {
     this.dirty();
   }
 
-  /** Move the window by a part of itself, later in time; it stands still then. */
+  /** Move the window by a fraction of its width, later in time; it no longer follows the time. */
   shift(part) {
     this.end = (this.end ?? this.latest) + part * this.span;
     this.changed?.();
     this.dirty();
   }
 
-  /** Move the window by a part of itself, up. */
+  /** Move the window up by a fraction of its height. */
   raise(part) {
     const [low, high] = this.range;
     this.vertical = [low, high].map((value) => value + part * (high - low));
     this.dirty();
   }
 
-  /** Show the values under a place on the canvas, or none. */
+  /** Show the values at a point of the canvas, or none. */
   look(place) {
     this.pointer = place;
     this.dirty();
@@ -177,7 +177,7 @@ export class Plot {
     }
   }
 
-  // A column of pixels shows least and most of what falls into it, so that nothing is missed and nothing is slow.
+  // Each column of pixels shows the minimum and maximum of its samples, so that peaks stay visible.
   #curve(pen, curve, begin, end, x, y) {
     pen.strokeStyle = curve.colour;
     pen.lineWidth = 1.6;
@@ -228,7 +228,7 @@ export class Plot {
   }
 }
 
-/** Round numbers between two bounds, about so many. */
+/** About `count` round numbers between two bounds. */
 export function ticks(low, high, wanted) {
   const rough = (high - low) / Math.max(1, wanted);
   const power = 10 ** Math.floor(Math.log10(rough));

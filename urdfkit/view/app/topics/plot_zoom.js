@@ -1,11 +1,11 @@
-// Hands on a plot: wheel and pinch zoom, a drag moves it, and the keyboard does both.
+// Zoom and pan of a plot with wheel, pinch, drag and keyboard.
 
 const STEP = 1.25; // zoom of one press of a key
-const SHIFT = 0.1; // part of the window that an arrow moves it by
+const SHIFT = 0.1; // fraction of the window per arrow key
 const DRAG = 3; // pixels after which a press is a drag
 
 export class Grip {
-  /** @param plot {canvas, left, below, zoom(factor, at), scale(factor, at), shift(part), raise(part), follow()}; `at` and parts of the window, 0..1 */
+  /** @param plot {canvas, left, below, zoom(factor, at), scale(factor, at), shift(part), raise(part), follow()}; `at` and `part` are fractions of the window, 0..1 */
   constructor(plot) {
     this.plot = plot;
     this.fingers = new Map(); // pointer → {x, y}
@@ -19,7 +19,7 @@ export class Grip {
     canvas.addEventListener("keydown", (event) => this.#key(event));
   }
 
-  /** Where in the window something is: 0..1 from the left, 0..1 from the top; left of 0 it is on the scale. */
+  /** Position in the window: 0..1 from the left, 0..1 from the top; negative on the scale at the left. */
   #part({ x, y }) {
     const { canvas, left, below } = this.plot;
     const box = canvas.getBoundingClientRect();
@@ -37,7 +37,7 @@ export class Grip {
   #down(event) {
     this.plot.canvas.setPointerCapture(event.pointerId);
     this.fingers.set(event.pointerId, { x: event.clientX, y: event.clientY });
-    this.from = event.clientX; // until it is clear that it is a drag
+    this.from = event.clientX; // until the pointer has moved by `DRAG`
   }
 
   #up(event) {
@@ -60,7 +60,7 @@ export class Grip {
     if (event.shiftKey) this.plot.raise(b - y);
   }
 
-  // Two fingers: apart across zooms in time, apart up and down in value.
+  // Two fingers: a horizontal pinch zooms in time, a vertical one in value.
   #pinch(pointer, before, now) {
     const [, still] = [...this.fingers].find(([other]) => other !== pointer);
     const apart = (place) => [Math.abs(place.x - still.x), Math.abs(place.y - still.y)];
@@ -83,7 +83,7 @@ export class Grip {
     }[event.key];
     if (!act) return;
     event.preventDefault();
-    event.stopPropagation(); // arrows would drive
+    event.stopPropagation(); // the arrow keys would drive the robot
     act();
   }
 }

@@ -1,4 +1,4 @@
-// The panel of plots: any numbers of any topics, over the same time.
+// The panel of plots: numbers of topics over time.
 
 import { h, icon } from "../page/dom.js";
 import { COLOURS, Curve, Plot } from "./plot.js";
@@ -13,20 +13,20 @@ export class Plots {
     this.page = page;
     this.curves = new Map(); // key → {curve, item}
     this.panel = page.panels.add({ id: "plots", title: "Plots", icon: CURVE, modes: ["sim"], order: 26 });
-    this.canvas = h("canvas.plot", { id: "plot", tabindex: 0, role: "application", "aria-label": "Plot; plus and minus zoom in time, up and down in value, left and right move it, Home follows again" });
+    this.canvas = h("canvas.plot", { id: "plot", tabindex: 0, role: "application", "aria-label": "Plot; plus and minus zoom in time, up and down in value, left and right pan, Home follows the time" });
     this.legend = h("ul.bare-list.legend");
-    this.hint = h("p.quiet", {}, "Choose a topic, open “Plot a number” and click one. Wheel or pinch: zoom in time (on the scale at the left, in value). Drag: back in time. Double click: follow again.");
+    this.hint = h("p.quiet", {}, "Choose a topic, open “Plot a number” and click one. Wheel or pinch: zoom in time (over the scale at the left: in value). Drag: pan. Double click: follow the time.");
     this.plot = new Plot(this.canvas);
     this.plot.changed = () => this.#buttons();
     this.hold = h("button.bare", { type: "button", id: "plot-pause", onclick: () => this.plot.pause(!this.plot.paused) });
-    this.clear = h("button.bare", { type: "button", title: "Forget the curves so far", "aria-label": "Clear", onclick: () => this.empty() }, icon(CLEAR));
+    this.clear = h("button.bare", { type: "button", title: "Delete the samples", "aria-label": "Clear", onclick: () => this.empty() }, icon(CLEAR));
     this.panel.tools.append(this.hold, this.clear);
     const path = h("input", { id: "plot-path", placeholder: "/odom:twist.twist.linear.x", "aria-label": "Topic and field to plot", autocomplete: "off", spellcheck: "false" });
     const form = h("form.row", { id: "plot-form" }, path, h("button", { type: "submit" }, "Plot"));
     form.addEventListener("submit", (event) => {
       event.preventDefault();
       const [topic, field] = path.value.split(":");
-      if (!topic || !field) return page.toast("write the topic, a colon and the field: /odom:twist.twist.linear.x", "error");
+      if (!topic || !field) return page.toast("enter topic, colon and field, such as /odom:twist.twist.linear.x", "error");
       this.add(topic.trim(), field.trim());
       path.value = "";
     });
@@ -53,11 +53,11 @@ export class Plots {
       this.curves.set(key, { curve, item, value });
       this.legend.append(item);
       this.plot.curves.push(curve);
-      this.page.connection.want(key, true);
+      this.page.connection.subscribe(key, true);
     }
     this.hint.hidden = true;
     if (!this.panel.open) {
-      if (!this.panel.pinned) this.panel.pin.click(); // it stays beside the topics
+      if (!this.panel.pinned) this.panel.pin.click(); // keep it open with the topics
       this.page.panels.open("plots");
     }
     this.plot.dirty();
@@ -68,7 +68,7 @@ export class Plots {
     this.curves.delete(key);
     this.plot.curves = this.plot.curves.filter((each) => each !== curve);
     item.remove();
-    this.page.connection.want(key, false);
+    this.page.connection.subscribe(key, false);
     this.hint.hidden = this.curves.size > 0;
     this.plot.dirty();
   }
@@ -95,7 +95,7 @@ export class Plots {
   #buttons() {
     const { paused } = this.plot;
     this.hold.replaceChildren(icon(paused ? PLAY : PAUSE));
-    this.hold.title = paused ? "Follow" : "Stand still";
+    this.hold.title = paused ? "Follow the time" : "Hold the time window";
     this.hold.setAttribute("aria-label", this.hold.title);
     this.hold.setAttribute("aria-pressed", paused);
   }

@@ -1,4 +1,4 @@
-// Topics: the list with rates, the last message of one, and a form to publish.
+// The panel of topics: rates, the last message of the selected topic, a form to publish.
 
 import { h, short } from "../page/dom.js";
 import { Form } from "./message_form.js";
@@ -24,11 +24,11 @@ export class Topics {
 
   #take(rows) {
     const seen = new Set();
-    for (const [name, type, count, rate, listeners] of rows) {
+    for (const [name, type, count, rate, subscribers] of rows) {
       seen.add(name);
       const row = this.rows.get(name) ?? this.#row(name, type);
       row.rate.textContent = rate > 0 ? `${short(rate, rate < 10 ? 1 : 0)} Hz` : count ? "silent" : "never";
-      row.item.title = `${type}\n${count} messages, ${listeners} listen`;
+      row.item.title = `${type}\n${count} messages, ${subscribers} subscribers`;
       row.item.dataset.silent = rate === 0;
     }
     for (const [name, { item }] of this.rows) if (!seen.has(name)) item.remove(), this.rows.delete(name);
@@ -50,15 +50,15 @@ export class Topics {
     for (const [name, { item, type }] of this.rows) item.hidden = !`${name} ${type}`.toLowerCase().includes(words);
   }
 
-  /** Look at a topic: its last message, the form, its numbers to plot. */
+  /** Show a topic: its last message, the form, its numbers to plot. */
   async choose(topic) {
-    if (this.chosen) this.page.connection.want(`echo:${this.chosen.name}`, false);
+    if (this.chosen) this.page.connection.subscribe(`echo:${this.chosen.name}`, false);
     this.chosen = topic;
     for (const [name, { item }] of this.rows) item.toggleAttribute("data-chosen", name === topic?.name);
     this.detail.hidden = !topic;
     if (!topic) return;
-    this.page.connection.want(`echo:${topic.name}`, true);
-    this.message = h("pre.message", { tabindex: 0, "aria-label": `Last message of ${topic.name}` }, "nothing yet");
+    this.page.connection.subscribe(`echo:${topic.name}`, true);
+    this.message = h("pre.message", { tabindex: 0, "aria-label": `Last message of ${topic.name}` }, "no message yet");
     this.count = h("span.quiet");
     const publish = h("details.publish", { id: "publish" }, h("summary", {}, "Publish"));
     const plot = h("details.numbers", { id: "numbers" }, h("summary", {}, "Plot a number"));
@@ -66,7 +66,7 @@ export class Topics {
     this.detail.replaceChildren(head, h("p.quiet.type", {}, topic.type), this.message, plot, publish);
     this.detail.scrollIntoView({ block: "nearest" });
     try {
-      const { message, numbers } = await this.page.connection.order("form", { topic: topic.name, type: topic.type });
+      const { message, numbers } = await this.page.connection.request("form", { topic: topic.name, type: topic.type });
       if (this.chosen !== topic) return;
       publish.append(this.#form(topic, message));
       plot.append(this.#numbers(topic, numbers));
@@ -82,7 +82,7 @@ export class Topics {
     body.addEventListener("submit", (event) => {
       event.preventDefault();
       new Promise((done) => done(form.value))
-        .then((message) => this.page.connection.order("publish", { topic: topic.name, type: topic.type, message }))
+        .then((message) => this.page.connection.request("publish", { topic: topic.name, type: topic.type, message }))
         .then(() => this.page.toast(`published to ${topic.name}`, "good"))
         .catch((error) => this.page.toast(error.message, "error"));
     });
@@ -96,13 +96,13 @@ export class Topics {
       button.addEventListener("click", () => this.page.plots.add(topic.name, path));
       list.append(h("li", {}, button));
     }
-    return numbers.length ? list : h("p.quiet", {}, "There is no number in it.");
+    return numbers.length ? list : h("p.quiet", {}, "The message has no numbers.");
   }
 
   #other() {
     const topic = h("input", { placeholder: "/topic", "aria-label": "Topic", required: true });
     const type = h("input", { placeholder: "geometry_msgs/msg/Twist", "aria-label": "Type", required: true });
-    const go = h("form.other", {}, topic, type, h("button.main", { type: "submit" }, "Make the form"));
+    const go = h("form.other", {}, topic, type, h("button.main", { type: "submit" }, "Create the form"));
     go.addEventListener("submit", (event) => {
       event.preventDefault();
       this.choose({ name: topic.value, type: type.value });
@@ -114,12 +114,12 @@ export class Topics {
   #echo({ topic, count, message }) {
     if (topic !== this.chosen?.name) return;
     this.count.textContent = `${count}`;
-    if (getSelection()?.containsNode(this.message, true) && !getSelection().isCollapsed) return; // somebody copies it
-    this.message.textContent = message === null ? "nothing yet" : yaml(message);
+    if (getSelection()?.containsNode(this.message, true) && !getSelection().isCollapsed) return; // the user has selected text to copy
+    this.message.textContent = message === null ? "no message yet" : yaml(message);
   }
 }
 
-/** A message as ROS prints it: nested by indentation. */
+/** Format a message like ROS, nested by indentation. */
 export function yaml(value, depth = 0) {
   const pad = "  ".repeat(depth);
   if (Array.isArray(value)) {

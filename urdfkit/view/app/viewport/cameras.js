@@ -1,4 +1,4 @@
-// Ways of looking: around a point, from above in parallel, from inside, behind a link; and the frames that stand still.
+// Camera modes: orbit, top down (orthographic), first person, follow; target frame and fixed frame.
 /* global MeshCat */
 
 import { h } from "../page/dom.js";
@@ -7,10 +7,10 @@ import { FirstPerson } from "./first_person_camera.js";
 const THREE = MeshCat.THREE;
 const CAMERA = "M3 7h11v10H3zM14 11l7-4v10l-7-4";
 const WAYS = [
-  ["orbit", "Orbit", "o", "turn around a point"],
-  ["top", "Top down", "t", "from above, in parallel"],
-  ["first", "First person", "p", "look around; W A S D and Q E move"],
-  ["follow", "Follow", "u", "behind the target frame, turning with it"],
+  ["orbit", "Orbit", "o", "rotate around a point"],
+  ["top", "Top down", "t", "orthographic view from above"],
+  ["first", "First person", "p", "drag to look around; W A S D and Q E move"],
+  ["follow", "Follow", "u", "behind the target frame, rotating with it"],
 ];
 const SIDES = { Front: [1, 0, 0.02], Back: [-1, 0, 0.02], Left: [0, 1, 0.02], Right: [0, -1, 0.02], Above: [0.001, 0, 1], Oblique: [1, 0.75, 0.6] };
 
@@ -20,15 +20,15 @@ export class Cameras {
     this.stage = page.stage;
     this.viewer = page.stage.viewer;
     this.way = "orbit";
-    this.target = ""; // a link, or nothing: the root
+    this.target = ""; // a link; empty for none
     this.fixed = "";
-    this.was = null; // where the target stood at the last picture
+    this.was = null; // position of the target in the last frame
     this.eye = { camera: this.viewer.camera, controls: this.viewer.controls };
     this.first = new FirstPerson(page, this.viewer.camera, this.viewer.controls);
     page.on("poses", () => this.#moved());
   }
 
-  /** Whether the camera goes after something by itself. */
+  /** Whether the camera follows a frame. */
   get tracks() {
     return this.way === "follow" || this.target !== "";
   }
@@ -80,7 +80,7 @@ export class Cameras {
     return this.page.scene.byLink.has(this.target) ? this.target : root;
   }
 
-  // Where the followed link stands in the world, and which way it faces about the vertical.
+  // Position of the followed link in the world, and its yaw.
   #stand() {
     const node = this.page.scene.byLink.get(this.followed);
     if (!node) return null;
@@ -99,7 +99,7 @@ export class Cameras {
     camera.position.set(-Math.cos(stand.yaw) * away, 0.5 * away, Math.sin(stand.yaw) * away).add(stand.at);
   }
 
-  // Hold the fixed frame still, then go after the target.
+  // Keep the fixed frame in place, then follow the target.
   #moved() {
     this.#hold();
     if (!this.tracks) return (this.was = null);
@@ -126,7 +126,7 @@ export class Cameras {
     robot.position.copy(node.position).applyQuaternion(robot.quaternion).negate();
   }
 
-  /** Choose the frame that stands still; nothing: the root link's. */
+  /** Set the fixed frame; empty for the root link. */
   fix(link) {
     this.fixed = link;
     this.#hold();
@@ -135,14 +135,14 @@ export class Cameras {
     this.page.emit("fixed", link);
   }
 
-  /** Choose the frame that the camera goes after. */
+  /** Set the frame that the camera follows. */
   aim(link) {
     this.target = link;
     this.was = this.#stand();
     if (link) this.look(link);
   }
 
-  /** Make a link the middle of the view, from a distance that fits it. */
+  /** Centre the view on a link, at a distance that fits it. */
   look(link) {
     const box = new THREE.Box3();
     for (const group of this.page.scene.shapes(link)) box.expandByObject(group);
@@ -173,7 +173,7 @@ export function cameras(page) {
   for (const [words, direction] of Object.entries(SIDES)) {
     sides.append(h("button.chip", { type: "button", onclick: () => page.stage.fit(page.scene.bounds(), direction) }, words));
   }
-  const target = frames("Target frame", "target-frame", "none: the camera stays", (link) => page.cameras.aim(link));
+  const target = frames("Target frame", "target-frame", "none", (link) => page.cameras.aim(link));
   const fixed = frames("Fixed frame", "fixed-frame", "the root link", (link) => page.cameras.fix(link));
   panel.body.append(h("h3", {}, "Camera"), ways, h("h3", {}, "Look from "), sides, h("div.frames", {}, target.label, fixed.label));
   page.on("robot", ({ kinematics }) => {

@@ -1,4 +1,4 @@
-// What is shown of the robot and around it, and how.
+// Visibility and style of the robot's shapes, markers, grid and origin.
 
 import { check, h } from "../page/dom.js";
 import { Markers } from "./link_markers.js";
@@ -6,9 +6,9 @@ import { Markers } from "./link_markers.js";
 const LAYERS = "M12 3l9 5-9 5-9-5zM3 12l9 5 9-5M3 16l9 5 9-5";
 const MARKS = [
   ["frames", "Link frames", "x", "the frame of every link"],
-  ["axes", "Joint axes", "j", "the axes joints move about or along"],
-  ["inertia", "Inertia", "i", "ellipsoids of uniform density with the inertia that is written"],
-  ["com", "Centres of mass", "m", "where each link's mass is written to be"],
+  ["axes", "Joint axes", "j", "the axis of every joint"],
+  ["inertia", "Inertia", "i", "ellipsoids of uniform density with the inertia of each link"],
+  ["com", "Centres of mass", "m", "the centre of mass of each link"],
 ];
 
 export function layers(page) {
@@ -39,7 +39,7 @@ export function layers(page) {
 
   panel.body.append(
     slider("Opacity", { id: "opacity", min: 0.05, max: 1, value: 1, text: (v) => `${Math.round(100 * v)} %`, moved: (opacity) => scene.restyle({ opacity }) }),
-    slider("Size of marks", {
+    slider("Marker size", {
       id: "mark-size", min: 0.2, max: 4, value: 1, mode: "view", text: (v) => `× ${v.toFixed(1)}`,
       moved: (size) => {
         markers.size = size;
@@ -56,7 +56,7 @@ export function layers(page) {
   page.expose("markers", markers);
 }
 
-/** A slider with its words and value. */
+/** A slider with its label and value. */
 export function slider(words, { id, min, max, value, step = 0.01, text, moved, mode = null }) {
   const output = h("output", { for: id }, text(value));
   const input = h("input", { type: "range", id, min, max, step, value });

@@ -1,4 +1,4 @@
-// Looking from inside: drag to look around, W A S D and Q E to move (in the simulation those keys drive, so only drag).
+// First-person camera: drag to look around, W A S D and Q E to move (in the simulation these keys drive the robot).
 /* global MeshCat */
 
 const THREE = MeshCat.THREE;
@@ -29,7 +29,7 @@ export class FirstPerson {
     if (on) this.turn(0, 0);
   }
 
-  // The middle of the view is kept straight ahead, which is all the controls need to agree.
+  // The target of the orbit controls is kept straight ahead.
   turn(yaw, pitch) {
     const { camera, controls } = this;
     const ahead = controls.target.clone().sub(camera.position);
@@ -54,7 +54,7 @@ export class FirstPerson {
     const key = event.key.toLowerCase();
     if (!(key in MOVES)) return;
     event.preventDefault();
-    event.stopImmediatePropagation(); // these keys have other meanings elsewhere
+    event.stopImmediatePropagation(); // these keys have other functions elsewhere
     if (!down) return void this.held.delete(key);
     const idle = this.held.size === 0;
     this.held.add(key);

@@ -1,4 +1,4 @@
-// The handle on a link: a ball to drag it freely, arrows along the axes, rings about them.
+// The handle of a link: a ball to drag it freely, arrows along the axes, rings about the axes.
 /* global MeshCat */
 
 const THREE = MeshCat.THREE;
@@ -40,7 +40,7 @@ export class Gizmo extends THREE.Group {
     for (const mesh of this.handles) if (mesh.userData.kind === "about") mesh.visible = shown;
   }
 
-  /** The handle a ray meets: {kind, axis}, or null; the ball first, then what is seen, then the margins around it. */
+  /** The part of the handle that a ray hits: {kind, axis} or null; first the ball, then visible parts, then their margins. */
   hit(ray) {
     if (!this.visible) return null;
     const hits = ray.intersectObjects(this.handles.filter((mesh) => mesh.visible), false);
@@ -54,7 +54,7 @@ export function nearest(ray, from, along) {
   const w = from.clone().sub(ray.origin);
   const b = along.dot(ray.direction);
   const below = 1 - b * b;
-  if (below < 1e-4) return null; // looking along it
+  if (below < 1e-4) return null; // the ray is parallel to the line
   const s = (b * ray.direction.dot(w) - along.dot(w)) / below;
   return from.clone().addScaledVector(along, s);
 }

@@ -1,6 +1,6 @@
-// What draws: a graphics card, or the processor in its place, which is spared what costs it most.
+// Detects whether a graphics card or the processor draws; the processor draws without antialiasing.
 
-/** The name of what draws; null where nothing can. */
+/** Name of the graphics device; null if WebGL is not available. */
 function named() {
   const gl = document.createElement("canvas").getContext("webgl2");
   if (!gl) return null;
@@ -15,7 +15,7 @@ export const drawnBy = named();
 /** Whether the processor draws. */
 export const soft = /swiftshader|llvmpipe|softpipe|software|basic render/i.test(drawnBy ?? "");
 
-/** Make what makes a WebGL context. Smooth edges take a processor two thirds of the time of a picture: it goes without. */
+/** Create WebGL contexts without antialiasing on a processor, where it takes two thirds of the drawing time. */
 export function sparing(make) {
   if (!soft) return make();
   const { prototype } = HTMLCanvasElement;

@@ -1,11 +1,11 @@
-// Seeing the robot: a first view from where nothing is in front of it, and through what comes between later.
+// The initial view, from a direction in which nothing hides the robot; obstacles that hide it later become transparent.
 /* global MeshCat */
 
 const THREE = MeshCat.THREE;
-const OFTEN = 120; // ms between two looks at what is in between
-const TURNS = [0, 30, -30, 60, -60, 90, -90, 150, -150, 180]; // degrees from where one would look best
-const RISES = [0, 0.6, 1.6]; // how much steeper from above
-const NEAR = 0.35; // of the robot's radius: what is so near to it belongs to the picture
+const OFTEN = 120; // ms between two checks for obstacles
+const TURNS = [0, 30, -30, 60, -60, 90, -90, 150, -150, 180]; // degrees from the preferred direction
+const RISES = [0, 0.6, 1.6]; // added elevation
+const NEAR = 0.35; // of the robot's radius: nearer objects do not count as obstacles
 
 export class Sight {
   constructor(page) {
@@ -13,19 +13,19 @@ export class Sight {
     page.on("drawn", () => this.#soon());
   }
 
-  /** Which way to look at a box so that it is seen. @param wanted from it to the camera, z up @returns the same, turned and steeper where that is better, and how much nearer */
+  /** Find a direction from which a box is visible. @param wanted preferred direction from the box to the camera, z up @returns the direction, and the part of the distance */
   clear(box, wanted, distance) {
     const sphere = box.getBoundingSphere(new THREE.Sphere());
     const points = this.#points(box);
     const others = this.#others(null);
-    this.stage.viewer.scene.updateMatrixWorld(); // nothing may have been drawn yet
+    this.stage.viewer.scene.updateMatrixWorld(); // the scene may not have been drawn yet
     let best = { seen: -1, direction: wanted, part: 1 };
     for (const rise of others.length ? RISES : [0]) {
       for (const turn of TURNS) {
         const direction = turned(wanted, turn, rise);
         const towards = new THREE.Vector3(direction[0], direction[2], -direction[1]).normalize();
         const eye = sphere.center.clone().addScaledVector(towards, distance);
-        // From the robot outwards: a camera inside a wall sees through it from within, and still should not be there.
+        // Cast from the robot outwards, so that a camera inside a wall is rejected.
         const free = points.map((point) => this.#hits(point, eye, others)[0]?.distance ?? Infinity);
         const seen = free.filter((length) => length === Infinity).length / points.length;
         if (seen > best.seen) best = { seen, direction, part: seen === 1 ? 1 : Math.min(1, (0.9 * Math.min(...free)) / distance) };
@@ -40,7 +40,7 @@ export class Sight {
     return [[0, 0, 0], [0, 1, 0], [1, 0.2, 1], [-1, 0.2, 1], [1, 0.2, -1], [-1, 0.2, -1]].map((at) => middle.clone().add(new THREE.Vector3(...at).multiply(half)));
   }
 
-  // What is no part of the robot; `robot` is the one driven, where it is not the first.
+  // Objects that are not part of the robot; `robot` is the driven robot if it is not the first.
   #others(robot) {
     const own = new Set(robot ? this.scene.nodes.filter((node) => this.scene.linkOf.get(node)?.startsWith(`world/${robot}::`)) : this.scene.own);
     return [...this.scene.groups.visual.values()].filter((group) => group.visible && !own.has(group.parent));
@@ -58,7 +58,7 @@ export class Sight {
     this.timer = setTimeout(() => ((this.timer = null), this.look()), OFTEN);
   }
 
-  /** Make what hides the robot from the camera so thin that it can be seen through. */
+  /** Make the objects that hide the robot from the camera transparent. */
   look() {
     const other = this.page.followed === undefined ? null : this.page.driven;
     const node = this.scene.nodes[this.page.followed ?? this.page.model?.root ?? 0];
@@ -80,7 +80,7 @@ export class Sight {
   }
 }
 
-// A direction, turned about the vertical by degrees, and with more of it upwards.
+// Rotate a direction about the vertical [°] and raise it.
 function turned([x, y, z], degrees, rise) {
   const angle = (degrees * Math.PI) / 180;
   const flat = Math.hypot(x, y);

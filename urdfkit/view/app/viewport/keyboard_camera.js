@@ -1,4 +1,4 @@
-// The view by keys, while the stage has the focus: arrows turn it, with shift they move it, + and - go nearer and farther.
+// Keyboard control of the camera while the viewport has the focus: arrows rotate, with Shift they pan, + and - zoom.
 /* global MeshCat */
 
 const THREE = MeshCat.THREE;
@@ -21,8 +21,8 @@ export function steering(page) {
     page.stage.haze();
     page.stage.dirty();
   });
-  for (const [key, does] of [["← →", "turn the view; with shift, move it"], ["+ -", "nearer, farther"]]) {
-    page.shortcut({ key, does: `${does} (stage focused)`, group: "View", run: () => false });
+  for (const [key, does] of [["← →", "rotate the view; with Shift, pan it"], ["+ -", "zoom"]]) {
+    page.shortcut({ key, does: `${does} (viewport focused)`, group: "View", run: () => false });
   }
 
   function turn(x, y) {

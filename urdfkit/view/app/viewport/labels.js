@@ -1,4 +1,4 @@
-// Words on the stage: elements that stay at places of the scene, and the tip at the mouse.
+// Labels at points of the scene, and the tooltip at the mouse.
 /* global MeshCat */
 
 import { h } from "../page/dom.js";
@@ -24,7 +24,7 @@ export class Labels {
     };
   }
 
-  /** Keep an element at a place. `where` returns a Vector3 in the world, or null while it has none. */
+  /** Attach an element to a point. `where` returns a Vector3 in the world, or null while there is no point. */
   add(element, where) {
     element.classList.add("label");
     this.kept.set(element, where);
@@ -38,7 +38,7 @@ export class Labels {
     element.remove();
   }
 
-  /** Where a point of the world is on the pane [pixels], and whether it is in front of the camera. */
+  /** Project a point of the world to the viewport [pixels]; also whether it is in front of the camera. */
   screen(point) {
     const { clientWidth: width, clientHeight: height } = this.stage.pane;
     const at = point.clone().project(this.stage.viewer.camera);
@@ -59,12 +59,12 @@ export class Labels {
     this.#declutter(names);
   }
 
-  /** Names that are shown whatever is in front of them. */
+  /** Labels that are shown even if others overlap them. */
   get wanted() {
     return new Set([this.page.pick?.hovered, this.page.selected?.link]);
   }
 
-  // Of names that would lie on each other only the nearest is shown.
+  // Of overlapping labels only the nearest is shown.
   #declutter(names) {
     for (const { element } of names) element.size ??= [element.offsetWidth, element.offsetHeight];
     const shown = [];
@@ -76,7 +76,7 @@ export class Labels {
     }
   }
 
-  /** Show words beside the mouse, or nothing. */
+  /** Show a tooltip at the mouse, or hide it. */
   tip(words, event) {
     this.tipBox.hidden = !words;
     if (!words || !event) return;
@@ -86,10 +86,10 @@ export class Labels {
     this.tipBox.style.transform = `translate(${x}px, ${event.clientY - top + 16}px)`;
   }
 
-  /** The place of a link's frame, or of a point in it, in the world. */
+  /** Position of a link's frame, or of a point in it, in the world. */
   at(link, local = [0, 0, 0]) {
     const node = this.page.scene.byLink.get(link);
-    node?.updateWorldMatrix(true, false); // it may have moved since the last picture
+    node?.updateWorldMatrix(true, false); // it may have moved since the last frame
     return node ? node.localToWorld(new THREE.Vector3(...local)) : null;
   }
 }

@@ -1,4 +1,4 @@
-// Marks on links: frames, joint axes, inertia ellipsoids, centres of mass. Three.js objects that hang on the links.
+// Markers of links: frames, joint axes, inertia ellipsoids, centres of mass, as Three.js children of the links.
 /* global MeshCat */
 
 const THREE = MeshCat.THREE;
@@ -14,7 +14,7 @@ function bars() {
     const colour = new THREE.Color(hex).toArray();
     for (let i = 0; i < bar.count; i++) {
       const [x, y, z] = [bar.getX(i), bar.getY(i), bar.getZ(i)];
-      places.push(...[[y, z, x], [x, y, z], [z, x, y]][axis]); // turned about the diagonal, so that y becomes each axis
+      places.push(...[[y, z, x], [x, y, z], [z, x, y]][axis]); // rotated about the diagonal, so that y becomes each axis
       colours.push(...colour);
     }
   });
@@ -24,7 +24,7 @@ function bars() {
   return geometry;
 }
 
-/** A ball whose eighths are dark and light by turns, as crash-test marks are. */
+/** A ball with alternating dark and light octants, the symbol of a centre of mass. */
 function checkered() {
   const geometry = new THREE.SphereGeometry(1, 16, 12).toNonIndexed();
   const position = geometry.getAttribute("position");
@@ -71,7 +71,7 @@ export class Markers {
   constructor(page) {
     this.page = page;
     this.shown = Object.fromEntries(KINDS.map((kind) => [kind, false]));
-    this.size = 1; // times what fits the robot
+    this.size = 1; // factor of the default size
     this.made = { frames: [], axes: [], inertia: [], com: [] };
   }
 
@@ -80,7 +80,7 @@ export class Markers {
     this.update();
   }
 
-  /** Make the marks of a robot anew. */
+  /** Create the markers of a robot. */
   build() {
     const { robot, scene } = this.page;
     this.clear();
@@ -110,11 +110,11 @@ export class Markers {
     const mark = place(mesh("ball", "inertia", 10));
     mark.quaternion.set(origin[3], origin[4], origin[5], origin[6]).multiply(new THREE.Quaternion(...ellipsoid.turn));
     mark.scale.set(...ellipsoid.axes.map((half) => Math.max(half, 1e-5)));
-    mark.userData.own = true; // its size is the robot's
+    mark.userData.own = true; // not scaled by the marker size
     this.#hang("inertia", node, mark);
   }
 
-  // A mark that is not shown does not hang there: it would count for the size of its link.
+  // A hidden marker is detached, because it would count for the size of its link.
   #hang(kind, node, mark) {
     mark.userData.node = node;
     this.made[kind].push(mark);

@@ -1,9 +1,9 @@
-// Pointing at the robot: what is under the mouse, clicks that select or go to the tool in hand, the name on hovering.
+// Picking: the link under the mouse, selection by clicks, clicks for the active tool, tooltips with link names.
 /* global MeshCat */
 
 const THREE = MeshCat.THREE;
-const STILL = 5; // pixels a click may slip
-const SNAP = 9; // pixels within which a corner is taken instead of the place
+const STILL = 5; // pixels that the mouse may move during a click
+const SNAP = 9; // pixels within which a click snaps to a corner
 
 export class Pick {
   constructor(page) {
@@ -21,7 +21,7 @@ export class Pick {
     this.pane.addEventListener("dblclick", (event) => this.#look(event));
   }
 
-  /** Aim the ray from the camera through a place in the window. */
+  /** Aim the ray from the camera through a point of the window. */
   aim({ clientX, clientY }) {
     const { left, top, width, height } = this.pane.getBoundingClientRect();
     const at = new THREE.Vector2(((clientX - left) / width) * 2 - 1, 1 - ((clientY - top) / height) * 2);
@@ -30,14 +30,14 @@ export class Pick {
   }
 
   /**
-   * What is under a place in the window: {link, local, point} or null. `local` is in the link's frame, `point` in the
-   * frame of the grid [m]. Where nothing is hit and `ground` is set, the ground is (link null).
+   * The hit at a point of the window: {link, local, point} or null. `local` is in the link's frame, `point` in the
+   * frame of the grid [m]. If nothing is hit and `ground` is set, the hit is on the ground (link null).
    */
   at(event, { ground = false, snap = false } = {}) {
     const ray = this.aim(event);
     for (const hit of this.ray.intersectObjects(this.page.scene.solid, true)) {
       const link = this.page.scene.owner(hit.object);
-      if (!link || this.page.scene.faded.has(hit.object)) continue; // what is in the way is not meant
+      if (!link || this.page.scene.faded.has(hit.object)) continue; // transparent obstacles cannot be picked
       const world = (snap && this.#corner(hit, event)) || hit.point;
       return { link, object: hit.object, ...this.#placed(link, world) };
     }
@@ -53,7 +53,7 @@ export class Pick {
     return { local, point };
   }
 
-  // The corner of the face that was hit, where one is near enough to be meant.
+  // The corner of the hit face within the snap distance.
   #corner({ object, face }, event) {
     const position = object.geometry.getAttribute("position");
     let best = null;
@@ -93,7 +93,7 @@ export class Pick {
     if (!waiting) this.#soon();
   }
 
-  // At most once a picture; where looking takes long (many triangles), it takes at most a quarter of the time.
+  // At most once per frame; with many triangles, picking uses at most a quarter of the time.
   #soon() {
     requestAnimationFrame((now) => {
       if (now < this.rest) return this.#soon();
@@ -113,7 +113,7 @@ export class Pick {
     this.page.labels.tip(link?.replace(/^world\//, ""), event);
   }
 
-  // A double click makes what is there the middle of the view.
+  // A double click centres the view on the hit point.
   #look(event) {
     const hit = this.at(event, { ground: true });
     if (!hit) return;
@@ -125,7 +125,7 @@ export class Pick {
   }
 }
 
-/** Selected and hovered links glow. */
+/** Highlight selected and hovered links. */
 function glow(page) {
   const shades = { select: 0x17458f, hover: 0x30353c };
   const glowing = { select: null, hover: null };

@@ -1,22 +1,22 @@
-// What stands on the stage: takes meshcat commands, fetches meshes once, applies packed poses.
+// The scene: executes meshcat commands, fetches each mesh once, applies packed poses.
 /* global MeshCat */
 
 const THREE = MeshCat.THREE;
 const HEADER = 16;
-const FAINT = 0.14; // opacity of what is in the way
-const STILL = 1e-6; // [m] and parts of a turn: what moves less needs no new picture
+const FAINT = 0.14; // opacity of obstacles in front of the robot
+const STILL = 1e-6; // [m] and quaternion components: smaller motions do not trigger a new frame
 
 export class Scene {
   constructor(stage) {
     this.stage = stage;
     this.viewer = stage.viewer;
     this.meshes = new Map(); // content hash → promise of a BufferGeometry
-    this.used = new Set(); // by the robot that stands there now
+    this.used = new Set(); // meshes of the current robot
     this.waiting = new Set();
     this.groups = { visual: new Map(), collision: new Map() };
     this.shown = { visual: true, collision: false };
     this.look = { wireframe: false, opacity: 1 };
-    this.faded = new Set(); // meshes that are in the way
+    this.faded = new Set(); // transparent obstacles
     this.byLink = new Map(); // name → node
     this.linkOf = new Map(); // node → name
     this.generation = 0;
@@ -24,7 +24,7 @@ export class Scene {
     this.own = [];
     this.model = -1;
     this.pending = null;
-    this.placed = null; // the poses that were applied last
+    this.placed = null; // the last applied poses
     const original = this.viewer.handle_command.bind(this.viewer);
     this.viewer.handle_command = (command) => this.#command(command, original);
   }
@@ -63,7 +63,7 @@ export class Scene {
     this.#style(group);
   }
 
-  // Wires and transparency go over what the description says, which is kept beside.
+  // Wireframe and opacity override the material of the description, which is stored.
   #style(group) {
     group.traverse((object) => {
       const { material } = object;
@@ -76,14 +76,14 @@ export class Scene {
     });
   }
 
-  /** Draw shapes as wires, or let them be seen through. @param look {wireframe, opacity} of 0..1 */
+  /** Set the style of all shapes. @param look {wireframe, opacity} with opacity in 0..1 */
   restyle(look) {
     Object.assign(this.look, look);
     for (const groups of Object.values(this.groups)) for (const group of groups.values()) this.#style(group);
     this.stage.dirty();
   }
 
-  /** Make meshes faint, and those that were and are not among them as they should be. */
+  /** Make these meshes transparent, and restore all others. */
   fade(meshes) {
     const before = this.faded;
     const changed = [...meshes, ...before].filter((mesh) => meshes.has(mesh) !== before.has(mesh));
@@ -102,14 +102,14 @@ export class Scene {
     const generation = this.generation;
     const task = this.#mesh(name)
       .then((geometry) => {
-        if (generation !== this.generation) return; // the robot was replaced meanwhile
+        if (generation !== this.generation) return; // the robot was replaced in the meantime
         const mesh = new THREE.Mesh(geometry, new THREE.MaterialLoader().parse(object.materials[0]));
         mesh.castShadow = path[3] !== "collision";
         mesh.receiveShadow = true;
         this.viewer.set_object(path, mesh);
         if (path[3] in this.groups) this.#style(mesh);
         const node = this.byLink.get(this.owner(mesh));
-        if (node) delete node.userData.middle; // it has another middle now
+        if (node) delete node.userData.middle; // its centre has changed
         this.arrived?.(mesh);
         this.stage.dirty();
       })
@@ -128,12 +128,12 @@ export class Scene {
     return this.meshes.get(name);
   }
 
-  /** Resolves when all meshes asked for so far have come. */
+  /** Resolves when all requested meshes are loaded. */
   async settled() {
     while (this.waiting.size) await Promise.allSettled([...this.waiting]);
   }
 
-  /** The box around the robot, without the world and without marks; around everything where it has nothing to see. */
+  /** Bounding box of the robot without world and markers; of everything if the robot has no shapes. */
   bounds() {
     const box = new THREE.Box3();
     for (const node of this.own) node.updateWorldMatrix(true, true);
@@ -158,7 +158,7 @@ export class Scene {
     return node ? roles.flatMap((each) => this.#groupsOf(each, [node])) : [];
   }
 
-  /** The middle of what there is to see of a link, in its frame. */
+  /** Centre of the shapes of a link, in its frame. */
   middle(link) {
     const node = this.byLink.get(link);
     const box = new THREE.Box3();
@@ -166,7 +166,7 @@ export class Scene {
     return box.isEmpty() ? new THREE.Vector3() : node.worldToLocal(box.getCenter(new THREE.Vector3()));
   }
 
-  /** Everything that can be pointed at. */
+  /** All objects that can be picked. */
   get solid() {
     return Object.values(this.groups).flatMap((groups) => [...groups.values()]).filter((group) => group.visible);
   }
@@ -184,13 +184,13 @@ export class Scene {
     const names = model.nodes.map((path) => decoded(path.split("/").pop()));
     this.byLink = new Map(this.nodes.map((node, i) => [names[i], node]));
     this.linkOf = new Map(this.nodes.map((node, i) => [node, names[i]]));
-    // No link has a slash in its name; bodies of the world do.
+    // Names of links have no slash; names of world bodies do.
     this.own = this.nodes.filter((_, i) => !model.nodes[i].includes("/world%2F"));
     this.pending = this.placed = null;
     for (const name of this.meshes.keys()) this.used.has(name) || this.meshes.delete(name);
   }
 
-  /** Keep a pose frame until the next picture is drawn; `applied(sequence, time)` is called then. */
+  /** Store a pose frame until the next frame is drawn; then `applied(sequence, time)` is called. */
   poses(frame, applied) {
     const idle = this.pending === null;
     this.pending = frame;
@@ -222,7 +222,7 @@ export class Scene {
   }
 }
 
-// As link_path in nodes.py: parts of a path hold no slash.
+// As link_path in meshcat_objects.py: components of a path contain no slash.
 function decoded(part) {
   return part.replaceAll("%2F", "/").replaceAll("%25", "%");
 }

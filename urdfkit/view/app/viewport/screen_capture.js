@@ -1,11 +1,11 @@
-// Pictures and films of the stage, to keep.
+// Screenshots and videos of the viewport.
 
 import { h, icon, short } from "../page/dom.js";
 import { numberField } from "../page/number_field.js";
 
 const SHOT = "M4 7h4l2-3h4l2 3h4v13H4zM12 10a3.5 3.5 0 1 0 0 7a3.5 3.5 0 0 0 0-7z";
 const FILM = "M20 12a8 8 0 1 1-3-6.2M20 3v4h-4M10 9l5 3-5 3z";
-const SCALE = 2; // of a picture, times the stage's size
+const SCALE = 2; // resolution of a screenshot relative to the viewport
 
 function keep(blob, name) {
   const link = h("a", { download: name, href: URL.createObjectURL(blob) });
@@ -19,22 +19,22 @@ function stem(page) {
   return (page.model?.name ?? "robot").replace(/[^\w.-]+/g, "_");
 }
 
-/** A picture of the stage as it is, as a PNG blob. */
+/** Take a screenshot as a PNG blob. */
 export function picture(page) {
   const { renderer } = page.stage.viewer;
   const before = renderer.getPixelRatio();
   renderer.setPixelRatio(SCALE);
   page.stage.resize();
   page.stage.viewer.render();
-  // Read before anything else is drawn: the buffer does not last.
-  const taken = new Promise((resolve, reject) => renderer.domElement.toBlob((blob) => (blob ? resolve(blob) : reject(new Error("no picture"))), "image/png"));
+  // Read before the next frame is drawn, because the buffer is not preserved.
+  const taken = new Promise((resolve, reject) => renderer.domElement.toBlob((blob) => (blob ? resolve(blob) : reject(new Error("the screenshot failed"))), "image/png"));
   renderer.setPixelRatio(before);
   page.stage.resize();
   return taken;
 }
 
-/** A film of one turn around what is looked at, as a WebM blob. `told` hears how far it is, 0..1; false stops it. */
-export function turntable(page, seconds, told = () => true) {
+/** Record one turn around the target of the camera as a WebM blob. `progress` is called with 0..1; it stops by returning false. */
+export function turntable(page, seconds, progress = () => true) {
   const { viewer } = page.stage;
   const { camera, controls } = viewer;
   const kind = ["video/webm;codecs=vp9", "video/webm;codecs=vp8", "video/webm", "video/mp4"].find((each) => MediaRecorder.isTypeSupported(each));
@@ -62,7 +62,7 @@ export function turntable(page, seconds, told = () => true) {
       const done = Math.min(1, (now - start) / (1000 * seconds));
       camera.position.copy(target).add(arm.clone().applyAxisAngle(up, done * 2 * Math.PI));
       page.stage.dirty();
-      stopped = told(done) === false;
+      stopped = progress(done) === false;
       if (done < 1 && !stopped) requestAnimationFrame(turn);
       else requestAnimationFrame(() => recorder.stop());
     };
@@ -98,7 +98,7 @@ export function capture(page) {
     button.lastChild.textContent = "Record a turn";
   });
   page.viewPanel.body.append(
-    h("h3", {}, "Keep"),
+    h("h3", {}, "Capture"),
     h("div.row.wrap", {}, h("button", { type: "button", onclick: () => void shoot() }, icon(SHOT), h("span", {}, "Screenshot")), button),
     h("label.inline", {}, "One turn takes ", seconds, " s"),
     bar,

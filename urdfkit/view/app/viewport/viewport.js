@@ -1,4 +1,4 @@
-// The 3-D view: meshcat's viewer with our own light, ground, camera and theme.
+// The 3-D viewport: meshcat's viewer with its own light, ground, camera and theme.
 /* global MeshCat */
 
 import { soft, sparing } from "./graphics_device.js";
@@ -10,19 +10,19 @@ const THEMES = {
   dark: { sky: 0x161b23, major: 0x49566a, minor: 0x2a3340, shadow: 0.45, hemisphere: 0.7 },
 };
 const FOV = 42;
-const ROOM = 1.3; // how much larger than when the view was fitted a robot may be
-const PATIENCE = 2500; // ms after which what there is is drawn, though the robot has not come yet
+const ROOM = 1.3; // factor by which a robot may outgrow the fitted view
+const PATIENCE = 2500; // ms after which an incomplete scene is drawn
 
 export class Stage {
   constructor(pane) {
     this.pane = pane;
     this.viewer = sparing(() => new MeshCat.Viewer(pane));
     this.viewer.gui.domElement.remove();
-    this.viewer.set_3d_pane_size = () => this.resize(); // meshcat's own takes the window's height
+    this.viewer.set_3d_pane_size = () => this.resize(); // meshcat's version uses the height of the window
     this.viewer.delete_path(["Lights"]); // they end ten metres from the origin
     this.viewer.delete_path(["Grid"]);
     this.viewer.renderer.setPixelRatio(soft ? 1 : Math.min(devicePixelRatio, 2));
-    this.viewer.renderer.shadowMap.autoUpdate = false; // they change when something moves, not when one looks from elsewhere
+    this.viewer.renderer.shadowMap.autoUpdate = false; // shadows change when objects move, not when the camera moves
     this.#wait();
     this.radius = 0.5;
     this.followed = null;
@@ -39,13 +39,13 @@ export class Stage {
     this.resize();
   }
 
-  /** Something has changed: draw anew, shadows too. */
+  /** Mark the scene as changed, so that it is drawn again with its shadows. */
   dirty() {
     this.viewer.renderer.shadowMap.needsUpdate = true;
     this.viewer.set_dirty();
   }
 
-  // An empty stage is not worth a picture: drawing it holds up the robot.
+  // An empty scene is not drawn, because that would delay the robot.
   #wait() {
     const render = this.viewer.render.bind(this.viewer);
     this.empty = true;
@@ -66,7 +66,7 @@ export class Stage {
     this.dirty();
   }
 
-  // What the camera's picture spans: of a parallel one `halfHeight` metres up and down from its middle.
+  // The frustum of the camera; for an orthographic one, `halfHeight` metres above and below its centre.
   #frame() {
     const { camera } = this.viewer;
     if (camera.isOrthographicCamera) {
@@ -97,7 +97,7 @@ export class Stage {
   }
 
   #light() {
-    // Children of the scene live in the robot's axes, z up.
+    // The children of the scene use the axes of the robot, z up.
     this.hemisphere = new THREE.HemisphereLight(0xffffff, 0x8f98a3, 0.75);
     this.hemisphere.position.set(0, 0, 1);
     const fill = new THREE.DirectionalLight(0xffffff, 0.22);
@@ -122,20 +122,20 @@ export class Stage {
     this.cell = 1;
   }
 
-  /** Lines of the grid fade with distance, so that the ground has no end and no flicker; seen in parallel they do not. */
+  /** Fade the grid with distance in a perspective view, which hides its edge and flicker. */
   haze() {
     const { camera, controls } = this.viewer;
     const distance = camera.isOrthographicCamera ? 1e6 : camera.position.distanceTo(controls.target);
     this.grid.material.uniforms.reach.value = distance * 5 + 4 * this.cell;
   }
 
-  /** From how far a box is well seen [m]. */
+  /** Camera distance that fits a box [m]. */
   distance(box, zoom = 1) {
     const radius = Math.max(box.getBoundingSphere(new THREE.Sphere()).radius, 0.02);
     return (radius / Math.sin((FOV * Math.PI) / 360) / Math.min(1, this.aspect)) * 1.12 * zoom;
   }
 
-  /** Look at a box from a good distance. `direction` points from it to the camera, z up; none: from where it is now. */
+  /** Fit the view to a box. `direction` points from the box to the camera, z up; null keeps the current direction. */
   fit(box, direction = null, zoom = 1) {
     if (box.isEmpty()) return false;
     const sphere = box.getBoundingSphere(new THREE.Sphere());
@@ -169,7 +169,7 @@ export class Stage {
     return true;
   }
 
-  /** Whether a box is out of the picture of the last fit, or little in it, while nobody has moved the camera since. */
+  /** Whether a box is outside of the last fitted view, or small in it, and the camera has not been moved since. */
   outgrown(box) {
     if (!this.fitted || box.isEmpty() || this.#place() !== this.fitted.place) return false;
     const { center, radius } = box.getBoundingSphere(new THREE.Sphere());
@@ -182,7 +182,7 @@ export class Stage {
     return [...camera.position.toArray(), ...controls.target.toArray(), camera.isOrthographicCamera ? camera.zoom : 0].map((x) => x.toPrecision(4)).join();
   }
 
-  /** Tell where the root link is [m, z up]; light and ground go with it, the camera too if it should. */
+  /** Set the position of the root link [m, z up]; light, ground and optionally the camera follow it. */
   at(x, y, z, follow) {
     const stands = [x, y, z, this.radius, follow];
     if (this.stands?.every((value, i) => value === stands[i])) return;
