@@ -31,6 +31,7 @@ REVISED = (
     "urdfkit/sim/engine/stepping",
     "urdfkit/sim/scene_view.py",
     "urdfkit/sim/world",
+    "urdfkit/scene",
     "urdfkit/view",
 )
 """Where every name and sentence has been revised; the rest follows."""
@@ -64,5 +65,5 @@ def test_words_that_are_not_used_are_found_in_names_comments_and_strings(tmp_pat
 
 def test_code_in_backticks_is_not_prose(tmp_path):
     page = tmp_path / "page.md"
-    page.write_text("Call `page.broadcast` to report the pose.\n")
+    page.write_text("Call `page.tell` to report the pose.\n")
     assert list(uses(page)) == []

@@ -13,7 +13,7 @@ from urdfkit.scene import TriMesh
 from urdfkit.scene.camera_model import Lens
 from urdfkit.scene.placement import pose_matrix
 from urdfkit.scene.ray_images import Painter
-from urdfkit.scene.rays.shading.materials import copies
+from urdfkit.scene.rays.shading.materials import mip_levels
 
 LENS = Lens(80, 60, 1.0)
 EYE = pose_matrix(Pose((-30.0, 0.3, 1.5), (0.0, 0.05, 0.1)))
@@ -52,11 +52,11 @@ def test_a_chequered_floor_at_a_grazing_angle_looks_like_many_samples_per_pixel(
 
 def test_smaller_copies_are_means_down_to_one_texel() -> None:
     pixels = np.random.default_rng(1).integers(0, 256, (5, 8, 4), dtype=np.uint8)
-    sizes = [each.shape[:2] for each in copies(pixels)]
+    sizes = [each.shape[:2] for each in mip_levels(pixels)]
     assert sizes == [(5, 8), (2, 4), (1, 2), (1, 1)]
-    second = list(copies(pixels))[1]
+    second = list(mip_levels(pixels))[1]
     assert second[1, 2] == pytest.approx(pixels[2:4, 4:6].astype(float).mean(axis=(0, 1)), abs=0.51)
-    (last,) = list(copies(np.full((1, 1, 4), 7, dtype=np.uint8)))
+    (last,) = list(mip_levels(np.full((1, 1, 4), 7, dtype=np.uint8)))
     assert (last == 7).all()
 
 

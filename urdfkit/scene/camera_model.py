@@ -1,4 +1,4 @@
-"""The camera model: which direction each pixel looks in, with Brown's distortion."""
+"""The camera model: the direction of each pixel, with Brown's distortion."""
 
 from __future__ import annotations
 
@@ -12,10 +12,10 @@ from numpy.typing import NDArray
 Array = NDArray[np.float64]
 
 TILE = 4
-"""Pixels that are neighbours in the picture are neighbours among the rays: tiles of 4 × 4."""
+"""Neighbouring pixels are neighbours among the rays: tiles of 4 × 4."""
 
 AT_ONCE = 2**14
-"""Directions that are worked out at once."""
+"""Number of directions that are computed at once."""
 
 
 @dataclass(frozen=True)
@@ -32,7 +32,7 @@ class Distortion:
         return any((self.k1, self.k2, self.p1, self.p2, self.k3))
 
     def distort(self, x: Array, y: Array) -> tuple[Array, Array]:
-        """Return where points of the undistorted picture, in units of the focal length, go."""
+        """Distort points of the image, in units of the focal length."""
         r2 = x * x + y * y
         radial = 1 + r2 * (self.k1 + r2 * (self.k2 + r2 * self.k3))
         return (
@@ -41,7 +41,7 @@ class Distortion:
         )
 
     def undistort(self, x: Array, y: Array) -> tuple[Array, Array]:
-        """Return where points of the picture come from; NaN where nothing goes there."""
+        """Undistort points of the image; NaN for points to which nothing is projected."""
         a, b = x.copy(), y.copy()
         with np.errstate(over="ignore", invalid="ignore"):
             for _ in range(60):
@@ -57,13 +57,13 @@ class Distortion:
 
 @dataclass(frozen=True)
 class Lens:
-    """A pinhole camera that looks along x, with z up in the picture and y to its left.
+    """A pinhole camera that looks along x, with z up and y to the left.
 
     Attributes:
-        width: of the picture [px].
-        height: of the picture [px].
+        width: width of the image [px].
+        height: height of the image [px].
         field_of_view: horizontal [rad].
-        distortion: of its lens.
+        distortion: distortion of the lens.
     """
 
     width: int
@@ -78,7 +78,7 @@ class Lens:
 
     @cached_property
     def order(self) -> NDArray[np.int64]:
-        """For each ray the number of its pixel, row by row; shape (width · height,)."""
+        """Index of the pixel of each ray, in row-major order; shape (width · height,)."""
         found, start = np.empty(self.width * self.height, dtype=np.int64), 0
         whole = self.width - self.width % TILE
         for first in range(0, self.height, TILE):
@@ -93,22 +93,22 @@ class Lens:
     def directions(self) -> Array:
         """A unit vector per ray in the camera's frame, tile by tile; shape (width · height, 3).
 
-        Pixels that nothing is projected to look backwards along x: they see nothing.
+        The directions of pixels to which nothing is projected point backwards along x, so they see nothing.
         """
         found = np.empty((self.width * self.height, 3))
-        for first in range(0, len(found), AT_ONCE):  # what is worked on meanwhile takes several times as much memory
+        for first in range(0, len(found), AT_ONCE):  # in blocks, because temporary arrays need several times the memory
             row, column = np.divmod(self.order[first : first + AT_ONCE], self.width)
             found[first : first + AT_ONCE] = self.towards(column.astype(float), row.astype(float))
         return found
 
     @property
     def lost(self) -> float:
-        """What part of the picture nothing is projected to, 0..1, by some hundreds of its pixels."""
+        """Fraction of the image to which nothing is projected, 0..1, estimated from some hundreds of pixels."""
         column, row = np.meshgrid(np.linspace(0, self.width - 1, 32), np.linspace(0, self.height - 1, 32))
         return float((self.towards(column.ravel(), row.ravel())[:, 0] < 0).mean()) if self.distortion else 0.0
 
     def towards(self, column: Array, row: Array) -> Array:
-        """Return the unit vectors towards places in the picture, as `directions`; shape (n, 3).
+        """Return the unit vectors towards points of the image, as `directions`; shape (n, 3).
 
         Args:
             column: to the right, 0 in the middle of the first pixel [px].
@@ -125,7 +125,7 @@ class Lens:
 
 
 def spread(samples: int) -> Array:
-    """Return where in a pixel so many samples lie evenly, around its middle [px]; shape (samples, 2).
+    """Return evenly distributed sample positions relative to the centre of a pixel [px]; shape (samples, 2).
 
     Source: Roberts, *The unreasonable effectiveness of quasirandom sequences* (2018), the sequence R2.
     """

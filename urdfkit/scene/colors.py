@@ -1,4 +1,4 @@
-"""Colours: what a visual looks like, from URDF materials and Gazebo's material names."""
+"""Colours of visuals from URDF materials and Gazebo's material names."""
 
 from __future__ import annotations
 
@@ -10,15 +10,15 @@ from urdfkit.scene.specular import MATT, Gloss, gloss_of
 __all__ = ["DEFAULT", "GAZEBO", "Palette", "Rgba"]
 
 DEFAULT: Rgba = (0.7, 0.7, 0.7, 1.0)
-"""Gazebo's default grey, for what has no material."""
+"""Gazebo's default grey, for visuals without material."""
 
 
 class Palette:
     """The colours of one robot.
 
-    A colour defined at robot level wins over one written inside a visual under the same name, and a colour written in
-    one visual serves all later ones that only name it: so does urdfdom, and with it RViz. A URDF colour wins over the
-    ``<material>`` of a ``<gazebo reference=…>`` block, which only Gazebo classic reads.
+    A colour defined at robot level has precedence over a colour with the same name in a visual, and a colour defined in
+    a visual applies to all later visuals that refer to its name, as in urdfdom and RViz. A URDF colour has precedence
+    over the ``<material>`` of a ``<gazebo reference=…>`` block, which only Gazebo classic reads.
     """
 
     def __init__(self, robot: Robot) -> None:
@@ -44,22 +44,22 @@ class Palette:
                     self._gloss[block.reference] = gloss
 
     def opacity(self, link: str) -> float:
-        """Return what the ``<transparency>`` of a link's ``<gazebo>`` block leaves, 0..1; 1 where there is none."""
+        """Return the opacity of a link by the ``<transparency>`` of its ``<gazebo>`` block, 0..1; 1 without one."""
         return 1.0 - self._clear.get(link, 0.0)
 
     def gloss(self, link: str) -> Gloss:
-        """Return what the ``<gazebo>`` block of a link says of its gloss."""
+        """Return the specular properties of a link by its ``<gazebo>`` block."""
         return self._gloss.get(link, MATT)
 
     def textured(self, visual: Visual) -> Material | None:
-        """Return the material whose ``<texture>`` a visual has; None where it has none."""
+        """Return the material with the ``<texture>`` of a visual; None without one."""
         if visual.material is None:
             return None
         found = self._textures.get(visual.material.name or "", visual.material)
         return found if found.texture else None
 
     def of(self, link: str, visual: Visual) -> Rgba | None:
-        """Return the colour of a visual, components in 0..1; None where nothing says one."""
+        """Return the colour of a visual, components in 0..1; None if none is defined."""
         if (material := visual.material) is not None:
             named = self._named.get(material.name or "", material.rgba)
             if named is not None:
@@ -73,13 +73,13 @@ def _gazebo_color(block: Element) -> Rgba | None:
         for tag in ("diffuse", "ambient"):
             if (color := material.find(tag)) is not None and (rgba := _numbers(color.text)) is not None:
                 return rgba
-        if (known := GAZEBO.get(script_of(material)[1].removeprefix("Gazebo/"))) is not None:
-            return known
+        if (rgba := GAZEBO.get(script_of(material)[1].removeprefix("Gazebo/"))) is not None:
+            return rgba
     return None
 
 
 def _materials(block: Element) -> list[Element]:
-    """Return the materials that a ``<gazebo reference=…>`` block may give its link, the first first."""
+    """Return the materials that a ``<gazebo reference=…>`` block may define for its link, in document order."""
     places = (block, block.find("visual") or block)
     return [material for place in places if (material := place.find("material")) is not None]
 
@@ -94,7 +94,7 @@ def _transparency(block: Element) -> float | None:
 
 
 def _numbers(text: str) -> Rgba | None:
-    """Read ``r g b`` or ``r g b a``; None where it is neither."""
+    """Parse ``r g b`` or ``r g b a``; None if the text is invalid."""
     try:
         numbers = [min(max(float(word), 0.0), 1.0) for word in text.split()]
     except ValueError:

@@ -1,4 +1,4 @@
-"""How far a scene reaches: the lowest point and axis-aligned bounds.
+"""Extent of a scene: the lowest point and axis-aligned bounds.
 
 Exact: in closed form for boxes, spheres, cylinders and capsules; by all vertices for meshes.
 """
@@ -17,7 +17,7 @@ Array = NDArray[np.float64]
 
 
 def bounds(scene: Scene, poses: ArrayLike, *, role: Role | None = None) -> Array | None:
-    """Return the lowest and highest corner of the box along the world's axes that holds the scene [m]; shape (2, 3).
+    """Return the lowest and highest corner of the axis-aligned bounding box of the scene [m]; shape (2, 3).
 
     Args:
         scene: the shapes.
@@ -40,7 +40,7 @@ def bounds(scene: Scene, poses: ArrayLike, *, role: Role | None = None) -> Array
 
 
 def lowest_point(scene: Scene, poses: ArrayLike) -> float | None:
-    """Return the lowest z of all collision shapes [m]; None where there is none.
+    """Return the lowest z of all collision shapes [m]; None without collision shapes.
 
     Args:
         scene: the shapes.

@@ -1,4 +1,4 @@
-"""Lights of a world, as pictures are taken by."""
+"""Lights of a world, for the renderers."""
 
 from __future__ import annotations
 
@@ -19,19 +19,19 @@ Color = tuple[float, float, float]
 
 AMBIENT: Color = (0.4, 0.4, 0.4)
 BACKGROUND: Color = (0.7, 0.7, 0.7)
-"""Where a world does not say (sdformat, scene.sdf)."""
+"""Defaults of a world (sdformat, scene.sdf)."""
 
 _KINDS = {"directional": DIRECTIONAL, "point": POINT, "spot": SPOT}
 
 
 @dataclass(frozen=True, eq=False)
 class Lighting:
-    """What shines in a world.
+    """The lighting of a world.
 
     Attributes:
         lights: `LIGHT` numbers each; shape (lights, `LIGHT`).
-        ambient: light from everywhere, 0..1.
-        background: what is seen where nothing is, 0..1.
+        ambient: ambient light, 0..1.
+        background: background colour, 0..1.
     """
 
     lights: Array = field(default_factory=lambda: np.empty((0, LIGHT)))

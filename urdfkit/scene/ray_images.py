@@ -1,4 +1,4 @@
-"""Pictures of a scene: colour, depth and which shape, by casting a ray per pixel and one per light."""
+"""Painter: images of a scene with colour, depth and shape of each pixel, by ray casting."""
 
 from __future__ import annotations
 
@@ -9,30 +9,30 @@ from numpy.typing import ArrayLike, NDArray
 
 from urdfkit.scene.camera_model import Lens, spread
 from urdfkit.scene.lights import Lighting
-from urdfkit.scene.rays.kernels import looker, outliner
+from urdfkit.scene.rays.kernels import outliner, tracer
 from urdfkit.scene.rays.ray_casting import SCRATCH
 from urdfkit.scene.rays.ray_packet import FAR
 from urdfkit.scene.rays.ray_scene import RayTable
-from urdfkit.scene.rays.shading.materials import cover_of, paint_of
-from urdfkit.scene.rays.shading.shading_buffers import DESK
+from urdfkit.scene.rays.shading.materials import occluders_of, paint_of
+from urdfkit.scene.rays.shading.shading_buffers import BUFFER_SIZE
 
 Array = NDArray[np.float64]
 
 ALIKE = 8
-"""Neighbouring pixels whose channels differ by no more are no edge [of 255]."""
+"""Largest difference between the channels of neighbouring pixels that is not an edge [of 255]."""
 
 MOST_RAYS = 4_000_000
-"""Rays of edges that are cast at once."""
+"""Maximum number of rays that are cast at once for edge pixels."""
 
 
 @dataclass(frozen=True, eq=False)
 class Picture:
-    """What a camera saw.
+    """Image of a camera.
 
     Attributes:
         rgb: red, green, blue, 0..255; shape (height, width, 3).
-        depth: distance along the camera's axis [m], infinite where nothing is; shape (height, width).
-        shapes: indices into `RayTable.shapes`, -1 where nothing is; shape (height, width).
+        depth: distance along the camera's axis [m], infinite without a hit; shape (height, width).
+        shapes: indices into `RayTable.shapes`, -1 without a hit; shape (height, width).
     """
 
     rgb: NDArray[np.uint8]
@@ -41,20 +41,20 @@ class Picture:
 
 
 class Painter:
-    """Takes pictures of what is in a table of shapes.
+    """Renders images of the shapes of a table by ray casting.
 
     Args:
-        table: the shapes; placed by whoever holds it.
-        lighting: what shines.
+        table: the shapes; the caller places them.
+        lighting: the lights.
 
     Attributes:
-        paint: what the shapes look like, see `paint_of`.
+        paint: materials of the shapes, see `paint_of`.
     """
 
     def __init__(self, table: RayTable, lighting: Lighting) -> None:
         self.table = table
         self._lights, self._air = lighting.lights, lighting.air
-        self.paint, self._cover = paint_of(table), cover_of(table)
+        self.paint, self._occluders = paint_of(table), occluders_of(table)
 
     def take(
         self,
@@ -66,17 +66,17 @@ class Painter:
         samples: int = 1,
         deep: bool = True,
     ) -> Picture:
-        """Return a picture.
+        """Render an image.
 
         Args:
-            lens: what it is taken with.
+            lens: the camera model.
             frame: placement of the camera, which looks along x; shape (4, 4).
-            near: what is nearer is not seen [m].
-            far: what is farther is not seen [m].
-            samples: rays for the colour of each pixel in which something ends; depths and shapes are of one ray.
-            deep: whether depths and shapes are wanted; here they come anyway.
+            near: nearer surfaces are not seen [m].
+            far: farther surfaces are not seen [m].
+            samples: rays per edge pixel for its colour; depth and shape use one ray.
+            deep: whether depth and shapes are needed; this renderer always computes them.
         """
-        rgb, depths, hits = self._look(lens, lens.directions, lens.order, frame, near, far)
+        rgb, depths, hits = self._trace(lens, lens.directions, lens.order, frame, near, far)
         shape = (lens.height, lens.width)
         seen = rgb.reshape(*shape, 3)
         if samples > 1:
@@ -86,15 +86,15 @@ class Painter:
     def smooth(
         self, rgb: NDArray[np.uint8], lens: Lens, frame: ArrayLike, *, near: float, far: float, samples: int
     ) -> None:
-        """Give the pixels of a picture in which something ends the mean of several rays.
+        """Replace the colours of the edge pixels of an image by the mean of several rays.
 
         Args:
-            rgb: the picture, of one sample per pixel; shape (height, width, 3).
-            lens: what it was taken with.
+            rgb: the image with one sample per pixel; shape (height, width, 3).
+            lens: its camera model.
             frame: placement of the camera; shape (4, 4).
-            near: what is nearer is not seen [m].
-            far: what is farther is not seen [m].
-            samples: rays for each of the pixels.
+            near: nearer surfaces are not seen [m].
+            far: farther surfaces are not seen [m].
+            samples: rays per edge pixel.
         """
         found = np.empty(lens.width * lens.height, dtype=np.int64)
         ends = found[: outliner()(rgb, ALIKE, found)]
@@ -103,19 +103,19 @@ class Painter:
             row, column = np.divmod(part, lens.width)
             at = np.column_stack([column, row])[:, None] + spread(samples)
             rays = lens.towards(at[..., 0].ravel(), at[..., 1].ravel())
-            colors = self._look(lens, rays, np.arange(len(rays)), frame, near, far)[0]
+            colors = self._trace(lens, rays, np.arange(len(rays)), frame, near, far)[0]
             flat[part] = np.rint(colors.reshape(-1, samples, 3).mean(axis=1))
 
-    def _look(
+    def _trace(
         self, lens: Lens, directions: Array, order: NDArray[np.int64], frame: ArrayLike, near: float, far: float
     ) -> tuple[NDArray[np.uint8], Array, NDArray[np.int64]]:
-        """Return colours, depths along x and shapes for rays from the camera, each in its place in an order."""
+        """Return colours, depths along x and shapes for rays from the camera, sorted by `order`."""
         placed, count = np.asarray(frame, dtype=float), len(directions)
         rgb, depths = np.empty((count, 3), dtype=np.uint8), np.empty(count)
         hits = np.empty(count, dtype=np.int64)
-        looker()(
-            self.table.kernel_scene, self._cover, self.paint, self._lights, self._air,
+        tracer()(
+            self.table.kernel_scene, self._occluders, self.paint, self._lights, self._air,
             np.concatenate([placed[:3, :3].ravel(), placed[:3, 3], [1.0 / lens.focal_length]]), directions, order,
-            float(near), float(min(far, FAR)), np.empty(SCRATCH), np.empty(DESK), rgb, depths, hits,
+            float(near), float(min(far, FAR)), np.empty(SCRATCH), np.empty(BUFFER_SIZE), rgb, depths, hits,
         )  # fmt: skip
         return rgb, depths, hits

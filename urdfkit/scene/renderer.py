@@ -1,4 +1,4 @@
-"""Who takes pictures: rays, which work everywhere, or OpenGL, where a driver works."""
+"""Choice of the renderer: ray casting, which works everywhere, or OpenGL, which needs a working driver."""
 
 from __future__ import annotations
 
@@ -10,51 +10,51 @@ from numpy.typing import ArrayLike
 
 from urdfkit.errors import SimulationError, did_you_mean
 from urdfkit.scene.camera_model import Lens
-from urdfkit.scene.gl.driver_probe import SECONDS, Found, on_processor, probe, probe_anew
+from urdfkit.scene.gl.driver_probe import SECONDS, Found, on_processor, probe, probe_again
 from urdfkit.scene.lights import Lighting
 from urdfkit.scene.ray_images import Painter, Picture
 from urdfkit.scene.rays.ray_scene import RayTable
 
 Renderer = Literal["auto", "ray", "gl"]
 RENDERERS: tuple[str, ...] = get_args(Renderer)
-"""Whichever is quicker of those that work, see `painter_of`; rays; OpenGL."""
+"""The faster working renderer, see `painter_of`; ray casting; OpenGL."""
 
 
 class TakesPictures(Protocol):
-    """A `Painter`, by whatever means."""
+    """Interface of a renderer, as `Painter`."""
 
     table: RayTable
 
     def take(
         self, lens: Lens, frame: ArrayLike, *, near: float = 0.0, far: float = ..., samples: int = 1, deep: bool = True
     ) -> Picture:
-        """Return a picture, see `Painter.take`."""
+        """Render an image, see `Painter.take`."""
         ...
 
 
 PATIENCE = 1.5
-"""Seconds of trying a driver before the user is told what is waited for."""
+"""Seconds of waiting for a driver before a message to the user."""
 
 
 def check(
-    renderer: str, device: Callable[[], Found] = probe_anew, *, note: Callable[[str], None] = lambda text: None
+    renderer: str, device: Callable[[], Found] = probe_again, *, note: Callable[[str], None] = lambda text: None
 ) -> None:
-    """Refuse a renderer that there is not.
+    """Check that a renderer exists and works.
 
     Args:
         renderer: one of `RENDERERS`.
-        device: tries whether OpenGL works.
-        note: tells the user that this takes long.
+        device: function that tests OpenGL.
+        note: receives a message if the test takes long.
 
     Raises:
-        SimulationError: there is no such renderer, or OpenGL is asked for and does not work here.
+        SimulationError: the renderer is unknown, or OpenGL was selected and does not work here.
     """
     if renderer not in RENDERERS:
         raise SimulationError(
-            f"no renderer `{renderer}`{did_you_mean(renderer, RENDERERS)} (there are {', '.join(RENDERERS)})"
+            f"unknown renderer `{renderer}`{did_you_mean(renderer, RENDERERS)} (known: {', '.join(RENDERERS)})"
         )
     if renderer == "gl" and not (found := _tried(device, note)).works:
-        raise SimulationError(f"renderer `gl` does not work here: {found.name}; `ray` does everywhere")
+        raise SimulationError(f"renderer `gl` does not work here: {found.name}; use `ray`")
 
 
 def painter_of(
@@ -64,24 +64,24 @@ def painter_of(
     note: Callable[[str], None],
     device: Callable[[], Found] = probe,
 ) -> TakesPictures:
-    """Return what takes pictures of a table's shapes.
+    """Return a renderer for the shapes of a table.
 
-    With ``auto`` it is OpenGL where a graphics card draws, or no light casts shadows; else rays, which are quicker with
-    shadows than a driver that draws on the processor, and need 60 MB less (`tests/bench/bench_pictures.py`).
+    With ``auto`` it is OpenGL on a graphics card, or if no light casts shadows; otherwise ray casting, which with
+    shadows is faster than a software driver and needs 60 MB less memory (`tests/bench/bench_pictures.py`).
 
     Args:
         table: the shapes.
-        lighting: what shines.
+        lighting: the lights.
         renderer: one of `RENDERERS`.
-        note: tells the user that OpenGL is there and does not work.
-        device: tries whether OpenGL works.
+        note: receives a message if OpenGL is installed and does not work.
+        device: function that tests OpenGL.
     """
     if renderer == "ray":
         return Painter(table, lighting)
     found = _tried(device, note)
     if not found.works:
         if "not installed" not in found.name:
-            note(f"OpenGL does not work here ({found.name}): pictures are taken by casting rays")
+            note(f"OpenGL does not work here ({found.name}); images are rendered by ray casting")
         return Painter(table, lighting)
     if renderer == "auto" and on_processor(found.name) and lighting.has_shadows:
         return Painter(table, lighting)
@@ -89,17 +89,17 @@ def painter_of(
 
     try:
         return GlPainter(table, lighting, found.backend, note)
-    except Exception as error:  # whatever the driver raises
-        note(f"OpenGL does not work here ({_first_line(error)}): pictures are taken by casting rays")
+    except Exception as error:  # any error of the driver
+        note(f"OpenGL does not work here ({_first_line(error)}); images are rendered by ray casting")
         return Painter(table, lighting)
 
 
 def _tried(device: Callable[[], Found], note: Callable[[str], None]) -> Found:
-    """Return what came of trying; a driver that takes long is spoken of meanwhile."""
+    """Return the result of the test; print a message if it takes long."""
     with ThreadPoolExecutor(max_workers=1) as trying:
         future = trying.submit(device)
         if not wait([future], timeout=PATIENCE).done:
-            note(f"trying the graphics driver, which does not answer: {SECONDS:g} s at most")
+            note(f"waiting for the graphics driver, at most {SECONDS:g} s")
         return future.result()
 
 

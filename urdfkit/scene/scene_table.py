@@ -1,4 +1,4 @@
-"""The scene table: every shape of every body, once, for sensors and viewer alike."""
+"""The scene table: all shapes of all bodies, for sensors and viewer."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ Role = Literal["visual", "collision"]
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Shape:
-    """Something that can be seen or touched.
+    """A visual or collision shape.
 
     Attributes:
         name: unique in the scene, ``body/role/…`` with the name written in the description or a number.
@@ -39,10 +39,10 @@ class Shape:
         rgba: colour and opacity, 0..1; the colour is `DEFAULT`'s where the description names none.
         has_color: whether the description names a colour; if not, the mesh's own colours are to be shown.
         mesh: the triangles of a mesh, its scale applied; None for the other geometries.
-        laser_retro: what a lidar reads as intensity.
-        label: what a segmentation camera reads; 0 for none.
-        gloss: colour, 0..1, and exponent of what shines back at lights; matt where the exponent is zero.
-        position: where its texture is named, else its mesh; None where neither is written anywhere.
+        laser_retro: intensity that a lidar measures.
+        label: label that a segmentation camera measures; 0 for none.
+        gloss: specular colour, 0..1, and exponent; an exponent of zero means matt.
+        position: source position of its texture, else of its mesh; None without either.
     """
 
     name: str
@@ -61,13 +61,13 @@ class Shape:
 
 @dataclass(frozen=True)
 class LeftOut:
-    """A shape that is not there, as its mesh cannot be had.
+    """A shape that is missing because its mesh cannot be loaded.
 
     Attributes:
         name: as its `Shape` would have.
         body: name of the link it would be fixed to.
         role: ``visual`` or ``collision``.
-        error: why, with the place where the mesh is named.
+        error: the reason, with the source position of the mesh.
     """
 
     name: str
@@ -78,12 +78,12 @@ class LeftOut:
 
 @dataclass(frozen=True, eq=False)
 class Scene:
-    """What there is to see and to touch.
+    """The bodies and shapes of a scene.
 
     Attributes:
         bodies: names of the bodies; poses come as arrays of shape (len(bodies), 7) in this order.
         shapes: all shapes, body by body.
-        problems: what was left out, when it was not to raise.
+        problems: the missing shapes, unless errors are raised.
     """
 
     bodies: tuple[str, ...]
@@ -105,8 +105,8 @@ def scene_of(robot: Robot, *, strict: bool = True, meshes: MeshLoader | None = N
 
     Args:
         robot: a loaded robot; its `packages` resolve the URIs of meshes.
-        strict: raise on the first mesh that cannot be had; if not, its shape is left out and noted in `problems`.
-        meshes: reads the mesh files; pass the same one again to read only what has changed.
+        strict: raise an error for the first missing mesh; otherwise its shape is omitted and listed in `problems`.
+        meshes: loader of the mesh files; with the same loader, only changed files are read again.
 
     Raises:
         ResourceError: a mesh is missing or broken (`strict`), with the place where it is named.
@@ -187,17 +187,17 @@ def _load(
 
 
 def _mesh_position(item: Visual | Collision) -> Position:
-    """Return where the mesh of a shape is named."""
+    """Return the source position of the mesh of a shape."""
     return next((e for e in item.element.walk() if e.tag == "mesh"), item.element).origin.position
 
 
 def _texture_position(material: Material) -> Position:
-    """Return where the picture of a material is named."""
+    """Return the source position of the texture of a material."""
     return (material.element.find("texture") or material.element).origin.position
 
 
 def _resolve(robot: Robot, uri: str) -> Path:
-    """Return the file a mesh URI means; a relative one is relative to the description's entry file."""
+    """Return the file of a mesh URI; a relative path is relative to the entry file of the description."""
     entry = robot.files[0] if robot.files else Path("robot.urdf")
     if robot.packages is not None:
         return robot.packages.resolve(uri, entry)

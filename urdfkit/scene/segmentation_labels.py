@@ -1,4 +1,4 @@
-"""Labels: what segmentation and bounding-box cameras call things, by the new Gazebo's label system."""
+"""Labels of segmentation and bounding-box cameras, by the label system of the new Gazebo."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ MAX_LABEL = 255
 
 
 def label_of(plugins: Iterable[Plugin]) -> int:
-    """Return the ``<label>`` that a label system among the plugins gives; 0, which is none, where there is none."""
+    """Return the ``<label>`` of a label system among the plugins; 0 (unlabelled) without one."""
     for plugin in plugins:
         written = plugin.element.find("label")
         if stem(plugin.filename or "") in LABEL_SYSTEMS and written is not None:
@@ -28,7 +28,7 @@ def label_of(plugins: Iterable[Plugin]) -> int:
 
 
 def labels_of(robot: Robot) -> dict[str, int]:
-    """Return link → label; what the whole robot is called stands under the empty name."""
+    """Return link → label; the label of the whole robot has an empty name."""
     found: dict[str, int] = {}
     for block in robot.gazebo:
         visual = block.element.find("visual")

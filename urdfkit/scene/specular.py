@@ -1,9 +1,9 @@
-"""Gloss: which surfaces shine back at lights, in which colour and how sharply.
+"""Specular colours and exponents of surfaces.
 
-Only those do for which somebody wrote so: with ``<specular>`` and a ``<shininess>`` above zero in SDF or in a
-``<gazebo>`` block, as a material of Gazebo's that is glossy, or with ``Ks`` and ``Ns`` in the materials of an OBJ file.
-SDF's own shininess is zero (sdformat, material.sdf), and OGRE, which Gazebo classic draws with, leaves out the gloss of
-what has none (OGRE 1, FFPLighting::preAddToRenderState).
+A surface has specular reflections if the description defines them: with ``<specular>`` and a ``<shininess>`` above zero
+in SDF or in a ``<gazebo>`` block, by the name of a glossy Gazebo material, or with ``Ks`` and ``Ns`` in the materials
+of an OBJ file. The default shininess of SDF is zero (sdformat, material.sdf), and OGRE, the renderer of Gazebo classic,
+skips specular reflections without shininess (OGRE 1, FFPLighting::preAddToRenderState).
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ Gloss = tuple[float, float, float, float]
 MATT: Gloss = (0.0, 0.0, 0.0, 0.0)
 
 MOST = 1000.0
-"""Largest exponent; what is sharper is no more than a pixel wide."""
+"""Largest exponent; sharper highlights would be at most a pixel wide."""
 
 GLOSSY: dict[str, Gloss] = {
     "Bricks": (0.2, 0.2, 0.2, 12.5),
@@ -37,7 +37,7 @@ is 9 of 255 at most (gazebo-classic, media/materials/scripts/gazebo.material).""
 
 
 def gloss_of(material: Element) -> Gloss | None:
-    """Return the gloss that a ``<material>`` of SDF or of a ``<gazebo>`` block asks for; None where it does not."""
+    """Return the specular properties of a ``<material>`` of SDF or of a ``<gazebo>`` block; None without any."""
     color, sharpness = material.find("specular"), material.find("shininess")
     if color is not None and sharpness is not None:
         return gloss_from(color.text.split(), sharpness.text)
@@ -45,7 +45,7 @@ def gloss_of(material: Element) -> Gloss | None:
 
 
 def gloss_from(color: Any, exponent: Any) -> Gloss | None:
-    """Return a gloss of three or four numbers 0..1 and an exponent; None where they are none, or it is matt."""
+    """Return the specular properties from three or four numbers 0..1 and an exponent; None if invalid or matt."""
     try:
         red, green, blue = (min(max(float(each), 0.0), 1.0) for each in list(color)[:3])
         sharpness = float(exponent)

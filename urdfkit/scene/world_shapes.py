@@ -1,4 +1,4 @@
-"""The shapes of a world's links, as the scene table has them."""
+"""Conversion of the links of a world to shapes of the scene table."""
 
 from __future__ import annotations
 
@@ -33,19 +33,19 @@ def shapes_of_link(
 ) -> Iterator[Shape]:
     """Yield the visuals and collisions of a link.
 
-    Visuals whose mesh is not there are left out; whoever read the world has noted them.
+    Visuals with a missing mesh are omitted; the reader of the world has reported them.
 
     Args:
         link: as written.
-        body: the body that it is part of.
-        placement: of the link in that body; shape (4, 4).
-        meshes: reads the mesh files.
-        prefix: goes before the names of the shapes where a body has several links.
-        label: of the model, for visuals that have none of their own.
-        note: tells the user of visuals whose mesh is broken, which are left out then.
+        body: the body of the link.
+        placement: placement of the link in that body; shape (4, 4).
+        meshes: loader of the mesh files.
+        prefix: prefix of the names of the shapes if a body has several links.
+        label: label of the model, for visuals without their own.
+        note: receives messages about visuals with an invalid mesh, which are omitted.
 
     Raises:
-        ResourceError: a mesh is broken.
+        ResourceError: a mesh is invalid.
     """
     for role, shape in _items(link):
         mesh = None
@@ -72,13 +72,13 @@ def shapes_of_link(
 
 
 def color_of(shape: WorldShape) -> Rgba | None:
-    """Return the colour of a visual, components in 0..1; None where nothing says one."""
+    """Return the colour of a visual, components in 0..1; None if none is defined."""
     rgba = shape.rgba or GAZEBO.get(shape.material.removeprefix("Gazebo/"))
     return None if rgba is None else (*rgba[:3], rgba[3] * (1.0 - shape.transparency))
 
 
 def gloss_on(shape: WorldShape) -> Gloss:
-    """Return the gloss of a visual."""
+    """Return the specular properties of a visual."""
     material = next((kept.element for kept in shape.kept if kept.element.tag == "material"), None)
     found = gloss_of(material) if material is not None else GLOSSY.get(shape.material.removeprefix("Gazebo/"))
     return found or MATT

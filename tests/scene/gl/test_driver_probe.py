@@ -16,7 +16,7 @@ from urdfkit.errors import SimulationError
 from urdfkit.scene import renderer as renderer_module
 from urdfkit.scene.gl import driver_probe as probing
 from urdfkit.scene.gl import hanging_drivers
-from urdfkit.scene.gl.driver_probe import Found, ask, on_processor
+from urdfkit.scene.gl.driver_probe import Found, on_processor, run_probe
 from urdfkit.scene.ray_images import Painter
 from urdfkit.scene.renderer import check, painter_of
 
@@ -26,24 +26,26 @@ from urdfkit.scene.renderer import check, painter_of
     [
         ("import os, signal; os.kill(os.getpid(), signal.SIGSEGV)", "the driver crashed (signal 11)"),
         ("import time; time.sleep(60)", "the driver did not draw a triangle in 0.5 s"),
-        ("print('hello')", "the driver was tried without an answer (exit status 0)"),
-        ("raise SystemExit(3)", "the driver was tried without an answer (exit status 3)"),
-        ("print('[1]')", "the driver was tried without an answer (exit status 0)"),
+        ("print('hello')", "the driver test printed no result (exit status 0)"),
+        ("raise SystemExit(3)", "the driver test printed no result (exit status 3)"),
+        ("print('[1]')", "the driver test printed no result (exit status 0)"),
     ],
 )
 def test_a_broken_driver_takes_only_its_own_process_down(program: str, said: str) -> None:
-    assert ask([sys.executable, "-c", program], seconds=0.5 if "sleep" in program else 30.0) == Found(False, "", said)
+    assert run_probe([sys.executable, "-c", program], seconds=0.5 if "sleep" in program else 30.0) == Found(
+        False, "", said
+    )
 
 
 def test_what_works_is_told_with_its_name() -> None:
     line = '{"works": true, "backend": "egl", "name": "a card"}'
-    assert ask([sys.executable, "-c", f"print('chatter'); print('{line}')"]) == Found(True, "egl", "a card")
+    assert run_probe([sys.executable, "-c", f"print('chatter'); print('{line}')"]) == Found(True, "egl", "a card")
 
 
 def test_a_program_that_is_not_there() -> None:
-    found = ask(["/no/such/program"])
+    found = run_probe(["/no/such/program"])
     assert not found.works
-    assert "no process could be started" in found.name
+    assert "cannot start a process" in found.name
 
 
 def test_a_driver_that_hangs_is_not_tried_again_while_nothing_changes(
@@ -53,16 +55,16 @@ def test_a_driver_that_hangs_is_not_tried_again_while_nothing_changes(
     asked: list[int] = []
     found = Found(False, "", "the driver did not draw a triangle in 10 s")
 
-    def ask(command: list[str]) -> Found:
+    def run_probe(command: list[str]) -> Found:
         asked.append(len(command))
         return found
 
-    monkeypatch.setattr(probing, "ask", ask)
+    monkeypatch.setattr(probing, "run_probe", run_probe)
     monkeypatch.setattr(probing, "find_spec", lambda name: object())
-    plainly, anew = probing.probe.__wrapped__, probing.probe_anew.__wrapped__  # without what one process remembers
-    monkeypatch.setattr(probing, "probe_anew", anew)
+    plainly, anew = probing.probe.__wrapped__, probing.probe_again.__wrapped__  # without what one process remembers
+    monkeypatch.setattr(probing, "probe_again", anew)
     assert plainly() == found
-    assert plainly().name == f"{found.name}, the last time; --renderer gl tries again"
+    assert plainly().name == f"{found.name} in the last test; --renderer gl repeats the test"
     assert len(asked) == 1
     monkeypatch.setenv("LIBGL_ALWAYS_SOFTWARE", "true-enough")
     assert plainly() == found
@@ -72,7 +74,7 @@ def test_a_driver_that_hangs_is_not_tried_again_while_nothing_changes(
     monkeypatch.undo()
     monkeypatch.setattr(hanging_drivers, "folder", lambda: tmp_path)
     monkeypatch.setattr(probing, "find_spec", lambda name: object())
-    monkeypatch.setattr(probing, "ask", lambda command: Found(True, "egl", "a card"))
+    monkeypatch.setattr(probing, "run_probe", lambda command: Found(True, "egl", "a card"))
     assert anew().works
     assert hanging_drivers.recall() is None
 
@@ -96,7 +98,7 @@ def test_a_driver_that_takes_long_is_spoken_of(monkeypatch: pytest.MonkeyPatch) 
         return Found(True, "no such backend", "llvmpipe")
 
     assert isinstance(painter_of(table_of(*zoo()), lit(SUN), "auto", note, slow), Painter)
-    assert notes == ["trying the graphics driver, which does not answer: 10 s at most"]
+    assert notes == ["waiting for the graphics driver, at most 10 s"]
 
 
 BROKEN = Found(False, "", "the driver crashed (signal 11)")
@@ -106,7 +108,7 @@ MISSING = Found(False, "", "moderngl is not installed: pip install 'urdfkit[gl]'
 @pytest.mark.parametrize(
     ("found", "notes"),
     [
-        (BROKEN, ["OpenGL does not work here (the driver crashed (signal 11)): pictures are taken by casting rays"]),
+        (BROKEN, ["OpenGL does not work here (the driver crashed (signal 11)); images are rendered by ray casting"]),
         (MISSING, []),
         (Found(True, "no such backend", "a card"), ["OpenGL does not work here"]),
     ],
@@ -149,7 +151,7 @@ def test_names_of_drivers_tell_where_they_draw(name: str, processor: bool) -> No
 def test_a_renderer_that_is_forced_and_does_not_work_is_refused() -> None:
     with pytest.raises(SimulationError, match="renderer `gl` does not work here: the driver crashed"):
         check("gl", lambda: BROKEN)
-    with pytest.raises(SimulationError, match="no renderer `rays`; did you mean `ray`"):
+    with pytest.raises(SimulationError, match="unknown renderer `rays`; did you mean `ray`"):
         check("rays")
     check("auto", lambda: BROKEN)
     check("ray", lambda: BROKEN)

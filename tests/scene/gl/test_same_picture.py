@@ -226,7 +226,7 @@ def test_a_driver_that_fails_later_is_replaced_by_rays(monkeypatch) -> None:
     monkeypatch.setattr(GlPainter, "_take", lost)
     for _ in range(2):
         assert np.array_equal(gl.take(LENS, EYE).rgb, Painter(table, lighting).take(LENS, EYE).rgb)
-    assert notes == ["OpenGL has failed (the device is lost): pictures are taken by casting rays from now on"]
+    assert notes == ["OpenGL has failed (the device is lost); images are now rendered by ray casting"]
 
 
 @pytest.mark.parametrize("lights", [(SUN,), (LAMP,), (SPOT,)], ids=["sun", "lamp", "spot"])

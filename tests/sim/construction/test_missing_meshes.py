@@ -21,7 +21,7 @@ def written(folder: Path, collisions: str) -> Path:
     return folder / "r.urdf"
 
 
-@pytest.mark.parametrize(("mesh", "said"), [("gone.stl", "no file gone.stl"), ("broken.stl", "is cut off")])
+@pytest.mark.parametrize(("mesh", "said"), [("gone.stl", "no file gone.stl"), ("broken.stl", "is truncated")])
 def test_the_shape_is_left_out_by_name_and_the_rest_stands_on_the_ground(tmp_path: Path, mesh: str, said: str) -> None:
     file = written(tmp_path, BOX + MESH.format(mesh))
     notes: list[str] = []
@@ -66,7 +66,7 @@ SDF_BOX = collision("box", "<box><size>1 1 1</size></box>")
 
 
 @pytest.mark.parametrize("static", [True, False])
-@pytest.mark.parametrize(("mesh", "said"), [("gone.stl", "no file gone.stl"), ("broken.stl", "is cut off")])
+@pytest.mark.parametrize(("mesh", "said"), [("gone.stl", "no file gone.stl"), ("broken.stl", "is truncated")])
 def test_so_is_one_of_a_worlds_models(tmp_path: Path, mesh: str, said: str, static: bool) -> None:
     robot = written(tmp_path, BOX)
     world = world_with(tmp_path, collision("hull", sdf_mesh(mesh)) + SDF_BOX, static=static)
@@ -97,7 +97,7 @@ def test_a_broken_visual_of_a_world_is_not_seen_and_the_rest_is(tmp_path: Path) 
     assert simulator.world.body_shapes() == ()
     (note,) = [each for each in notes if "coat" in each]
     assert note.startswith(f"{world}:1:")
-    assert "visual `coat` is invisible: mesh broken.stl is cut off" in note
+    assert "visual `coat` is invisible: mesh broken.stl is truncated" in note
 
 
 def test_a_misspelt_material_of_a_world_is_told_with_the_nearest(tmp_path: Path) -> None:

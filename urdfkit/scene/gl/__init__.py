@@ -1,5 +1,5 @@
-"""Pictures by OpenGL: the same pictures as `scene.ray_images` takes by casting rays, faster, where a driver is there.
+"""Images by OpenGL: the same images as `scene.ray_images`, faster with a suitable driver.
 
-The table of shapes, colours, textures and lights are the same; only how a picture comes about differs. Whether OpenGL
-works here is tried in a process of its own (`driver_probe`), because a broken driver may take its process down.
+Input: the same table of shapes, colours, textures and lights. Output: images. `driver_probe` tests OpenGL in a separate
+process, because a broken driver may crash its process.
 """

@@ -1,4 +1,4 @@
-"""What draws the shapes of a table: buffers on the device, and the order in which they are drawn."""
+"""Draw calls for the shapes of a table: buffers on the device, and the drawing order."""
 
 from __future__ import annotations
 
@@ -21,19 +21,19 @@ Mask = NDArray[np.bool_]
 VERTEX = ("3f 3f 2f 4f", "in_position", "in_normal", "in_uv", "in_color")
 INSTANCE = ("4f 4f 4f 3f 4f 1f/i", "in_x", "in_y", "in_z", "in_scale", "in_rgba", "in_shape")
 ROW = 20
-"""Numbers per instance."""
+"""Number of values per instance."""
 
 
 @dataclass(eq=False)
 class Batch:
-    """Triangles on the device, and the shapes that they are drawn for.
+    """Triangles on the device, and the shapes that use them.
 
     Attributes:
-        model: what they are.
-        holed: whether light comes through some of them, whatever the shape's opacity.
-        vertices: their buffer.
-        instances: the buffer of where they are, written before they are drawn.
-        arrays: what ties the buffers to programs.
+        model: the triangles.
+        holed: whether some triangles are transparent, independent of the opacity of the shape.
+        vertices: vertex buffer.
+        instances: instance buffer with the poses, written before drawing.
+        arrays: vertex arrays of the programs.
     """
 
     model: Model
@@ -43,21 +43,21 @@ class Batch:
     arrays: dict[Any, Any] = field(default_factory=dict)
 
     def members(self, wanted: Mask) -> Numbers:
-        """Return which of the wanted shapes it draws."""
+        """Return which of these shapes the batch draws."""
         found: Numbers = self.model.shapes[wanted[self.model.shapes]]
         return found
 
 
 @dataclass(frozen=True, eq=False)
 class Shot:
-    """One picture's worth of drawing.
+    """State of the drawing of one image.
 
     Attributes:
         rows: `ROW` numbers of each shape, in the camera's frame; shape (shapes, `ROW`).
-        nearest: distance at least of each shape [m]; shape (shapes,).
-        outside: which shapes the camera, and what it is too near to see, is outside of; shape (shapes,).
-        exact: whether something is cut by its distance.
-        uniforms: of the shaders.
+        nearest: minimum distance of each shape [m]; shape (shapes,).
+        outside: whether the camera and its near plane are outside of each shape; shape (shapes,).
+        exact: whether surfaces are clipped by their distance.
+        uniforms: uniforms of the shaders.
     """
 
     rows: Rows
@@ -71,15 +71,15 @@ class Drawing:
     """Draws the shapes of a table.
 
     Args:
-        context: of moderngl, current.
+        context: the current context of moderngl.
         table: the shapes.
-        paint: what they look like, see `paint_of`.
+        paint: materials of the shapes, see `paint_of`.
         lamps: the lights.
 
     Attributes:
-        batches: what is drawn together.
-        clear: which shapes are transparent as a whole; shape (shapes,).
-        maps: which shadow maps there are to look at.
+        batches: the batches.
+        clear: which shapes are transparent; shape (shapes,).
+        maps: the shadow maps in use.
     """
 
     def __init__(self, context: Any, table: RayTable, paint: tuple[Any, ...], lamps: Lamps) -> None:
@@ -93,7 +93,7 @@ class Drawing:
         for start, width, height in textures.tolist():
             texture = context.texture((width, height), 4, texels[start : start + 4 * width * height].tobytes())
             content, level = texels[start : start + 4 * width * height], 0
-            texture.build_mipmaps()  # makes room for them
+            texture.build_mipmaps()  # allocates them
             while width > 1 or height > 1:
                 start += 4 * width * height
                 width, height, level = max(width // 2, 1), max(height // 2, 1), level + 1
@@ -117,16 +117,16 @@ class Drawing:
 
     @property
     def has_clear(self) -> bool:
-        """Whether anything is transparent."""
+        """Whether any shape is transparent."""
         return bool(self.clear.any()) or any(batch.holed for batch in self.batches)
 
     def rows(self, frames: Array, turn: Array, origin: Array) -> Rows:
-        """Return what instances are drawn by.
+        """Return the instance data of the shapes.
 
         Args:
-            frames: of the shapes in the world; shape (shapes, 12).
-            turn: of the camera; shape (3, 3).
-            origin: of the camera [m].
+            frames: frames of the shapes in the world; shape (shapes, 12).
+            turn: rotation of the camera; shape (3, 3).
+            origin: position of the camera [m].
         """
         rows: Rows = self._still.copy()
         placed = rows[:, :12].reshape(-1, 3, 4)
@@ -137,25 +137,25 @@ class Drawing:
         return rows
 
     def fill(self, drawn: Sequence[tuple[Batch, Numbers]], rows: Rows) -> Iterator[tuple[Batch, int]]:
-        """Write where shapes are, batch by batch; yield each with how often it is to be drawn."""
+        """Write the instance data of each batch; yield the batch with its number of instances."""
         for batch, shapes in drawn:
             if len(shapes):
                 batch.instances.write(rows[shapes].tobytes())
                 yield batch, len(shapes)
 
     def draw(self, shot: Shot, wanted: tuple[str, ...] = COLOR, *, clear: bool = False) -> None:
-        """Draw what is opaque, or else what is transparent; the nearest first.
+        """Draw the opaque or the transparent shapes, the nearest first.
 
         Args:
-            shot: what is drawn.
-            wanted: what the buffers are for.
-            clear: whether it is what is transparent.
+            shot: the state of the drawing.
+            wanted: the output buffers.
+            clear: whether to draw the transparent shapes.
         """
         todo: list[tuple[float, bool, Batch, Numbers]] = []
         for batch in self.batches:
             through = self.clear | batch.holed
             shapes = batch.members(through if clear else ~through)
-            hidden = shot.outside[shapes] & batch.model.closed  # what looks away is behind what is seen
+            hidden = shot.outside[shapes] & batch.model.closed  # back faces are hidden by front faces
             for some, cull in ((shapes[~hidden], False), (shapes[hidden], True)):
                 if len(some):
                     some = some[np.argsort(shot.nearest[some], kind="stable")]
@@ -166,7 +166,7 @@ class Drawing:
             self._array(batch, shot, wanted, clear=clear).render(instances=len(shapes))
 
     def blend(self, shot: Shot) -> None:
-        """Draw what is transparent over the rest, the farthest first; of each shape first what looks away."""
+        """Blend the transparent shapes, the farthest first, and for each shape its back faces first."""
         ctx = self._ctx
         ctx.enable_only(ctx.DEPTH_TEST | ctx.BLEND | ctx.CULL_FACE)
         ctx.blend_func = ctx.SRC_ALPHA, ctx.ONE_MINUS_SRC_ALPHA
@@ -188,7 +188,7 @@ class Drawing:
             ctx.cull_face = "back"
 
     def _array(self, batch: Batch, shot: Shot, wanted: tuple[str, ...] = COLOR, *, clear: bool = False) -> Any:
-        """Return what draws a batch, its program's uniforms set."""
+        """Return the vertex array of a batch, with the uniforms of its program set."""
         model = batch.model
         glossy, textured = model.gloss[3] > 0.0 and "color" in wanted, model.texture >= 0
         kind = Kind(self._lamps, model.flat, model.plain, textured, wanted, clear, shot.exact, self.maps, glossy)

@@ -1,6 +1,6 @@
-"""Whether OpenGL works here, tried in a process of its own: a broken driver may take its process down.
+"""Test of OpenGL in a separate process, because a broken driver may crash its process.
 
-Run as a program, it tries one way to a context after the other, draws a triangle, looks at it and says what worked.
+Run as a program, it tries the backends in turn, draws a triangle, checks the image and prints the result.
 """
 
 from __future__ import annotations
@@ -16,15 +16,15 @@ from typing import Any
 from urdfkit.scene.gl import hanging_drivers
 
 SECONDS = 10.0
-"""A driver that has not drawn a triangle by then does not work."""
+"""Time limit for a driver to draw a triangle [s]."""
 
 HUNG = "did not draw a triangle"
 
 BACKENDS = ("egl", "")
-"""EGL draws without a display; else whatever the platform has."""
+"""Backends in the order of the tests: EGL needs no display; then the default of the platform."""
 
 ON_PROCESSOR = ("llvmpipe", "softpipe", "swrast", "swiftshader", "software", "basic render", "gdi generic")
-"""Parts of the names of drivers that draw on the processor: Mesa's, Google's, Apple's, Windows's."""
+"""Parts of the names of software drivers: Mesa's, Google's, Apple's, Windows's."""
 
 _VERTEX = "#version 330\nin vec2 in_at;\nvoid main() { gl_Position = vec4(in_at, 0.0, 1.0); }"
 _FRAGMENT = "#version 330\nout vec4 o_color;\nvoid main() { o_color = vec4(0.2, 0.4, 0.8, 1.0); }"
@@ -32,12 +32,12 @@ _FRAGMENT = "#version 330\nout vec4 o_color;\nvoid main() { o_color = vec4(0.2, 
 
 @dataclass(frozen=True)
 class Found:
-    """What came of trying.
+    """Result of the probe.
 
     Attributes:
-        works: whether there is a device.
-        backend: how it is reached.
-        name: of the device; why there is none.
+        works: whether OpenGL works.
+        backend: backend of the context.
+        name: name of the device, or the reason why OpenGL does not work.
     """
 
     works: bool
@@ -47,46 +47,46 @@ class Found:
 
 @lru_cache(maxsize=1)
 def probe() -> Found:
-    """Return whether OpenGL works here; tried once per process, and not at all where it hung the last time."""
+    """Test OpenGL once per process; skip the test if the driver hung the last time."""
     if (hung := hanging_drivers.recall()) is not None:
-        return Found(False, "", f"{hung}, the last time; --renderer gl tries again")
-    return probe_anew()
+        return Found(False, "", f"{hung} in the last test; --renderer gl repeats the test")
+    return probe_again()
 
 
 @lru_cache(maxsize=1)
-def probe_anew() -> Found:
-    """Return whether OpenGL works here; tried once per process. That it hangs is remembered."""
+def probe_again() -> Found:
+    """Test OpenGL once per process, even if the driver hung the last time; store whether it hangs."""
     if find_spec("moderngl") is None:
         return Found(False, "", "moderngl is not installed: pip install 'urdfkit[gl]'")
-    found = ask([sys.executable, "-m", "urdfkit.scene.gl.driver_probe"])
+    found = run_probe([sys.executable, "-m", "urdfkit.scene.gl.driver_probe"])
     hanging_drivers.remember(found.name if HUNG in found.name else None)
     return found
 
 
-def ask(command: list[str], *, seconds: float = SECONDS) -> Found:
-    """Return what a program that tries says.
+def run_probe(command: list[str], *, seconds: float = SECONDS) -> Found:
+    """Run the probe program and return its result.
 
     Args:
         command: the program.
-        seconds: how long it may take.
+        seconds: its time limit.
     """
     try:
         done = subprocess.run(command, capture_output=True, timeout=seconds, check=False)
     except subprocess.TimeoutExpired:
         return Found(False, "", f"the driver {HUNG} in {seconds:g} s")
     except OSError as error:
-        return Found(False, "", f"no process could be started ({error.strerror})")
+        return Found(False, "", f"cannot start a process ({error.strerror})")
     if done.returncode < 0:
         return Found(False, "", f"the driver crashed (signal {-done.returncode})")
     try:
-        said = json.loads(done.stdout.decode().strip().splitlines()[-1])
-        return Found(bool(said["works"]), str(said["backend"]), str(said["name"]))
+        result = json.loads(done.stdout.decode().strip().splitlines()[-1])
+        return Found(bool(result["works"]), str(result["backend"]), str(result["name"]))
     except (ValueError, KeyError, IndexError, TypeError):
-        return Found(False, "", f"the driver was tried without an answer (exit status {done.returncode})")
+        return Found(False, "", f"the driver test printed no result (exit status {done.returncode})")
 
 
 def on_processor(name: str) -> bool:
-    """Whether a device of this name is no graphics card."""
+    """Whether a device is a software driver, by its name."""
     return any(each in name.lower() for each in ON_PROCESSOR)
 
 
@@ -99,7 +99,7 @@ def create(backend: str) -> Any:
 
 
 def draws(context: Any) -> bool:
-    """Whether a triangle over the whole picture comes out in its colour, and its depth is kept."""
+    """Whether a triangle that covers the image is drawn with its colour and depth."""
     import struct
 
     program = context.program(_VERTEX, _FRAGMENT)
@@ -112,7 +112,7 @@ def draws(context: Any) -> bool:
 
 
 def main() -> int:
-    """Try, and print what came of it as one line of JSON."""
+    """Run the probe and print its result as one line of JSON."""
     reasons = []
     for backend in BACKENDS:
         try:
@@ -120,8 +120,8 @@ def main() -> int:
             if draws(context):
                 print(json.dumps({"works": True, "backend": backend, "name": str(context.info["GL_RENDERER"])}))
                 return 0
-            reasons.append("it draws wrong pictures")
-        except Exception as error:  # whatever a driver, or what looks for it, raises
+            reasons.append("it draws incorrect images")
+        except Exception as error:  # any error of a driver or its loader
             lines = str(error).strip().splitlines()
             reasons.append(lines[0] if lines else type(error).__name__)
     print(json.dumps({"works": False, "backend": "", "name": reasons[0]}))

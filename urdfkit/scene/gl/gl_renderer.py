@@ -1,4 +1,4 @@
-"""Takes pictures by OpenGL."""
+"""GlPainter: renders images with OpenGL."""
 
 from __future__ import annotations
 
@@ -26,13 +26,13 @@ Array = NDArray[np.float64]
 
 
 class GlPainter:
-    """Takes pictures of what is in a table of shapes; the counterpart of `Painter`.
+    """Renders images of the shapes of a table with OpenGL; the counterpart of `Painter`.
 
     Args:
-        table: the shapes; placed by whoever holds it.
-        lighting: what shines.
-        backend: how the device is reached, as `driver_probe` says.
-        note: tells the user that the driver has failed.
+        table: the shapes; the caller places them.
+        lighting: the lights.
+        backend: backend of the context, from `driver_probe`.
+        note: receives a message if the driver fails.
     """
 
     def __init__(
@@ -52,7 +52,7 @@ class GlPainter:
         self._lock = Lock()
         self._lights, self._air = lighting.lights, lighting.air
         lamps = tuple((int(row[0]), bool(row[11])) for row in self._lights)
-        # Only suns have shadow maps: a lamp's would go all around it.
+        # Only directional lights have shadow maps; the map of a point light would need all directions.
         self._drawable = all(kind == DIRECTIONAL or not shadows for kind, shadows in lamps)
         self._targets: dict[tuple[int, int, int], dict[str, Any]] = {}
         self._ctx = create(backend)
@@ -77,16 +77,16 @@ class GlPainter:
         samples: int = 1,
         deep: bool = True,
     ) -> Picture:
-        """Return a picture; through a distorted lens, or with lamps that cast shadows, by rays.
+        """Render an image; with a distorted lens, or point lights that cast shadows, by ray casting.
 
         Args:
-            lens: what it is taken with.
+            lens: the camera model.
             frame: placement of the camera, which looks along x; shape (4, 4).
-            near: what is nearer is not seen [m].
-            far: what is farther is not seen [m].
+            near: nearer surfaces are not seen [m].
+            far: farther surfaces are not seen [m].
             samples: places in each pixel that its colour is the mean of; as many as the device has. A driver that
                 draws on the processor takes one, and rays the others, only where something ends: that is quicker.
-            deep: whether depths and shapes are wanted; without, they are empty.
+            deep: whether to return depths and shapes; otherwise they are empty.
         """
         if self._works and self._drawable and not lens.distortion:
             try:
@@ -94,7 +94,7 @@ class GlPainter:
                     return self._take(lens, np.asarray(frame, dtype=float), near, far, samples, deep)
             except self._error as error:
                 self._works = False
-                self._note(f"OpenGL has failed ({error}): pictures are taken by casting rays from now on")
+                self._note(f"OpenGL has failed ({error}); images are now rendered by ray casting")
         return self._rays.take(lens, frame, near=near, far=far, samples=samples)
 
     def _take(self, lens: Lens, frame: Array, near: float, far: float, samples: int, deep: bool) -> Picture:
@@ -109,7 +109,7 @@ class GlPainter:
         shot = Shot(rows, nearest, nearest > near, exact, self._uniforms(lens, turn, origin, low, high, near, far))
         target = self._target(lens, 1 if self._on_processor else min(samples, self._ctx.max_samples))
         again = self._cast_shadows(shot, turn, origin, lens, low)
-        self._ctx.front_face = "cw"  # the picture's top row comes first
+        self._ctx.front_face = "cw"  # the top row of the image comes first
         rgb = np.empty((lens.height, lens.width, 3), dtype=np.uint8)
         target["color"].clear(*self._air[1].tolist(), 1.0)
         at_once = deep and "all" in target
@@ -119,7 +119,7 @@ class GlPainter:
         target["all" if at_once else "color"].use()
         drawing.draw(shot, ALL if at_once else COLOR)
         target["color"].use()
-        if again is not None:  # what shadows of moving things can fall on is drawn over
+        if again is not None:  # draw again where shadows of moving shapes can fall
             drawing.maps = BOTH
             target["color"].scissor = again
             self._ctx.depth_func = "<="
@@ -148,7 +148,7 @@ class GlPainter:
         return Picture(rgb, depth, target["numbers"].astype(np.int64))
 
     def _reach(self, origin: Array) -> tuple[Array, Array]:
-        """Return how far the box of each shape is from the camera, at least and at most [m]; shape (shapes,) each."""
+        """Return minimum and maximum distance of the box of each shape from the camera [m]; shape (shapes,) each."""
         low, high = self.table.boxes[:, :3] - origin, self.table.boxes[:, 3:] - origin
         off, on = np.maximum(np.maximum(low, -high), 0.0), np.maximum(np.abs(low), np.abs(high))
         return np.sqrt((off * off).sum(axis=1)), np.sqrt((on * on).sum(axis=1))
@@ -176,7 +176,7 @@ class GlPainter:
         return found
 
     def _cast_shadows(self, shot: Shot, turn: Array, origin: Array, lens: Lens, low: float) -> Rectangle | None:
-        """Bring the shadow maps up to date, and tell the shaders where they are.
+        """Update the shadow maps and their uniforms.
 
         Returns:
             Where the picture has to be drawn once more, with the shadows of what moves; None where it need not.

@@ -1,4 +1,4 @@
-"""That a driver hangs, kept in the user's cache folder: to find it out again would take as long.
+"""Record of drivers that hang, in the user's cache folder, because repeating the test would take as long.
 
 It is believed for a day, while the libraries, the devices and the variables that choose a driver stay as they were.
 """
@@ -32,25 +32,25 @@ PLACES = (
     "dev/nvidia*",
     "proc/driver/nvidia/version",
 )
-"""Where drivers and devices are, from the root."""
+"""Folders of drivers and devices, relative to the root."""
 
 VARIABLES = (
     "LD_LIBRARY_PATH", "LD_PRELOAD", "DISPLAY", "WAYLAND_DISPLAY", "XDG_SESSION_TYPE", "DRI_PRIME",
     "CUDA_VISIBLE_DEVICES",
 )  # fmt: skip
 BEGINNINGS = ("LIBGL_", "MESA_", "GALLIUM_", "EGL_", "__EGL_", "__GLX_", "__GL_", "NVIDIA_", "GLCONTEXT_")
-"""Variables that choose a driver."""
+"""Environment variables that select a driver."""
 
 
 def folder() -> Path:
-    """Return where it is kept."""
+    """Return the file of the record."""
     from urdfkit.scene.rays.bvh_cache import cache_folder
 
     return cache_folder() / "drivers"
 
 
 def recall() -> str | None:
-    """Return what hung the last time; None where nothing did, it is long ago, or something has changed since."""
+    """Return the recorded hang; None if it is missing or too old, or the drivers have changed."""
     try:
         path = _place()
         if not 0.0 <= time.time() - path.stat().st_mtime < BELIEVED:
@@ -61,7 +61,7 @@ def recall() -> str | None:
 
 
 def remember(hung: str | None) -> None:
-    """Keep what hung, or forget it where nothing did; without a writable place, do not."""
+    """Record a hang, or delete the record; do nothing if the folder is not writable."""
     try:
         path = _place()
         if hung is None:
@@ -69,7 +69,7 @@ def remember(hung: str | None) -> None:
         else:
             path.parent.mkdir(parents=True, exist_ok=True)
             write_text(path, f"{hung}\n")
-    except (OSError, ResourceError, RuntimeError):  # the last: nobody knows where home is
+    except (OSError, ResourceError, RuntimeError):  # RuntimeError: the home folder is unknown
         return
 
 
@@ -79,7 +79,7 @@ def _place() -> Path:
 
 
 def _around() -> tuple[object, ...]:
-    """Return what a driver's behaviour depends on."""
+    """Return a digest of the files and variables that the driver depends on."""
     chosen = sorted(
         (name, value) for name, value in os.environ.items() if name in VARIABLES or name.startswith(BEGINNINGS)
     )
@@ -90,7 +90,7 @@ def _around() -> tuple[object, ...]:
 
 
 def _stamp(path: Path) -> tuple[int, int]:
-    """Return size and time of a file; the times of devices change as they are used."""
+    """Return size and time of a file; without the times of devices, which change with use."""
     try:
         status = path.stat()
     except OSError:

@@ -12,12 +12,12 @@ from urdfkit.scene.rays.shading.surface_attributes import FINEST
 
 STILL = ("s",)
 BOTH = ("s", "m")
-"""Names of shadow maps: of what stands still, of what moves."""
+"""Names of shadow maps: of static shapes, of moving shapes."""
 
 COLOR = ("color",)
 DEEP = ("depth", "shape")
 ALL = (*COLOR, *DEEP)
-"""What may be drawn at once, a buffer for each: colours, distances along the camera's axis, numbers of shapes."""
+"""Output buffers: colours, distances along the camera's axis, indices of shapes."""
 
 Lamps = tuple[tuple[int, bool], ...]
 """Kind of each light, and whether it casts shadows."""
@@ -25,18 +25,18 @@ Lamps = tuple[tuple[int, bool], ...]
 
 @dataclass(frozen=True)
 class Kind:
-    """What a pair of shaders has to do.
+    """Features of a pair of shaders.
 
     Attributes:
         lamps: the lights.
         flat: the surface has one normal per triangle.
-        plain: it has one colour per triangle.
+        plain: the surface has one colour per triangle.
         textured: a texture gives the colour.
-        wanted: what is drawn.
-        clear: some of it may be wholly transparent, and has no depth there.
-        exact: what is nearer or farther than the camera sees is left out by its distance, as rays are cut.
-        maps: of shadows, per light that casts any: of what stands still, and of what moves.
-        glossy: the surface shines back at lights.
+        wanted: the output buffers.
+        clear: parts of the surface may be fully transparent, and have no depth there.
+        exact: surfaces are clipped by their distance from the camera, as rays are.
+        maps: shadow maps per light that casts shadows: of static and of moving shapes.
+        glossy: the surface has specular reflections.
     """
 
     lamps: Lamps
@@ -51,22 +51,22 @@ class Kind:
 
     @property
     def colors(self) -> bool:
-        """Whether colours are wanted."""
+        """Whether colours are drawn."""
         return "color" in self.wanted
 
     @property
     def deep(self) -> bool:
-        """Whether depths and shapes are."""
+        """Whether depths and shapes are drawn."""
         return "depth" in self.wanted
 
     @property
     def early(self) -> bool:
-        """Whether the light is the same all over a triangle, but for shadows."""
+        """Whether the light is constant on a triangle, except for shadows."""
         return self.flat and not self.glossy and all(kind == DIRECTIONAL for kind, _ in self.lamps)
 
     @property
     def ready(self) -> bool:
-        """Whether the colour, too, so that nothing but shadows is left to a pixel."""
+        """Whether the colour is constant as well, so that only shadows are computed per pixel."""
         return self.colors and self.early and self.plain and not self.textured
 
 
@@ -74,7 +74,7 @@ _OUT = {"color": "vec4", "depth": "float", "shape": "float"}
 
 _DYE = f"""in vec2 v_uv; uniform sampler2D u_texture;
 vec4 dyed() {{
-    // What is linear in the picture has exact differences: q, and places on the texture times q.
+    // Quantities that are linear in the image have exact differences: q, and texture coordinates times q.
     float q = 1.0 / v_point.x; vec2 at = v_uv * q, size = vec2(textureSize(u_texture, 0));
     vec2 across = (dFdx(at) - v_uv * dFdx(q)) / q, down = (dFdy(at) - v_uv * dFdy(q)) / q;
     float l = length(across * size), s = length(down * size);
@@ -119,7 +119,7 @@ _SHEEN = """
 
 
 def _lights(lamps: Lamps, maps: tuple[str, ...]) -> str:
-    """Return uniforms and one function per light: what of it gets to a point."""
+    """Return uniforms and one function per light, which computes its gain at a point."""
     lines = ["uniform vec3 u_air;"]
     for k, (kind, shadows) in enumerate(lamps):
         lines.append(f"uniform vec3 u_lamp{k}; uniform vec3 u_glow{k};")
@@ -201,7 +201,7 @@ def fragment_shader(kind: Kind) -> str:
     head += [f"layout(location = {k}) out {_OUT[each]} o_{each};" for k, each in enumerate(kind.wanted)]
     if kind.deep:
         head.append("flat in float v_shape;")
-        if kind.clear:  # only there: who may discard is tested late for what is before it
+        if kind.clear:  # only then, because a shader that may discard prevents the early depth test
             body.append("if (color.a <= 0.0) discard;")
         body.append("o_depth = v_point.x; o_shape = v_shape;")
     if not kind.colors:
@@ -242,7 +242,7 @@ def fragment_shader(kind: Kind) -> str:
 
 
 def _shade(kind: Kind, k: int, head: list[str], body: list[str]) -> None:
-    """Add what takes away a light where something stands between."""
+    """Add the code that removes a light in its shadows."""
     for m in kind.maps:
         name = f"{k}{m}"
         head.append(f"uniform sampler2DShadow u_map{name};")

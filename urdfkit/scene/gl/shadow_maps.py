@@ -1,4 +1,4 @@
-"""Shadow maps: how far a sun's light gets, seen from the sun."""
+"""Shadow maps of directional lights."""
 
 from __future__ import annotations
 
@@ -15,31 +15,31 @@ from urdfkit.scene.rays.ray_scene import RayTable
 Array = NDArray[np.float64]
 
 EDGES = {"s": 2048, "m": 1024}
-"""Texels along each edge of the map of what stands still, and of what moves, at most."""
+"""Maximum number of texels along the edges of the map of static and of moving shapes."""
 
 FINER = 2.0
-"""How much finer the map of what moves is than the other, where it need not have the most texels for that."""
+"""Ratio of the resolutions of the map of moving shapes and the map of static shapes, if the size limit permits."""
 
 LEAST = 128
-"""Texels along each edge at least."""
+"""Minimum number of texels along each edge."""
 
 REST = 100
-"""Pictures after which what has not moved counts as standing still again."""
+"""Number of images after which an unmoved shape counts as static again."""
 
 INSTANCE = ("4f 4f 4f 3f 20x/i", "in_x", "in_y", "in_z", "in_scale")
 
 
 class Shadows:
-    """The map of one sun; drawn anew only when what casts shadows has moved.
+    """Shadow map of one directional light; drawn again only when a shape that casts shadows has moved.
 
     Args:
-        context: of moderngl, current.
-        edge: of the map [texels], at most.
+        context: the current context of moderngl.
+        edge: maximum edge length of the map [texels].
 
     Attributes:
         texture: the map.
-        lift: how far surfaces are to be lifted off it [m].
-        texel: length of its edge [m].
+        lift: offset of surfaces from the map [m].
+        texel: edge length of a texel [m].
     """
 
     def __init__(self, context: Any, edge: int) -> None:
@@ -53,7 +53,7 @@ class Shadows:
         self._from_world = np.eye(4)
 
     def _map(self, edge: int) -> tuple[Any, Any]:
-        """Return the map of so many texels along each edge, and what draws into it."""
+        """Return a map with this edge length, and its framebuffer."""
         if edge not in self._maps:
             texture = self._ctx.depth_texture((edge, edge))
             texture.filter = self._ctx.NEAREST, self._ctx.NEAREST
@@ -73,22 +73,22 @@ class Shadows:
         *,
         texel: float = 0.0,
     ) -> None:
-        """Bring the map up to date.
+        """Update the map.
 
         Args:
-            towards: the sun; unit vector in the world.
+            towards: unit vector towards the light in the world.
             table: the shapes, placed.
-            casters: which of them cast shadows.
-            turn: of the camera, in whose frame shapes are drawn; shape (3, 3).
-            origin: of the camera [m].
-            fill: writes where the casters are, batch by batch; yields each with how often it is to be drawn.
-            texel: fine enough for its texels [m]; zero for as fine as can be.
+            casters: which shapes cast shadows.
+            turn: rotation of the camera, in whose frame shapes are drawn; shape (3, 3).
+            origin: position of the camera [m].
+            fill: writes the instance data of the casters; yields each batch with its number of instances.
+            texel: required size of a texel [m]; zero for the highest resolution.
         """
         key = towards.tobytes() + casters.tobytes() + table.frames[casters].tobytes()
         if key == self._key:
             return
         self._key = key
-        axes = upright(towards).T  # its rows are the map's axes in the world; the last looks at the sun
+        axes = upright(towards).T  # its rows are the axes of the map in the world; the last points towards the light
         boxes = table.boxes[casters]
         if not len(boxes):
             self._fbo.clear(depth=1.0)
@@ -123,24 +123,24 @@ class Shadows:
         ctx.polygon_offset = 0.0, 0.0
 
     def _of_camera(self, turn: Array, origin: Array) -> Array:
-        """Return what takes the camera's frame to the map's, -1..1; shape (4, 4)."""
+        """Return the transform from the frame of the camera to the map, -1..1; shape (4, 4)."""
         placed = np.eye(4)
         placed[:3, :3], placed[:3, 3] = turn, origin
         found: Array = self._from_world @ placed
         return found
 
     def matrix(self, turn: Array, origin: Array) -> tuple[float, ...]:
-        """Return what takes the camera's frame to places on the map, 0..1, column by column."""
+        """Return the transform from the frame of the camera to texture coordinates, 0..1, in column-major order."""
         halves = np.diag([0.5, 0.5, 0.5, 1.0])
         halves[:3, 3] = 0.5
         return _columns(halves @ self._of_camera(turn, origin))
 
 
 class Rest:
-    """Knows which shapes move.
+    """Detects moving shapes.
 
     Args:
-        count: of shapes.
+        count: number of shapes.
     """
 
     def __init__(self, count: int) -> None:
@@ -148,11 +148,11 @@ class Rest:
         self._before: Array | None = None
 
     def moving(self, frames: Array, boxes: Array) -> NDArray[np.bool_]:
-        """Return which shapes have moved of late; none where they are spread too wide for a map of their own.
+        """Return which shapes have moved recently; none if they are too far apart for a separate map.
 
         Args:
-            frames: where they are; shape (shapes, 12).
-            boxes: that hold them; shape (shapes, 6).
+            frames: poses of the shapes; shape (shapes, 12).
+            boxes: boxes of the shapes; shape (shapes, 6).
         """
         if self._before is not None:
             self._age = np.where((frames != self._before).any(axis=1), 0, self._age + 1)

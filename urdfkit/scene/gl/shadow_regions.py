@@ -1,4 +1,4 @@
-"""Where in the picture shadows of what moves can fall: only there are two maps of shadows looked at."""
+"""Regions of the image in which shadows of moving shapes can fall; only there both shadow maps are sampled."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from urdfkit.scene.camera_model import Lens
 Array = NDArray[np.float64]
 
 LARGE = 0.6
-"""Part of the picture above which all of it may as well be drawn with both maps."""
+"""Fraction of the image above which both maps are used for the whole image."""
 
 Rectangle = tuple[int, int, int, int]
 """First column and row, width and height [px]."""
@@ -21,27 +21,27 @@ Rectangle = tuple[int, int, int, int]
 def shaded(
     casters: Array, towards: Array, everything: Array, turn: Array, origin: Array, lens: Lens, low: float, slack: float
 ) -> Rectangle:
-    """Return the part of the picture that is in the way of light from behind some shapes, or at them.
+    """Return the region of the image in which shapes and their shadows can be.
 
     Args:
         casters: boxes of the shapes in the world [m]; shape (n, 6), n at least 1.
-        towards: the sun; unit vector in the world.
-        everything: boxes of all shapes; no shadow falls farther [m]; shape (shapes, 6).
-        turn: of the camera; shape (3, 3).
-        origin: of the camera [m].
-        lens: of the camera, without distortion.
-        low: what is less far ahead is not drawn [m].
-        slack: how far from where it should be a shadow may begin [m].
+        towards: unit vector towards the light in the world.
+        everything: boxes of all shapes, which bound the shadows [m]; shape (shapes, 6).
+        turn: rotation of the camera; shape (3, 3).
+        origin: position of the camera [m].
+        lens: camera model without distortion.
+        low: distance of the near plane [m].
+        slack: tolerance of the position of a shadow [m].
     """
     around = np.append(casters[:, :3].min(axis=0) - slack, casters[:, 3:].max(axis=0) + slack)
     near = np.array([around[[3 * x, 3 * y + 1, 3 * z + 2]] for x, y, z in product((0, 1), repeat=3)])
-    # Light leaves the scene through one of its sides; the nearest one that all of it would leave by is taken.
+    # The light leaves the scene through one of its sides; the nearest side that all of it crosses bounds the shadows.
     side = np.where(towards > 0.0, everything[:, :3].min(axis=0), everything[:, 3:].max(axis=0))
     with np.errstate(divide="ignore", invalid="ignore"):
         lengths = np.where(np.abs(towards) > 1e-9, np.maximum((near - side) / towards, 0.0), np.inf)
     length = lengths[:, int(np.argmin(lengths.max(axis=0)))]
     points = (np.vstack([near, near - length[:, None] * towards]) - origin) @ turn
-    # What of their hull is ahead of the camera is spanned by the corners there and where lines to the others end.
+    # The part of their hull in front of the camera: its corners there, and its intersections with the near plane.
     first, second = (points[each] for each in np.triu_indices(len(points), 1))
     crossing = (first[:, 0] - low) * (second[:, 0] - low) < 0.0
     first, second = first[crossing], second[crossing]
@@ -59,7 +59,7 @@ def shaded(
 
 
 def union(rectangles: list[Rectangle]) -> Rectangle:
-    """Return the smallest rectangle that holds some others; those without area do not count."""
+    """Return the smallest rectangle that contains all others; empty rectangles are ignored."""
     kept = [each for each in rectangles if each[2] and each[3]]
     if not kept:
         return 0, 0, 0, 0

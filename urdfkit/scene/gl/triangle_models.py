@@ -1,4 +1,4 @@
-"""Triangles of shapes, as OpenGL draws them: round solids in facets, meshes as they are."""
+"""Triangles of shapes for OpenGL: round solids as facets, meshes unchanged."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from urdfkit.scene.meshes.loader import TriMesh
 from urdfkit.scene.rays import primitives
 from urdfkit.scene.rays.ray_scene import RayTable
-from urdfkit.scene.rays.shading.surface_attributes import GLOSS, HUE, OPACITY, OWN, SMOOTH, TEXTURE, UV
+from urdfkit.scene.rays.shading.surface_attributes import COLORED, COLORS, GLOSS, OPACITY, SMOOTH, TEXTURE, UV
 from urdfkit.scene.specular import MATT, Gloss
 
 Array = NDArray[np.float64]
@@ -21,25 +21,25 @@ AROUND = 64
 """Facets around a cylinder or a sphere."""
 
 SWELL = 2.0 / (1.0 + np.cos(np.pi / AROUND))
-"""Greater radius of facets, whose edges lie as far outside the round then as their middles inside."""
+"""Factor of the radius of facets: their edges are as far outside of the surface as their centres are inside."""
 
 VERTEX = 12
-"""Numbers per vertex: position, normal, place on the texture, colour and opacity."""
+"""Numbers per vertex: position, normal, texture coordinates, colour and opacity."""
 
 
 @dataclass(frozen=True, eq=False)
 class Model:
-    """Triangles that are drawn together, as often as there are shapes of them.
+    """Triangles that are drawn with one call for all shapes that use them.
 
     Attributes:
-        vertices: three in a row per triangle, counter-clockwise seen from outside; shape (n, `VERTEX`), float32.
-        shapes: numbers of the shapes in the table.
-        scale: of the model in each shape; shape (shapes, 3).
-        texture: number of the texture, -1 for none.
+        vertices: three consecutive ones per triangle, counter-clockwise from outside; shape (n, `VERTEX`), float32.
+        shapes: indices of the shapes in the table.
+        scale: scale of the model in each shape; shape (shapes, 3).
+        texture: index of the texture, -1 for none.
         flat: whether the normals are those of the triangles.
-        casts: whether it casts shadows; a plane does not, for nothing is below.
-        closed: whether it has an inside, so that from outside no face is seen from behind.
-        gloss: its colour and exponent; matt where that is zero.
+        casts: whether it casts shadows; planes do not.
+        closed: whether the surface is closed, so that its back faces are never visible from outside.
+        gloss: specular colour and exponent; zero means matt.
     """
 
     vertices: NDArray[np.float32]
@@ -59,11 +59,11 @@ class Model:
 
 
 def models_of(table: RayTable, paint: tuple[Any, ...]) -> list[Model]:
-    """Return what is to be drawn of a table.
+    """Return the models of a table.
 
     Args:
         table: the shapes.
-        paint: what they look like, see `paint_of`.
+        paint: materials of the shapes, see `paint_of`.
     """
     kinds, local = table.kernel_scene[1], table.sizes
     groups: dict[Any, list[int]] = {}
@@ -80,8 +80,8 @@ def models_of(table: RayTable, paint: tuple[Any, ...]) -> list[Model]:
         shapes = np.array(members)
         if isinstance(key, tuple) and key[0] == primitives.MESH:
             first, faces = table.triangles_of(members[0])
-            skins = paint[3][first : first + len(faces)]
-            found += _of_mesh(table.shapes[members[0]].mesh, key[2], skins, faces, shapes, gloss)
+            attributes = paint[3][first : first + len(faces)]
+            found += _of_mesh(table.shapes[members[0]].mesh, key[2], attributes, faces, shapes, gloss)
             continue
         points, normals, flat = _solid(key)
         vertices = np.zeros((len(points), VERTEX), dtype=np.float32)
@@ -113,41 +113,41 @@ def _scales(key: Any, sizes: Array) -> Array:
 
 
 def _of_mesh(
-    mesh: TriMesh | None, worn: int, skins: Any, faces: Any, shapes: NDArray[np.int64], gloss: Gloss
+    mesh: TriMesh | None, features: int, attributes: Any, faces: Any, shapes: NDArray[np.int64], gloss: Gloss
 ) -> list[Model]:
     """Return the models of a mesh, one per texture and gloss.
 
     Args:
         mesh: the triangles.
-        worn: what the shapes take from the skins.
-        skins: in the order of the trees.
-        faces: which of the mesh's triangles these are.
-        shapes: numbers in the table.
-        gloss: of the shapes, where the mesh's own is not asked for.
+        features: flags of the used attributes.
+        attributes: attributes of the triangles, in the order of the trees.
+        faces: indices of these triangles in the mesh.
+        shapes: indices in the table.
+        gloss: specular properties of the shapes, unless those of the mesh are used.
     """
     assert mesh is not None
     corners = mesh.vertices[mesh.faces[faces]].astype(float)
     across = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     normals = np.repeat(across[:, None], 3, axis=1)
-    if worn & SMOOTH:
-        normals = skins[:, :HUE].reshape(-1, 3, 3).astype(float)
+    if features & SMOOTH:
+        normals = attributes[:, :COLORS].reshape(-1, 3, 3).astype(float)
         normals = normals * np.where((normals * across[:, None]).sum(-1, keepdims=True) < 0.0, -1.0, 1.0)
     vertices = np.zeros((len(faces), 3, VERTEX), dtype=np.float32)
     length = np.linalg.norm(normals, axis=-1, keepdims=True)
     vertices[..., :3], vertices[..., 3:6] = corners, normals / np.where(length > 0.0, length, 1.0)
     vertices[..., 8:] = 1.0
     kinds = np.tile(np.array([-1.0, *gloss], dtype=np.float32), (len(faces), 1))
-    if worn & OWN:
-        kinds = np.column_stack([skins[:, TEXTURE], skins[:, GLOSS:]])
-        vertices[..., 6:8] = skins[:, UV:TEXTURE].reshape(-1, 3, 2)
-        vertices[..., 8:11] = np.where(kinds[:, :1, None] >= 0, 1.0, skins[:, HUE:UV].reshape(-1, 3, 3))
-        vertices[..., 11] = skins[:, OPACITY][:, None]
+    if features & COLORED:
+        kinds = np.column_stack([attributes[:, TEXTURE], attributes[:, GLOSS:]])
+        vertices[..., 6:8] = attributes[:, UV:TEXTURE].reshape(-1, 3, 2)
+        vertices[..., 8:11] = np.where(kinds[:, :1, None] >= 0, 1.0, attributes[:, COLORS:UV].reshape(-1, 3, 3))
+        vertices[..., 11] = attributes[:, OPACITY][:, None]
     ones = np.ones((len(shapes), 3), dtype=np.float32)
-    known, which = np.unique(kinds, axis=0, return_inverse=True)
+    distinct, which = np.unique(kinds, axis=0, return_inverse=True)
     found = []
-    for k, (texture, red, green, blue, exponent) in enumerate(known.tolist()):
+    for k, (texture, red, green, blue, exponent) in enumerate(distinct.tolist()):
         chosen, own = vertices[which.ravel() == k].reshape(-1, VERTEX), (red, green, blue, exponent)
-        found.append(Model(chosen, shapes, ones, int(texture), not worn & SMOOTH, gloss=own))
+        found.append(Model(chosen, shapes, ones, int(texture), not features & SMOOTH, gloss=own))
     return found
 
 
@@ -180,7 +180,7 @@ def _solid(key: Any) -> tuple[Array, Array, bool]:
         z = np.array([-1.0, -1.0, -1.0, 1.0, 1.0, 1.0])
         return *_turned(rim, z, np.array([0, 0, 1.0, 1, 0, 0]), np.array([-1.0, -1, 0, 0, 1, 1]), turn), False
     if key == primitives.CONE:
-        # The side's normal in the frame of size 1, where the apex is at +1 and the rim at -1.
+        # The normal of the side in the frame of size 1, with the apex at +1 and the rim at -1.
         rim, z = np.array([0.0, 1.0, 1.0, 0.0]), np.array([-1.0, -1.0, -1.0, 1.0])
         return *_turned(rim, z, np.array([0, 0, 1.0, 1.0]), np.array([-1.0, -1, 0.5, 0.5]), turn), False
     _, radius, half = key
@@ -192,7 +192,7 @@ def _solid(key: Any) -> tuple[Array, Array, bool]:
 
 
 def _turned(rim: Array, z: Array, out: Array, up: Array, turn: Array) -> tuple[Array, Array]:
-    """Return the triangles of a line turned about z, and their normals, which lean out and up."""
+    """Return the triangles and normals of a surface of revolution about z."""
     rim = SWELL * rim
 
     def around(radial: Array, axial: Array) -> Array:

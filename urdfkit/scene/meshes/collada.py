@@ -1,4 +1,4 @@
-"""What COLLADA files need that their reader does not do: units, and refusing files that are meant to do harm."""
+"""Checks of COLLADA files that their reader lacks: units, and rejection of malicious files."""
 
 from __future__ import annotations
 
@@ -6,13 +6,13 @@ import re
 from xml.etree import ElementTree
 
 MAX_INSTANCES = 20_000
-"""Largest number of nodes that instances of nodes may unfold into."""
+"""Largest number of nodes after the expansion of node instances."""
 
 _UNIT = re.compile(rb"""<unit\b[^>]*?\bmeter\s*=\s*["']\s*([^"']+?)\s*["']""")
 
 
 def metres_per_unit(content: bytes) -> float:
-    """Return the factor to metres that ``<unit meter="…">`` gives; 1 where it gives none."""
+    """Return the factor to metres of ``<unit meter="…">``; 1 without it."""
     written = _UNIT.search(content)
     try:
         factor = float(written[1]) if written else 1.0
@@ -22,7 +22,7 @@ def metres_per_unit(content: bytes) -> float:
 
 
 def harm(content: bytes) -> str | None:
-    """Return why a file is not to be read; None where nothing speaks against it.
+    """Return the reason to reject a file; None if it is safe.
 
     Entities can unfold into gigabytes, and so can nodes that contain two instances of a node that contains two
     instances, and so on.
@@ -34,7 +34,7 @@ def harm(content: bytes) -> str | None:
     try:
         root = ElementTree.fromstring(content)
     except ElementTree.ParseError:
-        return None  # the reader will say it
+        return None  # the reader reports it
     nodes = {element.get("id"): element for element in root.iter() if _tag(element) == "node"}
     sizes: dict[str | None, int] = {}
 

@@ -27,16 +27,16 @@ from urdfkit.scene.meshes.textures import Beside, Texture, is_as_read
 from urdfkit.scene.meshes.unique_rows import unique_rows
 
 FORMATS = (".stl", ".obj", ".dae", ".glb", ".gltf", ".ply")
-"""The file formats that are read."""
+"""The supported file formats."""
 
 MAX_BYTES = 256 * 2**20
-"""Largest mesh file that is read."""
+"""Largest supported mesh file [byte]."""
 
 MAX_TRIANGLES = 5_000_000
 """Largest number of triangles in one mesh."""
 
 _PULLS = re.compile(rb"<init_from>|\"uri\"")
-"""What names pictures beside the file."""
+"""Matches references to image files next to the mesh file."""
 
 _LFS = b"version https://git-lfs.github.com/spec/"
 
@@ -48,14 +48,14 @@ class TriMesh:
     Attributes:
         vertices: [m], shape (n, 3), float32.
         faces: indices of vertices, counter-clockwise seen from outside, shape (m, 3), int32.
-        normals: unit normals of the vertices where the file has them, shape (n, 3), float32, or None (shade flat).
-        colors: colours of the vertices where the file has them, shape (n, 4), uint8, or None.
-        uv: where in its texture each vertex is, from the lower left corner, shape (n, 2), float32, or None.
-        textures: pictures on its surface.
-        face_textures: for each triangle which of them, -1 for none; shape (m,), int32, or None.
-        face_gloss: for each triangle colour, 0..1, and exponent of its gloss; shape (m, 4), float32, or None.
-        missing: names of pictures that the file asks for and that are not there, or are none.
-        broken: those of them that are there, and no pictures.
+        normals: unit normals of the vertices, if the file has them, shape (n, 3), float32, or None (shade flat).
+        colors: colours of the vertices, if the file has them, shape (n, 4), uint8, or None.
+        uv: texture coordinates of the vertices, origin at the lower left corner, shape (n, 2), float32, or None.
+        textures: the textures of the mesh.
+        face_textures: index of the texture of each triangle, -1 for none; shape (m,), int32, or None.
+        face_gloss: specular colour, 0..1, and exponent of each triangle; shape (m, 4), float32, or None.
+        missing: names of referenced image files that are missing or invalid.
+        broken: names of referenced image files that exist but are not valid images.
         hash: hexadecimal digest of all of the above: equal meshes have equal hashes.
     """
 
@@ -88,70 +88,70 @@ class TriMesh:
 
 
 class MeshLoader:
-    """Reads mesh files and remembers them by content, so that a mesh used ten times is read once.
+    """Reads mesh files and caches them by content, so that a mesh used several times is read once.
 
-    Keep one over several scenes (live reload) to read again only what has changed.
+    With one loader for several scenes (live reload) only changed files are read again.
     """
 
     def __init__(self) -> None:
-        self._known: dict[tuple[str, str, Vector, str, bool], tuple[TriMesh, dict[Path, tuple[int, int]]]] = {}
+        self._cached: dict[tuple[str, str, Vector, str, bool], tuple[TriMesh, dict[Path, tuple[int, int]]]] = {}
 
     def load(self, path: Path, scale: Vector = (1.0, 1.0, 1.0), *, places: bool = False) -> TriMesh:
         """Return the triangles of a file.
 
-        A COLLADA file is brought to metres by its ``<unit meter="…">``; its ``<up_axis>`` is ignored, as RViz and
-        Gazebo do. Instances are flattened, the scale may mirror.
+        A COLLADA file is converted to metres with its ``<unit meter="…">``; its ``<up_axis>`` is ignored, as RViz and
+        Gazebo do. Instances are flattened; the scale may be negative.
 
         Args:
             path: the mesh file.
             scale: factors along x, y, z.
-            places: keep what the file says of places on a texture, though it may name none.
+            places: keep texture coordinates even if the file references no texture.
 
         Raises:
-            ResourceError: the file is missing, too large, no mesh, a Git LFS pointer or broken.
+            ResourceError: the file is missing, too large, not a mesh, a Git LFS pointer or invalid.
             MissingDependencyError: trimesh is not installed.
         """
         if path.suffix.lower() not in FORMATS:
             raise ResourceError(
-                f"mesh {path.name} is of a format that is not read{did_you_mean(path.suffix, FORMATS)}; "
+                f"mesh {path.name} has an unsupported format{did_you_mean(path.suffix, FORMATS)}; "
                 f"supported: {' '.join(FORMATS)}"
             )
         content = _read(path)
         side_files = b"".join(_side_files(path, content))
         beside = str(path.parent) if _PULLS.search(content) or side_files else ""
         key = (hashlib.sha256(content + side_files).hexdigest(), path.suffix.lower(), scale, beside, places)
-        known = self._known.get(key)
-        if known is None or not is_as_read(known[1]):
+        cached = self._cached.get(key)
+        if cached is None or not is_as_read(cached[1]):
             files = Beside(path, MAX_BYTES)
-            known = self._known[key] = _parse(path, content, scale, files, places), files.read
-        return known[0]
+            cached = self._cached[key] = _parse(path, content, scale, files, places), files.read
+        return cached[0]
 
 
 def _read(path: Path) -> bytes:
-    """Return the content of a mesh file that can be one."""
+    """Return the content of a mesh file after a check of size and header."""
     try:
         if not path.is_file():
-            raise ResourceError(f"no mesh file {path}{near_path(path)}")
+            raise ResourceError(f"missing mesh file {path}{near_path(path)}")
         if (size := path.stat().st_size) > MAX_BYTES:
             raise ResourceError(
-                f"mesh {path.name} has {size / 2**20:.0f} MiB; at most {MAX_BYTES // 2**20} MiB are read: decimate it"
+                f"mesh {path.name} has {size / 2**20:.0f} MiB; at most {MAX_BYTES // 2**20} are supported; decimate it"
             )
         content = path.read_bytes()
     except OSError as error:
         raise ResourceError(f"cannot read mesh {path}: {error.strerror or error}") from error
     if content.startswith(_LFS):
-        raise ResourceError(f"mesh {path.name} is a Git LFS pointer, not the mesh: run `git lfs pull`")
+        raise ResourceError(f"mesh {path.name} is a Git LFS pointer; run `git lfs pull`")
     if path.suffix.lower() == ".dae" and (reason := harm(content)) is not None:
-        raise ResourceError(f"mesh {path.name} is refused: {reason}")
+        raise ResourceError(f"mesh {path.name} is rejected: {reason}")
     if path.suffix.lower() == ".stl" and b"facet" not in content:  # binary: 80 bytes, a count, 50 bytes a triangle
         count = int.from_bytes(content[80:84], "little")
         if len(content) < 84 + 50 * count or len(content) < 84:
-            raise ResourceError(f"mesh {path.name} is cut off: {len(content)} bytes, {84 + 50 * count} expected")
+            raise ResourceError(f"mesh {path.name} is truncated: {len(content)} bytes instead of {84 + 50 * count}")
     return content
 
 
 def _side_files(path: Path, content: bytes) -> Iterator[bytes]:
-    """Yield the material libraries of an OBJ file: its colours are in them."""
+    """Yield the material libraries of an OBJ file, which contain its colours."""
     if path.suffix.lower() == ".obj":
         for name in re.findall(rb"^\s*mtllib[ \t]+(.+?)\s*$", content, re.MULTILINE):
             try:
@@ -176,7 +176,7 @@ def _parse(path: Path, content: bytes, scale: Vector, beside: Beside, places: bo
             parts = list(_parts(scene))
     except ResourceError:
         raise
-    except Exception as error:  # whatever the reader of the format stumbled over
+    except Exception as error:  # any error of the reader of the format
         reason = str(error).strip().splitlines()[0] if str(error).strip() else type(error).__name__
         raise ResourceError(f"mesh {path.name} cannot be read: {reason}") from error
     factor = metres_per_unit(content) if suffix == ".dae" else 1.0
@@ -194,26 +194,26 @@ def _parts(scene: Any) -> Iterator[tuple[Any, Any]]:
         if hasattr(geometry, "faces"):
             total += len(geometry.faces)
             if total > MAX_TRIANGLES:
-                raise ResourceError(f"a mesh of more than {MAX_TRIANGLES} triangles is not read: decimate it")
+                raise ResourceError(f"mesh has more than {MAX_TRIANGLES} triangles; decimate it")
             yield geometry, np.asarray(transform, dtype=float)
 
 
 def _of_corners(path: Path, corners: NDArray[np.float32], scale: NDArray[np.float64]) -> TriMesh:
-    """Return triangles of shape (m, 3, 3), scaled; corners in the same place become one vertex."""
+    """Return a mesh from triangles of shape (m, 3, 3), scaled; equal corners become one vertex."""
     if len(corners) > MAX_TRIANGLES:
-        raise ResourceError(f"a mesh of more than {MAX_TRIANGLES} triangles is not read: decimate it")
+        raise ResourceError(f"mesh has more than {MAX_TRIANGLES} triangles; decimate it")
     points = (corners.reshape(-1, 3).astype(float) * scale).astype(np.float32) + np.float32(0)
     if not np.isfinite(points).all():
-        raise ResourceError(f"mesh {path.name} is broken: a vertex is not a finite number")
-    rows, index = _unique(np.ascontiguousarray(points))
+        raise ResourceError(f"mesh {path.name} is invalid: a vertex is not finite")
+    rows, index = _unique(points.view(np.uint32))
     faces = index.astype(np.int32).reshape(-1, 3)
-    if np.prod(scale) < 0:  # a mirror turns triangles inside out
+    if np.prod(scale) < 0:  # a mirrored mesh has reversed triangles
         faces = faces[:, ::-1]
-    return TriMesh(vertices=rows, faces=np.ascontiguousarray(faces))
+    return TriMesh(vertices=rows.view(np.float32), faces=np.ascontiguousarray(faces))
 
 
 def _merge(path: Path, parts: list[tuple[Any, Any]], scale: NDArray[np.float64], places: bool) -> TriMesh:
-    """Flatten the parts into one mesh, scaled; vertices that agree in everything become one."""
+    """Merge the parts into one mesh, scaled; vertices with equal attributes become one."""
     vertices, faces, normals, colors, uvs, wrapped, glosses = [], [], [], [], [], [], []
     textures: dict[str, Texture] = {}
     start = 0
@@ -222,8 +222,8 @@ def _merge(path: Path, parts: list[tuple[Any, Any]], scale: NDArray[np.float64],
         points = matmul(np.asarray(part.vertices, dtype=float), linear.T) + scale * transform[:3, 3]
         triangles = np.asarray(part.faces, dtype=np.int64).reshape(-1, 3)
         if triangles.size and (triangles.min() < 0 or triangles.max() >= len(points)):
-            raise ResourceError(f"mesh {path.name} is broken: a triangle names a vertex that is not there")
-        if np.linalg.det(linear) < 0:  # a mirror turns triangles inside out
+            raise ResourceError(f"mesh {path.name} is invalid: a triangle refers to a missing vertex")
+        if np.linalg.det(linear) < 0:  # a mirrored mesh has reversed triangles
             triangles = triangles[:, ::-1]
         vertices.append(points)
         faces.append(triangles + start)
@@ -237,40 +237,51 @@ def _merge(path: Path, parts: list[tuple[Any, Any]], scale: NDArray[np.float64],
         glosses.append(np.tile(np.array(gloss_in(part), dtype=np.float32), (len(triangles), 1)))
         start += len(points)
     if not start or not sum(map(len, faces)):
-        raise ResourceError(f"mesh {path.name} holds no triangles")
-    columns = [np.concatenate(vertices).astype(np.float32) + np.float32(0)]  # -0.0 becomes 0.0: rows compare by bits
-    if not np.isfinite(columns[0]).all():
-        raise ResourceError(f"mesh {path.name} is broken: a vertex is not a finite number")
-    has_normals = all(n is not None for n in normals)
-    has_colors = any(c is not None for c in colors)
+        raise ResourceError(f"mesh {path.name} has no triangles")
+    fields: list[tuple[str, Any, int]] = [("position", np.float32, 3)]
+    if has_uv := any(uv is not None for uv in uvs):
+        fields.append(("uv", np.float32, 2))
+    if has_normals := all(each is not None for each in normals):
+        fields.append(("normal", np.float32, 3))
+    if has_colors := any(each is not None for each in colors):
+        fields.append(("color", np.uint8, 4))
+    corners = np.zeros(start, dtype=fields)
+    corners["position"] = np.concatenate(vertices).astype(np.float32) + np.float32(0)  # -0.0 becomes 0.0
+    if not np.isfinite(corners["position"]).all():
+        raise ResourceError(f"mesh {path.name} is invalid: a vertex is not finite")
+    if has_uv:
+        corners["uv"] = _filled(uvs, vertices, 2, 0.0) + np.float32(0)
     if has_normals:
-        columns.append(np.concatenate([n for n in normals if n is not None]).astype(np.float32))
+        corners["normal"] = _filled(normals, vertices, 3, 0.0)
     if has_colors:
-        filled = [
-            np.full((len(v), 4), 255, np.uint8) if c is None else c for v, c in zip(vertices, colors, strict=True)
-        ]
-        columns.append(np.ascontiguousarray(np.concatenate(filled)).view(np.float32))
-    if has_places := any(uv is not None for uv in uvs):
-        columns.insert(1, np.concatenate(
-            [np.zeros((len(v), 2)) if uv is None else uv for v, uv in zip(vertices, uvs, strict=True)]
-        ).astype(np.float32) + np.float32(0))  # fmt: skip
-    rows, index = _unique(np.ascontiguousarray(np.hstack(columns)))
-    bare = 5 if has_places else 3  # columns before the normals
+        corners["color"] = _filled(colors, vertices, 4, 255.0)
+    rows, index = _unique(corners.view(np.uint32).reshape(start, -1))
+    unique = rows.view(corners.dtype).reshape(-1)
     return TriMesh(
-        vertices=np.ascontiguousarray(rows[:, :3]),
+        vertices=np.ascontiguousarray(unique["position"]),
         faces=np.ascontiguousarray(index[np.concatenate(faces)].astype(np.int32)),
-        normals=np.ascontiguousarray(rows[:, bare : bare + 3]) if has_normals else None,
-        colors=np.ascontiguousarray(rows[:, -1:]).view(np.uint8).reshape(-1, 4) if has_colors else None,
-        uv=np.ascontiguousarray(rows[:, 3:5]) if has_places else None,
+        normals=np.ascontiguousarray(unique["normal"]) if has_normals else None,
+        colors=np.ascontiguousarray(unique["color"]) if has_colors else None,
+        uv=np.ascontiguousarray(unique["uv"]) if has_uv else None,
         textures=tuple(textures.values()),
         face_textures=np.concatenate(wrapped).astype(np.int32) if textures else None,
         face_gloss=np.concatenate(glosses) if any(each[:, 3].any() for each in glosses) else None,
     )
 
 
-def _unique(rows: NDArray[np.float32]) -> tuple[NDArray[np.float32], NDArray[np.int64]]:
-    """Return the distinct rows in order of first appearance, and for each row which of them it is."""
-    first, inverse = unique_rows(rows.view(np.uint32))
+def _filled(parts: list[Any], vertices: list[Any], width: int, default: float) -> NDArray[np.float32]:
+    """Concatenate an attribute of all parts; parts without it get a default value."""
+    return np.concatenate(
+        [
+            np.full((len(points), width), default) if part is None else part
+            for points, part in zip(vertices, parts, strict=True)
+        ]
+    ).astype(np.float32)
+
+
+def _unique(rows: NDArray[np.uint32]) -> tuple[NDArray[np.uint32], NDArray[np.int64]]:
+    """Return the distinct rows in order of first appearance, and the index of each row among them."""
+    first, inverse = unique_rows(rows)
     order = np.argsort(first)
     rank = np.empty_like(order)
     rank[order] = np.arange(len(order))

@@ -1,4 +1,4 @@
-"""One part of a mesh file, as trimesh has read it: what the file says of its looks."""
+"""Appearance of one part of a mesh file read by trimesh: normals, colours, specular properties, textures."""
 
 from __future__ import annotations
 
@@ -13,13 +13,13 @@ from urdfkit.scene.specular import MATT, Gloss, gloss_from
 
 
 def normals_in(part: Any, linear: NDArray[np.float64]) -> NDArray[np.float64] | None:
-    """Return the vertex normals written in the file, turned and scaled with the part; None where there are none."""
+    """Return the vertex normals of the file, transformed with the part; None without any."""
     if "vertex_normals" not in part._cache.cache:
         return None
     written = np.asarray(part.vertex_normals, dtype=float)
     if written.shape != part.vertices.shape or np.linalg.det(linear) == 0:
         return None
-    # Normals go with the inverse transpose, the matrix of cofactors but for a factor.
+    # Normals are transformed by the inverse transpose, which is proportional to the matrix of cofactors.
     cofactors = np.stack(
         [np.cross(linear[1], linear[2]), np.cross(linear[2], linear[0]), np.cross(linear[0], linear[1])]
     )
@@ -30,7 +30,7 @@ def normals_in(part: Any, linear: NDArray[np.float64]) -> NDArray[np.float64] | 
 
 
 def colors_in(part: Any) -> NDArray[np.uint8] | None:
-    """Return colours per vertex written in the file, for a material its main colour."""
+    """Return the colours per vertex of the file; for a material, its main colour."""
     visual = part.visual
     if visual.kind == "vertex":
         return np.asarray(visual.vertex_colors, dtype=np.uint8)
@@ -41,13 +41,13 @@ def colors_in(part: Any) -> NDArray[np.uint8] | None:
 
 
 def gloss_in(part: Any) -> Gloss:
-    """Return the gloss that the material of a part asks for: ``Ks`` and ``Ns`` of an OBJ file's."""
+    """Return the specular properties of the material of a part: ``Ks`` and ``Ns`` of an OBJ file."""
     written = getattr(getattr(part.visual, "material", None), "kwargs", None) or {}
     return gloss_from(written.get("ks"), written.get("ns")) or MATT
 
 
 def places_in(part: Any) -> NDArray[np.float64] | None:
-    """Return where on a texture the vertices of a part are; None where nothing says so."""
+    """Return the texture coordinates of the vertices of a part; None without any."""
     if part.visual.kind != "texture" or part.visual.uv is None or len(part.visual.uv) != len(part.vertices):
         return None
     found = np.asarray(part.visual.uv, dtype=float)
@@ -55,10 +55,10 @@ def places_in(part: Any) -> NDArray[np.float64] | None:
 
 
 def texture_in(part: Any) -> Texture | None:
-    """Return the picture on a part, where it has one and says where on it its vertices are."""
+    """Return the texture of a part, if it has one and texture coordinates."""
     if places_in(part) is None:
         return None
     try:
         return texture_of(part.visual.material)
-    except (OSError, ValueError, SyntaxError):  # what Pillow raises for broken pictures
+    except (OSError, ValueError, SyntaxError):  # raised by Pillow for invalid images
         return None

@@ -1,4 +1,4 @@
-"""Binary STL with nothing but numpy: most meshes of robots are, and trimesh takes half a second to import."""
+"""Binary STL, the format of most meshes of robots, without trimesh, which takes half a second to import."""
 
 from __future__ import annotations
 
@@ -6,12 +6,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 HEADER = 84
-"""80 bytes of anything, then the number of triangles."""
+"""80 arbitrary bytes, then the number of triangles."""
 TRIANGLE = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("rest", "<u2")])
 
 
 def corners_of(content: bytes) -> NDArray[np.float32] | None:
-    """Return the corners of the triangles of a file, shape (m, 3, 3); None where it is no well-formed binary STL."""
+    """Return the corners of the triangles of a file, shape (m, 3, 3); None if it is not valid binary STL."""
     if len(content) < HEADER:
         return None
     count = int.from_bytes(content[80:HEADER], "little")

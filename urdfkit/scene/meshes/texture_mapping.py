@@ -1,7 +1,7 @@
-"""Pictures on visuals, by the ``<texture>`` of a URDF material: on meshes where their vertices say, round solids.
+"""Textures of visuals with the ``<texture>`` of a URDF material, for meshes with texture coordinates and for solids.
 
-A solid becomes a mesh. The picture is upright on each side of a box, and lies on top and bottom as seen from there with
-x to the right; once round a cylinder, both ends of which are cut out of it; on a sphere as the earth is on a map.
+A solid becomes a mesh. The image is upright on the sides of a box, and has x to the right on its top and bottom. It is
+wrapped once round a cylinder, whose ends show circles of the image. On a sphere it is an equirectangular map.
 """
 
 from __future__ import annotations
@@ -25,38 +25,38 @@ AROUND = 64
 
 
 class Wrapper:
-    """Puts pictures on shapes, and reads each once.
+    """Applies textures to shapes; reads each image once.
 
     Args:
-        resolve: finds the file that a name means; raises ResourceError.
+        resolve: returns the file of a name; raises ResourceError.
     """
 
     def __init__(self, resolve: Callable[[str], Path]) -> None:
         self._resolve = resolve
-        self._known: dict[str, Texture | None] = {}
+        self._textures: dict[str, Texture | None] = {}
         self._broken: set[str] = set()
 
     def wrapped(self, geometry: Geometry, mesh: TriMesh | None, name: str) -> TriMesh | None:
-        """Return a shape with a picture on it.
+        """Return a shape with a texture.
 
         Args:
-            geometry: of the shape.
-            mesh: its triangles, where it is a mesh.
-            name: of the picture, as written.
+            geometry: geometry of the shape.
+            mesh: its triangles, if it is a mesh.
+            name: name of the image in the description.
 
         Returns:
-            `mesh` with the picture; one that misses it by name where the picture is not there or is none; None where
-            nothing says where on it the picture is.
+            The mesh with the texture; if the image is missing or invalid, the mesh with its name in `missing`; None
+            without texture coordinates.
         """
-        if name not in self._known:
+        if name not in self._textures:
             try:
-                self._known[name] = read_texture(self._resolve(name))
+                self._textures[name] = read_texture(self._resolve(name))
             except (ResourceError, FileNotFoundError):
-                self._known[name] = None
-            except (OSError, ValueError, SyntaxError):  # what Pillow raises
-                self._known[name] = None
+                self._textures[name] = None
+            except (OSError, ValueError, SyntaxError):  # raised by Pillow
+                self._textures[name] = None
                 self._broken.add(name)
-        texture = self._known[name]
+        texture = self._textures[name]
         found = mesh if mesh is not None else solid(geometry)
         if texture is None or found is None:
             broken = (*found.broken, name) if found and name in self._broken else ()
@@ -68,7 +68,7 @@ class Wrapper:
 
 
 def solid(geometry: Geometry) -> TriMesh | None:
-    """Return the triangles of a solid, with places on a picture; None for a mesh."""
+    """Return the triangles of a solid with texture coordinates; None for a mesh."""
     match geometry:
         case Box(size=size):
             return _box(np.array(size))
@@ -109,7 +109,7 @@ def _box(size: Array) -> TriMesh:
 
 
 def _turned(rim: Array, z: Array, out: Array, up: Array, t: Array) -> TriMesh:
-    """Return a line turned about z, with normals that lean out and up, and how high on the picture its points are."""
+    """Return a surface of revolution about z with normals and vertical texture coordinates."""
     turn = np.linspace(-np.pi, np.pi, AROUND + 1)
     cos, sin, count = np.cos(turn), np.sin(turn), len(rim)
 

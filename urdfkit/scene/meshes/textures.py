@@ -1,4 +1,4 @@
-"""Textures: the pictures that meshes are wrapped in, and the files that meshes may pull in."""
+"""Textures of meshes, and access to the files that meshes refer to."""
 
 from __future__ import annotations
 
@@ -13,10 +13,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 MAX_EDGE = 4096
-"""Longer edges of a texture are halved until they fit [px]."""
+"""Largest edge length of a texture; larger ones are halved until they fit [px]."""
 
 MAX_PIXELS = 2**28
-"""Pictures of more are not read."""
+"""Largest number of pixels of an image."""
 
 PICTURES = (".png", ".jpg", ".jpeg", ".bmp", ".tga", ".gif", ".tif", ".tiff", ".webp")
 _OWN = (".mtl", ".bin")
@@ -24,11 +24,11 @@ _OWN = (".mtl", ".bin")
 
 @dataclass(frozen=True, eq=False)
 class Texture:
-    """A picture on a surface.
+    """A texture.
 
     Attributes:
         pixels: red, green, blue and opacity, the top row first, read-only; shape (height, width, 4).
-        hash: hexadecimal digest of it.
+        hash: hexadecimal digest of the pixels.
     """
 
     pixels: NDArray[np.uint8] = field(repr=False)
@@ -42,7 +42,7 @@ class Texture:
 
 
 def texture_of(material: Any) -> Texture | None:
-    """Return the texture of a material as trimesh has it, its colour factor applied; None where it has none.
+    """Return the texture of a material of trimesh with its colour factor; None without one.
 
     Raises:
         OSError: the picture is broken.
@@ -61,10 +61,10 @@ def texture_of(material: Any) -> Texture | None:
 
 
 def read_texture(path: Path) -> Texture:
-    """Return the picture in a file.
+    """Return the image of a file.
 
     Raises:
-        OSError: it is not there, or broken.
+        OSError: the file is missing or invalid.
         ValueError: it is too large.
     """
     from PIL import Image
@@ -74,14 +74,14 @@ def read_texture(path: Path) -> Texture:
 
 
 def _pixels(picture: Any) -> NDArray[np.uint8]:
-    """Return red, green, blue and opacity of a picture, made smaller where it is large.
+    """Return red, green, blue and opacity of an image, reduced if it is too large.
 
     Raises:
         OSError: it is broken.
         ValueError: it is too large.
     """
     if picture.width * picture.height > MAX_PIXELS:
-        raise ValueError(f"a texture of {picture.width} × {picture.height} pixels is not read")
+        raise ValueError(f"the texture is too large: {picture.width} × {picture.height} pixels")
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         while max(picture.size) > MAX_EDGE:
@@ -90,19 +90,19 @@ def _pixels(picture: Any) -> NDArray[np.uint8]:
 
 
 class Beside(dict[str, bytes]):
-    """The files a mesh may pull in: materials and buffers in its own folder or below, pictures in its model's, too.
+    """The files that a mesh may refer to: materials and buffers below its folder, images below its model's folder.
 
-    Gazebo keeps the pictures of ``meshes/`` in ``materials/textures/`` beside that folder, and finds them there by
-    their name alone (gazebo: SystemPaths::FindFile in ColladaLoader).
+    Gazebo finds images of ``meshes/`` by their name in the neighbouring folder ``materials/textures/`` (gazebo:
+    SystemPaths::FindFile in ColladaLoader).
 
     Args:
         path: the mesh file.
-        limit: bytes of the largest file that is read.
+        limit: size of the largest file that is read [byte].
 
     Attributes:
-        read: the files that have been read, with what tells that they have changed.
-        missing: names of pictures that were not there, or are none.
-        broken: those of them that are there.
+        read: the files that have been read, with modification time and size.
+        missing: names of images that are missing or invalid.
+        broken: names of images that exist and are invalid.
     """
 
     def __init__(self, path: Path, limit: int) -> None:
@@ -136,7 +136,7 @@ class Beside(dict[str, bytes]):
             self.missing.append(name)
         raise KeyError(name)
 
-    get = __missing__  # type: ignore[assignment]  # trimesh asks a resolver by get(name)
+    get = __missing__  # type: ignore[assignment]  # trimesh calls get(name) of a resolver
 
 
 def _opens(content: bytes) -> bool:
@@ -146,14 +146,14 @@ def _opens(content: bytes) -> bool:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
             Image.open(io.BytesIO(content)).verify()
-    except Exception:  # whatever the reader of the format stumbled over
+    except Exception:  # any error of the reader of the format
         return False
     return True
 
 
 def is_as_read(files: dict[Path, tuple[int, int]]) -> bool:
-    """Whether files are what they were when they were read."""
+    """Whether files are unchanged since they were read."""
     try:
-        return all((s := path.stat()) and (s.st_mtime_ns, s.st_size) == known for path, known in files.items())
+        return all((s := path.stat()) and (s.st_mtime_ns, s.st_size) == signature for path, signature in files.items())
     except OSError:
         return False

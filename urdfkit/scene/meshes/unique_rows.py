@@ -1,4 +1,4 @@
-"""Rows of an array that are alike."""
+"""Distinct rows of an array."""
 
 from __future__ import annotations
 
@@ -9,14 +9,14 @@ from numpy.typing import NDArray
 
 FACTORS = (0x9E3779B97F4A7C15, 0xC2B2AE3D27D4EB4F, 0x165667B19E3779F9, 0x27D4EB2F165667C5, 0x85EBCA77C2B2AE63,
            0xFF51AFD7ED558CCD, 0xC4CEB9FE1A85EC53, 0xA0761D6478BD642F, 0xE7037ED1A0B428DB)  # fmt: skip
-"""Odd numbers without a pattern, as hashes use them; one for each column there can be."""
+"""Odd multipliers of a hash; one per column."""
 
 
 def unique_rows(rows: NDArray[Any]) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
-    """Return the first place of each different row of integers, and for each row which of those it is like.
+    """Return the first index of each distinct row of integers, and the index of each row among the distinct ones.
 
-    Rows are told apart by a number made of their entries, which sorts much faster than rows do; should two different
-    rows ever have the same number, they are sorted as rows.
+    Rows are compared by a hash of their entries, which is much faster to sort than the rows. If different rows have the
+    same hash, the rows themselves are sorted.
 
     Args:
         rows: shape (n, k), k at most nine.

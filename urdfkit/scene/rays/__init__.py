@@ -1,13 +1,13 @@
-"""Casting rays at a scene: what lidars and cameras see, compiled, on one core and without a GPU.
+"""Ray casting for lidars and cameras, compiled, on one core and without a GPU.
 
 ::
 
     table = RayTable(scene, scene.with_role("collision"))
-    table.place(poses)  # every time bodies have moved
+    table.place(poses)  # after bodies have moved
     hits = table.cast((0, 0, 0.5), directions, far=10.0)
 
-Two levels: a tree over the shapes, refitted when they move, and one per mesh, built once and kept on disk. Rays go
-through them sixteen at a time (see `ray_packet`).
+There are two levels of trees: one over the shapes, which is refitted when they move, and one per mesh, which is built
+once and cached on disk. Rays traverse them in packets of sixteen (see `ray_packet`).
 """
 
 from urdfkit.scene.rays.kernels import announcement, warmup

@@ -1,4 +1,4 @@
-"""Trees of boxes: built by the surface area heuristic over bins, refitted when what is in them moves.
+"""Bounding volume hierarchies: built with the binned surface area heuristic, refitted when boxes move.
 
 Sources: Wald, *On fast Construction of SAH-based Bounding Volume Hierarchies* (2007); MacDonald and Booth, *Heuristics
 for ray tracing using space subdivision* (1990).
@@ -12,29 +12,29 @@ from urdfkit.scene.rays.compilation import compiled, inlined
 
 BINS = 16
 MAX_SAH_DEPTH = 40
-"""Deeper than this, halves are taken as they come, so that no input makes a tree deeper than `DEPTH`."""
+"""Deeper nodes are split in half, so that no tree is deeper than `DEPTH`."""
 DEPTH = 80
 SCRATCH = BINS * 14 + 6 + 3 * DEPTH
-"""Numbers `build` works on besides its results."""
+"""Size of the scratch array of `build`."""
 
 
 @inlined
 def area(low_x: float, low_y: float, low_z: float, high_x: float, high_y: float, high_z: float) -> float:
-    """Return half the surface of a box; zero for an empty one."""
+    """Return half the surface area of a box; zero for an empty box."""
     x, y, z = max(high_x - low_x, 0.0), max(high_y - low_y, 0.0), max(high_z - low_z, 0.0)
     return x * y + y * z + z * x
 
 
 def build(boxes: Any, order: Any, bounds: Any, links: Any, leaf: int, scratch: Any) -> int:
-    """Build the tree over boxes; return how many nodes it has.
+    """Build the tree over boxes; return its number of nodes.
 
     Args:
         boxes: lowest and highest corners; shape (n, 6), n > 0.
-        order: becomes the permutation in which leaves hold the boxes; shape (n,).
-        bounds: becomes the nodes' boxes; shape (≥ 2n - 1, 6).
-        links: becomes, for a leaf, its first place in `order` and how many; for the others, the first of two children,
-            which lie side by side, and zero; shape (≥ 2n - 1, 2).
-        leaf: the most boxes a leaf holds, where they can be told apart.
+        order: output, the permutation of the boxes in the leaves; shape (n,).
+        bounds: output, the boxes of the nodes; shape (≥ 2n - 1, 6).
+        links: output; of a leaf, its first index in `order` and the number of boxes; of other nodes, the first of two
+            consecutive children, and zero; shape (≥ 2n - 1, 2).
+        leaf: maximum number of boxes per leaf, if their centres differ.
         scratch: shape (≥ `SCRATCH`,).
     """
     count = len(order)
@@ -54,7 +54,7 @@ def build(boxes: Any, order: Any, bounds: Any, links: Any, leaf: int, scratch: A
             continue
         middle = split(boxes, order, first, size, scratch) if depth < MAX_SAH_DEPTH else first
         if middle <= first or middle >= first + size:
-            middle = first + size // 2  # too deep, or all centres at one place
+            middle = first + size // 2  # too deep, or all centres are equal
         left = nodes
         nodes += 2
         links[left, 0], links[left, 1] = first, middle - first
@@ -71,7 +71,7 @@ build_compiled = compiled(build)
 
 @inlined
 def fit(boxes: Any, order: Any, first: int, size: int, bounds: Any, node: int) -> None:
-    """Make a node's box hold some boxes."""
+    """Fit the box of a node to its boxes."""
     for axis in range(3):
         low, high = boxes[order[first], axis], boxes[order[first], axis + 3]
         for k in range(first + 1, first + size):
@@ -82,9 +82,9 @@ def fit(boxes: Any, order: Any, first: int, size: int, bounds: Any, node: int) -
 
 @inlined
 def split(boxes: Any, order: Any, first: int, size: int, scratch: Any) -> int:
-    """Partition ``order[first:first + size]`` where it costs rays least; return where its second part begins."""
+    """Partition ``order[first:first + size]`` at the lowest expected cost; return the start of the second part."""
     best, best_axis, best_bin = 1e300, -1, 0
-    spans = BINS * 14  # where centres begin and how wide they spread, per axis
+    spans = BINS * 14  # minimum and range of the centres per axis
     for axis in range(3):
         low, high = 1e300, -1e300
         for k in range(first, first + size):
@@ -133,7 +133,7 @@ def bin_of(boxes: Any, item: int, axis: int, low: float, spread: float) -> int:
 
 @inlined
 def sweep(scratch: Any) -> None:
-    """Per bin, count up to it (7), area of all up to it (8), and area of all from it on (9)."""
+    """Accumulate per bin: count up to it (7), area of the union up to it (8) and from it on (9)."""
     for way in range(2):
         x0 = y0 = z0 = 1e300
         x1 = y1 = z1 = -1e300
@@ -152,7 +152,7 @@ def sweep(scratch: Any) -> None:
 
 @compiled
 def refit(boxes: Any, order: Any, bounds: Any, links: Any, nodes: int) -> float:
-    """Fit the nodes' boxes anew to boxes that have moved; return the sum of their areas, which rays pay for."""
+    """Refit the boxes of the nodes to moved boxes; return the sum of their areas, a measure of the casting cost."""
     total = 0.0
     for node in range(nodes - 1, -1, -1):
         first, size = links[node, 0], links[node, 1]

@@ -1,4 +1,4 @@
-"""Trees over the triangles of meshes, built once per mesh and kept in the user's cache folder."""
+"""Trees over the triangles of meshes, built once per mesh and stored in the user's cache folder."""
 
 from __future__ import annotations
 
@@ -19,10 +19,10 @@ from urdfkit.scene.meshes.loader import TriMesh
 from urdfkit.scene.rays.kernels import builder
 
 LEAF = 4
-"""Triangles in a leaf: a packet tests them faster than two more boxes."""
+"""Triangles per leaf: a packet tests them faster than two more boxes."""
 
 KEPT_FROM = 5_000
-"""Triangles from which a tree is kept on disk: smaller ones are built faster than read."""
+"""Minimum number of triangles of a cached tree: smaller trees are built faster than read."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -31,9 +31,9 @@ class MeshTree:
 
     Attributes:
         bounds: boxes of the nodes in the mesh's frame [m], the root first; shape (nodes, 6).
-        links: for a leaf its first triangle and how many; else the first of two children and zero; shape (nodes, 2).
-        order: number in the mesh of each triangle; shape (triangles,).
-        corners: of each triangle one corner and the edges to the others [m]; shape (triangles, 9).
+        links: of a leaf, its first triangle and its size; else the first of two children and zero; shape (nodes, 2).
+        order: index in the mesh of each triangle; shape (triangles,).
+        corners: one corner of each triangle and the edges to the others [m]; shape (triangles, 9).
     """
 
     bounds: NDArray[np.float64]
@@ -43,7 +43,7 @@ class MeshTree:
 
 
 def mesh_tree(mesh: TriMesh) -> MeshTree:
-    """Return the tree of a mesh, from the cache where it is there and whole."""
+    """Return the tree of a mesh, from the cache if it has a valid one."""
     a, b, c = (mesh.vertices[mesh.faces[:, k]].astype(float) for k in range(3))
     kept = _place(mesh) if len(mesh.faces) >= KEPT_FROM else None
     found = _read(kept, len(a)) if kept is not None else None
@@ -70,7 +70,7 @@ def _build(boxes: NDArray[np.float64]) -> Parts:
 
 
 def cache_folder() -> Path:
-    """Return where the user's system keeps what can be made again."""
+    """Return the cache folder of the user."""
     home = Path.home()
     if sys.platform == "darwin":
         return home / "Library" / "Caches" / "urdfkit"
@@ -86,13 +86,13 @@ def _version() -> str:
 def _place(mesh: TriMesh) -> Path | None:
     try:
         folder = cache_folder() / "trees"
-    except RuntimeError:  # nobody knows where home is
+    except RuntimeError:  # the home folder is unknown
         return None
     return folder / f"{mesh.hash}-{_version()}.npz"
 
 
 def _read(path: Path, count: int) -> Parts | None:
-    """Return a tree that was kept; None where there is none or anything about it is wrong."""
+    """Return a cached tree; None if it is missing or invalid."""
     try:
         content = path.read_bytes()
         if hashlib.sha256(content[32:]).digest() != content[:32]:
@@ -106,7 +106,7 @@ def _read(path: Path, count: int) -> Parts | None:
 
 
 def _write(path: Path, parts: Parts) -> None:
-    """Keep a tree; without a writable place, do not."""
+    """Store a tree in the cache, if the folder is writable."""
     file = io.BytesIO()
     np.savez(file, bounds=parts[0], links=parts[1], order=parts[2])
     content = file.getvalue()

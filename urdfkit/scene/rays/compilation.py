@@ -1,4 +1,4 @@
-"""How the kernels of this room are compiled, once per machine and version, and then found in numba's cache."""
+"""Compilation of the ray kernels, once per machine and version, with numba's cache."""
 
 from __future__ import annotations
 
@@ -32,27 +32,27 @@ KERNEL_MODULES = (
 )
 """Modules of this package with compiled functions."""
 
-# Every operation is rounded as IEEE 754 has it (fastmath off), so distances do not depend on what the compiler makes of
-# the order of terms. No references are counted: whoever calls a kernel holds the arrays, all else are views of them.
+# Without fastmath every operation is rounded as IEEE 754 requires, so distances do not depend on the compiler.
+# Reference counting is off: the caller of a kernel holds the arrays, and the kernels only create views of them.
 OPTIONS: dict[str, Any] = {"fastmath": False, "error_model": "numpy", "nogil": True, "_nrt": False}
 
 
 def inlined(function: Function) -> Function:
-    """Compile a function as part of whichever kernel calls it."""
+    """Compile a function as part of the kernels that call it."""
     return cast(Function, numba.njit(function, forceinline=True, **OPTIONS))
 
 
 def compiled(function: Function) -> Function:
-    """Compile a function that kernels call.
+    """Compile a function that kernels call, without inlining.
 
-    Unless told, numba makes it part of its callers where it is first called by one that is `inlined`.
+    By default numba inlines a function that is first called by an `inlined` one.
     """
     return cast(Function, numba.njit(function, forceinline=False, **OPTIONS))
 
 
 @lru_cache
 def load_compiled(function: Callable[..., Any], arguments: tuple[Any, ...]) -> Callable[..., Any]:
-    """Compile a function for these numba types of arguments, or load what was compiled before."""
+    """Compile a function for these numba argument types, or load it from the cache."""
     compiled = compile_or_load(function, arguments, digest=sources_digest(), options=OPTIONS)
     return cast(Callable[..., Any], compiled)
 

@@ -1,4 +1,4 @@
-"""The compiled kernels of this room, with the types of their arguments."""
+"""The compiled ray kernels with the types of their arguments."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from typing import Any
 from urdfkit.scene.rays.compilation import load_compiled
 
 Progress = Callable[[int], None]
-"""Told how many functions have been compiled so far; first with 0, only when there is something to compile."""
+"""Called with the number of compiled functions, starting with 0; not called if everything is cached."""
 
 
 @lru_cache(maxsize=1)
@@ -26,7 +26,7 @@ def caster() -> Callable[..., Any]:
 
 
 def scene_type() -> Any:
-    """Return the numba type of a scene, as the kernels take it."""
+    """Return the numba type of a scene."""
     from numba import float64 as f
     from numba import int64 as i
     from numba import types
@@ -35,17 +35,17 @@ def scene_type() -> Any:
 
 
 @lru_cache(maxsize=1)
-def looker() -> Callable[..., Any]:
-    """Return the compiled `camera_picture.look`."""
+def tracer() -> Callable[..., Any]:
+    """Return the compiled `camera_picture.trace`."""
     from numba import float32, types, uint8
     from numba import float64 as f
     from numba import int64 as i
 
-    from urdfkit.scene.rays.shading.camera_picture import look
+    from urdfkit.scene.rays.shading.camera_picture import trace
 
     paint = types.Tuple((f[:, ::1], i[::1], f[:, ::1], float32[:, ::1], i[:, ::1], uint8[::1]))
     return load_compiled(
-        look,
+        trace,
         (
             scene_type(),
             scene_type(),
@@ -109,7 +109,7 @@ def placer() -> Callable[..., Any]:
 
 @lru_cache(maxsize=1)
 def builder() -> Callable[..., Any]:
-    """Return the compiled `bvh.build`, for boxes of any kind."""
+    """Return the compiled `bvh.build`."""
     from numba import float64 as f
     from numba import int64 as i
 
@@ -141,12 +141,12 @@ def filler() -> Callable[..., Any]:
 
 
 def announcement() -> str:
-    """Return what to say before a compilation: of what, and about how long it takes [CPU s, measured]."""
+    """Return the message before a compilation, with its measured duration [CPU s]."""
     return "compiling the ray kernels, once, about 15 s …"
 
 
 def warmup(progress: Progress | None = None) -> bool:
-    """Make the kernels ready to run; return whether they had to be compiled (see `announcement`) or were loaded.
+    """Compile or load the kernels; return whether they had to be compiled (see `announcement`).
 
     Args:
         progress: called with 0 before a compilation starts and with a growing count while it runs.
@@ -155,7 +155,7 @@ def warmup(progress: Progress | None = None) -> bool:
 
     compiled: list[str] = []
 
-    class Listener(event.Listener):  # type: ignore[misc]
+    class CompilationListener(event.Listener):  # type: ignore[misc]
         def on_start(self, event: Any) -> None:
             if progress is not None:
                 progress(len(compiled))
@@ -164,7 +164,7 @@ def warmup(progress: Progress | None = None) -> bool:
         def on_end(self, event: Any) -> None:
             pass
 
-    with event.install_listener("numba:compile", Listener()):
-        for kernel in (builder, widener, filler, placer, caster, looker, outliner):
+    with event.install_listener("numba:compile", CompilationListener()):
+        for kernel in (builder, widener, filler, placer, caster, tracer, outliner):
             kernel()
     return bool(compiled)

@@ -1,7 +1,7 @@
-"""Rays against box, sphere, cylinder, capsule, ellipsoid and plane, in closed form, a packet at a time.
+"""Intersection of ray packets with box, sphere, cylinder, capsule, ellipsoid, cone and plane, in closed form.
 
-Each solid gives the interval in which a ray is inside it; the hit is where it enters, or where it leaves when it began
-inside. Of two shapes at the same distance the one with the smaller number counts, whatever the tree looks like.
+For each solid, the interval of a ray inside it is computed; the hit is its start, or its end if the ray begins inside.
+Of two shapes at the same distance the one with the smaller index counts, independent of the tree.
 """
 
 from __future__ import annotations
@@ -20,8 +20,8 @@ STRIDE = 16
 
 
 @inlined
-def settle(packet: Any, k: int, shape: float, near: float, enter: float, leave: float) -> None:
-    """Note a hit of ray `k` if this shape is nearer than what it has met so far."""
+def record_hit(packet: Any, k: int, shape: float, near: float, enter: float, leave: float) -> None:
+    """Record a hit of ray `k` if it is nearer than the previous hits."""
     t = enter if enter >= near else leave
     reach, hit = packet[REACH + k], packet[HIT + k]
     better = (enter <= leave) & (t >= near) & ((t < reach) | ((t == reach) & (shape < hit)))
@@ -31,8 +31,8 @@ def settle(packet: Any, k: int, shape: float, near: float, enter: float, leave: 
 
 
 @inlined
-def turned(packet: Any, k: int, frame: Any) -> Any:
-    """Return origin and direction of ray `k` in a shape's frame."""
+def ray_in_frame(packet: Any, k: int, frame: Any) -> Any:
+    """Return origin and direction of ray `k` in the frame of a shape."""
     r00, r01, r02, r10, r11, r12, r20, r21, r22, px, py, pz = frame
     x, y, z = packet[OX + k] - px, packet[OY + k] - py, packet[OZ + k] - pz
     dx, dy, dz = packet[DX + k], packet[DY + k], packet[DZ + k]
@@ -57,7 +57,7 @@ def frame_of(shapes: Any, at: int) -> Any:
 
 @inlined
 def slab(o: float, d: float, half: float) -> tuple[float, float]:
-    """Return where a ray enters and leaves -half..half along one axis."""
+    """Return the distances at which a ray enters and leaves -half..half along one axis."""
     inverse = 1.0 / d if d != 0.0 else FAR
     s = abs(half * inverse)
     middle = -o * inverse
@@ -66,15 +66,15 @@ def slab(o: float, d: float, half: float) -> tuple[float, float]:
 
 @compiled
 def box(packet: Any, shapes: Any, at: int, shape: float, near: float) -> None:
-    """Cast a packet at a box; its size is half its edges."""
+    """Cast a packet at a box; its size is half the edge lengths."""
     frame = frame_of(shapes, at)
     a, b, c = shapes[at + 12], shapes[at + 13], shapes[at + 14]
     for k in range(WIDTH):
-        x, y, z, dx, dy, dz = turned(packet, k, frame)
+        x, y, z, dx, dy, dz = ray_in_frame(packet, k, frame)
         x0, x1 = slab(x, dx, a)
         y0, y1 = slab(y, dy, b)
         z0, z1 = slab(z, dz, c)
-        settle(packet, k, shape, near, max(x0, y0, z0), min(x1, y1, z1))
+        record_hit(packet, k, shape, near, max(x0, y0, z0), min(x1, y1, z1))
 
 
 @compiled
@@ -85,14 +85,14 @@ def sphere(packet: Any, shapes: Any, at: int, shape: float, near: float) -> None
         x, y, z = packet[OX + k] - px, packet[OY + k] - py, packet[OZ + k] - pz
         dx, dy, dz = packet[DX + k], packet[DY + k], packet[DZ + k]
         enter, leave = ball(x, y, z, dx, dy, dz, radius)
-        settle(packet, k, shape, near, enter, leave)
+        record_hit(packet, k, shape, near, enter, leave)
 
 
 @inlined
 def ball(x: float, y: float, z: float, dx: float, dy: float, dz: float, radius: float) -> tuple[float, float]:
-    """Return where a ray of unit direction enters and leaves a sphere about the origin.
+    """Return the distances at which a ray of unit direction enters and leaves a sphere about the origin.
 
-    By the foot of the perpendicular, which loses no digits from afar (Haines et al., *Precision Improvements for
+    The foot of the perpendicular avoids cancellation for distant origins (Haines et al., *Precision Improvements for
     Ray/Sphere Intersection*, Ray Tracing Gems, 2019).
     """
     foot = -(x * dx + y * dy + z * dz)
@@ -103,8 +103,8 @@ def ball(x: float, y: float, z: float, dx: float, dy: float, dz: float, radius: 
 
 
 @inlined
-def tube(x: float, y: float, dx: float, dy: float, radius: float) -> tuple[float, float]:
-    """Return where a ray enters and leaves an endless cylinder about z."""
+def infinite_cylinder(x: float, y: float, dx: float, dy: float, radius: float) -> tuple[float, float]:
+    """Return the distances at which a ray enters and leaves an infinite cylinder about z."""
     a = dx * dx + dy * dy
     inverse = 1.0 / a if a > 1e-200 else FAR
     foot = -(x * dx + y * dy) * inverse
@@ -127,10 +127,10 @@ def cylinder(packet: Any, shapes: Any, at: int, shape: float, near: float) -> No
     frame = frame_of(shapes, at)
     radius, half = shapes[at + 12], shapes[at + 13]
     for k in range(WIDTH):
-        x, y, z, dx, dy, dz = turned(packet, k, frame)
+        x, y, z, dx, dy, dz = ray_in_frame(packet, k, frame)
         z0, z1 = slab(z, dz, half)
-        r0, r1 = tube(x, y, dx, dy, radius)
-        settle(packet, k, shape, near, max(z0, r0), min(z1, r1))
+        r0, r1 = infinite_cylinder(x, y, dx, dy, radius)
+        record_hit(packet, k, shape, near, max(z0, r0), min(z1, r1))
 
 
 @compiled
@@ -139,24 +139,24 @@ def capsule(packet: Any, shapes: Any, at: int, shape: float, near: float) -> Non
     frame = frame_of(shapes, at)
     radius, half = shapes[at + 12], shapes[at + 13]
     for k in range(WIDTH):
-        x, y, z, dx, dy, dz = turned(packet, k, frame)
+        x, y, z, dx, dy, dz = ray_in_frame(packet, k, frame)
         z0, z1 = slab(z, dz, half)
-        r0, r1 = tube(x, y, dx, dy, radius)
+        r0, r1 = infinite_cylinder(x, y, dx, dy, radius)
         a0, a1 = ball(x, y, z - half, dx, dy, dz, radius)
         b0, b1 = ball(x, y, z + half, dx, dy, dz, radius)
-        # Together they are convex: the ray is inside from the first entry to the last exit.
+        # The union is convex: the ray is inside from the first entry to the last exit.
         t0, t1 = max(z0, r0), min(z1, r1)
         t0, t1 = (t0 if t0 <= t1 else FAR), (t1 if t0 <= t1 else -FAR)
-        settle(packet, k, shape, near, min(t0, a0, b0), max(t1, a1, b1))
+        record_hit(packet, k, shape, near, min(t0, a0, b0), max(t1, a1, b1))
 
 
 @compiled
 def ellipsoid(packet: Any, shapes: Any, at: int, shape: float, near: float) -> None:
-    """Cast a packet at an ellipsoid; its size is its radii. Scaled to a unit sphere, distances stay what they are."""
+    """Cast a packet at an ellipsoid; its size is its radii. Scaling to a unit sphere does not change ray parameters."""
     frame = frame_of(shapes, at)
     a, b, c = 1.0 / shapes[at + 12], 1.0 / shapes[at + 13], 1.0 / shapes[at + 14]
     for k in range(WIDTH):
-        x, y, z, dx, dy, dz = turned(packet, k, frame)
+        x, y, z, dx, dy, dz = ray_in_frame(packet, k, frame)
         x, y, z, dx, dy, dz = x * a, y * b, z * c, dx * a, dy * b, dz * c
         inverse = 1.0 / (dx * dx + dy * dy + dz * dz)
         foot = -(x * dx + y * dy + z * dz) * inverse
@@ -164,21 +164,21 @@ def ellipsoid(packet: Any, shapes: Any, at: int, shape: float, near: float) -> N
         under = 1.0 - (lx * lx + ly * ly + lz * lz)
         half = sqrt(max(under, 0.0) * inverse)
         enter = foot - half if under >= 0.0 else FAR
-        settle(packet, k, shape, near, enter, foot + half)
+        record_hit(packet, k, shape, near, enter, foot + half)
 
 
 @compiled
 def cone(packet: Any, shapes: Any, at: int, shape: float, near: float) -> None:
     """Cast a packet at a cone about z, apex up; its size is the radius of its base and half its length.
 
-    Inside is ``x² + y² ≤ k²·(half - z)²`` between base and apex. Distances are taken from the point of the ray that is
-    nearest to the cone's middle, which keeps the digits of what is seen from afar.
+    The inside is ``x² + y² ≤ k²·(half - z)²`` between base and apex. Distances are measured from the point of the ray
+    nearest to the cone's centre, which avoids cancellation for distant origins.
     """
     frame = frame_of(shapes, at)
     radius, half = shapes[at + 12], shapes[at + 13]
     k2 = (0.5 * radius / half) ** 2
     for k in range(WIDTH):
-        x, y, z, dx, dy, dz = turned(packet, k, frame)
+        x, y, z, dx, dy, dz = ray_in_frame(packet, k, frame)
         foot = -(x * dx + y * dy + z * dz)
         x, y, z = x + foot * dx, y + foot * dy, z + foot * dz
         w = half - z
@@ -190,23 +190,23 @@ def cone(packet: Any, shapes: Any, at: int, shape: float, near: float) -> None:
         q = -(b + sqrt(max(under, 0.0)) * (1.0 if b >= 0.0 else -1.0))
         one, two = q / a, (c / q if q != 0.0 else q / a)
         first, last = min(one, two), max(one, two)
-        # A flat ray is inside between its roots, a steep one from the second on, or up to the first, in this half.
+        # A flat ray is inside between its roots, a steep one after the second or before the first root.
         flat, down = a > 0.0, dz < 0.0
         t0 = first if flat else (last if down else -FAR)
         t1 = last if flat else (FAR if down else first)
         none = flat & (under < 0.0)
         z0, z1 = slab(z, dz, half)
         enter, leave = max(t0, z0), min(t1, z1)
-        settle(packet, k, shape, near, FAR if none else foot + enter, -FAR if none else foot + leave)
+        record_hit(packet, k, shape, near, FAR if none else foot + enter, -FAR if none else foot + leave)
 
 
 @compiled
 def plane(packet: Any, shapes: Any, at: int, shape: float, near: float) -> None:
-    """Cast a packet at the xy plane of a frame, from either side; its size is half of what there is of it."""
+    """Cast a packet at a rectangle in the xy plane of a frame, from either side; its size is half the edge lengths."""
     frame = frame_of(shapes, at)
     a, b = shapes[at + 12], shapes[at + 13]
     for k in range(WIDTH):
-        x, y, z, dx, dy, dz = turned(packet, k, frame)
+        x, y, z, dx, dy, dz = ray_in_frame(packet, k, frame)
         t = -z / dz if dz != 0.0 else FAR
         on = (abs(x + t * dx) <= a) & (abs(y + t * dy) <= b) & (t < FAR)
-        settle(packet, k, shape, near, t if on else FAR, t if on else -FAR)
+        record_hit(packet, k, shape, near, t if on else FAR, t if on else -FAR)

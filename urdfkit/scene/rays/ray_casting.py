@@ -1,4 +1,4 @@
-"""Casting rays: a walk through the tree of shapes and, in a mesh, through the tree of its triangles."""
+"""Ray casting: traversal of the tree of shapes and, for meshes, of the tree of triangles."""
 
 from __future__ import annotations
 
@@ -39,21 +39,21 @@ from urdfkit.scene.rays.ray_packet import (
     REACH,
     WIDTH,
     bound,
-    entered,
+    entered_children,
     entry,
     farthest,
 )
 from urdfkit.scene.rays.surface_normals import normal
-from urdfkit.scene.rays.triangles import CORNERS, into_mesh, triangle
+from urdfkit.scene.rays.triangles import CORNERS, rays_in_mesh, triangle
 
 TOP_STACK = PACKET
 MESH_STACK = TOP_STACK + 2 * CHILDREN * DEPTH
 SCRATCH = MESH_STACK + 2 * CHILDREN * DEPTH
-"""Numbers that casting works on: a packet and two stacks of (child of a node, where the packet enters it)."""
+"""Size of the work array: a packet and two stacks of (child of a node, distance at which the packet enters it)."""
 
 
 @compiled
-def meet(work: Any, scene: Any, shape: int, near: float) -> None:
+def cast_at_shape(work: Any, scene: Any, shape: int, near: float) -> None:
     """Cast the packet at one shape."""
     shapes, kinds, roots, _, _, _, _, _, _ = scene
     at, kind, number = shape * STRIDE, kinds[shape], float(shape)
@@ -72,14 +72,14 @@ def meet(work: Any, scene: Any, shape: int, near: float) -> None:
     elif kind == PLANE:
         plane(work, shapes, at, number, near)
     elif kind == MESH:
-        into_mesh(work, shapes, at)
+        rays_in_mesh(work, shapes, at)
         bound(work, LX, MX, LOCAL_BEAM)
-        walk_mesh(work, scene, roots[shape], number, near)
+        traverse_mesh(work, scene, roots[shape], number, near)
 
 
 @compiled
-def walk_mesh(work: Any, scene: Any, root: int, shape: float, near: float) -> None:
-    """Walk the packet through the tree of a mesh, the nearest of the children first."""
+def traverse_mesh(work: Any, scene: Any, root: int, shape: float, near: float) -> None:
+    """Traverse the tree of a mesh, the nearest children first."""
     _, _, _, _, _, _, boxes, links, corners = scene
     reach = farthest(work)
     waiting = push(work, LOCAL_BEAM, boxes, root, MESH_STACK, near, reach)
@@ -100,8 +100,8 @@ def walk_mesh(work: Any, scene: Any, root: int, shape: float, near: float) -> No
 
 @inlined
 def push(work: Any, beam: int, boxes: Any, node: int, top: int, near: float, reach: float) -> int:
-    """Put the children of a node that the packet enters onto a stack, the nearest on top; return how many."""
-    found = entered(work, beam, boxes, node, near, reach)
+    """Push the children of a node that the packet enters onto a stack, the nearest on top; return their number."""
+    found = entered_children(work, beam, boxes, node, near, reach)
     c = count = 0
     while found != 0:
         if found & 1 != 0:
@@ -118,12 +118,12 @@ def push(work: Any, beam: int, boxes: Any, node: int, top: int, near: float, rea
 
 
 @compiled
-def walk(work: Any, scene: Any, near: float) -> None:
-    """Find what each ray of the packet meets first: its `REACH`, `HIT` and `PART`."""
+def traverse(work: Any, scene: Any, near: float) -> None:
+    """Find the first hit of each ray of the packet: its `REACH`, `HIT` and `PART`."""
     _, kinds, _, order, boxes, links, _, _, _ = scene
     bound(work, OX, DX, BEAM)
     for shape in range(len(order), len(kinds)):
-        meet(work, scene, shape, near)
+        cast_at_shape(work, scene, shape, near)
     reach = farthest(work)
     waiting = push(work, BEAM, boxes, 0, TOP_STACK, near, reach) if len(order) > 0 else 0
     while waiting > 0:
@@ -135,7 +135,7 @@ def walk(work: Any, scene: Any, near: float) -> None:
         first, size = links[child], links[child + 1]
         if size > 0:
             for k in range(first, first + size):
-                meet(work, scene, order[k], near)
+                cast_at_shape(work, scene, order[k], near)
             reach = farthest(work)
         else:
             waiting += push(work, BEAM, boxes, first, top, near, reach)
@@ -143,7 +143,7 @@ def walk(work: Any, scene: Any, near: float) -> None:
 
 @inlined
 def load(work: Any, frame: Any, origins: Any, directions: Any, first: int, far: float) -> None:
-    """Fill the packet with rays, from the frame they are given in; what is missing at the end repeats the last."""
+    """Fill the packet with rays, transformed from their frame; the last ray is repeated to fill the packet."""
     for k in range(WIDTH):
         ray = min(first + k, len(directions) - 1)
         source = ray if len(origins) > 1 else 0
@@ -169,25 +169,25 @@ def cast(
     parts: Any,
     normals: Any,
 ) -> None:
-    """Cast rays, in packets as they come.
+    """Cast rays in packets, in the order of the array.
 
     Args:
         scene: frames, kinds and roots of shapes; order, boxes and children of the tree over them (see `wide_bvh`);
-            boxes, children and triangles of all meshes. Shapes that are not in the tree come last.
-        frame: rotation by rows and position of the frame that the rays are given in.
+            boxes, children and triangles of all meshes. Infinite shapes are not in the tree and come last.
+        frame: rotation by rows and position of the frame of the rays.
         origins: [m], one for all or one each; shape (1 or n, 3).
         directions: of length 1; shape (n, 3).
-        near: where rays begin to see [m].
-        far: where they end [m].
+        near: minimum distance of a hit [m].
+        far: maximum distance of a hit [m].
         work: shape (≥ `SCRATCH`,).
-        distances: becomes the nearest hits [m], infinite without one; shape (n,).
-        hits: becomes the numbers of the shapes hit, -1 without one; shape (n,).
-        parts: becomes the numbers of the triangles hit, -1 where it is no mesh; shape (n,).
-        normals: becomes the unit normals at the hits, towards the ray; shape (n, 3), or (0, 3) where none are wanted.
+        distances: output, distances of the nearest hits [m], infinite without a hit; shape (n,).
+        hits: output, indices of the hit shapes, -1 without a hit; shape (n,).
+        parts: output, indices of the hit triangles, -1 for other shapes; shape (n,).
+        normals: output, unit normals at the hits, towards the ray; shape (n, 3), or (0, 3) to skip them.
     """
     for first in range(0, len(directions), WIDTH):
         load(work, frame, origins, directions, first, far)
-        walk(work, scene, near)
+        traverse(work, scene, near)
         for k in range(min(WIDTH, len(directions) - first)):
             ray, hit = first + k, int(work[HIT + k])
             hits[ray], parts[ray] = hit, int(work[PART + k])

@@ -1,9 +1,9 @@
-"""A packet: the rays that go through the tree together, as the kernels see them.
+"""Ray packets: the rays that traverse the tree together.
 
-Rays side by side mostly meet the same things, so `WIDTH` of them share one walk through the tree, and every test of a
-shape is one loop over the packet that the compiler turns into vector instructions (Wald et al., *Interactive Rendering
-with Coherent Ray Tracing*, 2001). A packet is one block of numbers, `WIDTH` per row; the rows' starts are constants, so
-that the compiler sees that rows do not overlap.
+Neighbouring rays mostly hit the same shapes, so `WIDTH` of them share one traversal of the tree, and each test of a
+shape is one loop over the packet that the compiler vectorizes (Wald et al., *Interactive Rendering with Coherent Ray
+Tracing*, 2001). A packet is one array with `WIDTH` numbers per row. The offsets of the rows are constants, so the
+compiler knows that rows do not overlap.
 """
 
 from __future__ import annotations
@@ -19,29 +19,29 @@ OX, OY, OZ, DX, DY, DZ, REACH, HIT, PART = (row * WIDTH for row in range(9))
 """Origin [m], direction (unit), the nearest hit so far [m], its shape and triangle (-1: none), in the world."""
 
 LX, LY, LZ, MX, MY, MZ = (row * WIDTH for row in range(9, 15))
-"""Origin and direction in the frame of the mesh that is being looked at."""
+"""Origin and direction in the frame of the current mesh."""
 
 BEAM = 15 * WIDTH
 LOCAL_BEAM = BEAM + 24
 """Bounds of all rays of a packet, in the world and in the frame of a mesh: 24 numbers each, see `bound`."""
 
 CHILDREN = 8
-"""Children of a node, at most."""
+"""Maximum number of children per node."""
 
 PACKET = LOCAL_BEAM + 24
-"""Numbers in a packet."""
+"""Size of a packet."""
 
 FAR = 1e300
-"""Stands for infinity where infinity minus infinity must not happen."""
+"""Used as infinity where a difference of two infinities would be NaN."""
 
 
 @compiled
 def bound(packet: Any, origin: int, direction: int, beam: int) -> None:
-    """Work out the bounds of the packet's rays, for `entered` and `entry`.
+    """Compute the bounds of the packet's rays for `entered_children` and `entry`.
 
     Per axis, the rays lie between ``low + t·slowest`` and ``high + t·fastest`` at distance t. Stored are low and high
-    of the origins, 1/fastest where some ray ascends, 1/-slowest where some descends (else `FAR`: none gets there), and
-    1/slowest where all ascend, 1/-fastest where all descend (else zero with `FAR` beside it: some never leave).
+    of the origins, 1/fastest if some ray ascends, 1/-slowest if some descends (else `FAR`: no ray enters), and
+    1/slowest if all ascend, 1/-fastest if all descend (else zero followed by `FAR`: some rays never leave).
     """
     for axis in range(3):
         o, d, at = origin + axis * WIDTH, direction + axis * WIDTH, beam + 8 * axis
@@ -61,18 +61,18 @@ def bound(packet: Any, origin: int, direction: int, beam: int) -> None:
 
 
 @inlined
-def entered(packet: Any, beam: int, boxes: Any, node: int, near: float, reach: float) -> int:
-    """Return which children of a node some ray may enter between `near` and `reach`, a bit each.
+def entered_children(packet: Any, beam: int, boxes: Any, node: int, near: float, reach: float) -> int:
+    """Return a bit mask of the children of a node that some ray may enter between `near` and `reach`.
 
-    This is one loop without a branch or a store, which the compiler turns into vector instructions.
+    The loop has no branches and no stores, so the compiler vectorizes it.
 
     Args:
         packet: the rays.
-        beam: which of their bounds.
-        boxes: of the nodes' children, the lowest x of each, then y, z, and the highest; shape (nodes, 6 `CHILDREN`).
-        node: whose children.
-        near: where the rays begin [m].
-        reach: where they end [m].
+        beam: offset of their bounds, `BEAM` or `LOCAL_BEAM`.
+        boxes: boxes of the children: lowest x of each, then y, z, and the highest; shape (nodes, 6 `CHILDREN`).
+        node: the node.
+        near: start of the rays [m].
+        reach: end of the rays [m].
     """
     x0, x1, x2, x3, x4, x5, x6, x7 = along(packet, beam)
     y0, y1, y2, y3, y4, y5, y6, y7 = along(packet, beam + 8)
@@ -88,7 +88,7 @@ def entered(packet: Any, beam: int, boxes: Any, node: int, near: float, reach: f
         low, high = boxes[node, 2 * CHILDREN + c], boxes[node, 5 * CHILDREN + c]
         enter = max(enter, (low - z1) * z2, (z0 - high) * z3)
         leave = min(leave, (high - z0) * z4 + z5, (z1 - low) * z6 + z7)
-        # One part in 1e12 for what rounding may have taken.
+        # A relative tolerance of 1e-12 for rounding errors.
         found |= (1 << c) if enter <= leave + 1e-12 * abs(leave) else 0
     return found
 
@@ -104,7 +104,7 @@ def along(packet: Any, at: int) -> Any:
 
 @inlined
 def entry(packet: Any, beam: int, boxes: Any, node: int, c: int, near: float) -> float:
-    """Return a distance at which no ray has entered child `c` of a node yet, see `entered`."""
+    """Return a lower bound of the distances at which rays enter child `c` of a node, see `entered_children`."""
     enter = near
     for axis in range(3):
         b = beam + 8 * axis
@@ -115,7 +115,7 @@ def entry(packet: Any, beam: int, boxes: Any, node: int, c: int, near: float) ->
 
 @inlined
 def farthest(packet: Any) -> float:
-    """Return how far the packet's longest ray still reaches [m]."""
+    """Return the length of the longest ray of the packet [m]."""
     reach = packet[REACH]
     for k in range(1, WIDTH):
         reach = max(reach, packet[REACH + k])

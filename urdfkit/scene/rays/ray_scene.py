@@ -1,4 +1,4 @@
-"""The scene as rays meet it: built once, then only the poses of bodies change."""
+"""RayTable: the shapes of a scene for ray casting; built once, then only the poses of bodies change."""
 
 from __future__ import annotations
 
@@ -31,14 +31,13 @@ Numbers = NDArray[np.int64]
 
 @dataclass(frozen=True, eq=False)
 class Hits:
-    """What rays met first.
+    """First hits of rays.
 
     Attributes:
-        distances: [m], infinite where nothing was met; shape (n,).
-        shapes: indices into `RayTable.shapes`, -1 where nothing was met; shape (n,).
-        normals: unit normals of the surface, towards the ray, zero where nothing was met; shape (n, 3); None where they
-            were not asked for.
-        triangles: numbers of the triangles in their mesh, -1 for other shapes; shape (n,).
+        distances: [m], infinite without a hit; shape (n,).
+        shapes: indices into `RayTable.shapes`, -1 without a hit; shape (n,).
+        normals: unit normals of the surface, towards the ray, zero without a hit; shape (n, 3); None if not requested.
+        triangles: indices of the triangles in their mesh, -1 for other shapes; shape (n,).
     """
 
     distances: Array
@@ -48,22 +47,22 @@ class Hits:
 
 
 class RayTable:
-    """Shapes of a scene, ready to be met by rays. Cast from several threads, if nobody places meanwhile.
+    """Shapes of a scene for ray casting. Several threads may cast at the same time, but not while `place` runs.
 
     Args:
-        scene: the bodies; poses come in their order.
-        shapes: what can be met, such as ``scene.with_role("collision")``; endless planes come last in `shapes`.
+        scene: the bodies, whose order `place` uses.
+        shapes: the shapes that rays can hit, such as ``scene.with_role("collision")``.
 
     Attributes:
-        shapes: what `Hits.shapes` counts.
-        bodies: number of the body of each shape; shape (len(shapes),).
-        kernel_scene: what the kernels take.
+        shapes: the shapes in the order of the indices in `Hits.shapes`; infinite planes come last.
+        bodies: index of the body of each shape; shape (len(shapes),).
+        kernel_scene: arguments of the kernels.
     """
 
     def __init__(self, scene: Scene, shapes: Iterable[Shape]) -> None:
-        listed = sorted(shapes, key=_is_endless)
+        listed = sorted(shapes, key=_is_infinite)
         self.shapes: tuple[Shape, ...] = tuple(listed)
-        count, inside = len(listed), sum(not _is_endless(shape) for shape in listed)
+        count, inside = len(listed), sum(not _is_infinite(shape) for shape in listed)
         self.bodies = np.array([scene.body_index[shape.body] for shape in listed], dtype=np.int64)
         self._kinds = np.zeros(count, dtype=np.int64)
         local = np.zeros((count, primitives.STRIDE))
@@ -94,7 +93,7 @@ class RayTable:
         )  # fmt: skip
 
     def _place_meshes(self, shapes: list[Shape]) -> None:
-        """Lay the trees of all meshes end to end, each mesh once."""
+        """Concatenate the trees of all meshes, each mesh once."""
         starts: dict[str, tuple[int, Array]] = {}
         boxes, children = [np.empty((0, BOXES))], [np.empty((0, CHILDREN, 3), dtype=np.int64)]
         orders, corners = [np.empty(0, dtype=np.int64)], [np.empty((0, CORNERS))]
@@ -121,34 +120,34 @@ class RayTable:
 
     @property
     def sizes(self) -> Array:
-        """Size of each shape, as the kernels take it [m]; shape (shapes, 3)."""
+        """Size of each shape in the format of the kernels [m]; shape (shapes, 3)."""
         found: Array = self._local.reshape(-1, primitives.STRIDE)[:, 12:15]
         return found
 
     @property
     def frames(self) -> Array:
-        """Where each shape is: rotation by rows and position, as placed; shape (shapes, 12)."""
+        """Pose of each shape: rotation by rows and position; shape (shapes, 12)."""
         found: Array = self._world.reshape(-1, primitives.STRIDE)[:, :12]
         return found
 
     @property
     def boxes(self) -> Array:
-        """Lowest and highest corner of each shape that is not endless, as placed [m]; shape (shapes, 6)."""
+        """Lowest and highest corner of each finite shape [m]; shape (shapes, 6)."""
         return self._boxes
 
     def triangles_of(self, shape: int) -> tuple[int, NDArray[np.int64]]:
-        """Return where the triangles of a shape's mesh begin among all, and which of the mesh's own they are."""
+        """Return the index of the first triangle of a shape's mesh, and the mesh's own indices of its triangles."""
         mesh = self.shapes[shape].mesh
         return next((first, faces) for first, faces, each in self.meshes if mesh is not None and each.hash == mesh.hash)
 
     @property
     def triangle_count(self) -> int:
-        """Triangles of all meshes."""
+        """Number of triangles of all meshes."""
         return len(self._faces)
 
     @property
     def meshes(self) -> Iterator[tuple[int, NDArray[np.int64], TriMesh]]:
-        """Each mesh, with where its triangles begin among all, and which of its own they are."""
+        """Index of the first triangle of each mesh, its own indices of its triangles, and the mesh."""
         for first, count, mesh in self._meshes:
             yield first, self._faces[first : first + count], mesh
 
@@ -175,17 +174,17 @@ class RayTable:
         frame: ArrayLike | None = None,
         normals: bool = False,
     ) -> Hits:
-        """Cast rays at where the bodies have been placed.
+        """Cast rays at the shapes in their current poses.
 
-        Rays side by side in the array are quickest when they are side by side in space, too.
+        Casting is fastest if neighbouring rays in the array are neighbours in space.
 
         Args:
             origins: [m], one for all rays or one each; shape (3,) or (n, 3).
             directions: of length 1; shape (n, 3).
-            near: where rays begin to see [m].
-            far: where they end [m].
-            frame: placement of the frame in which the rays are given, shape (4, 4); the world when None.
-            normals: whether they are wanted.
+            near: minimum distance of a hit [m].
+            far: maximum distance of a hit [m].
+            frame: placement of the frame of the rays, shape (4, 4); None for the world.
+            normals: whether to compute normals.
         """
         directions = np.ascontiguousarray(directions, dtype=float).reshape(-1, 3)
         count = len(directions)
@@ -205,11 +204,11 @@ class RayTable:
 
 
 def widened(bounds: Array, links: Numbers) -> tuple[Array, Numbers]:
-    """Return boxes and children of a tree as packets walk it, see `wide_bvh.widen`.
+    """Return boxes and children of the tree with eight children per node, see `wide_bvh.widen`.
 
     Args:
-        bounds: boxes of the nodes with two children; shape (nodes, 6).
-        links: of these nodes, see `bvh.build`; shape (nodes, 2).
+        bounds: boxes of the nodes of the binary tree; shape (nodes, 6).
+        links: links of these nodes, see `bvh.build`; shape (nodes, 2).
     """
     most = len(links) // 2 + 1
     children, origins = np.empty((most, CHILDREN, 3), dtype=np.int64), np.empty(most, dtype=np.int64)
@@ -219,12 +218,12 @@ def widened(bounds: Array, links: Numbers) -> tuple[Array, Numbers]:
     return boxes, children[:nodes].copy()
 
 
-def _is_endless(shape: Shape) -> bool:
+def _is_infinite(shape: Shape) -> bool:
     return isinstance(shape.geometry, Plane) and shape.role == "collision"
 
 
 def _numbers(shape: Shape) -> tuple[int, tuple[float, float, float], Array]:
-    """Return the kind of a shape, its size as the kernels take it, and how its frame is turned against its own."""
+    """Return the kind of a shape, its size in the format of the kernels, and the rotation of its frame."""
     straight = np.eye(3)
     if shape.mesh is not None:
         return primitives.MESH, (0.0, 0.0, 0.0), straight

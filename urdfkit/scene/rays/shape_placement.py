@@ -1,4 +1,4 @@
-"""Where the shapes are: poses of bodies → frames and boxes of shapes, and the tree over them."""
+"""Placement of the shapes: poses of bodies → frames and boxes of shapes, and the tree over them."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from urdfkit.scene.rays.primitives import BOX, CAPSULE, CONE, CYLINDER, ELLIPSOI
 from urdfkit.scene.rays.wide_bvh import fill_compiled, widen_compiled
 
 REBUILD = 1.3
-"""A tree whose boxes have grown by this factor since it was built is built again."""
+"""A tree is rebuilt when its boxes have grown by this factor."""
 
 
 def place(
@@ -31,30 +31,30 @@ def place(
     health: Any,
     scratch: Any,
 ) -> None:
-    """Move every shape to where its body is, and the tree with them; what stays costs nothing.
+    """Move every shape with its body, and update the tree; unmoved bodies are skipped.
 
     Args:
         poses: of the bodies, x y z [m] and quaternion x y z w; shape (bodies, 7).
-        before: the poses of the last time, NaN at first; becomes `poses`.
-        local: frames of the shapes in their bodies and sizes, `STRIDE` numbers each.
-        body: number of each shape's body.
-        kinds: of the shapes.
+        before: the poses of the last call, NaN initially; output, a copy of `poses`.
+        local: frames of the shapes in their bodies, and sizes; `STRIDE` numbers each.
+        body: index of each shape's body.
+        kinds: kinds of the shapes.
         mesh_boxes: box of each shape's mesh in its own frame; shape (shapes, 6).
-        shapes: becomes frames in the world and sizes.
-        boxes: becomes the shapes' boxes in the world; those of the tree come first; shape (in the tree, 6).
+        shapes: output, frames in the world and sizes.
+        boxes: output, boxes of the finite shapes in the world; shape (finite shapes, 6).
         order: of the tree.
         bounds: of the tree.
         links: of the tree.
-        wide: the tree as packets walk it, see `wide_bvh.widen`.
-        origins: of its nodes.
+        wide: the tree with eight children per node, see `wide_bvh.widen`.
+        origins: its scratch array.
         children: boxes of its nodes' children.
-        health: nodes in the tree (zero: not built yet), the sum of their areas when it was built, nodes in `wide`.
-        scratch: to work on.
+        health: number of nodes (zero: not built yet), the sum of their areas when the tree was built, nodes in `wide`.
+        scratch: scratch array of `bvh.build`.
     """
     inside, moved = len(boxes), False
     for k in range(len(kinds)):
         at, b = k * STRIDE, body[k]
-        if stays(poses, before, b):
+        if is_unmoved(poses, before, b):
             continue
         moved = True
         x, y, z, w = poses[b, 3], poses[b, 4], poses[b, 5], poses[b, 6]
@@ -74,7 +74,7 @@ def place(
         for c in range(12, 16):
             shapes[at + c] = local[at + c]
         if k < inside:
-            surround(shapes, at, kinds[k], mesh_boxes, boxes, k)
+            update_box(shapes, at, kinds[k], mesh_boxes, boxes, k)
     for b in range(len(poses)):
         for c in range(7):
             before[b, c] = poses[b, c]
@@ -90,8 +90,8 @@ def place(
 
 
 @inlined
-def stays(poses: Any, before: Any, b: int) -> bool:
-    """Return whether a body is where it was."""
+def is_unmoved(poses: Any, before: Any, b: int) -> bool:
+    """Return whether a body has not moved."""
     same = True
     for c in range(7):
         same &= poses[b, c] == before[b, c]
@@ -99,8 +99,8 @@ def stays(poses: Any, before: Any, b: int) -> bool:
 
 
 @inlined
-def surround(shapes: Any, at: int, kind: int, mesh_boxes: Any, boxes: Any, k: int) -> None:
-    """Put a box along the world's axes round a shape, a little wider than it."""
+def update_box(shapes: Any, at: int, kind: int, mesh_boxes: Any, boxes: Any, k: int) -> None:
+    """Compute the axis-aligned box of a shape in the world, with a small margin."""
     a, b, c = shapes[at + 12], shapes[at + 13], shapes[at + 14]
     for axis in range(3):
         u, v, w = shapes[at + 3 * axis], shapes[at + 3 * axis + 1], shapes[at + 3 * axis + 2]

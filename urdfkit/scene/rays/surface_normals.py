@@ -1,4 +1,4 @@
-"""Which way surfaces face where rays hit them."""
+"""Surface normals at the hit points of rays."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from urdfkit.scene.rays.triangles import CORNERS
 
 @inlined
 def point(work: Any, shapes: Any, k: int, at: int) -> tuple[float, float, float]:
-    """Return where ray `k` of the packet hit, in the frame of the shape."""
+    """Return the hit point of ray `k` in the frame of the shape."""
     reach = work[REACH + k]
     x = work[OX + k] + reach * work[DX + k] - shapes[at + 9]
     y = work[OX + WIDTH + k] + reach * work[DX + WIDTH + k] - shapes[at + 10]
@@ -26,7 +26,7 @@ def point(work: Any, shapes: Any, k: int, at: int) -> tuple[float, float, float]
 
 @inlined
 def normal(work: Any, scene: Any, k: int) -> tuple[float, float, float]:
-    """Return the unit normal in the world where ray `k` of the packet hit, on the ray's side; zero without a hit."""
+    """Return the unit normal in the world at the hit of ray `k`, towards the ray; zero without a hit."""
     shapes, kinds, _, _, _, _, _, _, corners = scene
     hit = int(work[HIT + k])
     if hit < 0:
@@ -45,7 +45,7 @@ def normal(work: Any, scene: Any, k: int) -> tuple[float, float, float]:
 
 @inlined
 def outwards(shapes: Any, at: int, u: float, v: float, w: float) -> tuple[float, float, float]:
-    """Return a vector of a shape's frame in the world, of length 1; zero stays zero."""
+    """Rotate a vector from the frame of a shape to the world and normalize it; zero stays zero."""
     nx = shapes[at] * u + shapes[at + 1] * v + shapes[at + 2] * w
     ny = shapes[at + 3] * u + shapes[at + 4] * v + shapes[at + 5] * w
     nz = shapes[at + 6] * u + shapes[at + 7] * v + shapes[at + 8] * w
@@ -56,7 +56,7 @@ def outwards(shapes: Any, at: int, u: float, v: float, w: float) -> tuple[float,
 
 @inlined
 def triangle_normal(corners: Any, at: int) -> tuple[float, float, float]:
-    """Return a vector across a triangle."""
+    """Return a normal of a triangle, not normalized."""
     ax, ay, az = corners[at + 3], corners[at + 4], corners[at + 5]
     bx, by, bz = corners[at + 6], corners[at + 7], corners[at + 8]
     return ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx
@@ -64,7 +64,7 @@ def triangle_normal(corners: Any, at: int) -> tuple[float, float, float]:
 
 @inlined
 def solid_normal(kind: int, a: float, b: float, c: float, x: float, y: float, z: float) -> tuple[float, float, float]:
-    """Return a vector across a solid's surface at a point on it, in its frame; `a`, `b`, `c` are its size."""
+    """Return a normal of a solid at a point of its surface, in its frame; `a`, `b`, `c` are its size."""
     if kind == BOX:
         u, v, w = abs(x) - a, abs(y) - b, abs(z) - c
         if u >= v and u >= w:

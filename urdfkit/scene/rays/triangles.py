@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from urdfkit.scene.rays.compilation import compiled
-from urdfkit.scene.rays.primitives import frame_of, turned
+from urdfkit.scene.rays.primitives import frame_of, ray_in_frame
 from urdfkit.scene.rays.ray_packet import HIT, LX, LY, LZ, MX, MY, MZ, PART, REACH, WIDTH
 
 CORNERS = 9
@@ -13,11 +13,11 @@ CORNERS = 9
 
 
 @compiled
-def into_mesh(packet: Any, shapes: Any, at: int) -> None:
-    """Put the rays into the frame of a mesh; lengths stay."""
+def rays_in_mesh(packet: Any, shapes: Any, at: int) -> None:
+    """Transform the rays to the frame of a mesh."""
     frame = frame_of(shapes, at)
     for k in range(WIDTH):
-        x, y, z, dx, dy, dz = turned(packet, k, frame)
+        x, y, z, dx, dy, dz = ray_in_frame(packet, k, frame)
         packet[LX + k], packet[LY + k], packet[LZ + k] = x, y, z
         packet[MX + k], packet[MY + k], packet[MZ + k] = dx, dy, dz
 

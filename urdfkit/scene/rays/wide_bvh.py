@@ -1,7 +1,7 @@
-"""Trees with eight children a node, made from those with two: a packet looks at all children of a node at once.
+"""Trees with eight children per node, made from binary trees: a packet tests all children of a node at once.
 
 Sources: Wald, Benthin and Boulos, *Getting Rid of Packets* (2008), and Dammertz, Hanika and Keller, *Shallow Bounding
-Volume Hierarchies for Fast SIMD Ray Tracing* (2008), which make them the same way.
+Volume Hierarchies for Fast SIMD Ray Tracing* (2008).
 """
 
 from __future__ import annotations
@@ -13,32 +13,32 @@ from urdfkit.scene.rays.compilation import compiled, inlined
 from urdfkit.scene.rays.ray_packet import CHILDREN, FAR
 
 BOXES = 6 * CHILDREN
-"""Numbers of a node's boxes: the lowest x of every child, their lowest y …, their highest z."""
+"""Numbers of a node's boxes: lowest x of every child, lowest y …, highest z."""
 
 NONE = -1
-"""Stands for no child."""
+"""Marks a missing child."""
 
 
 @inlined
 def extent(bounds: Any, node: int) -> float:
-    """Return half the surface of a node's box."""
+    """Return half the surface area of a node's box."""
     return area(
         bounds[node, 0], bounds[node, 1], bounds[node, 2], bounds[node, 3], bounds[node, 4], bounds[node, 5]
     )  # fmt: skip
 
 
 def widen(bounds: Any, links: Any, wide: Any, origins: Any) -> int:
-    """Give every node up to eight children: of what is below it, the largest are opened first.
+    """Give every node up to eight children by replacing its largest descendants with their children.
 
     Args:
         bounds: boxes of the nodes with two children; shape (nodes, 6).
         links: as `bvh.build` leaves them; shape (nodes, 2).
-        wide: becomes, per child, for a leaf its first place in the order and how many; for the others, the number of
-            its node and zero; and which node with two children it was, `NONE` for no child; shape (≥ nodes / 2, 8, 3).
-        origins: to work on; shape (≥ nodes / 2,).
+        wide: output, per child: of a leaf, its first index in the order and the number of boxes; of other nodes, its
+            node and zero; and its node in the binary tree, `NONE` for a missing child; shape (≥ nodes / 2, 8, 3).
+        origins: scratch; shape (≥ nodes / 2,).
 
     Returns:
-        How many nodes there are.
+        The number of nodes.
     """
     origins[0], nodes, node = 0, 1, 0
     while node < nodes:
@@ -68,13 +68,13 @@ def widen(bounds: Any, links: Any, wide: Any, origins: Any) -> int:
 
 
 def fill(bounds: Any, wide: Any, nodes: int, boxes: Any) -> None:
-    """Put the boxes of all children where packets look for them; nothing enters those that there are not.
+    """Fill the boxes of all children; the boxes of missing children are empty.
 
     Args:
         bounds: boxes of the nodes with two children; shape (nodes, 6).
         wide: the tree.
-        nodes: of it.
-        boxes: become those of all children; shape (≥ nodes, `BOXES`).
+        nodes: its number of nodes.
+        boxes: output, the boxes of all children; shape (≥ nodes, `BOXES`).
     """
     for node in range(nodes):
         for c in range(CHILDREN):

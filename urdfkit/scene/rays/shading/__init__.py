@@ -1,4 +1,4 @@
-"""Pictures from rays: lights, shadows, textures and anti-aliasing of edges.
+"""Images from rays: lights, shadows, textures and anti-aliasing of edges.
 
-Ray hits go in; colours, depths and shape numbers per pixel come out.
+Input: ray hits. Output: colour, depth and shape number of each pixel.
 """

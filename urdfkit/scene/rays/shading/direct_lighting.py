@@ -1,27 +1,27 @@
-"""What lights add to the surfaces that a packet has met, each seen or not by a ray of its own."""
+"""Direct lighting of the hit points of a packet, with one shadow ray per light."""
 
 from __future__ import annotations
 
 from typing import Any
 
 from urdfkit.scene.rays.compilation import compiled
-from urdfkit.scene.rays.ray_casting import walk
+from urdfkit.scene.rays.ray_casting import traverse
 from urdfkit.scene.rays.ray_packet import DX, FAR, HIT, OX, PART, REACH, WIDTH
 from urdfkit.scene.rays.shading.shading_buffers import (
     AT,
     EXPONENT,
-    FACING,
     GAIN,
+    HIGHLIGHT,
+    LIGHT_SUM,
+    NORMAL,
     SHAPE,
-    SHEEN,
-    SHONE,
     SPECULAR,
-    TOWARDS,
+    VIEW,
 )
 
 LIGHT = 21
-"""Numbers per light: kind, towards it or where it is (3), colour (3), range, constant, linear and quadratic falloff,
-whether it casts shadows, where a spot points (3), cosines of half its inner and outer angle, its falloff, its specular
+"""Numbers per light: kind, direction or position (3), colour (3), range, constant, linear and quadratic falloff,
+whether it casts shadows, direction of a spot (3), cosines of half its inner and outer angle, its falloff, its specular
 colour (3)."""
 
 DIRECTIONAL, POINT, SPOT = 0, 1, 2
@@ -29,63 +29,63 @@ DIRECTIONAL, POINT, SPOT = 0, 1, 2
 
 
 @compiled
-def shine(work: Any, scene: Any, lights: Any, light: int, desk: Any) -> None:
-    """Add one light to what the packet met, where nothing stands between."""
+def add_light(work: Any, scene: Any, lights: Any, light: int, buffers: Any) -> None:
+    """Add one light to the hit points that it reaches."""
     wanted = -1
     for k in range(WIDTH):
         gain = 0.0
-        if desk[SHAPE + k] >= 0:
-            gain = reach_light(work, lights, light, desk, k)
-        desk[GAIN + k] = gain
+        if buffers[SHAPE + k] >= 0:
+            gain = aim_at_light(work, lights, light, buffers, k)
+        buffers[GAIN + k] = gain
         if gain > 0.0:
             wanted = k
     if wanted < 0:
         return
     if lights[light, 11] != 0.0:
         for k in range(WIDTH):
-            if desk[GAIN + k] <= 0.0:  # goes along with one that matters, and ends where it begins
+            if buffers[GAIN + k] <= 0.0:  # an inactive ray: a copy of an active one with length zero
                 work[REACH + k] = 0.0
                 for c in range(3):
-                    desk_row, row = AT + c * WIDTH + wanted, c * WIDTH + k
-                    work[OX + row] = desk[desk_row]
+                    source, row = AT + c * WIDTH + wanted, c * WIDTH + k
+                    work[OX + row] = buffers[source]
                     work[DX + row] = work[DX + c * WIDTH + wanted]
             work[HIT + k], work[PART + k] = -1.0, -1.0
-        walk(work, scene, 0.0)
+        traverse(work, scene, 0.0)
         for k in range(WIDTH):
             if work[HIT + k] >= 0.0:
-                desk[GAIN + k] = 0.0
+                buffers[GAIN + k] = 0.0
     for c in range(3):
         for k in range(WIDTH):
-            desk[SHONE + c * WIDTH + k] += desk[GAIN + k] * lights[light, 4 + c]
+            buffers[LIGHT_SUM + c * WIDTH + k] += buffers[GAIN + k] * lights[light, 4 + c]
     for k in range(WIDTH):
-        if desk[EXPONENT + k] > 0.0 and desk[GAIN + k] > 0.0:
-            throw_back(work, lights, light, desk, k)
+        if buffers[EXPONENT + k] > 0.0 and buffers[GAIN + k] > 0.0:
+            add_highlight(work, lights, light, buffers, k)
 
 
 @compiled
-def throw_back(work: Any, lights: Any, light: int, desk: Any, k: int) -> None:
-    """Add what the gloss of a surface throws back of a light, along ray `k`, which is still aimed at it."""
+def add_highlight(work: Any, lights: Any, light: int, buffers: Any, k: int) -> None:
+    """Add the specular reflection of a light; ray `k` is still aimed at the light."""
     straight = facing = size = 0.0
     for row in range(k, k + 3 * WIDTH, WIDTH):
-        half = work[DX + row] - desk[TOWARDS + row]
-        straight += work[DX + row] * desk[FACING + row]
-        facing += half * desk[FACING + row]
+        half = work[DX + row] - buffers[VIEW + row]
+        straight += work[DX + row] * buffers[NORMAL + row]
+        facing += half * buffers[NORMAL + row]
         size += half * half
     if straight <= 0.0 or facing <= 0.0:
         return
-    back = desk[GAIN + k] / straight * (facing / size**0.5) ** desk[EXPONENT + k]
+    back = buffers[GAIN + k] / straight * (facing / size**0.5) ** buffers[EXPONENT + k]
     for c in range(3):
-        desk[SHEEN + c * WIDTH + k] += back * lights[light, 18 + c] * desk[SPECULAR + c * WIDTH + k]
+        buffers[HIGHLIGHT + c * WIDTH + k] += back * lights[light, 18 + c] * buffers[SPECULAR + c * WIDTH + k]
 
 
 @compiled
-def reach_light(work: Any, lights: Any, light: int, desk: Any, k: int) -> float:
-    """Aim ray `k` from what it met at a light; return how much gets there if nothing is between."""
+def aim_at_light(work: Any, lights: Any, light: int, buffers: Any, k: int) -> float:
+    """Aim ray `k` from its hit point at a light; return the share of the light without occlusion."""
     kind = int(lights[light, 0])
     x, y, z = lights[light, 1], lights[light, 2], lights[light, 3]
     reach, fall = FAR, 1.0
     if kind != DIRECTIONAL:
-        x, y, z = x - desk[AT + k], y - desk[AT + WIDTH + k], z - desk[AT + 2 * WIDTH + k]
+        x, y, z = x - buffers[AT + k], y - buffers[AT + WIDTH + k], z - buffers[AT + 2 * WIDTH + k]
         reach = (x * x + y * y + z * z) ** 0.5
         if reach > lights[light, 7] or reach <= 0.0:
             return 0.0
@@ -99,11 +99,11 @@ def reach_light(work: Any, lights: Any, light: int, desk: Any, k: int) -> float:
             if along <= outer:
                 return 0.0
     work[OX + k], work[OX + WIDTH + k], work[OX + 2 * WIDTH + k] = (
-        desk[AT + k],
-        desk[AT + WIDTH + k],
-        desk[AT + 2 * WIDTH + k],
+        buffers[AT + k],
+        buffers[AT + WIDTH + k],
+        buffers[AT + 2 * WIDTH + k],
     )
     work[DX + k], work[DX + WIDTH + k], work[DX + 2 * WIDTH + k] = x, y, z
     work[REACH + k] = reach
-    straight = x * desk[FACING + k] + y * desk[FACING + WIDTH + k] + z * desk[FACING + 2 * WIDTH + k]
+    straight = x * buffers[NORMAL + k] + y * buffers[NORMAL + WIDTH + k] + z * buffers[NORMAL + 2 * WIDTH + k]
     return float(fall * max(straight, 0.0))

@@ -1,4 +1,4 @@
-"""Where something ends in a picture: pixels that differ from one beside, above or below."""
+"""Edge pixels of an image: pixels that differ from a neighbour."""
 
 from __future__ import annotations
 
@@ -8,12 +8,12 @@ from urdfkit.scene.rays.compilation import inlined
 
 
 def outline(colors: Any, alike: int, found: Any) -> int:
-    """Find the pixels that differ from a neighbour, and return how many they are.
+    """Find the pixels that differ from a neighbour; return their number.
 
     Args:
         colors: 0..255; shape (height, width, 3).
-        alike: how much the channels of neighbours may differ.
-        found: becomes their numbers, row by row; shape (≥ height · width,).
+        alike: largest difference of a channel between equal neighbours.
+        found: output, the indices of the pixels in row-major order; shape (≥ height · width,).
     """
     height, width = colors.shape[0], colors.shape[1]
     count = 0
@@ -35,5 +35,7 @@ def differ(colors: Any, row: int, column: int, beside: int, next_to: int, alike:
     most = 0
     for c in range(3):
         one, other = colors[row, column, c], colors[beside, next_to, c]
-        most = max(most, one - other if one > other else other - one)  # without a sign: less than nothing is a lot
+        most = max(
+            most, one - other if one > other else other - one
+        )  # unsigned: a negative difference would wrap around
     return most > alike

@@ -1,4 +1,4 @@
-"""What a surface looks like where a ray met it: smooth normals, colours and textures between a triangle's corners."""
+"""Surface attributes at a hit point: normals, colours and textures, interpolated between the corners of a triangle."""
 
 from __future__ import annotations
 
@@ -7,23 +7,23 @@ from typing import Any
 
 from urdfkit.scene.rays.compilation import compiled, inlined
 
-SKIN = 30
-"""Numbers per triangle: normals of its corners (9), their colours (9), where on the texture they are (6), which texture
-(-1: none), opacity, colour and exponent of its gloss (4)."""
+ATTRIBUTES = 30
+"""Numbers per triangle: normals of its corners (9), their colours (9), their texture coordinates (6), index of the
+texture (-1: none), opacity, specular colour and exponent (4)."""
 
-HUE, UV, TEXTURE, OPACITY, GLOSS = 9, 18, 24, 25, 26
-"""Where in a skin these begin."""
+COLORS, UV, TEXTURE, OPACITY, GLOSS = 9, 18, 24, 25, 26
+"""Offsets of these attributes."""
 
 FINEST = 8
-"""Places on a texture that a pixel takes its colour from, at most (Gazebo classic filters as anisotropically)."""
+"""Maximum number of texture samples per pixel (the same anisotropy as in Gazebo classic)."""
 
-SMOOTH, OWN = 1, 2
-"""What a shape takes from its triangles' skins: normals; colours and textures."""
+SMOOTH, COLORED = 1, 2
+"""Flags of a shape that uses the attributes of its triangles: normals; colours and textures."""
 
 
 @compiled
-def place_in_triangle(corners: Any, at: int, x: float, y: float, z: float) -> tuple[float, float]:
-    """Return how much of a triangle's second and third corner there is at a point on it."""
+def barycentric(corners: Any, at: int, x: float, y: float, z: float) -> tuple[float, float]:
+    """Return the barycentric coordinates of a point of a triangle for its second and third corner."""
     px, py, pz = x - corners[at], y - corners[at + 1], z - corners[at + 2]
     ax, ay, az = corners[at + 3], corners[at + 4], corners[at + 5]
     bx, by, bz = corners[at + 6], corners[at + 7], corners[at + 8]
@@ -38,17 +38,19 @@ def place_in_triangle(corners: Any, at: int, x: float, y: float, z: float) -> tu
 
 
 @inlined
-def between(skins: Any, part: int, at: int, step: int, u: float, v: float) -> float:
-    """Return a number that a skin gives at the corners, between them."""
-    return float((1.0 - u - v) * skins[part, at] + u * skins[part, at + step] + v * skins[part, at + 2 * step])
+def interpolate(attributes: Any, part: int, at: int, step: int, u: float, v: float) -> float:
+    """Interpolate an attribute between the corners of a triangle."""
+    return float(
+        (1.0 - u - v) * attributes[part, at] + u * attributes[part, at + step] + v * attributes[part, at + 2 * step]
+    )
 
 
 @compiled
 def texel(texels: Any, first: int, width: int, height: int, s: float, t: float, channel: int) -> float:
-    """Return a texture's channel, 0..1, between four texels; it repeats in both directions.
+    """Return a channel of a texture, 0..1, interpolated between four texels; the texture repeats in both directions.
 
     Args:
-        texels: of all textures, four numbers each.
+        texels: texels of all textures, four numbers each.
         first: where this one begins.
         width: of the texture [px].
         height: of the texture [px].
@@ -69,7 +71,7 @@ def texel(texels: Any, first: int, width: int, height: int, s: float, t: float, 
 
 
 @compiled
-def dye(
+def sample_texture(
     texels: Any,
     first: int,
     width: int,
@@ -80,21 +82,21 @@ def dye(
     down: tuple[float, float],
     color: Any,
 ) -> None:
-    """Take a colour from what a pixel covers of a texture.
+    """Sample a texture over the footprint of a pixel.
 
-    Source: the OpenGL extension EXT_texture_filter_anisotropic: as many places along the longer side of what is covered
-    as the shorter goes into it, each as blurred as that.
+    Source: the OpenGL extension EXT_texture_filter_anisotropic. The number of samples along the longer side of the
+    footprint is the ratio of its sides; the mip level follows from the shorter side.
 
     Args:
-        texels: of all textures, each followed by its smaller copies, halved until one texel is left.
+        texels: texels of all textures, each followed by its mip levels down to one texel.
         first: where this one begins.
         width: of the texture [px].
         height: of the texture [px].
         s: to the right, 0..1.
         t: upwards, 0..1.
-        across: how far the next pixel beside is on the texture.
-        down: how far the next one below.
-        color: becomes red, green, blue and opacity, 0..1; shape (4,).
+        across: distance on the texture to the next pixel to the right.
+        down: distance on the texture to the next pixel below.
+        color: output, red, green, blue and opacity, 0..1; shape (4,).
     """
     long, short = hypot(across[0] * width, across[1] * height), hypot(down[0] * width, down[1] * height)
     along_s, along_t = across

@@ -307,7 +307,7 @@ def test_a_visual_of_the_world_that_is_broken_is_missed_by_eyes_alone(post, tmp_
     (picture,) = heard(post(eye(ros1()), room=room, note=notes.append), "/cam/image_raw")
     assert (pixels(picture) == round(255 * 0.4 * 0.7)).all()  # the walls, in ambient light
     (note,) = [each for each in notes if "broken.stl" in each]
-    assert "visual `v` is invisible: mesh broken.stl is cut off" in note
+    assert "visual `v` is invisible: mesh broken.stl is truncated" in note
 
 
 @pytest.mark.parametrize("role", ["visual", "collision"])
