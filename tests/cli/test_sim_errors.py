@@ -243,7 +243,7 @@ def test_divergence_is_reported_with_time_and_joint(capsys: Capture, options: li
     assert err.count("\n") == 1
     assert "the simulation diverged at t = 0.00" in err
     assert body_or_joint in err
-    assert "has no finite velocity any more; try a smaller step" in err
+    assert "no longer has a finite velocity; use a smaller step" in err
 
 
 OPTIONS = {

@@ -117,7 +117,7 @@ def test_what_follows_from_answers_follows_again(template, place):
 
 def test_what_does_not_pass_changes_nothing(template, place):
     before = contents(place)
-    with pytest.raises(ResourceError, match="would add errors: bad"):
+    with pytest.raises(ResourceError, match="the result has errors: bad"):
         changed(template, place, size="2", check=lambda folder: [Fault("bad")])
     assert contents(place) == before
 
