@@ -4,18 +4,19 @@ from __future__ import annotations
 
 from typing import Any
 
-from urdfkit.sim.engine.contacts.contact_search import candidates, touching
+from urdfkit.sim.engine.contacts.contact_search import find_candidate_pairs
+from urdfkit.sim.engine.contacts.contact_search import find_contacts as find_contacts_of_placed_trees
 from urdfkit.sim.engine.solver.active_set_newton import solve
 
 
 def find_candidates(floats: Any, integers: Any) -> int:
     """List pairs and mark trees, as `contact_search.candidates` does, for bodies placed by other means."""
-    return candidates(floats, integers)
+    return find_candidate_pairs(floats, integers)
 
 
 def find_contacts(floats: Any, integers: Any, pairs: int) -> int:
-    """Find the contacts, as `contact_search.touching` does, of bodies placed by other means."""
-    return touching(floats, integers, pairs)
+    """Find the contacts, as `contact_search.find_contacts` does, of bodies placed by other means."""
+    return find_contacts_of_placed_trees(floats, integers, pairs)
 
 
 def find_impulses(floats: Any, integers: Any, rows: int) -> int:
