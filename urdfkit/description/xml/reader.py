@@ -109,8 +109,8 @@ def document_of(source: Source) -> Element:
     parser.StartElementHandler = start
     parser.EndElementHandler = end
     parser.CharacterDataHandler = lambda data: texts[-1].append(data)
-    parser.EntityDeclHandler = lambda name, *_: _refuse_entity(source, parser, name)
-    parser.StartDoctypeDeclHandler = lambda _, system, public, __: _check_doctype(source, parser, system, public)
+    parser.EntityDeclHandler = lambda name, *_: refuse_entity(source, parser, name)
+    parser.StartDoctypeDeclHandler = lambda _, system, public, __: check_doctype(source, parser, system, public)
     parse_with(parser, source, lambda: [(tag, origin.position.line) for tag, _, origin in starts])
     return families[0][0]
 
@@ -134,11 +134,11 @@ def stamped_document(source: Source, on_clone: Any, *, namespaces: bool = True) 
     check = partial(refuse_excess, source) if len(source.text) > MAX_VALUE else None
     builder = kind(source.file, on_clone, partial(too_deep, source), check)
     parser = builder.getParser()
-    parser.EntityDeclHandler = lambda name, *_: _refuse_entity(source, parser, name)
+    parser.EntityDeclHandler = lambda name, *_: refuse_entity(source, parser, name)
     inherited: Any = parser.StartDoctypeDeclHandler
 
     def doctype(name: str, system: str | None, public: str | None, has_subset: bool) -> None:
-        _check_doctype(source, parser, system, public)
+        check_doctype(source, parser, system, public)
         inherited(name, system, public, has_subset)
 
     parser.StartDoctypeDeclHandler = doctype
@@ -270,14 +270,24 @@ def refuse_excess(source: Source, parser: Any, tag: str, values: Collection[str]
         raise XmlError(message, position=_here(source, parser))
 
 
-def _refuse_entity(source: Source, parser: Any, name: str) -> NoReturn:
+def refuse_entity(source: Source, parser: Any, name: str) -> NoReturn:
+    """Refuse a document that declares an entity.
+
+    Raises:
+        XmlError: always.
+    """
     raise XmlError(
         f"declares the entity `{name}`: entity declarations are refused: they can grow without bound or read files",
         position=_here(source, parser),
     )
 
 
-def _check_doctype(source: Source, parser: Any, system: str | None, public: str | None) -> None:
+def check_doctype(source: Source, parser: Any, system: str | None, public: str | None) -> None:
+    """Refuse a document type in another file.
+
+    Raises:
+        XmlError: it is.
+    """
     if system or public:
         raise XmlError(
             f"the document type names `{system or public}`: external entities are refused",

@@ -1,0 +1,86 @@
+"""Hostile files are refused within 10 s of CPU, each with an error that names the cause and its place."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from tests.description.xacro.expressions.test_limits import GROWING
+from urdfkit.description.packages.resolver import Packages
+from urdfkit.description.xacro.evaluation.evaluator import Evaluator
+from urdfkit.description.xacro.expanded import Expanded
+from urdfkit.errors import UrdfkitError
+
+Write = Callable[[str, str], Path]
+
+
+def evaluated(path: Path) -> Expanded:
+    """Expand a file with the evaluator."""
+    return Evaluator(str(path), {}, Packages(near=path)).expand()
+
+
+@pytest.mark.parametrize("expression", GROWING)
+def test_an_expression_that_grows_is_refused(write: Write, expression: str) -> None:
+    path = write("m.xacro", f'HEAD\n  <link name="${{{expression}}}"/></robot>')
+    start = time.process_time()
+    with pytest.raises(UrdfkitError) as caught:
+        evaluated(path)
+    assert time.process_time() - start < 10
+    assert str(caught.value).startswith("m.xacro:2:3: ")
+    assert "\n" not in str(caught.value)
+
+
+def _macros(count: int, body: str) -> str:
+    return "".join(f'<xacro:macro name="m{i + 1}">{body.format(i)}</xacro:macro>' for i in range(count))
+
+
+_MERGES = "a0: &a0 {k: 1}\n" + "".join(
+    f"a{i + 1}: &a{i + 1} {{<<: [{', '.join([f'*a{i}'] * 99)}], k{i}: 1}}\n" for i in range(12)
+)
+HOSTILE = {
+    "recursion": (
+        '<xacro:macro name="m" params="a"><xacro:m a="1"/></xacro:macro><xacro:m a="1"/>',
+        "infinite recursion",
+    ),
+    "parameter": ('<xacro:macro name="m" params="a"><xacro:m/></xacro:macro><xacro:m a="1"/>', "needs `a`"),
+    "macros": (f'<xacro:macro name="m0"><l/></xacro:macro>{_macros(8, "<xacro:m{0}/>" * 30)}<xacro:m8/>', "multiply"),
+    "merges": ("<l a=\"${len(xacro.load_yaml('merges.yaml'))}\"/>", "merge keys"),
+    "depth": ("<l a=\"${len(xacro.load_yaml('deep.yaml'))}\"/>", "nested"),
+    "attribute": (f'<l a="{"x" * 10**7}"/>', "characters"),
+    "params": (
+        f'<xacro:macro name="m" params="a:={"b" * 60}&apos;{"&apos;" * 61}"/><xacro:m2/>',
+        "`m2` is not defined",
+    ),
+    "includes": ('<xacro:include filename="double*.xacro"/>', "cycle"),
+    "properties": (
+        "".join(f'<xacro:property name="property{i}" value="{i}"/>' for i in range(90_000)) + '<l a="${propertyx}"/>',
+        "property `propertyx` is not defined",
+    ),
+    "definitions": (
+        "".join(f'<xacro:macro name="macro{i}"/>' for i in range(90_000)) + "<xacro:macrox/>",
+        "macro `macrox` is not defined",
+    ),
+    "chain": (
+        '<xacro:property name="p0" value="1"/>'
+        + "".join(f'<xacro:property name="p{i + 1}" value="${{p{i} + 1}}"/>' for i in range(3000))
+        + '<l a="${p3000}"/>',
+        "nested too deeply",
+    ),
+}
+
+
+@pytest.mark.parametrize("name", HOSTILE)
+def test_a_hostile_file_is_refused(write: Write, name: str) -> None:
+    text, cause = HOSTILE[name]
+    write("merges.yaml", _MERGES)
+    write("deep.yaml", "[" * 5000 + "]" * 5000)
+    for number in range(2):
+        write(f"double{number}.xacro", 'HEAD<xacro:include filename="double*.xacro"/></robot>')
+    path = write("m.xacro", f"HEAD{text}</robot>")
+    start = time.process_time()
+    with pytest.raises(UrdfkitError, match=cause):
+        evaluated(path)
+    assert time.process_time() - start < 10

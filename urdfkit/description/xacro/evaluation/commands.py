@@ -1,0 +1,175 @@
+"""Commands: ``$(find …)``, ``$(arg …)``, ``$(env …)``, ``$(optenv …)``, ``$(cwd)`` and ``$(eval …)``."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+from urdfkit.description.xacro.evaluation.budget import Budget
+from urdfkit.description.xacro.evaluation.expressions import Expressions
+from urdfkit.description.xacro.evaluation.failures import Failure
+from urdfkit.description.xacro.evaluation.functions import Functions, mathematics
+from urdfkit.description.xacro.evaluation.values import Function
+from urdfkit.description.xacro.expressions.excess import MAX_CHARACTERS, excess
+from urdfkit.errors import did_you_mean
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from typing import Any
+
+_BUILTINS = (
+    "abs all any bool complex dict divmod enumerate filter float frozenset hash int isinstance issubclass len list map "
+    "max min ord range repr reversed round set slice sorted str sum tuple zip"
+)
+_COMMANDS = ("find", "env", "optenv", "dirname", "arg")
+
+
+class Commands:
+    """Evaluates the commands of one file.
+
+    Args:
+        expressions: evaluates ``$(eval …)``.
+        arguments: values of ``$(arg …)``; ``<xacro:arg>`` adds defaults to it.
+        find: returns the folder of a package.
+    """
+
+    def __init__(self, expressions: Expressions, arguments: dict[str, str], find: Callable[[str], str]) -> None:
+        self._expressions, self.arguments, self._find = expressions, arguments, find
+        self._names: dict[str, Any] | None = None
+        self._builtins: dict[str, Any] = {}
+
+    def evaluate(self, command: str) -> str:
+        """Return the text that ``$(command)`` stands for.
+
+        Raises:
+            Failure: an argument has no value.
+            ValueError: it is not a command.
+        """
+        if command == "cwd":
+            return str(Path.cwd())
+        text = f"$({command})"
+        if command.startswith("eval "):
+            return self._evaluate(command[5:])
+        for commands in (_COMMANDS, ("find",)):
+            resolved = text
+            for content in _contents(text):
+                words = [word for word in content.split(" ") if word]
+                if words[0] not in _COMMANDS:
+                    raise ValueError(f"Unknown substitution command [{content}]. Valid commands are {list(_COMMANDS)}")
+                if words[0] in commands:
+                    resolved = resolved.replace(f"$({content})", str(self._value(content, words[0], words[1:])))
+                    if len(resolved) > MAX_CHARACTERS:
+                        raise excess("a text", MAX_CHARACTERS, "characters")
+            text = resolved
+        return text
+
+    def _value(self, content: str, command: str, words: list[str]) -> Any:
+        if command == "dirname":
+            raise ValueError("Cannot substitute $(dirname), no file/directory information available.")
+        if not words or (len(words) > 1 and command != "optenv"):
+            raise ValueError(f"$({command} …) needs exactly one name [{content}]")
+        if command == "find":
+            return self._find(words[0])
+        if command == "env":
+            return _environment(words[0])
+        if command == "optenv":
+            return os.environ.get(words[0], " ".join(words[1:]))
+        return self.argument(words[0])
+
+    def argument(self, name: str) -> str:
+        """Return the value of an argument.
+
+        Raises:
+            Failure: it has none.
+        """
+        try:
+            return self.arguments[name]
+        except KeyError:
+            candidates = tuple(self.arguments)
+            hint = did_you_mean(name, candidates) or f"; give it as {name}:=value or a default with <xacro:arg>"
+            raise Failure(
+                "undefined-arg", f"argument `{name}` has no value{hint}", name=name, candidates=candidates
+            ) from None
+
+    def _evaluate(self, expression: str) -> str:
+        if "__" in expression:
+            raise ValueError("$(eval ...) may not contain double underscore expressions")
+        return str(self._expressions.evaluate(expression, _Names(self._functions(), self.arguments, self._builtins)))
+
+    def _functions(self) -> dict[str, Any]:
+        if self._names is None:
+            budget: Budget = self._expressions.budget
+            functions: dict[str, Callable[..., Any]] = {
+                "env": _environment,
+                "optenv": lambda name, default="": os.environ.get(name, default),
+                "find": self._find,
+                "arg": lambda name: converted(self.argument(name)),
+                "dirname": lambda: self._value("dirname", "dirname", []),
+            }
+            self._names = {name: Function(name, call) for name, call in functions.items()}
+            self._names |= {"true": True, "false": False, **mathematics(budget)}
+            self._builtins = Functions(budget, self._expressions.callable_of).builtins(_BUILTINS)
+        return self._names
+
+
+class _Names:
+    """The names that ``$(eval …)`` can use: functions, then arguments, then functions of Python."""
+
+    def __init__(self, functions: dict[str, Any], arguments: dict[str, str], builtins: dict[str, Any]) -> None:
+        self._functions, self._arguments, self._builtins = functions, arguments, builtins
+
+    def __getitem__(self, name: str) -> Any:
+        if name in self._functions:
+            return self._functions[name]
+        if name in self._arguments:
+            return converted(self._arguments[name])
+        return self._builtins[name]
+
+    def set(self, name: str, value: Any, *, is_lazy: bool) -> None:
+        """Refuse an assignment.
+
+        Raises:
+            TypeError: always.
+        """
+        raise TypeError("$(eval …) does not support assignment")
+
+
+def converted(value: Any) -> Any:
+    """Return the number or boolean that the text of an argument is, or the text."""
+    try:
+        return float(value) if "." in value else int(value)
+    except ValueError:
+        return {"true": True, "false": False}.get(value.lower(), value)
+
+
+def _environment(name: str) -> str:
+    if name not in os.environ:
+        raise ValueError(f"environment variable '{name}' is not set")
+    return os.environ[name]
+
+
+def _contents(text: str) -> Iterator[str]:
+    """Yield the contents of each ``$(…)`` of a text, which do not nest.
+
+    Raises:
+        ValueError: they nest.
+    """
+    state, start = "outside", 0
+    for at, character in enumerate(text):
+        if character == "$":
+            if state not in ("outside", "dollar"):
+                raise ValueError(f'Dollar signs "$" cannot be inside of substitution args [{text}]')
+            state = "dollar"
+        elif character == "(":
+            if state not in ("outside", "dollar"):
+                raise ValueError(f'Invalid left parenthesis "(" in substitution args [{text}]')
+            state = "open" if state == "dollar" else state
+        elif character == ")":
+            if state == "inside":
+                yield text[start:at]
+            state = "outside"
+        elif state == "dollar":
+            state = "outside"
+        elif state == "open":
+            state, start = "inside", at

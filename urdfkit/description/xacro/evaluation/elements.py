@@ -1,0 +1,106 @@
+"""Elements: what every directive does with its element: attributes, comments before it, namespaces."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from urdfkit.description.xacro.evaluation.failures import Failure, short
+from urdfkit.description.xacro.evaluation.files import Files
+from urdfkit.description.xacro.evaluation.symbols import Scope
+from urdfkit.description.xacro.evaluation.tree import COMMENT, TEXT, Node, Tag
+from urdfkit.description.xacro.expressions.excess import MAX_EXPANDED
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from typing import Any
+
+    from urdfkit.description.packages.resolver import Packages
+
+
+class Elements(Files):
+    """Reads the attributes of directives and tidies up around them."""
+
+    def __init__(
+        self, path: str, arguments: Mapping[str, str], packages: Packages, *, texts: Mapping[str, str] | None = None
+    ) -> None:
+        super().__init__(path, arguments, packages, texts=texts)
+        self._expanded = 0
+        self._separator = Node(TEXT, "\n\n")
+
+    def count(self, copied: int) -> None:
+        """Count elements and attributes that are copied.
+
+        Raises:
+            Failure: there are too many by now.
+        """
+        self._expanded += copied
+        if self._expanded > MAX_EXPANDED:
+            what = f"more than {MAX_EXPANDED:,} elements and attributes"
+            message = f"with this, macros, blocks and includes make {what}: do they multiply each other?"
+            raise self.placed(Failure("too-many", message))
+
+    def _attributes(self, tag: Tag, scope: Scope) -> None:
+        attributes = tag.attributes
+        for name, value in list(attributes.items()):
+            if name.startswith("xacro:"):
+                del attributes[name]
+            elif type(value) is not str or "$" in value:
+                self.at = (tag, name)
+                attributes[name] = str(self.text(value, scope))
+        attributes.pop("xmlns:xacro", None)
+
+    def _required(self, node: Tag, name: str) -> Any:
+        value = node.attributes.get(name)
+        if value is None:
+            self.at = (node, None)
+            raise self.placed(Failure("other", f"<{node.name}> lacks its attribute `{name}`", name=name))
+        return value
+
+    def _checked(self, node: Tag, required: tuple[str, ...], optional: tuple[str, ...]) -> list[Any]:
+        values = [self._required(node, name) for name in required]
+        values += [node.attributes.get(name) for name in optional]
+        unknown = [
+            name for name in node.attributes if name not in (*required, *optional) and not name.startswith("xmlns:")
+        ]
+        if unknown:
+            self.warn(f"{node.name}: unknown attribute(s): {', '.join(unknown)}")
+        return values
+
+    def _boolean(self, value: Any, condition: Any) -> bool:
+        if isinstance(value, str):
+            if value in ("true", "True", "false", "False"):
+                return value in ("true", "True")
+            try:
+                return bool(int(value))
+            except ValueError:
+                message = f"condition `{short(str(condition))}` is `{short(value)}`, neither true nor false"
+                raise self.placed(Failure("conditional", message)) from None
+        return bool(value)
+
+    def _remove_comments_before(self, node: Tag) -> None:
+        """Remove the comments that belong to a directive, and part it from the comments of the next one."""
+        following, before = node.after, node.before
+        while before is not None:
+            if before.kind == TEXT and before.data.isspace() and before.data.count("\n") <= 1:
+                before = before.before
+            if before is not None and before.kind == COMMENT:
+                comment, before = before, before.before
+                comment.remove()
+            else:
+                if following is not None and following is not self._separator:
+                    self._separator.insert_before(following)
+                return
+
+    def _import_namespaces(self, parent: Tag | None, source: Tag) -> None:
+        if parent is None:
+            return
+        for name, value in source.attributes.items():
+            if name.startswith("xmlns:"):
+                old = parent.attributes.get(name)
+                if old is not None and old != value:
+                    self.warn(
+                        f"inconsistent namespace redefinitions for {name}:\n old: {old}\n new: {value} "
+                        f"({self.file_stack[-1]})"
+                    )
+                else:
+                    parent.attributes[name] = value

@@ -1,0 +1,307 @@
+"""Evaluator: expands one xacro file into elements that carry their place and the macro calls that produced them.
+
+The tree is expanded in place, directive by directive, in the order of stock xacro. Each step is a generator that
+yields the steps below it. `Evaluator.run` keeps them on a stack of its own, so that depth is limited by numbers of
+ours and not by Python.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+from pathlib import Path
+from types import MappingProxyType
+
+from urdfkit.description.xacro.evaluation.calls import Calls
+from urdfkit.description.xacro.evaluation.failures import (
+    Failure,
+    error_of,
+    short,
+    undefined_block,
+)
+from urdfkit.description.xacro.evaluation.symbols import Namespace, Scope
+from urdfkit.description.xacro.evaluation.tree import COMMENT, TEXT, Tag, element_of
+from urdfkit.description.xacro.expanded import Expanded
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from typing import Any
+
+    Steps = Iterator["Steps"]
+    from urdfkit.description.packages.resolver import Packages
+
+
+class Evaluator(Calls):
+    """One expansion of one file.
+
+    Args:
+        path: as the user named it; appears in the banner of the output.
+        arguments: values of ``$(arg …)``.
+        packages: resolves ``$(find …)``.
+        texts: contents to read instead of those on disk, by absolute path.
+    """
+
+    def __init__(
+        self,
+        path: str,
+        arguments: Mapping[str, str],
+        packages: Packages,
+        *,
+        texts: Mapping[str, str] | None = None,
+    ) -> None:
+        super().__init__(path, arguments, packages, texts=texts)
+        self.properties: dict[str, Any] = {}
+        self._directives: dict[str, Callable[[Tag, Scope, Scope], Steps | None]] = {
+            "xacro:insert_block": self._insert_block,
+            "xacro:include": self._include,
+            "xacro:property": self._property,
+            "xacro:macro": self._macro,
+            "xacro:arg": self._argument,
+            "xacro:attribute": self._attribute,
+            "xacro:if": self._condition,
+            "xacro:unless": self._condition,
+        }
+
+    def expand(self) -> Expanded:
+        """Expand the file.
+
+        Raises:
+            ResourceError: the file cannot be read.
+            XmlError: it, or a file it includes, is not well-formed.
+            XacroError: it cannot be expanded; the position is that of the element.
+        """
+        try:
+            document = self.open(Path(self.path))
+            root = next(document.tags())
+            self._set_target_namespace(root)
+            self.run(self._element(root, Scope({}), Scope(self.globals, self)))
+        except Failure as failure:
+            raise error_of(self.placed(failure), self.sources.values()) from None
+        return Expanded(
+            path=Path(self.path),
+            root=element_of(root),
+            files=tuple(self.files),
+            sources=self.sources,
+            packages=self.packages,
+            macros=MappingProxyType(self.macros),
+            properties=MappingProxyType(self.properties),
+            warnings=tuple(self.warnings),
+            _print=lambda: self.printed(document),
+        )
+
+    def run(self, steps: Steps) -> None:
+        """Take all steps; an exception goes through the generators that are open, innermost first."""
+        stack = [steps]
+        error: Exception | None = None
+        while stack:
+            try:
+                if error is None:
+                    below = next(stack[-1])
+                else:
+                    thrown, error = error, None
+                    below = stack[-1].throw(thrown)  # type: ignore[attr-defined]
+                stack.append(below)
+            except StopIteration:
+                stack.pop()
+            except Exception as raised:
+                stack.pop()
+                error = raised
+        if error is not None:
+            raise error
+
+    def _set_target_namespace(self, root: Tag) -> None:
+        namespace = root.attributes.get("xacro:targetNamespace")
+        if namespace:
+            del root.attributes["xacro:targetNamespace"]
+            root.attributes["xmlns"] = namespace
+
+    # Elements
+
+    def _element(self, tag: Tag, macros: Scope, scope: Scope) -> Steps:
+        """Evaluate the attributes of an element and all below it."""
+        self._attributes(tag, scope)
+        node = tag.first
+        evaluates_comments = False
+        while node is not None:
+            following = node.after
+            if isinstance(node, Tag):
+                evaluates_comments = False
+                yield from self._child(node, macros, scope)
+            elif node.kind == TEXT:
+                if "$" in node.data:
+                    self.at = (tag, None)
+                    node.data = str(self.text(node.data, scope))
+                if evaluates_comments and node.data.strip():
+                    evaluates_comments = False
+            elif node.kind == COMMENT:
+                if "xacro:eval-comments" in node.data:
+                    evaluates_comments = "xacro:eval-comments:off" not in node.data
+                    node.remove()
+                elif evaluates_comments:
+                    self.at = (tag, None)
+                    node.data = str(self.text(node.data, scope))
+            node = following
+
+    def _child(self, node: Tag, macros: Scope, scope: Scope) -> Steps:
+        while node.tag == "xacro:element":
+            self.at = (node, "xacro:name")
+            name = self.text(self._required(node, "xacro:name"), scope)
+            if not name or not isinstance(name, str):
+                self.at = (node, None)
+                raise self.placed(Failure("other", "xacro:element: empty name" if not name else "the name is no text"))
+            del node.attributes["xacro:name"]
+            node.tag = node.name = name
+        self.at = (node, None)
+        directive = self._directives.get(node.tag)
+        if directive is not None:
+            steps = directive(node, macros, scope)
+            if steps is not None:
+                yield steps
+        elif node.tag.startswith("xacro:"):
+            yield self._call(node, macros, scope)
+        elif node.first is None:
+            self._attributes(node, scope)
+        else:
+            yield self._element(node, macros, scope)
+
+    # Directives
+
+    def _insert_block(self, node: Tag, macros: Scope, scope: Scope) -> Steps:
+        (name,) = self._checked(node, ("name",), ())
+        if f"**{name}" in scope:
+            block, content_only = scope[f"**{name}"], True
+        elif f"*{name}" in scope:
+            block, content_only = scope[f"*{name}"], False
+        else:
+            candidates = dict.fromkeys(key.lstrip("*") for key in scope.names() if key.startswith("*"))
+            raise self.placed(undefined_block(str(name), candidates))
+        block = block.copy(None, self.count)
+        yield self._element(block, macros, scope)
+        if content_only:
+            node.replace([block])
+        else:
+            block.insert_before(node)
+            node.remove()
+
+    def _include(self, node: Tag, macros: Scope, scope: Scope) -> Steps:
+        specification, space, optional = self._checked(node, ("filename",), ("ns", "optional"))
+        inner_macros, inner_scope = macros, scope
+        if space:
+            self.at = (node, "ns")
+            space = self.text(space, scope)
+            inner_macros, inner_scope = Namespace({}), Namespace(scope)
+            macros.set(space, inner_macros, is_lazy=False)
+            scope.set(space, inner_scope, is_lazy=False)
+        self.at = (node, None)
+        is_optional = self._boolean(optional, None)
+        if next(node.tags(), None) is not None:
+            self.warn("Child elements of a <xacro:include> tag are ignored")
+        included: list[Tag] = []
+        for file in self.included_files(node, specification, scope):
+            try:
+                self.at = (node, None)
+                root = self.open_included(file)
+                yield self._element(root, inner_macros, inner_scope)
+                self.at = (node, None)
+                self._import_namespaces(node.parent, root)
+                included.append(root)
+                self.file_stack.pop()
+            except Failure as failure:
+                if not (is_optional is True and failure.is_missing_file):
+                    raise
+        self._remove_comments_before(node)
+        node.replace(included)
+
+    def _property(self, node: Tag, macros: Scope, scope: Scope) -> None:
+        self._remove_comments_before(node)
+        optional = ("value", "default", "remove", "scope", "lazy_eval")
+        name, value, default, remove, reach, lazy = self._checked(node, ("name",), optional)
+        self.at = (node, "name")
+        name = self.text(name, scope)
+        self.at = (node, None)
+        if not _is_identifier(name):
+            raise self.placed(Failure("other", f"Property names must be valid python identifiers: {short(str(name))}"))
+        if name.startswith("__"):
+            raise self.placed(Failure("other", f"Property names must not start with double underscore:{name}"))
+        self.properties[name] = node.position
+        self.at = (node, "remove")
+        removes = self._boolean(self.text(remove or "false", scope), remove)
+        self.at = (node, None)
+        if (value is not None) + (default is not None) + removes > 1:
+            message = f"Property attributes default, value, and remove are mutually exclusive: {name}"
+            raise self.placed(Failure("other", message))
+        if removes and name in scope:
+            scope.remove(name)
+            if name in scope:
+                self.warn(f"Cannot remove global symbol: {name}")
+            node.remove()
+            return
+        if default is not None:
+            if reach is not None:
+                self.warn(f"{name}: default property value can only be defined on local scope")
+            if name in scope:
+                node.remove()
+                return
+            value = default
+        stored: Any = value
+        if value is None:
+            name, stored = f"**{name}", node
+        node.remove()
+        self.at = (node, "lazy_eval")
+        is_lazy = self._boolean(self.text(lazy or "true", scope), lazy)
+        target: Any = scope
+        if reach == "global":
+            target, is_lazy = scope.top(), False
+        elif reach == "parent":
+            target, is_lazy = scope.parent, False
+            if not isinstance(scope, Namespace):
+                while isinstance(target, Namespace):
+                    target = target.parent
+        self.at = (node, "default" if default is not None else "value")
+        if not is_lazy and isinstance(stored, str):
+            stored = self.text(stored, scope)
+        if not isinstance(target, Scope):
+            self.at = (node, None)
+            raise self.placed(Failure("other", f"{name}: no parent scope at global scope"))
+        target.set(name, stored, is_lazy=is_lazy)
+
+    def _argument(self, node: Tag, macros: Scope, scope: Scope) -> None:
+        name, default = self._checked(node, ("name", "default"), ())
+        if name not in self.commands.arguments:
+            self.at = (node, "default")
+            self.commands.arguments[name] = str(self.text(default, scope))
+        self._remove_comments_before(node)
+        node.remove()
+
+    def _attribute(self, node: Tag, macros: Scope, scope: Scope) -> None:
+        self._required(node, "name")
+        self._required(node, "value")
+        self.at = (node, "name")
+        name = self.text(node.attributes["name"], scope)
+        self.at = (node, "value")
+        value = self.text(node.attributes["value"], scope)
+        self.at = (node, None)
+        if not name or not isinstance(name, str):
+            raise self.placed(Failure("other", "xacro:attribute: empty name" if not name else "the name is no text"))
+        if node.parent is not None:
+            node.parent.attributes[name] = value
+        node.remove()
+
+    def _condition(self, node: Tag, macros: Scope, scope: Scope) -> Steps:
+        self._remove_comments_before(node)
+        (condition,) = self._checked(node, ("value",), ())
+        self.at = (node, "value")
+        keep = self._boolean(self.text(condition, scope), condition)
+        if keep == (node.tag == "xacro:if"):
+            yield self._element(node, macros, scope)
+            node.replace([node])
+        else:
+            node.remove()
+
+
+def _is_identifier(name: Any) -> bool:
+    import keyword
+    import unicodedata
+
+    if not isinstance(name, str) or not name.isidentifier() or keyword.iskeyword(name):
+        return False
+    return name.isascii() or unicodedata.normalize("NFKC", name) == name

@@ -1,0 +1,169 @@
+"""Files: what one expansion reads: the entry, included files and YAML files; and the warnings it collects."""
+
+from __future__ import annotations
+
+import os
+import re
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+
+from urdfkit.description.xacro.evaluation.failures import Failure, recursive_include
+from urdfkit.description.xacro.evaluation.functions import Functions
+from urdfkit.description.xacro.evaluation.symbols import Scope
+from urdfkit.description.xacro.evaluation.texts import Texts, unreadable
+from urdfkit.description.xacro.evaluation.tree import Tag, read_tree
+from urdfkit.description.xacro.expressions.excess import MAX_INCLUDES, MAX_YAML, TooLarge, check_length
+from urdfkit.description.xacro.faults import Warned
+from urdfkit.description.xacro.recursion import MAX_INCLUDE_DEPTH, cycle
+from urdfkit.description.xml.reader import absolute, read_source, shown_path
+from urdfkit.description.xml.source import Position, Source, content_of
+from urdfkit.errors import ResourceError
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from typing import Any
+
+    from urdfkit.description.packages.resolver import Packages
+
+
+class Files(Texts):
+    """Reads the files of one expansion.
+
+    Attributes:
+        files: every file that was read, absolute, in order.
+        sources: the text of every XML file that was read, by the name shown.
+        file_stack: the files that are open, outermost first.
+        warnings: of directives, and messages of the file.
+        globals: the names that every expression can use.
+    """
+
+    def __init__(
+        self, path: str, arguments: Mapping[str, str], packages: Packages, *, texts: Mapping[str, str] | None = None
+    ) -> None:
+        super().__init__(arguments, self._find)
+        self.path, self.packages = path, packages
+        self._texts = texts
+        self.files: dict[Path, None] = {}
+        self.sources: dict[str, Source] = {}
+        self.file_stack: list[str] = [path]
+        self.warnings: list[Warned] = []
+        self._opened = 0
+        host: dict[str, Any] = {
+            "load_yaml": self._load_yaml,
+            "abs_filename": self._absolute,
+            "arg": lambda name: self.commands.arguments[name],
+            "message": lambda *words, **_: self._record_message("message", words),
+            "warning": lambda *words, **_: self._record_message("warning", words),
+            "error": lambda *words, **_: self._record_message("error", words),
+            "print_location": lambda *_, **__: "",
+        }
+        functions = Functions(self.budget, self.expressions.callable_of)
+        self.globals = functions.symbols(host, self.warn)
+
+    def warn(self, message: str) -> None:
+        """Record a warning at the place that is being evaluated."""
+        self._record_message("warning", (message,))
+
+    def redefined(self, name: str) -> None:
+        """Warn about a property with the name of a global."""
+        self.warn(f"redefining global symbol: {name}")
+
+    def open(self, path: Path) -> Tag:
+        """Read a file into a tree.
+
+        Raises:
+            ResourceError: it cannot be read.
+            XmlError: it is not well-formed, or hostile.
+        """
+        if path.is_dir():
+            raise ResourceError(f"{path} is a folder, not a description")
+        shown = shown_path(path)
+        self.files.setdefault(absolute(path))
+        source = self.sources.get(shown)
+        if source is None:
+            source = self.sources[shown] = read_source(path, shown_as=shown, texts=self._texts)
+        return read_tree(source)
+
+    def open_included(self, file: str) -> Tag:
+        """Read an included file, put it on the stack of files, and return its document element.
+
+        Raises:
+            Failure: it cannot be read.
+            XmlError: it is not well-formed, or hostile.
+        """
+        self.file_stack.append(file)
+        if len(self.file_stack) > MAX_INCLUDE_DEPTH:
+            raise self.placed(recursive_include(cycle([shown_path(name) for name in self.file_stack])))
+        self._opened += 1
+        if self._opened > MAX_INCLUDES:
+            message = f"more than {MAX_INCLUDES:,} files are included: do they multiply each other?"
+            raise self.placed(Failure("too-many", message))
+        try:
+            document = self.open(Path(file))
+        except (OSError, ResourceError) as error:
+            self.file_stack.pop()
+            missing = OSError(str(error))
+            missing.filename = file
+            failure = unreadable(missing, is_include=True)
+            failure.is_missing_file = True
+            raise self.placed(failure) from None
+        return next(document.tags())
+
+    def included_files(self, node: Tag, specification: str, scope: Scope) -> Iterator[str]:
+        """Yield the paths of the files that an include names."""
+        self.at = (node, "filename")
+        try:
+            path = self._absolute(str(self.text(specification, scope)))
+        except OSError as error:
+            raise self.placed(unreadable(error, is_include=True)) from None
+        if re.search("[*[?]+", path):
+            import glob
+
+            found = sorted(glob.glob(path))  # noqa: PTH207 - the patterns of stock xacro
+            if not found:
+                self.at = (node, None)
+                self.warn(f'Include tag\'s filename spec "{path}" matched no files.')
+        else:
+            found = [path]
+        yield from found
+
+    def printed(self, document: Tag) -> str:
+        """Return the text that stock xacro prints for an expanded document."""
+        from urdfkit.description.xacro.evaluation.printing import printed
+
+        return printed(document, self.path)
+
+    def _absolute(self, name: str) -> str:
+        folder = os.path.dirname(self.file_stack[-1])  # noqa: PTH120 - the text that stock xacro makes
+        path = os.path.join(folder, name)  # noqa: PTH118
+        check_length(path)
+        if not Path(path).exists() and (moved := self.packages.relocate(path)) is not None:
+            return str(moved)
+        return path
+
+    def _load_yaml(self, name: str) -> Any:
+        from urdfkit.description.xacro.evaluation.yaml_files import yaml_values
+
+        path = self._absolute(name)
+        self.files.setdefault(absolute(path))
+        content = content_of(Path(path), MAX_YAML + 1)
+        if len(content) > MAX_YAML:
+            raise TooLarge(f"{path} is larger than {MAX_YAML // 1000:,} kB")
+        text = content.decode()
+        self.file_stack.append(path)
+        try:
+            return self.budget.checked(yaml_values(text, lambda value: self.expressions.evaluate(value, self.globals)))
+        finally:
+            self.file_stack.pop()
+
+    def _find(self, name: str) -> str:
+        try:
+            return str(self.packages.find(name))
+        except ResourceError as error:
+            raise Failure("package-not-found", error.message, name=name) from None
+
+    def _record_message(self, level: Any, words: tuple[object, ...]) -> str:
+        tag, _ = self.at
+        position = tag.position if tag is not None else Position(shown_path(self.path), 1, 1)
+        self.warnings.append(Warned(" ".join(map(str, words)), position, tag.chain if tag is not None else (), level))
+        return ""

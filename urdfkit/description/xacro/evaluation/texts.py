@@ -1,0 +1,186 @@
+"""Texts: attributes and character data with ``${…}`` and ``$(…)`` in them."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Mapping
+
+from urdfkit.description.packages.resolver import near_path
+from urdfkit.description.xacro.evaluation.budget import Budget
+from urdfkit.description.xacro.evaluation.commands import Commands
+from urdfkit.description.xacro.evaluation.expressions import Expressions
+from urdfkit.description.xacro.evaluation.failures import Failure, Place, circular_property, short, undefined_property
+from urdfkit.description.xacro.evaluation.symbols import Scope
+from urdfkit.description.xacro.expressions.excess import (
+    MAX_CHARACTERS,
+    MAX_EXPRESSION,
+    MAX_EXPRESSIONS,
+    TooLarge,
+    excess,
+)
+from urdfkit.description.xml.reader import shown_path
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from typing import Any
+
+_TOKEN = re.compile(r"(\$\$+[{(])|\$\{([^}]*)\}|\$\(([^)]*)\)|([^$]+|\$[^{($]+|\$$)").match
+_ESCAPED, _EXPRESSION, _COMMAND, _PLAIN, _INVALID = 1, 2, 3, 4, 5
+
+
+class Texts:
+    """Evaluates the texts of one file.
+
+    Args:
+        arguments: values of ``$(arg …)``.
+        find: returns the folder of a package.
+
+    Attributes:
+        at: the element and attribute being evaluated.
+    """
+
+    def __init__(self, arguments: Mapping[str, str], find: Callable[[str], str]) -> None:
+        self.budget = Budget()
+        self.expressions = Expressions(self.budget)
+        self.commands = Commands(self.expressions, dict(arguments), find)
+        self.at: Place = (None, None)
+        self._tokens: dict[str, list[tuple[int, str]]] = {}
+        self._evaluated = 0
+
+    def place(self) -> Place:
+        """Return the element and attribute being evaluated."""
+        return self.at
+
+    def text(self, text: Any, scope: Scope) -> Any:
+        """Return the value of a text: that of its expression if it is only one, else a text.
+
+        Raises:
+            Failure: it cannot be evaluated.
+        """
+        if not isinstance(text, str):
+            if text:
+                raise self.placed(Failure("other", f"`{short(str(text))}` is not a text"))
+            return ""
+        if "$" not in text:
+            return text
+        tokens = self._tokens.get(text)
+        if tokens is None:
+            tokens = self._tokens[text] = _tokens(text)
+        self._evaluated += len(tokens)
+        if self._evaluated > MAX_EXPRESSIONS:
+            raise self.placed(
+                Failure("too-large", f"too large: the file has more than {MAX_EXPRESSIONS:,} expressions")
+            )
+        if len(tokens) == 1:
+            return self._value(*tokens[0], scope)
+        parts = [self._value(kind, content, scope) for kind, content in tokens]
+        length, found = 0, []
+        for part in parts:
+            found.append(str(part))
+            length += len(found[-1])
+            if length > MAX_CHARACTERS:
+                raise self._too_large(excess("a text", MAX_CHARACTERS, "characters"), _EXPRESSION, text)
+        return "".join(found)
+
+    def resolve(self, scope: Scope, name: str) -> Any:
+        """Evaluate the text of a property at its first use.
+
+        Raises:
+            Failure: it cannot be evaluated.
+        """
+        if name in scope.open_names:
+            self.at = scope.pending.get(name, self.at)
+            raise self.placed(circular_property((*scope.open_names, name)))
+        scope.open_names.append(name)
+        outer, self.at = self.at, scope.pending[name]
+        try:
+            scope.assign(name, self.text(scope.values[name], scope))
+        finally:
+            self.at = outer
+            scope.open_names.pop()
+        return scope.values[name]
+
+    def placed(self, failure: Failure) -> Failure:
+        """Return a failure with the place that is being evaluated, unless it has one."""
+        if failure.place is None:
+            failure.place = self.at
+        return failure
+
+    def _value(self, kind: int, content: str, scope: Scope) -> Any:
+        if kind in (_PLAIN, _ESCAPED):
+            return content
+        if kind == _INVALID:
+            raise self.placed(Failure("other", short(f"invalid expression: {content}")))
+        inner = str(self.text(content, scope)) if "$" in content else content
+        try:
+            if kind == _COMMAND:
+                return self.commands.evaluate(inner)
+            return self.expressions.evaluate(inner, scope)
+        except Failure as failure:
+            failure.is_missing_file = False
+            raise self.placed(failure) from None
+        except Exception as error:
+            raise self._failure(error, kind, inner, scope) from None
+
+    def _failure(self, error: Exception, kind: int, source: str, scope: Scope) -> Failure:
+        if isinstance(error, TooLarge):
+            return self._too_large(error, kind, source)
+        if isinstance(error, RecursionError):
+            message = "calls of macros, includes and properties are nested too deeply"
+            return self.placed(Failure("recursion", message))
+        expression = source if kind == _EXPRESSION else None
+        if isinstance(error, NameError) and error.name is not None and kind == _EXPRESSION:
+            failure = undefined_property(error.name, visible(scope))
+            failure.facts["expression"] = expression
+        elif isinstance(error, OSError):
+            failure = unreadable(error, is_include=False)
+            failure.is_missing_file = True
+        else:
+            text = error.msg if isinstance(error, SyntaxError) else str(error)
+            shown = f"${{{short(source)}}}" if kind == _EXPRESSION else f"$({short(source)})"
+            failure = Failure("bad-expression", f"cannot evaluate `{shown}`: {short(text)}", expression=expression)
+        return self.placed(failure)
+
+    def _too_large(self, error: TooLarge, kind: int, source: str) -> Failure:
+        shown = f"${{{short(source)}}}" if kind == _EXPRESSION else f"$({short(source)})"
+        expression = source if kind == _EXPRESSION and len(source) <= MAX_EXPRESSION else None
+        return self.placed(Failure("too-large", f"`{shown}` is too large: {error}", expression=expression))
+
+
+def visible(scope: Scope) -> list[str]:
+    """Return the names of properties that an expression can use."""
+    return [name for name in scope.names() if not name.startswith(("*", "__"))]
+
+
+def unreadable(error: OSError, *, is_include: bool) -> Failure:
+    """Return the failure for a file that cannot be read."""
+    import errno
+    from pathlib import Path
+
+    path = Path(str(error.filename or ""))
+    if error.errno == errno.ENAMETOOLONG:
+        why = "has a name that is too long"
+    elif path.is_dir():
+        why = "is a folder"
+    else:
+        why = f"{'cannot be read' if path.is_file() else 'does not exist'}{near_path(path)}"
+    kind = "include-not-found" if is_include else "other"
+    message = f"{'included ' if is_include else ''}file {shown_path(path)} {why}"
+    return Failure(kind, message, name=shown_path(path), details={"path": str(path)})
+
+
+def _tokens(text: str) -> list[tuple[int, str]]:
+    """Return the parts of a text, each with its kind."""
+    found: list[tuple[int, str]] = []
+    at = 0
+    while at < len(text):
+        match = _TOKEN(text, at)
+        if match is None:
+            # Stock xacro reads one part ahead of the part it evaluates.
+            found.insert(max(len(found) - 1, 0), (_INVALID, text[at:]))
+            break
+        kind = match.lastindex or _PLAIN
+        content = match[kind]
+        found.append((kind, content[1:] if kind == _ESCAPED else content))
+        at = match.end()
+    return found

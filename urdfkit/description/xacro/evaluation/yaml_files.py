@@ -1,0 +1,61 @@
+"""Read YAML files into values, with the units of xacro, within limits."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+
+from urdfkit.description.xacro.evaluation.values import wrapped
+from urdfkit.description.xacro.expressions.excess import MAX_ELEMENTS, TooLarge
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from typing import Any
+
+_UNITS = {
+    "!radians": 1.0,
+    "!degrees": math.pi / 180.0,
+    "!meters": 1.0,
+    "!millimeters": 0.001,
+    "!foot": 0.3048,
+    "!inches": 0.0254,
+}
+
+
+def yaml_values(text: str, evaluate: Callable[[str], Any]) -> Any:
+    """Return the value of a YAML document.
+
+    Args:
+        text: of the file.
+        evaluate: evaluates the expression of a value with a unit.
+
+    Raises:
+        TooLarge: its merge keys or its nesting make too much.
+    """
+    import yaml
+
+    class Loader(yaml.SafeLoader):
+        """Loads plain values; counts what merge keys copy."""
+
+        merged = 0
+
+        def flatten_mapping(self, node: Any) -> None:
+            for key, value in node.value:
+                if key.tag == "tag:yaml.org,2002:merge":
+                    for source in value.value if isinstance(value, yaml.SequenceNode) else [value]:
+                        if isinstance(source, yaml.MappingNode) and source is not node:
+                            self.flatten_mapping(source)
+                            self.merged += len(source.value)
+            if self.merged > MAX_ELEMENTS:
+                raise TooLarge(f"its merge keys make more than {MAX_ELEMENTS:,} elements")
+            super().flatten_mapping(node)
+
+    def with_unit(factor: float) -> Callable[[Any, Any], float]:
+        return lambda loader, node: float(evaluate(loader.construct_scalar(node))) * factor
+
+    for tag, factor in _UNITS.items():
+        Loader.add_constructor(tag, with_unit(factor))
+    try:
+        return wrapped(yaml.load(text, Loader))
+    except RecursionError:
+        raise TooLarge("the YAML file is nested too deep") from None
