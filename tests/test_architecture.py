@@ -207,3 +207,20 @@ def test_a_private_attribute_of_another_package_is_found(tmp_path: Path, use: st
         (tmp_path / name).parent.mkdir(exist_ok=True)
         (tmp_path / f"{name}.py").write_text(text)
     assert private_accesses(tmp_path) == [("hall/b.py", name) for name in found]
+
+
+AMBIGUOUS = {
+    *("Bounds", "Document", "Node", "TooLarge"),  # of xacro expansion, and of its users
+    *("Ground", "Surface"),  # of SDF, and of the engine
+    *("Collision", "Fix", "Motion", "Ros2Control"),  # of descriptions, findings and commands, and of plugins
+}
+"""Names of classes that have two meanings."""
+
+
+def test_class_names_have_one_meaning() -> None:
+    counts: dict[str, int] = {}
+    for path in ROOT.rglob("*.py"):
+        for node in ast.walk(ast.parse(path.read_text("utf-8"))):
+            if isinstance(node, ast.ClassDef):
+                counts[node.name] = counts.get(node.name, 0) + 1
+    assert {name for name, count in counts.items() if count > 1} == AMBIGUOUS

@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 from tests.cli.lab import TWINS
-from urdfkit.app.viewer.findings_panel import Findings
+from urdfkit.app.viewer.findings_panel import FindingsPanel
 from urdfkit.description import load
 from urdfkit.errors import ResourceError, UsageError
 from urdfkit.resources import find_model
@@ -28,8 +28,8 @@ def robot(tmp_path: Path) -> Path:
     return path
 
 
-def look(path: Path, **options) -> tuple[Findings, dict[str, dict]]:
-    findings = Findings(find_model([str(path)]), **options)
+def look(path: Path, **options) -> tuple[FindingsPanel, dict[str, dict]]:
+    findings = FindingsPanel(find_model([str(path)]), **options)
     return findings, {row["code"]: row for row in findings.lint()["findings"]}
 
 
@@ -63,7 +63,7 @@ def test_only_the_named_finding_is_fixed(tmp_path: Path) -> None:
     path = tmp_path / "two.urdf"
     path.write_text(ROBOT.replace("</robot>", """<link name="eye"/><joint name="look" type="continuous">
       <parent link="base"/><child link="eye"/><axis xyz="0 3 0"/></joint></robot>"""))  # fmt: skip
-    findings = Findings(find_model([str(path)]))
+    findings = FindingsPanel(find_model([str(path)]))
     rows = [row for row in findings.lint()["findings"] if row["code"] == "J412"]
     assert [row["joint"] for row in rows] == ["turn", "look"]
     findings.apply_fix(rows[1]["number"])
@@ -75,7 +75,7 @@ def test_only_the_named_finding_is_fixed(tmp_path: Path) -> None:
 def test_one_of_several_equal_findings_is_fixed(tmp_path: Path, nth: int) -> None:
     path = tmp_path / "two.urdf.xacro"
     path.write_text(TWINS)
-    findings = Findings(find_model([str(path)]))
+    findings = FindingsPanel(find_model([str(path)]))
     rows = [row for row in findings.lint()["findings"] if row["code"] == "X112"]
     assert len(rows) == 4
     assert len({row["message"] for row in rows}) == 1
@@ -89,7 +89,7 @@ def test_one_of_several_equal_findings_is_fixed(tmp_path: Path, nth: int) -> Non
 def test_a_finding_in_the_text_lists_its_links_and_joints(tmp_path: Path) -> None:
     path = tmp_path / "two.urdf.xacro"
     path.write_text(TWINS)
-    findings = Findings(find_model([str(path)]))
+    findings = FindingsPanel(find_model([str(path)]))
     rows = [row for row in findings.lint(load(path))["findings"] if row["code"] == "X112"]
     assert [row["about"] for row in rows] == [
         [{"link": "a"}],
@@ -167,5 +167,5 @@ def test_findings_are_those_of_the_linter() -> None:
 
     for name in ("artoo", "simpleton"):
         model = find_model([name])
-        assert Findings(model).lint()["findings"] == []  # linted for what its package is built for
+        assert FindingsPanel(model).lint()["findings"] == []  # linted for what its package is built for
     assert lint(model.path) == []

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from urdfkit.lint.engine.run import Outcome
-    from urdfkit.lint.engine.settings import Settings
+    from urdfkit.lint.engine.settings import LintSettings
     from urdfkit.lint.finding import Finding
     from urdfkit.lint.fixes.apply import Fixed
     from urdfkit.lint.project.entry_files import Entry
@@ -144,7 +144,7 @@ class _Run:
         outcome = lint(entries, self.options, cached=not arguments.no_cache, jobs=jobs, keep_going=True)
         return self._report(outcome), outcome
 
-    def _settings(self) -> Settings | None:
+    def _settings(self) -> LintSettings | None:
         """Return the settings file; None without one. Most runs have none, and then the module is not imported."""
         arguments = self.arguments
         if arguments.no_config:

@@ -118,7 +118,7 @@ def whole_program(entry: str) -> Iterator[None]:
         def create_cfunc_wrapper(*arguments: Any, **options: Any) -> None:
             pass
 
-        class CompilationListener(event.Listener):  # type: ignore[misc]
+        class DispatcherCollector(event.Listener):  # type: ignore[misc]
             def on_start(self, event: Any) -> None:
                 compiled.append(event.data["dispatcher"])
 
@@ -132,7 +132,7 @@ def whole_program(entry: str) -> Iterator[None]:
         typing.resolve_function_type = resolve_function_type
         gc.disable()
         try:
-            with event.install_listener("numba:compile", CompilationListener()):
+            with event.install_listener("numba:compile", DispatcherCollector()):
                 yield
         finally:
             del codegen.create_library, codegen.set_env

@@ -60,7 +60,7 @@ class Shape:
 
 
 @dataclass(frozen=True)
-class LeftOut:
+class MissingMesh:
     """A shape that is missing because its mesh cannot be loaded.
 
     Attributes:
@@ -88,7 +88,7 @@ class Scene:
 
     bodies: tuple[str, ...]
     shapes: tuple[Shape, ...]
-    problems: tuple[LeftOut, ...] = ()
+    problems: tuple[MissingMesh, ...] = ()
 
     @cached_property
     def body_index(self) -> dict[str, int]:
@@ -116,7 +116,7 @@ def scene_of(robot: Robot, *, strict: bool = True, meshes: MeshLoader | None = N
     links = robot.link_by_name_in_order()
     retros, labels = _laser_retros(robot), labels_of(robot)
     shapes: list[Shape] = []
-    problems: list[LeftOut] = []
+    problems: list[MissingMesh] = []
     for link in links:
         names: set[str] = set()
         for role, number, item in _items(link):
@@ -136,7 +136,7 @@ def scene_of(robot: Robot, *, strict: bool = True, meshes: MeshLoader | None = N
                 except ResourceError as error:
                     if strict:
                         raise
-                    problems.append(LeftOut(name, link.name, role, error))
+                    problems.append(MissingMesh(name, link.name, role, error))
                     continue
             color = palette.of(link.name, item) if isinstance(item, Visual) else None
             covered = wrapper.wrapped(item.geometry, mesh, picture) if picture else None

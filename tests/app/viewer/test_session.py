@@ -9,7 +9,7 @@ import pytest
 pytest.importorskip("pinocchio")
 pytest.importorskip("meshcat")
 
-from urdfkit.app.viewer.findings_panel import Findings
+from urdfkit.app.viewer.findings_panel import FindingsPanel
 from urdfkit.app.viewer.session import CLICKED_POINT, Session, ShownRobot, request_schemas
 from urdfkit.errors import UrdfkitError
 from urdfkit.resources import find_model
@@ -50,7 +50,7 @@ def session(tmp_path: Path) -> Session:
     path = tmp_path / "lab.urdf"
     path.write_text(ROBOT)
     model = find_model([str(path)])
-    made = Session(Shown(), model, ShownRobot.read(model), Findings(model))
+    made = Session(Shown(), model, ShownRobot.read(model), FindingsPanel(model))
     made.show()
     return made
 

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from urdfkit.errors import UsageError
-from urdfkit.lint.engine.settings import Settings, find, read
+from urdfkit.lint.engine.settings import LintSettings, find, read
 
 WHOLE = """[lint]
 target = "ros2"
@@ -53,7 +53,7 @@ def test_the_nearest_file_counts_and_the_repository_is_the_end(tmp_path):
     (tmp_path / "a" / "pyproject.toml").write_text('[tool.urdfkit.lint]\ntarget = "ros1"\n')
     assert find(inner).target == "ros1"
     (inner / ".git").mkdir()
-    assert find(inner) == Settings()
+    assert find(inner) == LintSettings()
 
 
 @pytest.mark.parametrize(

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 
 from urdfkit.errors import ResourceError
 from urdfkit.lint import lint
-from urdfkit.lint.fixes.apply import Change, editable_folders, fix
+from urdfkit.lint.fixes.apply import FileChange, editable_folders, fix
 from urdfkit.lint.project.entry_files import Entry
 from urdfkit.lint.project.options import Options
 
@@ -189,7 +189,7 @@ def test_a_change_for_the_worse_is_rolled_back(write, monkeypatch):
     assert [change.after.decode() for change in fixed.changes] == [
         GOOD.replace("</robot>", '<link name="a"/><link name="b"/></robot>')
     ]
-    assert isinstance(fixed.changes[0], Change)
+    assert isinstance(fixed.changes[0], FileChange)
 
 
 WHEEL = """<robot name="cart">

@@ -15,7 +15,7 @@ from urdfkit.scaffold import computed, load_template
 from urdfkit.scaffold.world.floor_layouts import house, office, one_room
 from urdfkit.scaffold.world.obstacles import clutter
 from urdfkit.scaffold.world.random_numbers import Random
-from urdfkit.scaffold.world.shapes import Shape, inertia
+from urdfkit.scaffold.world.shapes import ModelShape, inertia
 from urdfkit.sim import Simulator
 
 TEMPLATE = load_template(templates_dir() / "world")
@@ -139,9 +139,9 @@ def test_obstacles_are_apart_and_the_origin_is_free():
 
 
 def test_the_shapes_weigh_as_solids_do():
-    assert inertia(Shape("a", "box", (1, 2, 3), (0, 0, 0), (1, 1, 1)), 12) == (13, 10, 5)
-    assert inertia(Shape("a", "cylinder", (1, 2), (0, 0, 0), (1, 1, 1)), 12) == (7, 7, 6)
-    assert inertia(Shape("a", "sphere", (1,), (0, 0, 0), (1, 1, 1)), 10) == (4, 4, 4)
+    assert inertia(ModelShape("a", "box", (1, 2, 3), (0, 0, 0), (1, 1, 1)), 12) == (13, 10, 5)
+    assert inertia(ModelShape("a", "cylinder", (1, 2), (0, 0, 0), (1, 1, 1)), 12) == (7, 7, 6)
+    assert inertia(ModelShape("a", "sphere", (1,), (0, 0, 0), (1, 1, 1)), 10) == (4, 4, 4)
 
 
 @pytest.mark.parametrize("doors", [0, 1, 4, 9])

@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     from urdfkit.description.urdf.robot import Robot
     from urdfkit.description.xml.source import Expansion, Source, Span
     from urdfkit.lint.engine.run import Outcome
-    from urdfkit.lint.engine.settings import Settings
+    from urdfkit.lint.engine.settings import LintSettings
     from urdfkit.lint.finding import Finding, Fix
     from urdfkit.lint.project.entry_files import Entry
     from urdfkit.lint.project.options import Options
@@ -22,7 +22,7 @@ LINES = 12
 """Maximum number of source lines shown per finding."""
 
 
-class Findings:
+class FindingsPanel:
     """The findings of one model, numbered; a number is not reused.
 
     Args:
@@ -112,12 +112,12 @@ class Findings:
         here, path = Path.cwd(), self.model.path.absolute()
         return [Entry(path.relative_to(here) if path.is_relative_to(here) else path)]
 
-    def _settings(self) -> Settings:
+    def _settings(self) -> LintSettings:
         from urdfkit.lint.engine.settings import find
 
         return find(self.model.path)
 
-    def _options(self, settings: Settings) -> Options:
+    def _options(self, settings: LintSettings) -> Options:
         """Return the options of ``urdfkit lint`` for this model, with its xacro arguments."""
         from urdfkit.lint.project.options import Options
 
@@ -152,7 +152,7 @@ class Findings:
         return row
 
 
-def _is_ignored(finding: Finding, settings: Settings) -> bool:
+def _is_ignored(finding: Finding, settings: LintSettings) -> bool:
     path = Path(finding.file)
     rules = settings.per_file.items()
     return any(finding.code.startswith(codes) and settings.matches(path, pattern) for pattern, codes in rules)

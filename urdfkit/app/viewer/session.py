@@ -14,7 +14,7 @@ from urdfkit.errors import UrdfkitError
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
-    from urdfkit.app.viewer.findings_panel import Findings
+    from urdfkit.app.viewer.findings_panel import FindingsPanel
     from urdfkit.kinematics import Kinematics
     from urdfkit.resources import ModelArgument
     from urdfkit.scene import Scene
@@ -68,7 +68,9 @@ class ShownRobot:
 class Session:
     """One robot on the page: its joint positions, its findings, and its files."""
 
-    def __init__(self, server: Server | Recording, model: ModelArgument, shown: ShownRobot, findings: Findings) -> None:
+    def __init__(
+        self, server: Server | Recording, model: ModelArgument, shown: ShownRobot, findings: FindingsPanel
+    ) -> None:
         from urdfkit.bus import Bus
         from urdfkit.view.file_watch import FileWatch
 

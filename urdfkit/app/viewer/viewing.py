@@ -63,14 +63,14 @@ def viewing(page: Page, model: ModelArgument, shown: ShownRobot) -> Iterator[Ses
         model: the robot as it was given.
         shown: the robot.
     """
-    from urdfkit.app.viewer.findings_panel import Findings
+    from urdfkit.app.viewer.findings_panel import FindingsPanel
     from urdfkit.app.viewer.session import Session, request_schemas
     from urdfkit.view.server.access_control import is_loopback
 
     server = page.server
     server.requests.update(request_schemas())
     try:
-        session = Session(server, model, shown, Findings(model, may_write=is_loopback(page.host)))
+        session = Session(server, model, shown, FindingsPanel(model, may_write=is_loopback(page.host)))
         server.publish_latched("progress", label="Preparing shapes")
         page.open()  # the browser starts while the shapes are prepared
         session.show()
@@ -87,12 +87,12 @@ def html_page(model: ModelArgument, shown: ShownRobot) -> str:
         model: the robot as it was given.
         shown: the robot.
     """
-    from urdfkit.app.viewer.findings_panel import Findings
+    from urdfkit.app.viewer.findings_panel import FindingsPanel
     from urdfkit.app.viewer.session import Session
     from urdfkit.view.html_export import Recording
 
     recording = Recording()
-    session = Session(recording, model, shown, Findings(model, may_write=False))
+    session = Session(recording, model, shown, FindingsPanel(model, may_write=False))
     session.show()
     session.lint()
     return recording.html()

@@ -71,12 +71,12 @@ def server_for(options: Options) -> LanguageServer:
 
     from urdfkit import __version__
     from urdfkit.cli.lsp.rejected_requests import Protocol
-    from urdfkit.cli.lsp.session import Session
+    from urdfkit.cli.lsp.session import EditorSession
     from urdfkit.lint.editor.open_files import Project
 
     kind = types.TextDocumentSyncKind.Incremental
     server = LanguageServer("urdfkit", __version__, text_document_sync_kind=kind, protocol_cls=Protocol)
-    session = Session(server, Project(options))
+    session = EditorSession(server, Project(options))
 
     @server.feature(types.TEXT_DOCUMENT_DID_OPEN)
     def opened(params: types.DidOpenTextDocumentParams) -> None:

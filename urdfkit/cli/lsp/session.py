@@ -41,7 +41,7 @@ _KINDS = {
 }
 
 
-class Session:
+class EditorSession:
     """Requests of one editor, in the units of the protocol: URIs, lines from 0, columns in UTF-16.
 
     Args:

@@ -16,9 +16,9 @@ if TYPE_CHECKING:
 
     from urdfkit.description.urdf.robot import Robot
     from urdfkit.resources import ModelArgument
-    from urdfkit.scaffold.additions.existing_hardware import Hardware
+    from urdfkit.scaffold.additions.existing_hardware import ExistingHardware
     from urdfkit.scaffold.additions.file_changes import Alteration
-    from urdfkit.scaffold.additions.joint_controllers import Controller
+    from urdfkit.scaffold.additions.joint_controllers import ChosenController
 
 SUMMARY = "controllers for the joints of an existing description"
 
@@ -115,7 +115,7 @@ def _launch_additions(folder: Path, package: str, name: str) -> Iterator[str]:
 
 
 def _without_ros(
-    model: ModelArgument, robot: Robot, made: list[Controller], arguments: argparse.Namespace, generation: str
+    model: ModelArgument, robot: Robot, made: list[ChosenController], arguments: argparse.Namespace, generation: str
 ) -> int:
     """Write plugins of Gazebo into a file next to the model.
 
@@ -135,13 +135,13 @@ def _without_ros(
     return code
 
 
-def _print_controllers(made: list[Controller], arguments: argparse.Namespace) -> None:
+def _print_controllers(made: list[ChosenController], arguments: argparse.Namespace) -> None:
     for each in () if arguments.quiet else made:
         by = f" ({each.interface}, as in the model)" if each.interface else ""
         print(f"urdfkit: {each.name}: {', '.join(each.joints)}{by}", file=sys.stderr)
 
 
-def _immovable_joints(robot: Robot, made: list[Controller]) -> Iterator[str]:
+def _immovable_joints(robot: Robot, made: list[ChosenController]) -> Iterator[str]:
     """Yield one message per joint with a new controller whose limits prevent any motion, with its position."""
     for joint in (robot.joint_by_name[name] for each in made for name in each.joints):
         limit = joint.limit
@@ -155,9 +155,9 @@ def _immovable_joints(robot: Robot, made: list[Controller]) -> Iterator[str]:
 def _add_to_existing(
     model: ModelArgument,
     robot: Robot,
-    made: list[Controller],
+    made: list[ChosenController],
     arguments: argparse.Namespace,
-    existing: Hardware,
+    existing: ExistingHardware,
     name: str,
     generation: str,
 ) -> int:
@@ -197,7 +197,14 @@ def _is_fortress(robot: Robot) -> bool:
 
 
 def _render(
-    staged: Path, package: str, name: str, made: list[Controller], robot: Robot, generation: str, *, namespace: str
+    staged: Path,
+    package: str,
+    name: str,
+    made: list[ChosenController],
+    robot: Robot,
+    generation: str,
+    *,
+    namespace: str,
 ) -> None:
     from urdfkit.cli.git_identity import identity
     from urdfkit.resources import templates_dir
@@ -219,7 +226,7 @@ def _render(
 
 
 def _altered(
-    path: Path, robot: Robot, made: list[Controller], name: str, generation: str, package: str, *, looped: bool
+    path: Path, robot: Robot, made: list[ChosenController], name: str, generation: str, package: str, *, looped: bool
 ) -> list[Alteration]:
     from urdfkit.scaffold.additions.file_changes import Alteration
     from urdfkit.scaffold.additions.joint_controllers import markup

@@ -55,7 +55,7 @@ def run(arguments: argparse.Namespace) -> int:
     Raises:
         UrdfkitError: the sensor could not be added; nothing was written.
     """
-    from urdfkit.scaffold.additions.sensor import Request, add_sensor
+    from urdfkit.scaffold.additions.sensor import SensorRequest, add_sensor
 
     if arguments.sensor is None:
         raise UsageError(f"new sensor: the following arguments are required: SENSOR ({', '.join(_KINDS)})")
@@ -71,7 +71,7 @@ def run(arguments: argparse.Namespace) -> int:
             raise UsageError(
                 f"--update-rate {arguments.update_rate} is out of range: expected more than 0 and at most 10000"
             )
-    request = Request(
+    request = SensorRequest(
         arguments.sensor,
         arguments.name,
         arguments.parent,

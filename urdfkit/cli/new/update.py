@@ -17,7 +17,7 @@ from urdfkit.errors import ResourceError, UsageError
 from urdfkit.scaffold import (
     NEW_SUFFIX,
     Change,
-    Fault,
+    PackageFault,
     Template,
     Update,
     computed,
@@ -146,7 +146,7 @@ def _new_joints(change: Change) -> list[str]:
     return [joint for joint in dict.fromkeys(after) if joint not in before]
 
 
-def findings(folder: Path, *, package_path: Path | None = None) -> list[Fault]:
+def findings(folder: Path, *, package_path: Path | None = None) -> list[PackageFault]:
     """Return the findings of the linter in the created packages.
 
     Args:
@@ -166,7 +166,7 @@ def findings(folder: Path, *, package_path: Path | None = None) -> list[Fault]:
         return []
     found = lint([folder], package_path=[folder, *([package_path] if package_path is not None else [])])
     return [
-        Fault(f"{f.code} {f.message} ({Path(f.file).name}:{f.line})", f.severity == "error")
+        PackageFault(f"{f.code} {f.message} ({Path(f.file).name}:{f.line})", f.severity == "error")
         for f in found
         if f.severity != "note"
     ]

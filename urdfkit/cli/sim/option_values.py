@@ -83,7 +83,7 @@ def _counted(count: int) -> str:
     return f"{count} value{'s' * (count != 1)}"
 
 
-class Pose(NamedTuple):
+class PoseOption(NamedTuple):
     """``X,Y,Z,YAW`` or ``X,Y,Z,ROLL,PITCH,YAW``; `z` is None where it is empty."""
 
     x: float
@@ -94,7 +94,7 @@ class Pose(NamedTuple):
     yaw: float
 
 
-def pose(text: str) -> Pose:
+def pose(text: str) -> PoseOption:
     """Return the pose of ``--spawn``.
 
     Raises:
@@ -108,7 +108,7 @@ def pose(text: str) -> Pose:
     z = number(parts[2]) if parts[2].strip() else None
     angles = [number(part) for part in parts[3:]]
     roll, pitch, yaw = angles if len(angles) == 3 else (0.0, 0.0, angles[0])
-    return Pose(number(parts[0]), number(parts[1]), z, roll, pitch, yaw)
+    return PoseOption(number(parts[0]), number(parts[1]), z, roll, pitch, yaw)
 
 
 def targets(text: str) -> dict[str, float]:

@@ -211,13 +211,13 @@ def parse_settings(source: Source, *, separator: str = "/") -> Settings:
     start = Position(source.file, 1, 1)
     if node is None:
         return Settings("", start)
-    read = _Reader(source.file, separator).read("", node, None, 0)
+    read = _YamlReader(source.file, separator).read("", node, None, 0)
     if not read.children:
         raise DescriptionError("no parameters: write names and values as `name: value`", position=start)
     return read
 
 
-class _Reader:
+class _YamlReader:
     """Convert YAML nodes to settings; the number of nodes is bounded, because aliases are followed."""
 
     def __init__(self, file: str, separator: str) -> None:

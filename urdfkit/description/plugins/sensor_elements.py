@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 
 @record
-class UnknownElement:
+class UnknownSensorElement:
     """Element that is not read at its place.
 
     Attributes:
@@ -100,18 +100,18 @@ _FREE = frozenset(("plugin", "origin", "pose", "frame", "rfid", "rfidtag"))
 """Elements whose content SDF does not define."""
 
 
-def unknown_elements(sensor: Element) -> Iterator[UnknownElement]:
+def unknown_elements(sensor: Element) -> Iterator[UnknownSensorElement]:
     """Yield the elements in a ``<sensor>`` that are unknown to SDF; elements with a prefix are ignored."""
     return _unknown_elements(sensor, _SENSOR)
 
 
-def _unknown_elements(element: Element, allowed: Allowed) -> Iterator[UnknownElement]:
+def _unknown_elements(element: Element, allowed: Allowed) -> Iterator[UnknownSensorElement]:
     for child in element.children:
         if child.tag in allowed:
             if child.tag not in _FREE:
                 yield from _unknown_elements(child, allowed[child.tag])
         elif ":" not in child.tag and allowed:
-            yield UnknownElement(child, element.tag, nearest(child.tag, allowed))
+            yield UnknownSensorElement(child, element.tag, nearest(child.tag, allowed))
 
 
 def nearest(name: str, candidates: Iterator[str] | Allowed | tuple[str, ...], likeness: float = 0.6) -> str | None:

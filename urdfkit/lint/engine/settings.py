@@ -31,7 +31,7 @@ _MARKS = (".git", ".hg", ".catkin_workspace", ".colcon")
 
 
 @record
-class Settings:
+class LintSettings:
     """Settings of one file; all empty if there is no file.
 
     Attributes:
@@ -69,7 +69,7 @@ class Settings:
         return any(fnmatch(part.as_posix(), wanted) for part in (inside, *inside.parents[:-1]))
 
 
-def find(start: Path) -> Settings:
+def find(start: Path) -> LintSettings:
     """Return the settings that apply to `start`.
 
     Raises:
@@ -84,10 +84,10 @@ def find(start: Path) -> Settings:
             return read(project)
         if any((folder / mark).exists() for mark in _MARKS) or folder == Path.home():
             break
-    return Settings()
+    return LintSettings()
 
 
-def read(file: Path) -> Settings:
+def read(file: Path) -> LintSettings:
     """Return the settings of a file.
 
     Raises:
@@ -116,12 +116,12 @@ def read(file: Path) -> Settings:
         _, convert = _KEYS[key]
         name = {"per-file-ignores": "per_file"}.get(key, key.replace("-", "_"))
         values[name] = convert(file, f"lint.{key}", value)
-    settings = Settings(**values)
+    settings = LintSettings(**values)
     _check_words(settings)
     return settings
 
 
-def _check_words(settings: Settings) -> None:
+def _check_words(settings: LintSettings) -> None:
     """Reject unknown codes and targets.
 
     Raises:

@@ -13,7 +13,7 @@ from pathlib import Path
 from urdfkit.description.xml.source import Overlay
 from urdfkit.errors import ResourceError
 from urdfkit.lint.engine.run import Outcome, run
-from urdfkit.lint.fixes.regressions import Written, new_findings, unmatched
+from urdfkit.lint.fixes.regressions import WrittenText, new_findings, unmatched
 from urdfkit.lint.project.options import Options
 from urdfkit.record import record
 
@@ -30,7 +30,7 @@ _SURROGATE = re.compile("[\ud800-\udfff]")
 
 
 @record(eq=False)
-class Change:
+class FileChange:
     """Change of one file.
 
     Attributes:
@@ -85,7 +85,7 @@ class Fixed:
     """
 
     outcome: Outcome
-    changes: tuple[Change, ...]
+    changes: tuple[FileChange, ...]
     fixed: dict[str, int]
     notes: tuple[str, ...]
 
@@ -130,7 +130,7 @@ def editable_folders(paths: Iterable[Path]) -> list[Path]:
     return folders
 
 
-def changes(edits: Iterable[Edit], sources: Mapping[str, Source], *, within: Iterable[Path]) -> list[Change]:
+def changes(edits: Iterable[Edit], sources: Mapping[str, Source], *, within: Iterable[Path]) -> list[FileChange]:
     """Apply edits in memory and return the changed files; `Change.write` writes them.
 
     Args:
@@ -158,7 +158,7 @@ def changes(edits: Iterable[Edit], sources: Mapping[str, Source], *, within: Ite
             start, end = _offsets(source, edit.span)
             edited = edited[:start] + edit.text + edited[end:]
         if edited != text.text:
-            found.append(Change(path, file, content, text.encoded(edited)))
+            found.append(FileChange(path, file, content, text.encoded(edited)))
     return found
 
 
@@ -222,7 +222,7 @@ class _Fixer:
                 break
             self.texts, outcome = attempt
         changes = tuple(
-            Change(path, self.shown[path], self.contents[path], self.originals[path].encoded(text))
+            FileChange(path, self.shown[path], self.contents[path], self.originals[path].encoded(text))
             for path, text in sorted(self.texts.items())
             if text != self.originals[path].text
         )
@@ -262,9 +262,11 @@ class _Fixer:
             return False
         return self.only is None or self.only(finding)
 
-    def _edited(self, findings: Sequence[Finding], outcome: Outcome) -> tuple[dict[Path, str], Written]:
+    def _edited(self, findings: Sequence[Finding], outcome: Outcome) -> tuple[dict[Path, str], WrittenText]:
         """Return the texts after all non-overlapping fixes; overlapping fixes are applied in the next round."""
-        written = Written(guessed=any(finding.fix is not None and finding.fix.safety != "safe" for finding in findings))
+        written = WrittenText(
+            guessed=any(finding.fix is not None and finding.fix.safety != "safe" for finding in findings)
+        )
         taken: dict[str, dict[Edit, None]] = {}
         for finding in findings:
             edits = finding.fix.edits if finding.fix is not None else ()

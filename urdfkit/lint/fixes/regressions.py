@@ -30,7 +30,7 @@ _NAMED = re.compile(r"`([^`]*)`")
 _WORD = re.compile(r"[\w./:-]+")
 
 
-class Written:
+class WrittenText:
     """Changes of a set of edits, at their positions in the new text.
 
     Args:

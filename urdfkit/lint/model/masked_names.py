@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from urdfkit.description.xml.source import Position
     from urdfkit.lint.model.tags import Document, Tag
 
-    class Model(Protocol):
+    class ExpandedModel(Protocol):
         """What is asked here of `urdfkit.lint.model.model.Model`."""
 
         @property
@@ -73,7 +73,7 @@ class MaskedNames:
         children: patterns of the child links of joints in the dropped parts.
     """
 
-    def __init__(self, model: Model) -> None:
+    def __init__(self, model: ExpandedModel) -> None:
         self._model = model
         self.unreadable = ""
         self.patterns: set[str] = set()
@@ -170,7 +170,7 @@ class MaskedNames:
         return self._defined
 
 
-def unless_masked(model: Model, name: str, near: str | None, finding: Finding) -> Iterator[Finding]:
+def unless_masked(model: ExpandedModel, name: str, near: str | None, finding: Finding) -> Iterator[Finding]:
     """Yield a finding about an undefined name, unless a dropped part may define the name.
 
     Args:

@@ -18,7 +18,7 @@ _PRISMATIC_DEFLECTION = 0.001
 
 
 @dataclass(frozen=True, slots=True)
-class Gains:
+class ControllerGains:
     """PID gains: p, i, d, and the limit of the integral term, which holds the weight."""
 
     p: float
@@ -27,7 +27,7 @@ class Gains:
     clamp: float
 
 
-def gains(robot: Robot, joint: Joint) -> Gains:
+def gains(robot: Robot, joint: Joint) -> ControllerGains:
     """Return the gains of a joint: p = max(I ω², weight / deflection), d = 2 · 0.9 · √(p I), in the zero position.
 
     Args:
@@ -37,7 +37,7 @@ def gains(robot: Robot, joint: Joint) -> Gains:
     inertia, weight = _carried(robot, joint)
     deflection = _PRISMATIC_DEFLECTION if joint.type == "prismatic" else _DEFLECTION
     p = max(inertia * _FREQUENCY**2, weight / deflection)
-    return Gains(p, p, 1.8 * sqrt(p * inertia), weight)
+    return ControllerGains(p, p, 1.8 * sqrt(p * inertia), weight)
 
 
 def _carried(robot: Robot, joint: Joint) -> tuple[float, float]:

@@ -10,10 +10,10 @@ from pathlib import Path
 from urdfkit.description.urdf.robot import Robot
 from urdfkit.errors import ResourceError
 from urdfkit.scaffold.additions.controller_gains import gains
-from urdfkit.scaffold.additions.joint_controllers import Controller
+from urdfkit.scaffold.additions.joint_controllers import ChosenController
 
 
-def parameters(robot: Robot, controllers: list[Controller], *, generation: str, base: str) -> dict[str, str]:
+def parameters(robot: Robot, controllers: list[ChosenController], *, generation: str, base: str) -> dict[str, str]:
     """Return the placeholders ``controllers``, ``managed`` and ``spawned`` of the template of controller packages.
 
     Args:
@@ -84,7 +84,7 @@ def move_to_root_namespace(package: Path, name: str) -> None:
         launch.write_text(launch.read_text(encoding="utf-8").replace(f' ns="{name}"', ""), encoding="utf-8")
 
 
-def _yaml1(robot: Robot, each: Controller, base: str) -> Iterator[str]:
+def _yaml1(robot: Robot, each: ChosenController, base: str) -> Iterator[str]:
     if each.wheels is not None:
         yield "type: diff_drive_controller/DiffDriveController"
         yield f"left_wheel: [{', '.join(each.wheels.left)}]"
@@ -108,7 +108,7 @@ def _yaml1(robot: Robot, each: Controller, base: str) -> Iterator[str]:
     yield from _trajectory_options()
 
 
-def _yaml2(robot: Robot, each: Controller, base: str) -> Iterator[str]:
+def _yaml2(robot: Robot, each: ChosenController, base: str) -> Iterator[str]:
     if each.wheels is not None:
         yield f"left_wheel_names: [{', '.join(each.wheels.left)}]"
         yield f"right_wheel_names: [{', '.join(each.wheels.right)}]"

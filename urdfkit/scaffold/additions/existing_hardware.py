@@ -20,7 +20,7 @@ _LOOPS = re.compile(r"(gazebo_ros2?|gz_ros2|ign_ros2)_control", re.IGNORECASE)
 
 
 @dataclass(frozen=True, slots=True)
-class Hardware:
+class ExistingHardware:
     """The command interfaces of joints, and what drives them already.
 
     Attributes:
@@ -40,7 +40,7 @@ class Hardware:
         return element.text.strip() or None if element is not None else None
 
 
-def hardware(robot: Robot, path: Path | None = None, *, generation: str = "") -> Hardware:
+def hardware(robot: Robot, path: Path | None = None, *, generation: str = "") -> ExistingHardware:
     """Return the command interfaces of joints, and what drives them already.
 
     Args:
@@ -59,11 +59,11 @@ def hardware(robot: Robot, path: Path | None = None, *, generation: str = "") ->
             for element in plugin.element.walk():
                 drivers |= {word: f"plugin `{plugin.name}`" for word in element.text.split() if word in names}
     loop = loops[0] if loops else None
-    declared = Hardware({}, {}, loop)
+    declared = ExistingHardware({}, {}, loop)
     files = [*_around(path), *_named(declared.loop_parameter("parameters"))] if path is not None else []
     for file in dict.fromkeys(file.resolve() for file in files):
         drivers |= {joint: f"controller `{name}` ({file.name})" for joint, name in _controlled(file) if joint in names}
-    return Hardware(dict(_interfaces(robot, generation)), drivers, loop)
+    return ExistingHardware(dict(_interfaces(robot, generation)), drivers, loop)
 
 
 def _runs(plugin: Plugin, generation: str) -> bool:

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from urdfkit.description.urdf.robot import Robot
-from urdfkit.scaffold.additions.joint_controllers import Controller
+from urdfkit.scaffold.additions.joint_controllers import ChosenController
 
 _RECIPE = "urdfkit-new.toml"
 _NONE = re.compile(r'(?m)^ros\s*=\s*"none"')
@@ -31,7 +31,7 @@ def is_without_ros(path: Path) -> bool:
     return False
 
 
-def topics(controllers: list[Controller]) -> dict[str, str]:
+def topics(controllers: list[ChosenController]) -> dict[str, str]:
     """Return the command topic of each joint: one for a drive or a gripper, otherwise one per joint.
 
     Args:
@@ -48,7 +48,7 @@ def topics(controllers: list[Controller]) -> dict[str, str]:
     return topic_of
 
 
-def plugins(robot: Robot, controllers: list[Controller]) -> str:
+def plugins(robot: Robot, controllers: list[ChosenController]) -> str:
     """Return the plugin elements of the model, without indentation.
 
     Args:
@@ -68,7 +68,7 @@ def plugins(robot: Robot, controllers: list[Controller]) -> str:
     return "\n".join(lines)
 
 
-def _drive(each: Controller) -> Iterator[str]:
+def _drive(each: ChosenController) -> Iterator[str]:
     wheels = each.wheels
     if wheels is None:
         return

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from itertools import takewhile
 
 from urdfkit.description.urdf.robot import Joint, Robot
-from urdfkit.scaffold.additions.joint_roles import Roles, Wheels
+from urdfkit.scaffold.additions.joint_roles import Roles, WheelJoints
 from urdfkit.scaffold.templates.names import sanitised, unused_name
 
 
@@ -56,7 +56,7 @@ FLAVOURS = {
 
 
 @dataclass(frozen=True, slots=True)
-class Controller:
+class ChosenController:
     """A controller to configure.
 
     Attributes:
@@ -71,11 +71,11 @@ class Controller:
     name: str
     kind: str
     joints: tuple[str, ...]
-    wheels: Wheels | None = None
+    wheels: WheelJoints | None = None
     interface: str = ""
 
 
-def controllers(roles: Roles) -> list[Controller]:
+def controllers(roles: Roles) -> list[ChosenController]:
     """Return the controllers for the joints that need one.
 
     Args:
@@ -85,20 +85,20 @@ def controllers(roles: Roles) -> list[Controller]:
     if roles.wheels is not None:
         joints = roles.wheels.left + roles.wheels.right
         by = roles.interfaces.get(joints[0], "")
-        made.append(Controller("base_controller", "diff_drive", joints, roles.wheels, by))
+        made.append(ChosenController("base_controller", "diff_drive", joints, roles.wheels, by))
     taken = {"gripper_controller", "base_controller"}
     for chain in roles.arms:
         for interface, joints in _by_interface(chain, roles):
             name = unused_name(_name(joints), lambda each: f"{each}_controller" in taken)
             taken.add(f"{name}_controller")
-            made.append(Controller(f"{name}_controller", "trajectory", joints, None, interface))
+            made.append(ChosenController(f"{name}_controller", "trajectory", joints, None, interface))
     for interface, joints in _by_interface(roles.fingers, roles):
         name = (
             f"gripper_{interface}_controller"
             if made and made[-1].name == "gripper_controller"
             else "gripper_controller"
         )
-        made.append(Controller(name, "trajectory", joints, None, interface))
+        made.append(ChosenController(name, "trajectory", joints, None, interface))
     return made
 
 
@@ -116,7 +116,9 @@ def _name(joints: tuple[str, ...]) -> str:
     return "arm" if name in ("joint", "link", "robot") else name
 
 
-def markup(robot: Robot, made: list[Controller], *, name: str, generation: str, package: str, looped: bool) -> str:
+def markup(
+    robot: Robot, made: list[ChosenController], *, name: str, generation: str, package: str, looped: bool
+) -> str:
     """Return the elements to add to the model, indented by two blanks per level.
 
     Args:
@@ -139,7 +141,7 @@ def markup(robot: Robot, made: list[Controller], *, name: str, generation: str, 
     return "\n".join(lines)
 
 
-def needs(made: list[Controller], generation: str) -> tuple[str, ...]:
+def needs(made: list[ChosenController], generation: str) -> tuple[str, ...]:
     """Return the packages that provide the controllers, and the Gazebo plugin that runs them.
 
     Args:
@@ -155,7 +157,7 @@ def needs(made: list[Controller], generation: str) -> tuple[str, ...]:
     return tuple(dict.fromkeys(packages))
 
 
-def _transmissions(made: list[Controller]) -> Iterator[str]:
+def _transmissions(made: list[ChosenController]) -> Iterator[str]:
     for joint in (joint for each in made for joint in each.joints):
         yield f'<transmission name="{joint}_transmission">'
         yield "  <type>transmission_interface/SimpleTransmission</type>"
@@ -176,7 +178,7 @@ def _loop1(name: str) -> Iterator[str]:
     yield "</gazebo>"
 
 
-def _ros2(robot: Robot, made: list[Controller], name: str, flavour: Flavour) -> Iterator[str]:
+def _ros2(robot: Robot, made: list[ChosenController], name: str, flavour: Flavour) -> Iterator[str]:
     name = unused_name(name, lambda each: any(control.name == each for control in robot.ros2_control))
     yield f'<ros2_control name="{name}" type="system">'
     yield "  <hardware>"

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 
 from urdfkit.description.urdf.geometry import compose, rotate, rotation_of
 from urdfkit.description.urdf.robot import Cylinder, Joint, Link, Pose, Robot, Sphere
-from urdfkit.scaffold.additions.existing_hardware import KINDS, Hardware, hardware
+from urdfkit.scaffold.additions.existing_hardware import KINDS, ExistingHardware, hardware
 
 _FINGER = re.compile(r"finger|jaw|claw", re.IGNORECASE)
 _GRIPPER = re.compile(r"grip", re.IGNORECASE)
@@ -19,7 +19,7 @@ _TOLERANCE = 1e-3
 
 
 @dataclass(frozen=True, slots=True)
-class Wheels:
+class WheelJoints:
     """Driven wheels of a differential drive.
 
     Attributes:
@@ -47,14 +47,14 @@ class Roles:
         interfaces: command interface of each joint with a transmission or in ``<ros2_control>``.
     """
 
-    wheels: Wheels | None
+    wheels: WheelJoints | None
     arms: tuple[tuple[str, ...], ...]
     fingers: tuple[str, ...]
     notes: tuple[str, ...]
     interfaces: Mapping[str, str] = field(default_factory=dict)
 
 
-def roles(robot: Robot, existing: Hardware | None = None, *, follow: bool = True) -> Roles:
+def roles(robot: Robot, existing: ExistingHardware | None = None, *, follow: bool = True) -> Roles:
     """Return the purpose of each joint, by its type, axis, position and name, in the zero position.
 
     Args:
@@ -108,7 +108,9 @@ def roles(robot: Robot, existing: Hardware | None = None, *, follow: bool = True
     return Roles(wheels, chains, tuple(names), tuple(notes), used)
 
 
-def _mimic_notes(followers: list[Joint], chains: list[list[str]], existing: Hardware, *, follow: bool) -> Iterator[str]:
+def _mimic_notes(
+    followers: list[Joint], chains: list[list[str]], existing: ExistingHardware, *, follow: bool
+) -> Iterator[str]:
     """Yield notes on mimic joints; mimic joints that need commands of their own are inserted into the chains."""
     for joint, mimic in ((each, each.mimic) for each in followers if each.mimic is not None):
         chain = next((names for names in chains if mimic.joint in names), None)
@@ -147,7 +149,7 @@ def _rolls(joint: Joint, robot: Robot, parents: dict[str | None, Joint]) -> bool
     return bool(length > 0 and abs(across) / length > 0.99)
 
 
-def _wheels(joints: list[Joint], robot: Robot, parents: dict[str | None, Joint]) -> Wheels | None:
+def _wheels(joints: list[Joint], robot: Robot, parents: dict[str | None, Joint]) -> WheelJoints | None:
     """Return the differential drive of some wheels: as many left as right, mirrored, with equal radii."""
     if len(joints) < 2 or len(joints) % 2:
         return None
@@ -166,7 +168,7 @@ def _wheels(joints: list[Joint], robot: Robot, parents: dict[str | None, Joint])
     )
     if not mirrored or max(spans) - min(spans) > _TOLERANCE or max(sizes) - min(sizes) > _TOLERANCE:
         return None
-    return Wheels(tuple(left), tuple(right), round(spans[0], 6), sizes[0])
+    return WheelJoints(tuple(left), tuple(right), round(spans[0], 6), sizes[0])
 
 
 def _radius(link: Link | None) -> float | None:

@@ -33,7 +33,7 @@ _TOPIC = re.compile(r"/?[A-Za-z][A-Za-z0-9_]*(/[A-Za-z][A-Za-z0-9_]*)*")
 
 
 @dataclass(frozen=True, slots=True)
-class Request:
+class SensorRequest:
     """A request for a sensor.
 
     Attributes:
@@ -55,7 +55,9 @@ class Request:
     update_rate: float | None = None
 
 
-def add_sensor(robot: Robot, path: Path, request: Request, *, generation: str) -> tuple[list[Alteration], list[str]]:
+def add_sensor(
+    robot: Robot, path: Path, request: SensorRequest, *, generation: str
+) -> tuple[list[Alteration], list[str]]:
     """Return the file changes that add a sensor, the model's file last, and notes to print.
 
     Args:
@@ -119,7 +121,7 @@ def _bridged(package: Path, kind: str, topic: str) -> Iterator[Alteration]:
     yield Alteration(files[0], content, content + end + entries.encode("utf-8").replace(b"\n", newline))
 
 
-def _part(macro: str, request: Request, name: str) -> Part:
+def _part(macro: str, request: SensorRequest, name: str) -> Part:
     """Return the space that the sensor needs, measured on a robot with this sensor only."""
     call = [
         f'<link name="{_BARE}"/>',
@@ -134,7 +136,7 @@ def _part(macro: str, request: Request, name: str) -> Part:
     return Part(tuple(boxes), box_around_all(boxes), kind.spot, far_from_others=kind.needs_free_view)
 
 
-def _name(robot: Robot, request: Request) -> str:
+def _name(robot: Robot, request: SensorRequest) -> str:
     """Return the name of the sensor.
 
     Raises:
@@ -162,7 +164,7 @@ def _name(robot: Robot, request: Request) -> str:
     return request.name
 
 
-def _topic(robot: Robot, request: Request, name: str) -> str:
+def _topic(robot: Robot, request: SensorRequest, name: str) -> str:
     """Return the topic of the sensor.
 
     Raises:

@@ -21,7 +21,7 @@ _TOPICS = ("topic", "topicName", "velocityTopicName", "cameraName", "camera_name
 
 
 @dataclass(frozen=True, slots=True)
-class Kind:
+class SensorKind:
     """A kind of sensor that can be added.
 
     Attributes:
@@ -44,12 +44,12 @@ class Kind:
 
 
 KINDS = {
-    "lidar": Kind("a lidar with one plane of 270°", "scan", 10, "top", needs_free_view=True),
-    "lidar3d": Kind("a lidar with 16 planes, on a mast", "lidar3d", 10, "top", "velodyne_gazebo_plugins"),
-    "camera": Kind("a camera", "camera", 30, "front"),
-    "depth": Kind("a depth camera", "depth", 15, "front"),
-    "imu": Kind("an inertial measurement unit", "imu", 100, "middle"),
-    "gps": Kind("a GPS receiver", "fix", 5, "top", "hector_gazebo_plugins"),
+    "lidar": SensorKind("a lidar with one plane of 270°", "scan", 10, "top", needs_free_view=True),
+    "lidar3d": SensorKind("a lidar with 16 planes, on a mast", "lidar3d", 10, "top", "velodyne_gazebo_plugins"),
+    "camera": SensorKind("a camera", "camera", 30, "front"),
+    "depth": SensorKind("a depth camera", "depth", 15, "front"),
+    "imu": SensorKind("an inertial measurement unit", "imu", 100, "middle"),
+    "gps": SensorKind("a GPS receiver", "fix", 5, "top", "hector_gazebo_plugins"),
 }
 
 

@@ -78,7 +78,7 @@ def load_template(folder: Path, *, source: str = "", name: str = "") -> Template
         raise ResourceError(f"{path} is not UTF-8: {error.reason}") from error
     except tomllib.TOMLDecodeError as error:
         raise ResourceError(_placed(path, str(error), text.count("\n") + 1)) from error
-    return _Reader(path, text, table).template(source, name or folder.name)
+    return _TemplateReader(path, text, table).template(source, name or folder.name)
 
 
 def _placed(path: Path, message: str, last: int) -> str:
@@ -88,7 +88,7 @@ def _placed(path: Path, message: str, last: int) -> str:
     return f"{path}:{last}: {message.replace(' (at end of document)', ', found the end of the file')}"
 
 
-class _Reader:
+class _TemplateReader:
     """Converts the checked tables of one file into a template."""
 
     def __init__(self, path: Path, text: str, table: dict[str, Any]) -> None:

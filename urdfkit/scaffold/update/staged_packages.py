@@ -17,7 +17,7 @@ _MODELS = (".urdf", ".xacro")
 
 
 @dataclass(frozen=True, slots=True)
-class Fault:
+class PackageFault:
     """A fault of a result.
 
     Attributes:
@@ -33,7 +33,7 @@ class Fault:
         return self.message
 
 
-Checker = Callable[[Path], Sequence[Fault]]
+Checker = Callable[[Path], Sequence[PackageFault]]
 """Checks the rendered folder before it is moved into place; returns its faults."""
 
 
@@ -46,7 +46,7 @@ def worsened(
     put: Iterable[Path],
     removed: Iterable[Path],
     added: Collection[Path] = (),
-) -> tuple[list[Fault], list[Path]]:
+) -> tuple[list[PackageFault], list[Path]]:
     """Return the faults that a change would add, and the new model files that no other file refers to.
 
     A model file that nothing includes would be reported on its own, although it is not part of any model.
@@ -88,7 +88,7 @@ def worsened(
     return new, unused
 
 
-def _without_line(fault: Fault) -> str:
+def _without_line(fault: PackageFault) -> str:
     return _LINE.sub("", fault.message)
 
 

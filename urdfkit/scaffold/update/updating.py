@@ -22,7 +22,7 @@ from urdfkit.scaffold.templates.recipe import Made, digest
 from urdfkit.scaffold.templates.template import Template
 from urdfkit.scaffold.update.file_references import needed
 from urdfkit.scaffold.update.rendering import Finisher, finished, render, write_recipe
-from urdfkit.scaffold.update.staged_packages import Checker, Fault, worsened
+from urdfkit.scaffold.update.staged_packages import Checker, PackageFault, worsened
 
 NEW_SUFFIX = ".new"
 """Suffix of the new version of an edited file."""
@@ -207,7 +207,7 @@ def updating(
 
 def _worsened(
     changes: Sequence[Change], check: Checker, folder: Path, staged: Path
-) -> tuple[Sequence[Fault], Sequence[Path]]:
+) -> tuple[Sequence[PackageFault], Sequence[Path]]:
     """Return the faults that the update would add, and new model files that no file refers to."""
     put = [change.path for change in changes if change.kind in ("add", "replace")]
     removed = [change.path for change in changes if change.kind == "remove"]
@@ -219,7 +219,7 @@ def _worsened(
     return worsened(check, folder, staged, tops, put=put, removed=removed, added=added)
 
 
-def _refusal(changes: Sequence[Change], faults: Sequence[Fault]) -> str:
+def _refusal(changes: Sequence[Change], faults: Sequence[PackageFault]) -> str:
     """Return why the update is refused and how to proceed; empty if it can be applied."""
     errors = [fault for fault in faults if fault.is_error]
     if not errors:

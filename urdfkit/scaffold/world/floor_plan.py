@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 from urdfkit.errors import UsageError
-from urdfkit.scaffold.world.shapes import WALL, Shape
+from urdfkit.scaffold.world.shapes import WALL, ModelShape
 
 DOOR_HEIGHT = 2.1
 """Height of a door [m]; lower walls have no lintel."""
@@ -119,7 +119,7 @@ def outer_walls(outline: Room, rooms: Sequence[Room], *, doors: int, door_width:
     ]
 
 
-def wall_shapes(walls: Sequence[Wall], *, thickness: float, height: float, door_width: float) -> tuple[Shape, ...]:
+def wall_shapes(walls: Sequence[Wall], *, thickness: float, height: float, door_width: float) -> tuple[ModelShape, ...]:
     """Return the boxes that walls consist of: stretches between doors, and lintels above doors.
 
     Args:
@@ -128,7 +128,7 @@ def wall_shapes(walls: Sequence[Wall], *, thickness: float, height: float, door_
         height: height of each wall [m].
         door_width: width of each door [m].
     """
-    shapes: list[Shape] = []
+    shapes: list[ModelShape] = []
     for number, wall in enumerate(walls, 1):
         edge = wall.start
         for piece, middle in enumerate((*wall.doors, None), 1):
@@ -142,14 +142,14 @@ def wall_shapes(walls: Sequence[Wall], *, thickness: float, height: float, door_
 
 def _piece(
     name: str, wall: Wall, start: float, stop: float, heights: tuple[float, float], thickness: float
-) -> Iterator[Shape]:
+) -> Iterator[ModelShape]:
     low, high = heights
     if stop - start < 1e-6 or high - low < 1e-6:
         return
     middle, length = (start + stop) / 2, stop - start
     x, y = (wall.at, middle) if wall.axis else (middle, wall.at)
     size = (thickness, length, high - low) if wall.axis else (length, thickness, high - low)
-    yield Shape(name, "box", size, (x, y, (low + high) / 2), WALL)
+    yield ModelShape(name, "box", size, (x, y, (low + high) / 2), WALL)
 
 
 def _ends(extent: tuple[float, float], more: float) -> tuple[float, float]:

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 
 from urdfkit.scaffold.world.floor_plan import Plan, Room
 from urdfkit.scaffold.world.random_numbers import Random
-from urdfkit.scaffold.world.shapes import CLOTH, DARK, WOOD, Model, Shape
+from urdfkit.scaffold.world.shapes import CLOTH, DARK, WOOD, ModelShape, SdfModel
 
 PASSAGE = 0.8
 """Minimum distance between two pieces, and between a piece and a wall that it does not stand at [m]."""
@@ -16,12 +16,14 @@ DOORWAY = 1.2
 _TRIES = 40
 
 
-def _box(name: str, size: tuple[float, float, float], x: float, y: float, z: float, colour: tuple[float, ...]) -> Shape:
+def _box(
+    name: str, size: tuple[float, float, float], x: float, y: float, z: float, colour: tuple[float, ...]
+) -> ModelShape:
     """Return a box whose bottom is at height `z`."""
-    return Shape(name, "box", size, (x, y, z + size[2] / 2), (colour[0], colour[1], colour[2]))
+    return ModelShape(name, "box", size, (x, y, z + size[2] / 2), (colour[0], colour[1], colour[2]))
 
 
-def _table(length: float, depth: float, height: float) -> tuple[Shape, ...]:
+def _table(length: float, depth: float, height: float) -> tuple[ModelShape, ...]:
     x, y = length / 2 - 0.04, depth / 2 - 0.04
     corners = ((x, y), (x, -y), (-x, y), (-x, -y))
     legs = (_box(f"leg_{i}", (0.05, 0.05, height - 0.04), *c, 0, DARK) for i, c in enumerate(corners, 1))
@@ -30,7 +32,7 @@ def _table(length: float, depth: float, height: float) -> tuple[Shape, ...]:
 
 _BED = (_box("bed", (1.4, 2.0, 0.4), 0, 0, 0, CLOTH), _box("pillow", (1.2, 0.4, 0.1), 0, 0.75, 0.4, (0.9, 0.9, 0.9)))
 _SOFA = (_box("seat", (1.8, 0.8, 0.42), 0, 0, 0, CLOTH), _box("back", (1.8, 0.2, 0.4), 0, 0.3, 0.42, CLOTH))
-PIECES: dict[str, tuple[tuple[float, float], tuple[Shape, ...]]] = {
+PIECES: dict[str, tuple[tuple[float, float], tuple[ModelShape, ...]]] = {
     "table": ((1.2, 0.8), _table(1.2, 0.8, 0.75)),
     "desk": ((1.4, 0.7), _table(1.4, 0.7, 0.74)),
     "cupboard": ((1.0, 0.45), (_box("cupboard", (1.0, 0.45, 1.9), 0, 0, 0, WOOD),)),
@@ -52,7 +54,7 @@ IN_ROOM = {
 Footprint = tuple[float, float, float, float]
 
 
-def furnish(plan: Plan, *, door_width: float, thickness: float, clear_radius: float, random: Random) -> list[Model]:
+def furnish(plan: Plan, *, door_width: float, thickness: float, clear_radius: float, random: Random) -> list[SdfModel]:
     """Return the furniture of a floor plan.
 
     Args:
@@ -62,7 +64,7 @@ def furnish(plan: Plan, *, door_width: float, thickness: float, clear_radius: fl
         clear_radius: radius around the origin that is left free [m].
         random: random numbers for the places.
     """
-    models: list[Model] = []
+    models: list[SdfModel] = []
     doorways = _doorways(plan, door_width)
     count: dict[str, int] = {}
     for room in plan.rooms:
@@ -74,7 +76,7 @@ def furnish(plan: Plan, *, door_width: float, thickness: float, clear_radius: fl
             (x, y, yaw), footprint = place
             taken.append(footprint)
             count[piece] = count.get(piece, 0) + 1
-            models.append(Model(f"{piece}_{count[piece]}", PIECES[piece][1], (x, y, yaw)))
+            models.append(SdfModel(f"{piece}_{count[piece]}", PIECES[piece][1], (x, y, yaw)))
     return models
 
 

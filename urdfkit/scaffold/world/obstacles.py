@@ -6,7 +6,7 @@ import math
 
 from urdfkit.errors import UsageError
 from urdfkit.scaffold.world.random_numbers import Random
-from urdfkit.scaffold.world.shapes import OBSTACLES, Model, Shape
+from urdfkit.scaffold.world.shapes import OBSTACLES, ModelShape, SdfModel
 
 GAP = 0.05
 """Minimum distance between two obstacles [m]."""
@@ -17,7 +17,7 @@ _TRIES = 2000
 
 def clutter(
     length: float, width: float, *, count: int, largest: float, movable: bool, clear_radius: float, random: Random
-) -> list[Model]:
+) -> list[SdfModel]:
     """Return obstacles on a rectangle around the origin.
 
     Args:
@@ -33,7 +33,7 @@ def clutter(
         UsageError: the rectangle has no room for the obstacles.
     """
     placed: list[tuple[float, float, float]] = []
-    models: list[Model] = []
+    models: list[SdfModel] = []
     for number in range(1, count + 1):
         shape, radius = _obstacle(largest, random)
         for _ in range(_TRIES):
@@ -50,20 +50,20 @@ def clutter(
         placed.append((x, y, radius))
         yaw = round(random.between(0, math.pi), 3)
         mass = round(max(DENSITY * _volume(shape), 0.01), 3) if movable else None
-        models.append(Model(f"{shape.kind}_{number}", (shape,), (x, y, yaw), mass))
+        models.append(SdfModel(f"{shape.kind}_{number}", (shape,), (x, y, yaw), mass))
     return models
 
 
-def _obstacle(largest: float, random: Random) -> tuple[Shape, float]:
+def _obstacle(largest: float, random: Random) -> tuple[ModelShape, float]:
     """Return a box or cylinder on the ground, and the radius of its circumscribed circle."""
     colour = random.one_of(OBSTACLES)
     a, b, height = (round(random.between(largest / 5, largest), 3) for _ in range(3))
     if random.one_of((True, False)):
-        return Shape("box", "box", (a, b, height), (0, 0, height / 2), colour), math.hypot(a, b) / 2
-    return Shape("cylinder", "cylinder", (a / 2, height), (0, 0, height / 2), colour), a / 2
+        return ModelShape("box", "box", (a, b, height), (0, 0, height / 2), colour), math.hypot(a, b) / 2
+    return ModelShape("cylinder", "cylinder", (a / 2, height), (0, 0, height / 2), colour), a / 2
 
 
-def _volume(shape: Shape) -> float:
+def _volume(shape: ModelShape) -> float:
     if shape.kind == "box":
         return math.prod(shape.size)
     return math.pi * shape.size[0] ** 2 * shape.size[1]

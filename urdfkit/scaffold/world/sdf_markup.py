@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 
-from urdfkit.scaffold.world.shapes import Model, Shape, inertia
+from urdfkit.scaffold.world.shapes import ModelShape, SdfModel, inertia
 
 
-def markup(models: Sequence[Model], indent: str = "    ") -> str:
+def markup(models: Sequence[SdfModel], indent: str = "    ") -> str:
     """Return the ``<model>`` elements of a world.
 
     Args:
@@ -17,7 +17,7 @@ def markup(models: Sequence[Model], indent: str = "    ") -> str:
     return "\n\n".join("\n".join(indent + line for line in _model(model)) for model in models)
 
 
-def _model(model: Model) -> Iterator[str]:
+def _model(model: SdfModel) -> Iterator[str]:
     yield f'<model name="{model.name}">'
     if any(model.place):
         x, y, yaw = model.place
@@ -36,7 +36,7 @@ def _model(model: Model) -> Iterator[str]:
     yield "</model>"
 
 
-def _element(tag: str, shape: Shape, more: Iterable[str]) -> Iterator[str]:
+def _element(tag: str, shape: ModelShape, more: Iterable[str]) -> Iterator[str]:
     yield f'<{tag} name="{shape.name}_{tag}">'
     yield f"  <pose>{_numbers((*shape.centre, 0, 0, 0))}</pose>"
     if shape.kind == "box":
@@ -49,7 +49,7 @@ def _element(tag: str, shape: Shape, more: Iterable[str]) -> Iterator[str]:
     yield f"</{tag}>"
 
 
-def _inertial(shape: Shape, mass: float) -> Iterator[str]:
+def _inertial(shape: ModelShape, mass: float) -> Iterator[str]:
     moments = zip(("ixx", "iyy", "izz"), inertia(shape, mass), strict=True)
     products = [(name, 0.0) for name in ("ixy", "ixz", "iyz")]
     terms = [f"<{name}>{value:.9g}</{name}>" for name, value in (*moments, *products)]

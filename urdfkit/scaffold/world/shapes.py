@@ -12,7 +12,7 @@ OBSTACLES = ((0.8, 0.35, 0.2), (0.25, 0.5, 0.75), (0.35, 0.6, 0.35), (0.85, 0.7,
 
 
 @dataclass(frozen=True, slots=True)
-class Shape:
+class ModelShape:
     """A box, cylinder or sphere.
 
     Attributes:
@@ -31,7 +31,7 @@ class Shape:
 
 
 @dataclass(frozen=True, slots=True)
-class Model:
+class SdfModel:
     """A model of the world.
 
     Attributes:
@@ -42,12 +42,12 @@ class Model:
     """
 
     name: str
-    shapes: tuple[Shape, ...]
+    shapes: tuple[ModelShape, ...]
     place: tuple[float, float, float] = (0.0, 0.0, 0.0)
     mass: float | None = None
 
 
-def inertia(shape: Shape, mass: float) -> tuple[float, float, float]:
+def inertia(shape: ModelShape, mass: float) -> tuple[float, float, float]:
     """Return the principal moments of inertia of a solid shape about its centre, in kg·m².
 
     Args:

@@ -11,7 +11,7 @@ from urdfkit.scaffold.world.furniture import furnish
 from urdfkit.scaffold.world.obstacles import clutter
 from urdfkit.scaffold.world.random_numbers import Random
 from urdfkit.scaffold.world.sdf_markup import markup
-from urdfkit.scaffold.world.shapes import Model
+from urdfkit.scaffold.world.shapes import SdfModel
 
 _ALL = ("kind", "length", "width")
 _WALLS = (*_ALL, "height", "wall_thickness", "doors", "door_width")
@@ -62,7 +62,7 @@ def contents(answers: Mapping[str, str]) -> dict[str, str]:
     }
 
 
-def _building(answers: Mapping[str, str], length: float, width: float) -> tuple[Plan, list[Model]]:
+def _building(answers: Mapping[str, str], length: float, width: float) -> tuple[Plan, list[SdfModel]]:
     thickness, door_width = float(answers["wall_thickness"]), float(answers["door_width"])
     random = Random(_whole(answers, "seed"))
     doors = _whole(answers, "doors")
@@ -75,7 +75,7 @@ def _building(answers: Mapping[str, str], length: float, width: float) -> tuple[
         rooms = _whole(answers, "rooms")
         plan = house(length, width, rooms=rooms, doors=doors, door_width=door_width, thickness=thickness, random=random)
     shapes = wall_shapes(plan.walls, thickness=thickness, height=float(answers["height"]), door_width=door_width)
-    models = [Model("walls", shapes)]
+    models = [SdfModel("walls", shapes)]
     if answers["kind"] != "room" and answers["furniture"] == "yes":
         radius = float(answers["clear_radius"])
         models += furnish(plan, door_width=door_width, thickness=thickness, clear_radius=radius, random=random)

@@ -9,8 +9,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from urdfkit.scene.gl.shaders import COLOR, Kind, Lamps, fragment_shader, vertex_shader
-from urdfkit.scene.gl.triangle_models import Model, models_of
+from urdfkit.scene.gl.shaders import COLOR, Lamps, ShaderKind, fragment_shader, vertex_shader
+from urdfkit.scene.gl.triangle_models import TriangleModel, models_of
 from urdfkit.scene.rays.ray_scene import RayTable
 
 Array = NDArray[np.float64]
@@ -36,7 +36,7 @@ class Batch:
         arrays: vertex arrays of the programs.
     """
 
-    model: Model
+    model: TriangleModel
     holed: bool
     vertices: Any
     instances: Any
@@ -85,7 +85,7 @@ class Drawing:
     def __init__(self, context: Any, table: RayTable, paint: tuple[Any, ...], lamps: Lamps) -> None:
         self._ctx = context
         self._lamps = lamps
-        self._programs: dict[Kind, tuple[Any, frozenset[str]]] = {}
+        self._programs: dict[ShaderKind, tuple[Any, frozenset[str]]] = {}
         colors, _, _, _, textures, texels = paint
         self.clear: Mask = colors[:, 3] < 1.0
         self.maps: tuple[str, ...] = ()
@@ -191,7 +191,7 @@ class Drawing:
         """Return the vertex array of a batch, with the uniforms of its program set."""
         model = batch.model
         glossy, textured = model.gloss[3] > 0.0 and "color" in wanted, model.texture >= 0
-        kind = Kind(self._lamps, model.flat, model.plain, textured, wanted, clear, shot.exact, self.maps, glossy)
+        kind = ShaderKind(self._lamps, model.flat, model.plain, textured, wanted, clear, shot.exact, self.maps, glossy)
         if kind not in self._programs:
             made = self._ctx.program(vertex_shader(kind), fragment_shader(kind))
             self._programs[kind] = made, frozenset(made)

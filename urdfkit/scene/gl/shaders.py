@@ -24,7 +24,7 @@ Lamps = tuple[tuple[int, bool], ...]
 
 
 @dataclass(frozen=True)
-class Kind:
+class ShaderKind:
     """Features of a pair of shaders.
 
     Attributes:
@@ -133,7 +133,7 @@ def _lights(lamps: Lamps, maps: tuple[str, ...]) -> str:
     return "\n".join(lines)
 
 
-def vertex_shader(kind: Kind) -> str:
+def vertex_shader(kind: ShaderKind) -> str:
     """Return the vertex shader."""
     shaded = [k for k, (_, shadows) in enumerate(kind.lamps) if shadows]
     out, body = [], []
@@ -187,7 +187,7 @@ void main() {{
 """
 
 
-def fragment_shader(kind: Kind) -> str:
+def fragment_shader(kind: ShaderKind) -> str:
     """Return the fragment shader."""
     head, body = ["flat in vec4 v_color;" if kind.plain else "in vec4 v_color;"], ["vec4 color = v_color;"]
     if kind.textured:
@@ -241,7 +241,7 @@ def fragment_shader(kind: Kind) -> str:
     return _fragment(head, body)
 
 
-def _shade(kind: Kind, k: int, head: list[str], body: list[str]) -> None:
+def _shade(kind: ShaderKind, k: int, head: list[str], body: list[str]) -> None:
     """Add the code that removes a light in its shadows."""
     for m in kind.maps:
         name = f"{k}{m}"

@@ -28,7 +28,7 @@ VERTEX = 12
 
 
 @dataclass(frozen=True, eq=False)
-class Model:
+class TriangleModel:
     """Triangles that are drawn with one call for all shapes that use them.
 
     Attributes:
@@ -58,7 +58,7 @@ class Model:
         return bool((colors == colors[:, :1]).all())
 
 
-def models_of(table: RayTable, paint: tuple[Any, ...]) -> list[Model]:
+def models_of(table: RayTable, paint: tuple[Any, ...]) -> list[TriangleModel]:
     """Return the models of a table.
 
     Args:
@@ -75,7 +75,7 @@ def models_of(table: RayTable, paint: tuple[Any, ...]) -> list[Model]:
         elif kind == primitives.CAPSULE:
             key = (kind, *local[k, :2].tolist())
         groups.setdefault((key, table.shapes[k].gloss), []).append(k)
-    found: list[Model] = []
+    found: list[TriangleModel] = []
     for (key, gloss), members in groups.items():
         shapes = np.array(members)
         if isinstance(key, tuple) and key[0] == primitives.MESH:
@@ -87,7 +87,7 @@ def models_of(table: RayTable, paint: tuple[Any, ...]) -> list[Model]:
         vertices = np.zeros((len(points), VERTEX), dtype=np.float32)
         vertices[:, :3], vertices[:, 3:6], vertices[:, 8:] = points, normals, 1.0
         scale = _scales(key, local[shapes]).astype(np.float32)
-        found.append(Model(vertices, shapes, scale, -1, flat, key != primitives.PLANE, gloss=gloss))
+        found.append(TriangleModel(vertices, shapes, scale, -1, flat, key != primitives.PLANE, gloss=gloss))
     return found
 
 
@@ -114,7 +114,7 @@ def _scales(key: Any, sizes: Array) -> Array:
 
 def _of_mesh(
     mesh: TriMesh | None, features: int, attributes: Any, faces: Any, shapes: NDArray[np.int64], gloss: Gloss
-) -> list[Model]:
+) -> list[TriangleModel]:
     """Return the models of a mesh, one per texture and gloss.
 
     Args:
@@ -147,7 +147,7 @@ def _of_mesh(
     found = []
     for k, (texture, red, green, blue, exponent) in enumerate(distinct.tolist()):
         chosen, own = vertices[which.ravel() == k].reshape(-1, VERTEX), (red, green, blue, exponent)
-        found.append(Model(chosen, shapes, ones, int(texture), not features & SMOOTH, gloss=own))
+        found.append(TriangleModel(chosen, shapes, ones, int(texture), not features & SMOOTH, gloss=own))
     return found
 
 

@@ -20,7 +20,7 @@ Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, slots=True)
-class Slip:
+class ContactSlip:
     """A contact of a robot's link.
 
     Attributes:
@@ -39,7 +39,7 @@ class Slip:
         return vector_norm(self.velocity)
 
 
-def slips(world: LiveWorld, contacts: tuple[Contact, ...]) -> list[Slip]:
+def slips(world: LiveWorld, contacts: tuple[Contact, ...]) -> list[ContactSlip]:
     """Return the slip of each contact of a robot's links.
 
     Args:
@@ -56,7 +56,7 @@ def slips(world: LiveWorld, contacts: tuple[Contact, ...]) -> list[Slip]:
         if (other := motions.of(contact.b)) is not None:
             velocity -= _at(other, position)
         velocity -= matmul(velocity, normal) * normal
-        found.append(Slip(contact.a, contact.position, tuple(velocity.tolist())))
+        found.append(ContactSlip(contact.a, contact.position, tuple(velocity.tolist())))
     return found
 
 

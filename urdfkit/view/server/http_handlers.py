@@ -35,10 +35,10 @@ def application(server: PageServer) -> Application:
     files[MESHCAT] = meshcat_bundle()
     return Application(
         [
-            (r"/", Page, {"server": server}),
+            (r"/", PageHandler, {"server": server}),
             (r"/frame", FramedPage, {"server": server}),
             (r"/app/([\w./-]+)", AppFile, {"server": server}),
-            (r"/geometry/([0-9a-f]{64})", Geometry, {"server": server}),
+            (r"/geometry/([0-9a-f]{64})", GeometryHandler, {"server": server}),
             (r"/ws", PageSocket, {"server": server}),
         ],
         default_handler_class=NotFound,
@@ -73,7 +73,7 @@ class NotFound(AuthenticatedHandler):
             raise HTTPError(404)
 
 
-class Page(AuthenticatedHandler):
+class PageHandler(AuthenticatedHandler):
     """The page. With the token in the URL it sets the cookie and redirects to the URL without the token."""
 
     open_to_all = True
@@ -150,7 +150,7 @@ class AppFile(AuthenticatedHandler):
             self.finish(path.read_bytes())
 
 
-class Geometry(AuthenticatedHandler):
+class GeometryHandler(AuthenticatedHandler):
     """A mesh by the hash of its content."""
 
     def get(self, name: str) -> None:

@@ -18,7 +18,7 @@ from urdfkit.description.sdf.reader.joints import read_joint
 from urdfkit.description.sdf.reader.links import read_light
 from urdfkit.description.sdf.reader.models import ReadEntity, add_frame, read_include, read_model
 from urdfkit.description.sdf.reader.reading_state import Context, root_error
-from urdfkit.description.sdf.reader.saved_state import State
+from urdfkit.description.sdf.reader.saved_state import SavedState
 from urdfkit.description.sdf.reader.vocabulary import note_unknown_elements
 from urdfkit.description.sdf.reader.world_plugins import note_unknown_plugins
 from urdfkit.description.sdf.shapes import Light, keep
@@ -146,7 +146,7 @@ def _world(context: Context, element: Element) -> World:
     scope = Scope("world", f"world `{element.get('name') or ''}`")
     strict = context.version >= (1, 7)
     states = element.find_all("state")
-    state = State(context, states[-1]) if states else None
+    state = SavedState(context, states[-1]) if states else None
     read = [_entity(context, child) for child in (*element.children, *(state.inserted if state else ()))]
     found = [each for each in read if each is not None]
     if state is not None:

@@ -17,7 +17,7 @@ _ROUNDED = 1e-4
 """A saved pose closer than this to the written one is a rounded copy of it: [m] and entries of the rotation."""
 
 
-class State:
+class SavedState:
     """The state of a world: saved poses of models, links and lights.
 
     Gazebo classic saves the world poses of all models and links, nested ones included (gazebo, LinkState.cc).

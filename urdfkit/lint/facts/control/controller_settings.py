@@ -56,7 +56,7 @@ _OF_TYPES = {
 
 
 @record(eq=False)
-class Settings:
+class ControllerSettings:
     """The settings of a controller.
 
     Attributes:
@@ -70,22 +70,22 @@ class Settings:
     group: Node
 
 
-def settings(source: Source) -> Iterator[Settings]:
+def settings(source: Source) -> Iterator[ControllerSettings]:
     """Yield the settings of the controllers that a file in YAML gives a type; of each group once."""
     seen: set[int] = set()
     for controller in declared(source) if PARAMETERS in source.text else ():
         if controller.settings is not None:
             seen.add(id(controller.settings))
-            yield Settings(controller.name, controller.kind.text, controller.settings)
+            yield ControllerSettings(controller.name, controller.kind.text, controller.settings)
     for root in documents(source)[0]:
         for name, group in groups(root):
             kind = group.find("type")
             if kind is not None and re.fullmatch(r"\w+/\w+", kind.text) and id(group) not in seen:
                 seen.add(id(group))
-                yield Settings(name, kind.text, group)
+                yield ControllerSettings(name, kind.text, group)
 
 
-def misspelt(source: Source) -> Iterator[tuple[Node, str, Settings]]:
+def misspelt(source: Source) -> Iterator[tuple[Node, str, ControllerSettings]]:
     """Yield the misspelt parameters of controllers: key, suggested name, settings of the controller."""
     from urdfkit.lint.edits import nearest
 

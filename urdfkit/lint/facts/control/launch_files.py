@@ -59,7 +59,7 @@ def packages_used(source: Source) -> Iterator[tuple[str, int, int]]:
         return
     import ast
 
-    reader = Reader(tree)
+    reader = LaunchReader(tree)
     for node in ast.walk(tree):
         if not isinstance(node, ast.Call):
             continue
@@ -106,7 +106,7 @@ def _in_python(source: Source) -> Iterator[PackagePath]:
         return
     import ast
 
-    reader = Reader(tree)
+    reader = LaunchReader(tree)
     nodes = list(ast.walk(tree))
     inner: set[ast.AST] = set()  # parts of a longer path, and paths that are only tested for existence
     for node in nodes:
@@ -126,7 +126,7 @@ def _in_python(source: Source) -> Iterator[PackagePath]:
             yield PackagePath(found[0], found[1].strip("/"), *place(source, node))
 
 
-class Reader:
+class LaunchReader:
     """Reads constants, and names that are given one constant only.
 
     Args:

@@ -88,12 +88,12 @@ def _in_yaml(source: Source) -> Iterator[Started]:
 def _in_python(source: Source) -> Iterator[Started]:
     import ast
 
-    from urdfkit.lint.facts.control.launch_files import Reader, name_of, parsed, place
+    from urdfkit.lint.facts.control.launch_files import LaunchReader, name_of, parsed, place
 
     tree = parsed(source) if "Node" in source.text else None
     if tree is None:
         return
-    reader = Reader(tree)
+    reader = LaunchReader(tree)
     for node in ast.walk(tree):
         if not isinstance(node, ast.Call) or name_of(node.func) not in ("Node", "LifecycleNode"):
             continue

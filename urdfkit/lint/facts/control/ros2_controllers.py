@@ -19,7 +19,7 @@ PARAMETERS = "ros__parameters"
 
 
 @record(eq=False)
-class Controller:
+class DeclaredController:
     """A controller.
 
     Attributes:
@@ -50,7 +50,7 @@ class Wanted:
     where: Node
 
 
-def declared(source: Source) -> Iterator[Controller]:
+def declared(source: Source) -> Iterator[DeclaredController]:
     """Yield the controllers that a file in YAML gives a type in a controller manager of ROS 2."""
     roots, _ = documents(source)
     groups = [each for root in roots for each in _parameters(root, "", 0)]
@@ -61,7 +61,7 @@ def declared(source: Source) -> Iterator[Controller]:
         for key, value in group.entries:
             kind = value.find("type")
             if kind is not None and re.fullmatch(r"\w+/\w+", kind.text):
-                yield Controller(key.text, kind, settings.get(key.text))
+                yield DeclaredController(key.text, kind, settings.get(key.text))
 
 
 def _parameters(node: Node, name: str, depth: int) -> Iterator[tuple[str, Node]]:
@@ -85,7 +85,7 @@ _GRIPPERS = {
 }
 
 
-def wanted(controller: Controller) -> Iterator[Wanted]:
+def wanted(controller: DeclaredController) -> Iterator[Wanted]:
     """Yield the joint interfaces that a controller of ros2_controllers requires (Humble to Rolling)."""
     settings, kind = controller.settings, controller.kind.text
     if settings is None:

@@ -10,7 +10,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from urdfkit.description.xml.source import Source
-    from urdfkit.lint.facts.control.controller_settings import Settings
+    from urdfkit.lint.facts.control.controller_settings import ControllerSettings
     from urdfkit.lint.facts.control.yaml_tree import Node
     from urdfkit.lint.facts.gazebo.drive_wheels import Wheel
     from urdfkit.lint.model.model import Model
@@ -86,7 +86,7 @@ class ControllerContradictsWheels(RobotRule):
         if findings and not _has_other_wheels(model):
             yield from findings
 
-    def _contradictions(self, source: Source, controller: Settings, model: Model) -> Iterator[Finding]:
+    def _contradictions(self, source: Source, controller: ControllerSettings, model: Model) -> Iterator[Finding]:
         from urdfkit.lint.facts.gazebo.drive_wheels import track
         from urdfkit.lint.rules.semantics.wheel_separation import SKID_STEER_RATIO
 
@@ -133,7 +133,7 @@ class ControllerContradictsWheels(RobotRule):
         return Finding(self.code, self.name, self.severity, message, span_of(source, node), joint=joint, help=help)
 
 
-def _wheels(controller: Settings, model: Model, side: str) -> list[tuple[Node, Wheel]]:
+def _wheels(controller: ControllerSettings, model: Model, side: str) -> list[tuple[Node, Wheel]]:
     """Return the wheels of one side with their nodes in YAML; empty if the robot lacks one of them."""
     from urdfkit.lint.facts.gazebo.drive_wheels import wheel_of
 
@@ -145,7 +145,7 @@ def _wheels(controller: Settings, model: Model, side: str) -> list[tuple[Node, W
     return named_wheels if len(named_wheels) == len(nodes) else []
 
 
-def _positive_number(controller: Settings, name: str) -> Iterator[tuple[Node, float]]:
+def _positive_number(controller: ControllerSettings, name: str) -> Iterator[tuple[Node, float]]:
     """Yield the node and value of a parameter greater than zero; with zero, the controller reads the description."""
     from urdfkit.description.xml.numbers import number
 

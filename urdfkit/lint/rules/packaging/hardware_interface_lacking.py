@@ -10,7 +10,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from urdfkit.description.xml.source import Source
-    from urdfkit.lint.facts.control.ros2_controllers import Controller
+    from urdfkit.lint.facts.control.ros2_controllers import DeclaredController
     from urdfkit.lint.model.model import Model
 
 _BROADCASTERS = (
@@ -85,7 +85,7 @@ class HardwareInterfaceLacking(RobotRule):
                 yield from self._unknown_sensor(source, controller, hardware or {})
 
     def _unknown_sensor(
-        self, source: Source, controller: Controller, hardware: dict[str, dict[bool, list[str]]]
+        self, source: Source, controller: DeclaredController, hardware: dict[str, dict[bool, list[str]]]
     ) -> Iterator[Finding]:
         from urdfkit.lint.edits import nearest
         from urdfkit.lint.facts.control.yaml_tree import span_of
@@ -99,7 +99,7 @@ class HardwareInterfaceLacking(RobotRule):
             yield Finding(self.code, self.name, self.severity, message, span_of(source, sensor))
 
     def _missing_interfaces(
-        self, source: Source, controller: Controller, hardware: dict[str, dict[bool, list[str]]], model: Model
+        self, source: Source, controller: DeclaredController, hardware: dict[str, dict[bool, list[str]]], model: Model
     ) -> Iterator[Finding]:
         from urdfkit.lint.facts.control.hardware_interfaces import meant_interface, meant_joints
         from urdfkit.lint.facts.control.ros2_controllers import wanted
