@@ -10,7 +10,7 @@ from urdfkit.sim.engine.solver.active_set_newton import solve
 
 
 def find_candidates(floats: Any, integers: Any) -> int:
-    """List pairs and mark trees, as `contact_search.candidates` does, for bodies placed by other means."""
+    """List pairs and mark trees, as `contact_search.find_candidate_pairs` does, for bodies placed by other means."""
     return find_candidate_pairs(floats, integers)
 
 

@@ -115,7 +115,7 @@ def hold(floats: Any, integers: Any, root: int, rows: int) -> int:
         most = max(most, max(abs(before[k]), abs(g[k]) * stiffness[k] / STIFFNESS))
     most *= WILD
     done = try_states(floats, integers, root, rows, n, tiny, most)
-    # Between trees, biases are more than penetrations: see `exchange`.
+    # Between trees, biases are more than penetrations: see `correct_contact_point`.
     if done == 0 and island_next[root] < 0 and leave(floats, integers, rows):
         first_hold(floats, integers, rows)
         again = try_states(floats, integers, root, rows, n, tiny, most)
