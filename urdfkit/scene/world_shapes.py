@@ -57,7 +57,7 @@ def shapes_of_link(
             except ResourceError as error:
                 if note is None or role == "collision":
                     raise
-                note(f"{shape.position or body}: visual `{shape.name}` is not seen: {error}")
+                note(f"{shape.position or body}: visual `{shape.name}` is invisible: {error}")
                 continue
         rgba = color_of(shape) if role == "visual" else None
         placed = matmul(placement, pose_matrix(shape.pose))
