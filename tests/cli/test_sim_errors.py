@@ -250,7 +250,7 @@ OPTIONS = {
     ("--for", "-1"): "argument --for: `-1` is negative; it must be seconds, zero or more",
     ("--for", "soon"): "argument --for: `soon` is not a number",
     ("--dt", "0"): "argument --dt: `0` must be greater than zero",
-    ("--dt", "1"): "a step of 1 s makes no sense; try 0.001",
+    ("--dt", "1"): "the time step is 1 s; it must be from 1e-6 to 0.1 s, such as 0.001",
     ("--seed", "-1"): "argument --seed: `-1` is not a seed; it must be a whole number, zero or more",
     ("--seed", "0.5"): "argument --seed: `0.5` is not a seed; it must be a whole number, zero or more",
     ("--gravity", "0,0"): "argument --gravity: `0,0` has 2 values, expected 3: GX,GY,GZ",

@@ -230,7 +230,7 @@ def test_commands_that_are_not_finite_are_dropped_with_a_warning(capsys: Capture
         (["simpleton", "--for", "nan"], "--for: `nan` is not a finite number"),
         (["simpleton", "--for", "ten"], "--for: `ten` is not a number"),
         (["simpleton", "--for", "1", "--dt", "0"], "--dt: `0` must be greater than zero"),
-        (["simpleton", "--for", "1", "--dt", "5"], "a step of 5 s makes no sense"),
+        (["simpleton", "--for", "1", "--dt", "5"], "the time step is 5 s"),
         (["simpleton", "--for", "1", "--cmd-vel", "1,2"], "`1,2` has 2 values, expected 3: VX,VY,WZ"),
         (["simpleton", "--for", "1", "--cmd-vel", "1,2,x"], "`x` is not a number"),
         (["simpleton", "--for", "1", "--cmd-ramp", "1"], "--cmd-ramp requires --cmd-vel"),

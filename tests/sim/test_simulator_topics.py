@@ -10,7 +10,6 @@ import pytest
 from urdfkit import Simulator, load
 from urdfkit.errors import UnknownNameError, UrdfkitError, UsageError
 from urdfkit.messages import FLOAT, TWIST, from_fields, twist
-from urdfkit.resources import find_model
 
 ODOMETRY = "nav_msgs/msg/Odometry"
 
@@ -97,7 +96,7 @@ def test_reprs_name_what_they_show() -> None:
     assert repr(simulator.world.robots["simpleton"]).startswith("<SimulatedRobot simpleton: <State at t = 0 s")
     simulator.world.remove(name)
     assert repr(crate) == "<RigidBody crate: removed>"
-    robot = load(find_model("simpleton"))
+    robot = load("simpleton")
     assert (
         repr(robot) == f"<Robot simpleton from {robot.files[0]}: {len(robot.links)} links, {len(robot.joints)} joints>"
     )

@@ -107,7 +107,7 @@ class Simulator:
         found = world_with_gravity(world, gravity, package_path)
         self.dt = dt = found.physics.max_step_size if dt is None else number(dt, "the step", "s")
         if not 1e-6 <= dt <= 0.1:
-            raise SimulationError(f"a step of {dt:g} s makes no sense; try 0.001")
+            raise SimulationError(f"the time step is {dt:g} s; it must be from 1e-6 to 0.1 s, such as 0.001")
         self.bus = Bus() if bus is None else bus
         self.paused = False
         self.note = Notes(note or LOG.warning)
@@ -216,7 +216,7 @@ class Simulator:
             SimulationError: the period is not greater than zero, or a number is not finite.
         """
         if not number(period, "the period", "s") > 0:
-            raise SimulationError(f"a period of {period:g} s makes no sense; it must be greater than zero")
+            raise SimulationError(f"the period is {period:g} s; it must be greater than zero")
         self._schedule(start, period, call)
 
     def _schedule(self, t: float, period: float, call: Callable[[], None]) -> None:

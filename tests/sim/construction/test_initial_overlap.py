@@ -25,7 +25,7 @@ def world(tmp_path: Path) -> Path:
 def deep(world: Path | str, spawn: Spawn) -> list[str]:
     notes: list[str] = []
     Simulator("simpleton", world=world, spawn=spawn, note=notes.append)
-    return [note for note in notes if "deep" in note]
+    return [note for note in notes if " mm inside " in note]
 
 
 def test_inside_a_wall(world: Path) -> None:
@@ -60,7 +60,7 @@ def spawned(height: float) -> list[str]:
     simulator.world.spawn("crate", (3.0, 0.0, height), name="box")
     assert simulator.state.q.tobytes() == before
     assert simulator.t == pytest.approx(0.1)
-    return [note for note in notes if "deep" in note]
+    return [note for note in notes if " mm inside " in note]
 
 
 def test_a_body_that_is_put_into_the_ground() -> None:
@@ -76,5 +76,5 @@ def test_a_robot_that_is_put_into_another(world: Path) -> None:
     notes: list[str] = []
     simulator = Simulator("simpleton", world=world, note=notes.append)
     simulator.world.spawn("simpleton", Spawn(x=2.0), name="other")
-    (note,) = [note for note in notes if "deep" in note]
+    (note,) = [note for note in notes if " mm inside " in note]
     assert re.fullmatch(r"`other::\w+` starts 200 mm inside `wall`; place `other` elsewhere", note)

@@ -41,7 +41,7 @@ def test_blocks_of_one_link_add_up(tmp_path: Path) -> None:
 def test_a_direction_may_be_another_links(tmp_path: Path) -> None:
     found = surfaces(tmp_path, block('<mu1>1</mu1><mu2>0</mu2><fdir1 gz:expressed_in="chassis">1 -1 0</fdir1>'))
     assert found == {"wheel": Surface(1.0, 0.0, (1.0, -1.0, 0.0), "chassis")}
-    with pytest.raises(SimulationError, match="`chasis`, which is no link; did you mean `chassis`"):
+    with pytest.raises(SimulationError, match="`chasis`, which is not a link; did you mean `chassis`"):
         surfaces(tmp_path, block('<fdir1 gz:expressed_in="chasis">1 -1 0</fdir1>'))
 
 

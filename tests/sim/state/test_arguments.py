@@ -62,8 +62,8 @@ def test_names_are_a_mapping_all_the_same(town: Simulator) -> None:
         (lambda: Simulator("simpleton", dt="fast"), r"the step is 'fast'; it must be a number \[s\]"),  # type: ignore[arg-type]
         (lambda: Simulator("simpleton", seed=-1), r"`-1` is not a valid seed"),
         (lambda: Simulator("simpleton", spawn=(0, 0, 1)), r"`spawn` is \(0, 0, 1\); it must be a Spawn"),  # type: ignore[arg-type]
-        (lambda: Simulator("simpleton", spawn=Spawn(x="here")), r"where a robot starts is \('here', "),  # type: ignore[arg-type]
-        (lambda: Simulator("simpleton", spawn=Spawn(twist=3)), r"the velocity a robot starts with is 3; "),  # type: ignore[arg-type]
+        (lambda: Simulator("simpleton", spawn=Spawn(x="here")), r"the start pose is \('here', "),  # type: ignore[arg-type]
+        (lambda: Simulator("simpleton", spawn=Spawn(twist=3)), r"the initial velocity is 3; "),  # type: ignore[arg-type]
         (lambda: Simulator("simpleton", world="xyz.world"), r"cannot read xyz\.world: .*cylinders, empty"),
         (lambda: Simulator("simpleton", world="huse.sdf"), r"cannot read huse\.sdf: .*; did you mean `house`\?"),
     ],
@@ -80,7 +80,7 @@ def test_an_argument_that_makes_no_sense(ask: Callable[[], Any], message: str) -
         (lambda s: s.command((0.5, 0, 0), (0.2,)), r"the angular velocity is \(0\.2,\); .* \[rad/s\]"),
         (lambda s: s.run("x"), r"the time to run for is 'x'"),
         (lambda s: s.at("x", print), r"the time of a call is 'x'"),
-        (lambda s: s.every(0.0, print), r"a period of 0 s makes no sense"),
+        (lambda s: s.every(0.0, print), r"the period is 0 s; it must be greater than zero"),
         (
             lambda s: s.world.bodies["crate"].place((0, 0, 0), twist=3),
             r"the velocity is 3; it must be six finite numbers",

@@ -100,7 +100,7 @@ def test_a_block_slides_a_hundredth_of_a_degree_above_the_angle_of_friction(engi
     engine = rover(engine_of, bodies=[cube("block", (X, 2.0, 0.1), mu=mu)])
     engine.step(round(1000 * seconds))
     assert engine.bodies["block"].asleep is (seconds > 0.0)
-    engine._arrays["gravity"][:] = G * np.sin(angle), 0.0, -G * np.cos(angle)
+    engine.arrays["gravity"][:] = G * np.sin(angle), 0.0, -G * np.cos(angle)
     engine.step(4000)
     acceleration = max(0.0, float(G * (np.sin(angle) - mu * np.cos(angle))))
     assert engine.bodies["block"].asleep is (acceleration == 0.0)
