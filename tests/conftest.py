@@ -26,6 +26,13 @@ def pytest_configure(config: pytest.Config) -> None:
         config.addinivalue_line("markers", f"{group}: needs the packages of this group in tests/system_packages.txt")
 
 
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Mark the tests that use the real sdformat by its fixture."""
+    for item in items:
+        if "sdformat" in getattr(item, "fixturenames", ()):
+            item.add_marker("sdformat")
+
+
 @pytest.hookimpl(tryfirst=True)  # before the fixtures of the test
 def pytest_runtest_setup(item: pytest.Item) -> None:
     """Skip a test whose system packages are missing; in CI, where none may be missing, fail it."""

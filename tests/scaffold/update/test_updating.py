@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 from urdfkit.errors import ResourceError, UsageError
-from urdfkit.scaffold import Fault, create, find_recipe, load_template, read_made, read_recipe, updating
+from urdfkit.scaffold import PackageFault, create, find_recipe, load_template, read_made, read_recipe, updating
 
 
 @pytest.fixture
@@ -118,7 +118,7 @@ def test_what_follows_from_answers_follows_again(template, place):
 def test_what_does_not_pass_changes_nothing(template, place):
     before = contents(place)
     with pytest.raises(ResourceError, match="the result has errors: bad"):
-        changed(template, place, size="2", check=lambda folder: [Fault("bad")])
+        changed(template, place, size="2", check=lambda folder: [PackageFault("bad")])
     assert contents(place) == before
 
 
@@ -128,7 +128,9 @@ def test_an_outcome_that_only_had_better_be_different_is_made_and_told(template,
     def check(folder):
         edited = (folder / "box/more.txt").read_text() == "mine"
         size = (folder / "box/src/box.txt").read_text().split()[2]
-        return [Fault(f"odd {number} (box.txt:1)", is_error=False) for number in range(5) if edited and size == "2"]
+        return [
+            PackageFault(f"odd {number} (box.txt:1)", is_error=False) for number in range(5) if edited and size == "2"
+        ]
 
     recipe, into = find_recipe(template, place)
     answers = template.answers(read_recipe(template, recipe, {"size": "2"})) | {"year": "2026", "into": "."}
@@ -156,7 +158,7 @@ def test_what_is_refused_may_be_offered_to_merge_from(template, place):
 
     def check(folder):
         edited = "mine" in (folder / "box/src/box.txt").read_text()
-        return [Fault("bad")] if edited and "blue" in (folder / "box/more.txt").read_text() else []
+        return [PackageFault("bad")] if edited and "blue" in (folder / "box/more.txt").read_text() else []
 
     recipe, into = find_recipe(template, place)
     answers = template.answers(read_recipe(template, recipe, {"size": "2", "colour": "blue"}))
@@ -174,7 +176,11 @@ def test_parts_of_models_that_nothing_names_are_not_looked_at(template, place, s
     (place / "box/src/box.txt").write_text("mine\n")
 
     def check(folder):
-        return [Fault("bad")] if (folder / "box/part.xacro").exists() and b"mine\n" in contents(folder).values() else []
+        return (
+            [PackageFault("bad")]
+            if (folder / "box/part.xacro").exists() and b"mine\n" in contents(folder).values()
+            else []
+        )
 
     recipe, into = find_recipe(template, place)
     answers = template.answers(read_recipe(template, recipe, {"colour": "blue"})) | {"year": "2026", "into": "."}

@@ -577,9 +577,7 @@ def test_a_collision_whose_mesh_is_not_there_is_noted_with_its_place_and_names_n
     <uri>nowhere.stl</uri></mesh></geometry></collision></link></model>"""
     world = world_of(tmp_path, text)
     (note,) = world.notes
-    assert note == (
-        f"{tmp_path}/test.world:4:5: no file nowhere.stl; collision `hull` is left out: it has no contacts"
-    )
+    assert note == (f"{tmp_path}/test.world:4:5: no file nowhere.stl; collision `hull` is left out: it has no contacts")
     (shape,) = world.models[0].links[0].collisions
     assert isinstance(shape.geometry, Mesh)
     assert shape.file == ""
