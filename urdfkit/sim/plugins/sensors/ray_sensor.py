@@ -1,4 +1,4 @@
-"""What lidars and cameras share: they sit on a link, look at what is around, and do it only for somebody."""
+"""Base class of lidars and cameras: sensors on a link that observe the scene while a topic has subscribers."""
 
 from __future__ import annotations
 
@@ -29,24 +29,24 @@ Array = NDArray[np.float64]
 
 
 class Mounted(Sensor):
-    """A sensor on a link that looks at its surroundings; one look makes the messages of all its topics.
+    """Sensor on a link that observes the scene; all its topics share one observation per measurement.
 
     Attributes:
-        frame: whose coordinates it tells.
+        frame: frame id of its messages.
     """
 
     namespace = ""
-    """Where ROS 1 puts the plugin whose ``<robotNamespace>`` is empty; ``{model}`` is the robot's name."""
+    """Namespace in ROS 1 if ``<robotNamespace>`` is empty; ``{model}`` is replaced by the robot's name."""
 
     frame: str = ""
     viewpoint: Array
-    """Where it was when it looked last; shape (4, 4)."""
+    """Placement in the world at the last observation; shape (4, 4)."""
 
     def configure(self, setup: Setup) -> None:
-        """Read the sensor, its rate and the plugin's parameters, and advertise.
+        """Read the sensor, its rate and the plugin's parameters, and advertise its topics.
 
         Raises:
-            SimulationError: something makes no sense, with its place.
+            SimulationError: a parameter is invalid, with its position.
         """
         sensor = setup.sensor
         if sensor is None or setup.surroundings is None:
@@ -72,25 +72,27 @@ class Mounted(Sensor):
 
     @abstractmethod
     def _prepare(self, setup: Setup, sensor: SensorTag, read: Parameters, topics: Topics) -> None:
-        """Read what is this kind's own, and fill `topics`."""
+        """Read the parameters of this kind of sensor, and fill `topics`."""
 
     @abstractmethod
     def _look(self, t: float, layout: Layout, frame: Array, random: np.random.Generator) -> Any:
-        """Look from a frame, shape (4, 4), at what there was, and return what was seen."""
+        """Return the observation of a layout of the scene from a frame of shape (4, 4)."""
 
     @abstractmethod
     def messages(self) -> tuple[Callable[[Any], Any], ...]:
-        """Return what makes the messages of the first of `topics` from what was seen."""
+        """Return the functions that build the messages of the first topics in `topics` from an observation."""
 
     def remarks(self) -> tuple[Callable[[float], Any], ...]:
-        """Return what makes the messages of the others from the time alone [s]; nobody has to look for them."""
+        """Return the functions that build the messages of the other topics from the time [s] alone."""
         return ()
 
     def glimpse(self, t: float) -> tuple[Callable[[], Any], ...]:
-        """Look now, whatever its rate and whoever listens, and return what makes the messages of the first of `topics`.
+        """Observe the scene now, regardless of rate and subscribers.
+
+        Returns the functions that build the messages of the first topics in `topics`.
 
         Args:
-            t: now [s].
+            t: current time [s].
         """
         layout = self._surroundings.layout()
         frame = self.viewpoint = matmul(layout.placement(self._robot, self._link), self._pose)
@@ -98,9 +100,9 @@ class Mounted(Sensor):
         return tuple(partial(message, seen) for message in self.messages())
 
     def measure(self, state: State, count: int) -> None:
-        """Publish what is seen from here; nothing is computed before somebody wants it.
+        """Publish the observation of the current scene; computed only when a subscriber reads a message.
 
-        Noise depends on the seed and the number of the publication alone.
+        The noise depends only on the seed and the number of the publication.
         """
         t, turn, layout = state.t, self.done, self._surroundings.layout()
 

@@ -1,4 +1,4 @@
-"""Cameras: colour, depth, several at once, segmentation and bounding boxes, the logical camera.
+"""Camera sensors: colour, depth, multicamera, segmentation, bounding boxes and the logical camera.
 
-The scene as it stands goes in; images, clouds and camera info come out.
+Each sensor renders the current scene and publishes images, point clouds and camera info.
 """

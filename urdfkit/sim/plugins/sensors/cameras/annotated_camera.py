@@ -1,10 +1,10 @@
-"""Cameras of the new Gazebo that tell things apart by their labels: segmentation and bounding boxes.
+"""Segmentation and bounding-box cameras of the new Gazebo.
 
-A thing has the label that a label system (``gz-sim-label-system``) in its model, or in one of its visuals, gives it;
-what has none is background. One instance is what has the same label in one model.
+A visual gets its label from a label system (``gz-sim-label-system``) in the visual or in its model; a visual without
+a label is background. All visuals of one model with the same label are one instance.
 
 Sources: gz-sensors, SegmentationCameraSensor.cc and BoundingBoxCameraSensor.cc; gz-rendering,
-Ogre2SegmentationMaterialSwitcher.cc; ros_gz_bridge, convert/vision_msgs.cpp, which is how ROS hears of boxes.
+Ogre2SegmentationMaterialSwitcher.cc; ros_gz_bridge, convert/vision_msgs.cpp, for the ROS messages of boxes.
 """
 
 from __future__ import annotations
@@ -37,13 +37,13 @@ SEMANTIC = ("semantic",)
 PANOPTIC = ("instance", "panoptic")
 
 VISIBLE = ("2d", "visible_2d", "visible_box_2d")
-"""Boxes round what is seen of a thing."""
+"""Types of 2D boxes around the visible part of an object."""
 
 FULL = ("full_2d", "full_box_2d")
-"""Boxes round what is hidden, too."""
+"""Types of 2D boxes around the whole object, occluded parts included."""
 
 SPACE = ("3d",)
-"""Boxes in space."""
+"""Types of oriented 3D boxes."""
 
 BOX_TYPES = (*VISIBLE, *FULL, *SPACE)
 
@@ -51,21 +51,21 @@ LINE = (0, 255, 0)
 
 
 def owner(shape: Shape) -> tuple[str, int]:
-    """Return the model that a shape is of, and its label."""
+    """Return the model that a shape belongs to, and the label of the shape."""
     return shape.body.partition("::")[0], shape.label
 
 
 def instances(sight: Sight) -> tuple[Numbers, Numbers]:
-    """Return label and number of the instance of every pixel, zero for background; shape (height, width) each.
+    """Return label and instance number of every pixel, zero for background; shape (height, width) each.
 
-    Instances of a label are counted from 1, in the order in which they are in the scene.
+    Instances of a label are numbered from 1, in the order of the scene.
     """
     known = np.array([*instances_of(sight.shapes), (0, 0)], dtype=np.int64)
-    return known[sight.picture.shapes, 0], known[sight.picture.shapes, 1]  # -1 is the last, background
+    return known[sight.picture.shapes, 0], known[sight.picture.shapes, 1]  # -1 selects the last row, background
 
 
 def instances_of(shapes: Sequence[Shape]) -> list[tuple[int, int]]:
-    """Return label and number of the instance of every shape, zeros for background."""
+    """Return label and instance number of every shape, zeros for background."""
     counts: dict[int, int] = {}
     known: dict[tuple[str, int], int] = {}
     found = []
@@ -78,14 +78,14 @@ def instances_of(shapes: Sequence[Shape]) -> list[tuple[int, int]]:
 
 
 def colors_of(numbers: Numbers) -> NDArray[np.uint8]:
-    """Return a colour for each number, the same for the same, black for zero; shape (…, 3)."""
+    """Return a colour for each number, equal for equal numbers and black for zero; shape (…, 3)."""
     mixed = numbers.astype(np.uint64) * np.uint64(0x9E3779B97F4A7C15)  # Knuth's multiplicative hash
     found = np.stack([(mixed >> np.uint64(shift)) & np.uint64(255) for shift in (56, 40, 24)], axis=-1)
     return np.where(numbers[..., None] > 0, np.maximum(found, 1), 0).astype(np.uint8)
 
 
 class GzSegmentationCamera(Camera):
-    """A segmentation camera: labels in a picture for programs, and one of colours for people."""
+    """Segmentation camera: publishes a map of labels, and a coloured map for display."""
 
     kind = "gz_segmentation_camera"
 
@@ -107,11 +107,11 @@ class GzSegmentationCamera(Camera):
         )
 
     def messages(self) -> tuple[Callable[[Any], Any], ...]:
-        """Return what makes the messages of the first of `topics`."""
+        """Return the functions that build the messages of the first topics in `topics`."""
         return self._colored, self._labels
 
     def remarks(self) -> tuple[Callable[[float], Any], ...]:
-        """Return what makes the messages of the others."""
+        """Return the functions that build the messages of the other topics."""
         return (self.info,)
 
     def _colored(self, sight: Sight) -> Any:
@@ -119,10 +119,10 @@ class GzSegmentationCamera(Camera):
         return image(sight.t, self.frame, colors_of(labels + 256 * numbers if self._apart else labels), "rgb8")
 
     def _labels(self, sight: Sight) -> Any:
-        """Return the label three times, or the instance's low and high byte and the label.
+        """Return the labels map: the label three times, or the low and high byte of the instance number and the label.
 
-        Source: gz-rendering, Ogre2SegmentationMaterialSwitcher::ColorForVisual: red is the number of the instance
-        modulo 256, green that number divided by 256, blue the label; the first instance of a label has number 1.
+        Source: gz-rendering, Ogre2SegmentationMaterialSwitcher::ColorForVisual: red is the instance number
+        modulo 256, green the instance number divided by 256, blue the label; instances are numbered from 1.
         """
         labels, numbers = instances(sight)
         planes = (numbers % 256, numbers // 256, labels) if self._apart else (labels, labels, labels)
@@ -131,11 +131,11 @@ class GzSegmentationCamera(Camera):
 
 @dataclass(frozen=True, eq=False)
 class Boxed:
-    """What a bounding-box camera saw.
+    """Capture of a bounding-box camera.
 
     Attributes:
-        sight: the picture.
-        boxes: of the things in it, by label and number of the instance.
+        sight: capture of the camera.
+        boxes: boxes of the labelled objects in the picture, ordered by instance number and label.
     """
 
     sight: Sight
@@ -143,7 +143,7 @@ class Boxed:
 
 
 class GzBoundingBoxCamera(Camera):
-    """A bounding-box camera: a box round each thing that is seen, and the picture with them drawn in."""
+    """Bounding-box camera: publishes a box around each visible object, and the picture with the boxes drawn in."""
 
     kind = "gz_bounding_box_camera"
 
@@ -164,11 +164,11 @@ class GzBoundingBoxCamera(Camera):
         )
 
     def messages(self) -> tuple[Callable[[Any], Any], ...]:
-        """Return what makes the messages of the first of `topics`."""
+        """Return the functions that build the messages of the first topics in `topics`."""
         return self._detections, self._drawn
 
     def remarks(self) -> tuple[Callable[[float], Any], ...]:
-        """Return what makes the messages of the others."""
+        """Return the functions that build the messages of the other topics."""
         return (self.info,)
 
     def _look(self, t: float, layout: Layout, frame: Array, random: np.random.Generator) -> Boxed:
@@ -198,7 +198,7 @@ class GzBoundingBoxCamera(Camera):
 
 
 def detections(head: Any, boxes: Sequence[Box2D | Box3D], *, space: bool) -> Any:
-    """Return the Detection2DArray, or the Detection3DArray, of boxes (ros_gz_bridge, convert/vision_msgs.cpp)."""
+    """Return the Detection2DArray or Detection3DArray of boxes (ros_gz_bridge, convert/vision_msgs.cpp)."""
     hypothesis, possible = (_type(name) for name in ("ObjectHypothesis", "ObjectHypothesisWithPose"))
     array, detection = (_type(f"Detection{3 if space else 2}D{end}") for end in ("Array", ""))
     found = []

@@ -1,8 +1,8 @@
-"""Boxes round things: what is seen of them, all of them in the picture, and in space.
+"""Bounding boxes of labelled objects: 2D around the visible part or the whole object, and oriented 3D.
 
-Source: gz-rendering, Ogre2BoundingBoxCamera.cc. There is a box for what is seen at one pixel at least. Boxes in space
-have the axes of the thing where it is of one shape, else the principal axes of its corners (gz-math, eigen3/Util.hh,
-verticesToOrientedBox).
+Source: gz-rendering, Ogre2BoundingBoxCamera.cc. An object gets a box if it is visible in at least one pixel. A 3D box
+has the axes of the object's shape if the object has one shape, else the principal axes of its vertices (gz-math,
+eigen3/Util.hh, verticesToOrientedBox).
 """
 
 from __future__ import annotations
@@ -21,22 +21,22 @@ Array = NDArray[np.float64]
 Numbers = NDArray[np.int64]
 
 AHEAD = 1e-3
-"""What is less far ahead is cut off before it is projected [m]."""
+"""Depth at which geometry is clipped before projection [m]."""
 
 EDGES = ((0, 1), (0, 2), (0, 4), (1, 3), (1, 5), (2, 3), (2, 6), (3, 7), (4, 5), (4, 6), (5, 7), (6, 7))
-"""Of a box whose corners are counted as `Box3D.corners` does."""
+"""Edges of a box, as pairs of indices into `Box3D.corners`."""
 
 
 @dataclass(frozen=True)
 class Box2D:
-    """A box in the picture; pixels are counted from the upper left one, and the last is in it.
+    """2D box in pixel coordinates with the origin at the upper left; the last column and row are inside the box.
 
     Attributes:
-        label: of the thing.
-        left: its first column [px].
-        top: its first row [px].
-        right: its last column [px].
-        bottom: its last row [px].
+        label: label of the object.
+        left: first column [px].
+        top: first row [px].
+        right: last column [px].
+        bottom: last row [px].
     """
 
     label: int
@@ -48,13 +48,13 @@ class Box2D:
 
 @dataclass(frozen=True, eq=False)
 class Box3D:
-    """A box in space, in the camera's frame: x forward, y left, z up.
+    """Oriented 3D box in the camera's frame: x forward, y left, z up.
 
     Attributes:
-        label: of the thing.
-        centre: [m]; shape (3,).
-        axes: of the box, column by column; shape (3, 3), a rotation.
-        size: along its axes [m]; shape (3,).
+        label: label of the object.
+        centre: centre of the box [m]; shape (3,).
+        axes: rotation whose columns are the axes of the box; shape (3, 3).
+        size: edge lengths along its axes [m]; shape (3,).
     """
 
     label: int
@@ -64,27 +64,27 @@ class Box3D:
 
     @property
     def corners(self) -> Array:
-        """Its corners [m]; shape (8, 3)."""
+        """Corners of the box [m]; shape (8, 3)."""
         signs = np.array([(x, y, z) for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)])
         found: Array = self.centre + matmul(signs * self.size / 2, self.axes.T)
         return found
 
 
 def visible_box(label: int, where: NDArray[np.bool_]) -> Box2D:
-    """Return the box round the pixels at which a thing is seen; shape (height, width)."""
+    """Return the box around the pixels in which an object is visible; mask of shape (height, width)."""
     row, column = np.nonzero(where)
     return Box2D(label, int(column.min()), int(row.min()), int(column.max()), int(row.max()))
 
 
 def full_box(label: int, table: RayTable, shapes: list[int], frame: Array, lens: Lens) -> Box2D:
-    """Return the box round all of a thing, what is hidden of it too, as far as it is within the picture.
+    """Return the 2D box around a whole object, occluded parts included, clipped to the picture.
 
     Args:
-        label: of the thing.
-        table: the shapes, placed.
-        shapes: numbers of those that the thing is of.
-        frame: of the camera; shape (4, 4).
-        lens: of the camera.
+        label: label of the object.
+        table: the shapes of the scene with their placements.
+        shapes: indices of the shapes of the object.
+        frame: placement of the camera in the world; shape (4, 4).
+        lens: lens of the camera.
     """
     faces = np.concatenate([_in_camera(table, shape, frame) for shape in shapes])
     points = faces.reshape(-1, 3)
@@ -100,7 +100,7 @@ def full_box(label: int, table: RayTable, shapes: list[int], frame: Array, lens:
 
 
 def space_box(label: int, table: RayTable, shapes: list[int], frame: Array) -> Box3D:
-    """Return the box round all of a thing in space; arguments as for `full_box`."""
+    """Return the oriented 3D box around a whole object; arguments as for `full_box`."""
     if len(shapes) == 1:
         (shape,) = shapes
         corners = triangles_of(table, shape).reshape(-1, 3)
@@ -122,14 +122,14 @@ def space_box(label: int, table: RayTable, shapes: list[int], frame: Array) -> B
 
 
 def _eigenvectors(matrix: Array) -> Array:
-    """Return the eigenvectors of a symmetric matrix as columns, by Eigen: LAPACK's depend on the processor."""
+    """Return the eigenvectors of a symmetric matrix as columns; Eigen's, as LAPACK's depend on the processor."""
     import eigenpy  # type: ignore[import-untyped]
 
     return np.array(eigenpy.SelfAdjointEigenSolver(matrix).eigenvectors())
 
 
 def project(points: Array, lens: Lens) -> tuple[Array, Array]:
-    """Return column and row [px] of points ahead of the camera; shape (n, 3)."""
+    """Return column and row [px] of points in front of the camera; points of shape (n, 3)."""
     x, y = -points[:, 1] / points[:, 0], -points[:, 2] / points[:, 0]
     if lens.distortion:
         x, y = lens.distortion.distort(x, y)
@@ -137,7 +137,7 @@ def project(points: Array, lens: Lens) -> tuple[Array, Array]:
 
 
 def draw(picture: NDArray[np.uint8], box: Box2D | Box3D, lens: Lens, color: tuple[int, int, int]) -> None:
-    """Draw a box into a picture; one in space only where all of it is ahead of the camera, as gz-rendering does."""
+    """Draw a box into a picture; a 3D box only if all of it is in front of the camera, as in gz-rendering."""
     if isinstance(box, Box2D):
         picture[[box.top, box.bottom], box.left : box.right + 1] = color
         picture[box.top : box.bottom + 1, [box.left, box.right]] = color

@@ -1,8 +1,8 @@
-"""Cameras: what they look through and with, and those of the new Gazebo that publish by themselves.
+"""Base class of camera sensors, and the colour camera of the new Gazebo.
 
-The camera looks along the x axis of its link, as in Gazebo; the frame in the header is whatever the plugin is told, by
-custom an optical one. The principal point that Gazebo Classic tells is one pixel off the one it draws with, (W + 1)/2
-instead of (W - 1)/2; that is kept, as robots' drivers know it.
+The camera looks along the x axis of its link, as in Gazebo. The frame id is the one configured in the plugin, by
+convention an optical frame. The principal point in Gazebo Classic's CameraInfo is one pixel off the one it renders
+with, (W + 1)/2 instead of (W - 1)/2; urdfkit publishes the same value for compatibility.
 """
 
 from __future__ import annotations
@@ -44,21 +44,21 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 
 SEVERAL = ("multicamera", "stereo_camera")
-"""Types of sensors that have more than one camera."""
+"""Sensor types with more than one camera."""
 
 MOST_LOST = 0.25
-"""A larger part of the picture that nothing gets to is remarked on; that of a fish-eye's corners is smaller."""
+"""Fraction of pixels without a ray above which the user is warned; the corners of a fish-eye lens stay below it."""
 
 
 @dataclass(frozen=True, eq=False)
 class Sight:
-    """What a camera saw.
+    """Capture of a camera.
 
     Attributes:
-        t: when [s].
-        picture: colours, depths and shapes.
-        shapes: what the picture's shapes are, in the order of its numbers.
-        frame: where the camera was; shape (4, 4).
+        t: time stamp [s].
+        picture: colour, depth and shape index of each pixel.
+        shapes: shapes that the indices of the picture refer to.
+        frame: placement of the camera in the world; shape (4, 4).
     """
 
     t: float
@@ -69,17 +69,17 @@ class Sight:
 
 @dataclass(frozen=True, eq=False)
 class Eye:
-    """One of a sensor's cameras.
+    """One camera of a sensor.
 
     Attributes:
-        name: of the camera; empty where it has none.
-        pose: in the sensor; shape (4, 4).
-        optics: how it is built.
-        noise: on its pictures.
-        focal: length that camera_info tells [px].
-        cx: principal point that it tells [px].
-        cy: principal point that it tells [px].
-        baseline: to the left camera of a pair [m].
+        name: name of the camera; empty if it has no name.
+        pose: placement in the sensor; shape (4, 4).
+        optics: lens, image format and clipping distances.
+        noise: noise of its pictures.
+        focal: focal length in CameraInfo [px].
+        cx: column of the principal point in CameraInfo [px].
+        cy: row of the principal point in CameraInfo [px].
+        baseline: distance to the left camera of a stereo pair [m].
     """
 
     name: str
@@ -92,11 +92,11 @@ class Eye:
     baseline: float
 
     def info(self, frame: str, t: float) -> Any:
-        """Return the CameraInfo, which nothing has to be looked at for."""
+        """Return the CameraInfo; renders nothing."""
         return camera_info(t, frame, self.optics.lens, focal=self.focal, cx=self.cx, cy=self.cy, baseline=self.baseline)
 
     def look(self, t: float, view: TakesPictures, frame: Array, random: np.random.Generator, *, deep: bool) -> Sight:
-        """Return what is seen from where the sensor is; `deep` with depths and shapes."""
+        """Return the capture with the sensor at `frame`; `deep` adds depths and shape indices."""
         optics, placed = self.optics, matmul(frame, self.pose)
         picture = view.take(optics.lens, placed, near=optics.near, far=optics.far, samples=optics.samples, deep=deep)
         if self.noise:
@@ -106,12 +106,12 @@ class Eye:
 
 
 class Camera(Mounted):
-    """A sensor of one or more cameras; what it publishes is its subclass's to say.
+    """Sensor with one or more cameras; its subclass defines the topics.
 
     Attributes:
-        eyes: its cameras.
-        deep: whether it tells depths, or which shapes it sees.
-        sensor_frame: its own, which looks along x; `frame` may be an optical one.
+        eyes: cameras of the sensor.
+        deep: whether it renders depths and shape indices.
+        sensor_frame: frame id of the sensor, whose x axis points forward; `frame` may be an optical frame.
     """
 
     namespace = "{model}"
@@ -150,7 +150,7 @@ class Camera(Mounted):
 
     @abstractmethod
     def _advertise(self, setup: Setup, read: Parameters, topics: Topics) -> None:
-        """Read what is the plugin's own and fill `topics`."""
+        """Read the parameters of this plugin and fill `topics`."""
 
     def _look(self, t: float, layout: Layout, frame: Array, random: np.random.Generator) -> Any:
         painter = self._surroundings.view(layout).painter(layout)
@@ -164,12 +164,12 @@ class Camera(Mounted):
         return self.eyes[0].info(self.frame, t)
 
     def topic_of(self, read: Parameters, topics: Topics, meaning: str, name: str, eye: str = "") -> str:
-        """Return a topic of a camera: below its name, under what is written for `meaning`, else as `name`."""
+        """Return a topic below the camera's name: the parameter `meaning` if it is written, else `name`."""
         return topics.resolve(f"{read.text('camera')}/{eye}/{read.text(meaning, name)}".replace("//", "/").lstrip("/"))
 
 
 class GzCamera(Camera):
-    """A camera of the new Gazebo, which publishes by itself."""
+    """Colour camera of the new Gazebo, which publishes without a plugin."""
 
     kind = "gz_camera"
     deep = False
@@ -181,14 +181,14 @@ class GzCamera(Camera):
         self.topics = (setup.bus.advertise(picture, IMAGE), setup.bus.advertise(topics.resolve(info), CAMERA_INFO))
 
     def messages(self) -> tuple[Callable[[Any], Any], ...]:
-        """Return what makes the messages of the first of `topics`."""
+        """Return the functions that build the messages of the first topics in `topics`."""
         return (self._image,)
 
     def remarks(self) -> tuple[Callable[[float], Any], ...]:
-        """Return what makes the messages of the others."""
+        """Return the functions that build the messages of the other topics."""
         return (self.info,)
 
 
 def sensor_type(setup: Setup) -> str:
-    """Return the type of the sensor that is being configured."""
+    """Return the type of the sensor to configure."""
     return (setup.sensor.type or "").strip() if setup.sensor is not None else ""

@@ -1,4 +1,4 @@
-"""What a camera is built like: the ``<camera>`` of a ``<sensor>``, and the messages that say so."""
+"""Parameters of a camera from the ``<camera>`` of a ``<sensor>``; Image and CameraInfo messages."""
 
 from __future__ import annotations
 
@@ -37,28 +37,28 @@ ENCODINGS = {
     "BAYER_GBRG8": "bayer_gbrg8",
     "BAYER_GRBG8": "bayer_grbg8",
 }
-"""SDF's name of a format → sensor_msgs' of its encoding (gazebo_ros_camera_utils.cpp); depth cameras of the new Gazebo
-are told R_FLOAT32, which is what their depths are in anyway."""
+"""SDF image format → sensor_msgs encoding (gazebo_ros_camera_utils.cpp). Depth cameras of the new Gazebo are configured
+with R_FLOAT32, which is the format of their depth images in any case."""
 
 MAX_PIXELS = 16_000_000
 
 MAX_SAMPLES = 64
-"""Per pixel, against jagged edges."""
+"""Most anti-aliasing samples per pixel."""
 
 LUMA = np.array([0.299, 0.587, 0.114])
-"""Grey of red, green and blue (ITU-R BT.601)."""
+"""Weights of red, green and blue in a grey value (ITU-R BT.601)."""
 
 
 @dataclass(frozen=True)
 class Optics:
-    """A camera as written; the defaults are sdformat's (camera.sdf).
+    """Parameters of a ``<camera>``; the defaults are sdformat's (camera.sdf).
 
     Attributes:
         lens: size, field of view and distortion.
-        encoding: of its pictures, as sensor_msgs calls it.
-        near: what is nearer is not seen [m].
-        far: what is farther is not seen [m].
-        samples: rays per pixel at edges.
+        encoding: sensor_msgs encoding of its pictures.
+        near: near clipping distance [m].
+        far: far clipping distance [m].
+        samples: anti-aliasing samples per pixel at edges.
         element: the ``<camera>``.
     """
 
@@ -74,7 +74,7 @@ def cameras_of(sensor: SensorTag) -> list[Element]:
     """Return the ``<camera>`` elements of a sensor.
 
     Raises:
-        SimulationError: there is none, with the sensor's place.
+        SimulationError: the sensor has no ``<camera>``, with its position.
     """
     found = [child for child in sensor.element.children if child.tag == "camera"]
     if not found:
@@ -83,10 +83,10 @@ def cameras_of(sensor: SensorTag) -> list[Element]:
 
 
 def optics_of(camera: Element) -> Optics:
-    """Return how a ``<camera>`` is built.
+    """Return the parameters of a ``<camera>``.
 
     Raises:
-        SimulationError: it makes no sense, with its place.
+        SimulationError: a parameter is invalid, with its position.
     """
     refuse(senseless_camera(camera))
     image, clip = camera.find("image"), camera.find("clip")
@@ -125,8 +125,8 @@ def image(t: float, frame: str, rgb: NDArray[np.uint8], encoding: str) -> Any:
     """Return an Image.
 
     Args:
-        t: when [s].
-        frame: whose coordinates.
+        t: time stamp [s].
+        frame: frame id of the header.
         rgb: red, green and blue; shape (height, width, 3).
         encoding: one of `ENCODINGS`.
     """
@@ -148,13 +148,13 @@ def image(t: float, frame: str, rgb: NDArray[np.uint8], encoding: str) -> Any:
 
 
 def depth_image(t: float, frame: str, depth: NDArray[np.float32], *, millimetres: bool = False) -> Any:
-    """Return an Image of depths: 32FC1 in metres, or 16UC1 in millimetres, where zero means none.
+    """Return a depth Image: 32FC1 in metres, or 16UC1 in millimetres, where zero means no measurement.
 
     Args:
-        t: when [s].
-        frame: whose coordinates.
+        t: time stamp [s].
+        frame: frame id of the header.
         depth: [m]; shape (height, width).
-        millimetres: which of the two.
+        millimetres: use 16UC1 instead of 32FC1.
     """
     height, width = depth.shape
     if millimetres:
@@ -170,16 +170,16 @@ def depth_image(t: float, frame: str, depth: NDArray[np.float32], *, millimetres
 
 
 def camera_info(t: float, frame: str, lens: Lens, *, focal: float, cx: float, cy: float, baseline: float = 0.0) -> Any:
-    """Return a CameraInfo of a plumb_bob camera without rectification.
+    """Return the CameraInfo of a camera with plumb_bob distortion and no rectification.
 
     Args:
-        t: when [s].
-        frame: whose coordinates.
-        lens: size and distortion.
-        focal: length [px].
-        cx: principal point [px].
-        cy: principal point [px].
-        baseline: of a stereo camera's right half [m].
+        t: time stamp [s].
+        frame: frame id of the header.
+        lens: picture size and distortion.
+        focal: focal length [px].
+        cx: column of the principal point [px].
+        cy: row of the principal point [px].
+        baseline: distance to the left camera of a stereo pair [m].
     """
     d = lens.distortion
     region = message_type("sensor_msgs/msg/RegionOfInterest")(0, 0, 0, 0, False)

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 
 class DepthCamera(Camera):
-    """gazebo_ros_depth_camera of ROS 1: what is too near is NaN."""
+    """gazebo_ros_depth_camera of ROS 1: depths below the minimum are NaN."""
 
     kind = "depth_camera"
 
@@ -40,11 +40,11 @@ class DepthCamera(Camera):
         )
 
     def messages(self) -> tuple[Callable[[Any], Any], ...]:
-        """Return what makes the messages of the first of `topics`."""
+        """Return the functions that build the messages of the first topics in `topics`."""
         return self._image, self._depth, self._points
 
     def remarks(self) -> tuple[Callable[[float], Any], ...]:
-        """Return what makes the messages of the others."""
+        """Return the functions that build the messages of the other topics."""
         return self.info, self.info
 
     def _deep(self, sight: Sight) -> NDArray[np.float32]:
@@ -58,13 +58,13 @@ class DepthCamera(Camera):
 
 
 class OpenniKinect(DepthCamera):
-    """gazebo_ros_openni_kinect of ROS 1: what is too near or too far is NaN."""
+    """gazebo_ros_openni_kinect of ROS 1: depths outside the limits are NaN."""
 
     kind = "openni_kinect"
 
 
 class GzDepthCamera(Camera):
-    """A depth camera of the new Gazebo: what is too far is +inf; its points are in the axes of the sensor."""
+    """Depth camera of the new Gazebo: depths beyond the limit are +inf; its points are in the sensor's axes."""
 
     kind = "gz_depth_camera"
 
@@ -77,11 +77,11 @@ class GzDepthCamera(Camera):
         )
 
     def messages(self) -> tuple[Callable[[Any], Any], ...]:
-        """Return what makes the messages of the first of `topics`."""
+        """Return the functions that build the messages of the first topics in `topics`."""
         return self._depth, self._points
 
     def remarks(self) -> tuple[Callable[[float], Any], ...]:
-        """Return what makes the messages of the others."""
+        """Return the functions that build the messages of the other topics."""
         return (self.info,)
 
     def _depth(self, sight: Sight) -> Any:
@@ -93,7 +93,7 @@ class GzDepthCamera(Camera):
 
 
 class GzRgbdCamera(GzDepthCamera):
-    """An RGB-D camera of the new Gazebo: the same with pictures, all below its topic."""
+    """RGB-D camera of the new Gazebo: depth camera with colour images; all topics are below its own."""
 
     kind = "gz_rgbd_camera"
 
@@ -107,5 +107,5 @@ class GzRgbdCamera(GzDepthCamera):
         )
 
     def messages(self) -> tuple[Callable[[Any], Any], ...]:
-        """Return what makes the messages of the first of `topics`."""
+        """Return the functions that build the messages of the first topics in `topics`."""
         return self._image, self._depth, self._points

@@ -1,4 +1,4 @@
-"""From depths to points: organised clouds with colour, in a camera's optical frame or in Gazebo's."""
+"""Organised coloured point clouds from depth images, in the optical frame or in the axes of Gazebo's sensor."""
 
 from __future__ import annotations
 
@@ -11,27 +11,27 @@ from urdfkit.scene.camera_model import Lens
 from urdfkit.sim.plugins.sensors.cloud_messages import XYZ, Layout, cloud
 
 COLORED: Layout = ((*XYZ, ("rgb", "f4", 16)), 32)
-"""sensor_msgs/point_cloud2_iterator.h: setPointCloud2FieldsByString of xyz and rgb; the new Gazebo's is the same."""
+"""sensor_msgs/point_cloud2_iterator.h: setPointCloud2FieldsByString of xyz and rgb; also the new Gazebo's layout."""
 
 Depths = NDArray[np.float32]
 
 
 def within(depth: Depths, low: float, high: float) -> Depths:
-    """Return depths, NaN where they are not between two bounds [m]."""
+    """Return depths with NaN outside the limits `low` and `high` [m]."""
     found: Depths = np.where((depth > low) & (depth < high), depth, np.nan).astype(np.float32)
     return found
 
 
 def points(t: float, frame: str, lens: Lens, depth: Depths, rgb: NDArray[np.uint8], *, optical: bool = True) -> Any:
-    """Return a PointCloud2, a point per pixel.
+    """Return a PointCloud2 with one point per pixel.
 
     Args:
-        t: when [s].
-        frame: whose coordinates.
-        lens: what it was seen with.
-        depth: [m], not finite where there is none; shape (height, width).
+        t: time stamp [s].
+        frame: frame id of the header.
+        lens: lens of the camera.
+        depth: [m], not finite where the camera has no measurement; shape (height, width).
         rgb: red, green and blue; shape (height, width, 3).
-        optical: whether z is forward, x right and y down; else x is forward, y left and z up.
+        optical: use optical axes (z forward, x right, y down) instead of x forward, y left, z up.
     """
     directions = np.empty((lens.width * lens.height, 3))
     directions[lens.order] = lens.directions

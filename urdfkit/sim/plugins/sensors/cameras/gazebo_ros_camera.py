@@ -1,4 +1,4 @@
-"""gazebo_ros_camera: the plugin of one camera in ROS 1, and of every kind of camera in ROS 2."""
+"""gazebo_ros_camera: the plugin for single cameras in ROS 1, and for every camera type in ROS 2."""
 
 from __future__ import annotations
 
@@ -27,8 +27,9 @@ Array = NDArray[np.float64]
 class RosCamera(MultiCamera):
     """gazebo_ros_camera of ROS 1 and ROS 2.
 
-    In ROS 2 with depths and points on a sensor of type depth, and with all cameras on one of type multicamera.
-    What is too near is -inf, what is too far +inf in ROS 2's depths, and NaN in its points.
+    In ROS 2, a sensor of type depth also publishes depth images and points, and a sensor of type multicamera publishes
+    all its cameras. In ROS 2, depths below the minimum are -inf and depths above the maximum +inf in images; both are
+    NaN in point clouds.
     """
 
     kind = "camera"
@@ -52,13 +53,13 @@ class RosCamera(MultiCamera):
         self.topics = (*looked, *plain)
 
     def messages(self) -> tuple[Callable[[Any], Any], ...]:
-        """Return what makes the messages of the first of `topics`."""
+        """Return the functions that build the messages of the first topics in `topics`."""
         if self._several:
             return super().messages()
         return (self._image, self._depth, self._points) if self.deep else (self._image,)
 
     def remarks(self) -> tuple[Callable[[float], Any], ...]:
-        """Return what makes the messages of the others."""
+        """Return the functions that build the messages of the other topics."""
         if self._several:
             return super().remarks()
         return (self.info, self.info) if self.deep else (self.info,)

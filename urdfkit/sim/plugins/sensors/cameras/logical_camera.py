@@ -1,4 +1,4 @@
-"""The new Gazebo's logical camera: the models whose origin is in a frustum, whatever stands between."""
+"""The new Gazebo's logical camera: reports the models whose origin is in its frustum, without occlusion."""
 
 from __future__ import annotations
 
@@ -27,11 +27,11 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 Sight = tuple[float, Array, list[tuple[str, Array]]]
-"""When, where the camera is, shape (4, 4), and name and placement of each model in the world."""
+"""Time [s], placement of the camera, shape (4, 4), and name and placement of each model in the world."""
 
 
 class GzLogicalCamera(Mounted):
-    """A logical camera: it looks along the x axis of its link."""
+    """Logical camera that looks along the x axis of its link."""
 
     kind = "gz_logical_camera"
 
@@ -65,14 +65,14 @@ class GzLogicalCamera(Mounted):
         return t, frame, inside
 
     def _holds(self, frame: Array, point: Array) -> bool:
-        """Whether a point of the world is in the frustum."""
+        """Whether a point in the world is inside the frustum."""
         x, y, z = matmul(frame[:3, :3].T, point - frame[:3, 3])
         return bool(
             self._near <= x <= self._far and abs(y) <= x * self._across and abs(z) <= x * self._across / self._aspect
         )
 
     def messages(self) -> tuple[Callable[[Sight], Any], ...]:
-        """Return what makes the message of each of `topics`."""
+        """Return the function that builds the message of each topic in `topics`."""
         return (self._message,)
 
     def _message(self, sight: Sight) -> Any:

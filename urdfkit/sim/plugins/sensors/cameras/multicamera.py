@@ -1,7 +1,7 @@
-"""Several cameras of one sensor, as stereo pairs are: gazebo_ros_multicamera of ROS 1, gazebo_ros_camera of ROS 2.
+"""Sensors with several cameras, such as stereo pairs: gazebo_ros_multicamera of ROS 1, gazebo_ros_camera of ROS 2.
 
-All look at the same moment. The frame is one for all, as in Gazebo; in a pair, the projection matrix of the right one
-says how far to the right of the left one it is (``P[3] = -f · hackBaseline``).
+All cameras capture at the same time and share one frame id, as in Gazebo. In a stereo pair, the projection matrix of
+the right camera contains its distance to the left camera (``P[3] = -f · hackBaseline``).
 """
 
 from __future__ import annotations
@@ -26,11 +26,11 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 Looks = Callable[[int], Sight]
-"""Returns what a camera of the sensor saw, by its number; each looks only when it is asked."""
+"""Function that returns the capture of a camera by its index; each camera is rendered on its first call."""
 
 
 class MultiCamera(Camera):
-    """Cameras called left and right, below ``CAMERA/left`` and ``CAMERA/right``; ROS 2 takes any names."""
+    """Cameras named left and right, on topics below ``CAMERA/left`` and ``CAMERA/right``; ROS 2 accepts any names."""
 
     kind = "multicamera"
 
@@ -61,7 +61,7 @@ class MultiCamera(Camera):
     def _look(self, t: float, layout: Layout, frame: Array, random: np.random.Generator) -> Looks:
         @cache
         def look(number: int) -> Sight:
-            # Each draws its noise from a stream of its own: who else is listened to changes nothing.
+            # Each camera has its own random stream: subscribers of other cameras do not change its noise.
             own = np.random.Generator(random.bit_generator.jumped(number))  # type: ignore[attr-defined]
             painter = self._surroundings.view(layout).painter(layout)
             return self.eyes[number].look(t, painter, frame, own, deep=False)
@@ -69,11 +69,11 @@ class MultiCamera(Camera):
         return look
 
     def messages(self) -> tuple[Callable[[Any], Any], ...]:
-        """Return what makes the pictures."""
+        """Return the functions that build the image of each camera."""
         return tuple(partial(self._image_of, number) for number in range(len(self.eyes)))
 
     def remarks(self) -> tuple[Callable[[float], Any], ...]:
-        """Return what makes the camera_info of each."""
+        """Return the functions that build the CameraInfo of each camera."""
         return tuple(partial(eye.info, self.frame) for eye in self.eyes)
 
     def _image_of(self, number: int, looks: Looks) -> Any:

@@ -1,4 +1,4 @@
 """Lidars and range finders.
 
-The scene as it stands goes in; LaserScan, Range and PointCloud2 messages come out.
+Each sensor casts rays into the current scene and publishes LaserScan, Range, PointCloud or PointCloud2 messages.
 """

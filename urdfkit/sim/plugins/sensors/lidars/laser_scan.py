@@ -1,4 +1,4 @@
-"""Lidars that give a LaserScan, a Range or an old PointCloud: gazebo_ros_laser, _block_laser and _range, a sonar."""
+"""Lidars with LaserScan, Range or PointCloud output: gazebo_ros_laser, _block_laser and _range, and a sonar."""
 
 from __future__ import annotations
 
@@ -30,15 +30,15 @@ class Laser(Lidar):
         self.topics = (setup.bus.advertise(topics.resolve(read.text("topic")), LASER_SCAN),)
 
     def messages(self) -> Messages:
-        """Return what makes the message of each of `topics`."""
+        """Return the function that builds the message of each topic in `topics`."""
         return (self.laser_scan,)
 
 
 class BlockLaser(Lidar):
-    """gazebo_ros_block_laser of ROS 1: all rings as points, what is seen nowhere at the end of its ray.
+    """gazebo_ros_block_laser of ROS 1: one point per ray of all rings; a ray without a hit ends at the maximum range.
 
-    The plugin mirrors what is above below (``z = -r·sin(pitch)``) and counts ranges from the least one; here points are
-    where they are.
+    The plugin mirrors points vertically (``z = -r·sin(pitch)``) and measures ranges from the minimum range; urdfkit
+    publishes the true positions.
     """
 
     kind = "block_laser"
@@ -48,7 +48,7 @@ class BlockLaser(Lidar):
         self.topics = (setup.bus.advertise(topics.resolve(read.text("topic")), POINT_CLOUD),)
 
     def messages(self) -> Messages:
-        """Return what makes the message of each of `topics`."""
+        """Return the function that builds the message of each topic in `topics`."""
         return (self._cloud,)
 
     def _cloud(self, reading: Reading) -> Any:
@@ -60,7 +60,7 @@ class BlockLaser(Lidar):
 
 
 class Range(Lidar):
-    """gazebo_ros_range of ROS 1: the nearest of all rays."""
+    """gazebo_ros_range of ROS 1: the shortest range of all rays."""
 
     kind = "range"
 
@@ -71,7 +71,7 @@ class Range(Lidar):
         self.topics = (setup.bus.advertise(topics.resolve(read.text("topic")), RANGE),)
 
     def messages(self) -> Messages:
-        """Return what makes the message of each of `topics`."""
+        """Return the function that builds the message of each topic in `topics`."""
         return (self._range,)
 
     def _range(self, reading: Reading) -> Any:
@@ -85,7 +85,7 @@ class Range(Lidar):
 
 
 class Sonar(Lidar):
-    """hector_gazebo_ros_sonar of ROS 1: the nearest of all rays, with an error that drifts."""
+    """hector_gazebo_ros_sonar of ROS 1: the shortest range of all rays, with a drifting error."""
 
     kind = "sonar"
 
@@ -94,7 +94,7 @@ class Sonar(Lidar):
         self.topics = (setup.bus.advertise(topics.resolve(read.text("topic")), RANGE),)
 
     def messages(self) -> Messages:
-        """Return what makes the message of each of `topics`."""
+        """Return the function that builds the message of each topic in `topics`."""
         return (partial(self._range, self.done),)
 
     def _range(self, turn: int, reading: Reading) -> Any:

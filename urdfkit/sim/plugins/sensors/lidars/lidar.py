@@ -1,9 +1,9 @@
-"""What all lidars do: cast their rays when somebody listens, and tell what they met.
+"""Base class of lidars: casts the rays while a topic has subscribers, and builds the common messages.
 
-Sources: gazebo classic, RaySensor.cc, GpuRaySensor.cc and MultiRayShape.cc. Rays begin at the least range, so what is
-nearer is not seen, the sensor's own housing for one. A reading at or beyond the greatest range is +inf, one at the
-least range -inf (REP 117); noise goes on the others, which then stay between the two. ``ray`` meets collisions, the
-others visuals.
+Sources: gazebo classic, RaySensor.cc, GpuRaySensor.cc and MultiRayShape.cc. Rays start at the minimum range, so nearer
+shapes such as the sensor's own housing are not detected. A reading at or beyond the maximum range is +inf, a reading at
+the minimum range -inf (REP 117). Noise is added to all other readings, which are then clamped to the limits. Sensors of
+type ``ray`` detect collisions, all other types visuals.
 """
 
 from __future__ import annotations
@@ -39,13 +39,13 @@ RADIATIONS = ("infrared", "ultrasound")
 
 @dataclass(frozen=True, eq=False)
 class Reading:
-    """One look of a lidar.
+    """Readings of one measurement of a lidar.
 
     Attributes:
-        t: when [s].
+        t: time stamp [s].
         ranges: [m], ±inf outside the limits; shape (rings, samples), the lowest ring first.
-        intensities: the ``laser_retro`` of what was met, zero where nothing was; shape (rings, samples).
-        random: for noise that a plugin adds itself.
+        intensities: the ``laser_retro`` of the shape that each ray hits, zero without a hit; shape (rings, samples).
+        random: generator for noise that a plugin adds.
     """
 
     t: float
@@ -55,7 +55,7 @@ class Reading:
 
 
 class Lidar(Mounted):
-    """A lidar; what it publishes is its subclass's to say."""
+    """Lidar; its subclass defines the topics."""
 
     def _prepare(self, setup: Setup, sensor: SensorTag, read: Parameters, topics: Topics) -> None:
         self.scan = scan_of(sensor)
@@ -66,7 +66,7 @@ class Lidar(Mounted):
 
     @abstractmethod
     def _advertise(self, setup: Setup, read: Parameters, topics: Topics) -> None:
-        """Read what is the plugin's own and fill `topics`."""
+        """Read the parameters of this plugin and fill `topics`."""
 
     def _look(self, t: float, layout: Layout, frame: Array, random: np.random.Generator) -> Reading:
         table, scan = self._surroundings.view(layout).table(self._role, layout), self.scan
@@ -80,7 +80,7 @@ class Lidar(Mounted):
         shape = (scan.rings, scan.samples)
         return Reading(t, ranges.reshape(shape), retro[hits.shapes].reshape(shape), random)
 
-    # What several plugins publish.
+    # Messages that several plugins publish.
 
     def laser_scan(self, reading: Reading, *, min_intensity: float = -np.inf) -> Any:
         """Return a LaserScan of the middle ring."""
@@ -100,7 +100,7 @@ class Lidar(Mounted):
         )  # fmt: skip
 
     def is_ultrasound(self, setup: Setup, read: Parameters) -> bool:
-        """Return whether the kind of radiation is ultrasound; Gazebo takes what it does not know for infrared."""
+        """Return whether the radiation type is ultrasound; an unknown type is infrared, as in Gazebo."""
         kind = read.text("radiation", RADIATIONS[0])
         if kind not in RADIATIONS:
             setup.note(
@@ -110,7 +110,7 @@ class Lidar(Mounted):
         return kind == "ultrasound"
 
     def points(self, ranges: Array) -> Array:
-        """Return where the readings are in the sensor's frame [m]; shape (rings · samples, 3)."""
+        """Return the points of some ranges in the sensor's frame [m]; shape (rings · samples, 3)."""
         with np.errstate(invalid="ignore"):
             found: Array = ranges.reshape(-1, 1) * self._directions
         return found

@@ -1,4 +1,4 @@
-"""Lidars that give a PointCloud2: ROS 2's ray sensor, Velodyne's plugins and the new Gazebo's own lidar."""
+"""Lidars with PointCloud2 output: gazebo_ros_ray_sensor of ROS 2, the Velodyne plugins and the new Gazebo's lidar."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ OUTPUTS = {
 
 
 class RaySensor(Lidar):
-    """gazebo_ros_ray_sensor of ROS 2, in its four output types; points that are nowhere are left out."""
+    """gazebo_ros_ray_sensor of ROS 2, in its four output types; rays without a finite range give no point."""
 
     kind = "ray_sensor"
 
@@ -44,7 +44,7 @@ class RaySensor(Lidar):
         self.topics = (setup.bus.advertise(topics.resolve("~/out"), OUTPUTS[self._output]),)
 
     def messages(self) -> Messages:
-        """Return what makes the message of each of `topics`."""
+        """Return the function that builds the message of each topic in `topics`."""
         made: dict[str, Callable[[Reading], Any]] = {
             LASER_SCAN: self._scan,
             cloud_messages.POINT_CLOUD: self._points,
@@ -75,7 +75,7 @@ class RaySensor(Lidar):
 
 
 class Velodyne(Lidar):
-    """gazebo_ros_velodyne_laser and _gpu_laser: column by column, the lowest ring first."""
+    """gazebo_ros_velodyne_laser and _gpu_laser: points ordered by column, the lowest ring first."""
 
     kind = "velodyne"
 
@@ -91,7 +91,7 @@ class Velodyne(Lidar):
         self.topics = (setup.bus.advertise(name, cloud_messages.POINT_CLOUD_2),)
 
     def messages(self) -> Messages:
-        """Return what makes the message of each of `topics`."""
+        """Return the function that builds the message of each topic in `topics`."""
         return (self._points,)
 
     def _points(self, reading: Reading) -> Any:
@@ -120,7 +120,7 @@ class Velodyne(Lidar):
 
 
 class GzLidar(Lidar):
-    """A lidar of the new Gazebo, which publishes by itself: LaserScan, and the cloud beside it, ring by ring."""
+    """Lidar of the new Gazebo without a plugin: publishes a LaserScan, and a PointCloud2 ordered by ring."""
 
     kind = "gpu_lidar"
 
@@ -132,7 +132,7 @@ class GzLidar(Lidar):
         )
 
     def messages(self) -> Messages:
-        """Return what makes the message of each of `topics`."""
+        """Return the function that builds the message of each topic in `topics`."""
         return self.laser_scan, self._points
 
     def _points(self, reading: Reading) -> Any:

@@ -1,4 +1,4 @@
-"""Where a lidar looks: the ``<ray>`` or ``<lidar>`` of a ``<sensor>``."""
+"""Scan pattern of a lidar: ray directions and range limits in the ``<ray>`` or ``<lidar>`` of a ``<sensor>``."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from urdfkit.sim.plugins.sensors.sensor_values import number, refuse
 Array = NDArray[np.float64]
 
 MAX_RAYS = 4_000_000
-"""Most rays of one lidar."""
+"""Maximum number of rays of one lidar."""
 
 
 @dataclass(frozen=True)
@@ -24,14 +24,14 @@ class Scan:
     """The rays of a lidar, in its frame: x forward, counter-clockwise about z, upwards with the vertical angle.
 
     Attributes:
-        samples: rays side by side, the resolution counted in.
-        angle_min: of the first [rad].
-        angle_max: of the last [rad].
-        rings: rays above each other.
-        vertical_min: of the lowest [rad].
-        vertical_max: of the highest [rad].
-        range_min: nothing nearer is seen [m].
-        range_max: nothing farther is seen [m].
+        samples: rays per ring, multiplied by the resolution.
+        angle_min: azimuth of the first ray [rad].
+        angle_max: azimuth of the last ray [rad].
+        rings: number of vertical rays.
+        vertical_min: elevation of the lowest ring [rad].
+        vertical_max: elevation of the highest ring [rad].
+        range_min: minimum range [m].
+        range_max: maximum range [m].
     """
 
     samples: int
@@ -45,16 +45,16 @@ class Scan:
 
     @property
     def increment(self) -> float:
-        """Angle from one ray to the next [rad]; zero where there is one only."""
+        """Angle between neighbouring rays of a ring [rad]; zero for a single ray."""
         return (self.angle_max - self.angle_min) / (self.samples - 1) if self.samples > 1 else 0.0
 
     @property
     def field_of_view(self) -> float:
-        """The larger of the two angles it covers [rad]."""
+        """The larger of the horizontal and the vertical field of view [rad]."""
         return max(self.angle_max - self.angle_min, self.vertical_max - self.vertical_min)
 
     def directions(self) -> Array:
-        """Return a unit vector per ray, ring by ring from the lowest; shape (rings · samples, 3)."""
+        """Return the unit vector of each ray, ordered by ring, the lowest first; shape (rings · samples, 3)."""
         azimuth, elevation = np.meshgrid(
             np.linspace(self.angle_min, self.angle_max, self.samples),
             np.linspace(self.vertical_min, self.vertical_max, self.rings),
@@ -68,7 +68,7 @@ def scan_of(sensor: SensorTag) -> Scan:
     """Return the scan of a lidar; the defaults are sdformat's (lidar.sdf).
 
     Raises:
-        SimulationError: it makes no sense, with its place.
+        SimulationError: a parameter is invalid, with its position.
     """
     lidar = sensor.element.find("ray") or sensor.element.find("lidar")
     if lidar is None:
@@ -87,7 +87,7 @@ def scan_of(sensor: SensorTag) -> Scan:
 
 
 def _fan(element: Element | None, default: int) -> tuple[int, float, float]:
-    """Return how many rays there are, and the angles of the first and the last."""
+    """Return the number of rays, and the angles of the first and the last ray."""
     if element is None:
         return default, 0.0, 0.0
     samples = number(element, "samples", float(default), least=1.0)
