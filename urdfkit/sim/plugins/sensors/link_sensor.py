@@ -1,4 +1,4 @@
-"""What sensors of motion and place share: they ride on a link, and tell what it feels, one reading at a time."""
+"""Base class of motion and position sensors: measures the motion of a link."""
 
 from __future__ import annotations
 
@@ -29,14 +29,14 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True, eq=False)
 class Ride:
-    """What a sensor goes by at one moment.
+    """Inputs of one reading.
 
     Attributes:
-        t: when [s].
+        t: time stamp [s].
         turn: number of the publication.
-        motion: of the sensor.
-        acceleration: of its origin in the last step, along the world's axes [m/s²]; shape (3,).
-        random: for its noise; depends on the seed and the number of the publication alone.
+        motion: motion of the sensor.
+        acceleration: mean acceleration of its origin in the last step, along the world's axes [m/s²]; shape (3,).
+        random: generator of its noise; depends only on the seed and the number of the publication.
     """
 
     t: float
@@ -47,24 +47,23 @@ class Ride:
 
 
 class Carried(Sensor):
-    """A sensor on a link; one reading makes the messages of all its topics.
+    """Sensor on a link; all its topics share one reading per measurement.
 
     With a `lead` of 1 the acceleration is that of the last step.
 
     Attributes:
-        frame: whose coordinates it tells.
+        frame: frame id of its messages.
     """
 
     frame: str = ""
 
     def configure(self, setup: Setup) -> None:
-        """Read where it rides, its rate and the parameters, and advertise.
+        """Read the link, the rate and the parameters, and advertise the topics.
 
-        It is the link of its ``<sensor>``; of a plugin of the whole model, the one its ``bodyName`` names, else the
-        root.
+        The link is that of the ``<sensor>``. A plugin of the model uses the link in ``bodyName``, else the root link.
 
         Raises:
-            SimulationError: something makes no sense, with its place.
+            SimulationError: a parameter is invalid, with its position.
         """
         sensor, surroundings = setup.sensor, setup.surroundings
         if surroundings is None:
@@ -93,36 +92,36 @@ class Carried(Sensor):
         self._prepare(setup, element, read, topics, surroundings)
 
     def _namespace(self, setup: Setup) -> str:
-        """Return where ROS 1 puts it when it does not say."""
+        """Return the namespace in ROS 1 if ``<robotNamespace>`` is missing."""
         return ""
 
     @abstractmethod
     def _prepare(
         self, setup: Setup, element: Element | None, read: Parameters, topics: Topics, surroundings: Surroundings
     ) -> None:
-        """Read what is this kind's own from the ``<sensor>`` and the parameters, and fill `topics`."""
+        """Read this kind of sensor from the ``<sensor>`` and the parameters, and fill `topics`."""
 
     @abstractmethod
     def _feel(self, ride: Ride) -> Any:
-        """Return what is felt, noise included."""
+        """Return the reading, noise included."""
 
     @abstractmethod
     def messages(self) -> tuple[Callable[[Any], Any], ...]:
-        """Return what makes the messages of `topics` from what was felt."""
+        """Return the function that builds the message of each topic in `topics` from a reading."""
 
     def act(self, state: State) -> None:
-        """Publish the messages that are due, and keep this state for the next one."""
+        """Publish the messages that are due, and store this state for the next measurement."""
         super().act(state)
         if self.lead:
             self._before = Moment(self._kinematics, state)
 
     def reset(self, step: int = 0) -> None:
-        """Begin again at a step."""
+        """Restart at a step."""
         super().reset(step)
         self._before = None
 
     def measure(self, state: State, count: int) -> None:
-        """Publish; nothing is computed before somebody wants it."""
+        """Publish the reading of this state; computed only when a subscriber reads a message."""
         now, before, turn = Moment(self._kinematics, state), self._before, self.done
 
         @cache
@@ -142,10 +141,10 @@ class Carried(Sensor):
 
 
 def carrier(setup: Setup) -> str:
-    """Return the link that a ``<sensor>`` is on.
+    """Return the link of a ``<sensor>``.
 
     Raises:
-        SimulationError: it is on none, with its place and the nearest one.
+        SimulationError: the reference of its ``<gazebo>`` block is missing or no link, with its position.
     """
     assert setup.sensor is not None
     links = setup.kinematics.link_names

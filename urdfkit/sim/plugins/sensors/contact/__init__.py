@@ -1,4 +1,4 @@
-"""Sensors of touch and load: bumpers, contact sensors, force and torque at a joint.
+"""Contact and force-torque sensors: bumpers, contact sensors, touch sensors and joint wrenches.
 
-Contacts and joint loads of a step go in; messages come out.
+Each sensor reads the contacts or joint loads of a step and publishes messages.
 """

@@ -1,9 +1,9 @@
 """Contact sensors: gazebo_ros_bumper of ROS 1 and ROS 2, and the new Gazebo's contact system.
 
-They tell what touches the collisions that are named in their ``<contact>``: where, along which normal (towards the
-sensor's side), how deep, and what pushes it there. Everything is in the world's axes, whatever ``frameName`` says, as
-in the plugin's source; torques are about the centre of mass of the link. While somebody listens, the simulation stops
-at every step, so that a touch between two messages is told in the later one, with the last of its steps.
+A sensor reports the contacts of the collisions named in its ``<contact>``: position, normal (towards the sensor's
+link), depth and force. All vectors are in the world's axes, regardless of ``frameName``, as in the plugin's source;
+torques are about the link's centre of mass. While a topic has subscribers, the simulation stops at every step, so a
+contact between two messages is part of the later message, with the values of its last step.
 """
 
 from __future__ import annotations
@@ -37,15 +37,15 @@ Array = NDArray[np.float64]
 
 
 class Contacts(Sensor):
-    """A contact sensor, which collects the contacts of every step."""
+    """Contact sensor; collects the contacts of every step."""
 
     lead = NEVER
 
     def configure(self, setup: Setup) -> None:
-        """Find the collisions that are named, and advertise.
+        """Find the named collisions, and advertise the topics.
 
         Raises:
-            SimulationError: there is none, or none of that name, with its place.
+            SimulationError: the sensor names no collision or an unknown one, with its position.
         """
         sensor = setup.sensor
         if sensor is None or setup.surroundings is None:
@@ -68,27 +68,27 @@ class Contacts(Sensor):
         """Fill `topics`."""
 
     def act(self, state: State) -> None:
-        """Collect contacts, and publish the messages that are due."""
+        """Collect the contacts of the step, and publish the messages that are due."""
         self._seen.update(self._watch.look(state))
         super().act(state)
 
     def reset(self, step: int = 0) -> None:
-        """Begin again at a step."""
+        """Restart at a step."""
         super().reset(step)
         self._seen = {}
 
     def measure(self, state: State, count: int) -> None:
-        """Publish."""
+        """Publish the measurement of this state."""
         seen, self._seen = self._seen, {}
         self._offer(state.t, seen, self._surroundings.layout(), count)
 
     @abstractmethod
     def _offer(self, t: float, seen: Seen, layout: Layout, count: int) -> None:
-        """Publish what was seen."""
+        """Publish the collected contacts."""
 
 
 class Bumper(Contacts):
-    """gazebo_ros_bumper of ROS 1 and ROS 2: a ContactsState, empty where nothing touches."""
+    """gazebo_ros_bumper of ROS 1 and ROS 2: publishes a ContactsState, empty without contacts."""
 
     kind = "bumper"
 
@@ -106,12 +106,12 @@ class Bumper(Contacts):
 
 
 class GzContact(Contacts):
-    """A contact sensor of the new Gazebo: Contacts whenever something touches, and nothing else."""
+    """Contact sensor of the new Gazebo: publishes Contacts in steps with a contact only."""
 
     kind = "gz_contact"
 
     def _advertise(self, setup: Setup, element: Element, read: Parameters) -> None:
-        self.rate = 0.0  # systems/contact/Contact.cc looks at no rate
+        self.rate = 0.0  # systems/contact/Contact.cc ignores the update rate
         contact = element.find("contact")
         written = None if contact is None else contact.find("topic")
         name = (written.text if written is not None else "") or read.text("topic")
@@ -155,7 +155,7 @@ def _state(touch: Touch, number: int, of: int, t: float) -> Any:
 
 
 def _entity(name: str) -> Any:
-    """Return an Entity that is a collision; it has no number here."""
+    """Return the Entity of a collision, with id 0."""
     return message_type(ENTITY)(0, name, 5)
 
 
@@ -168,18 +168,19 @@ def _joint_wrench(touch: Touch, point: Point, t: float) -> Any:
 
 
 class GzTouch(Sensor):
-    """The new Gazebo's TouchPlugin: true once what the model's contact sensors watch has touched a target for a time.
+    """TouchPlugin of the new Gazebo: publishes true once the model has touched a target for a given time.
 
-    Afterwards it is silent until it is enabled again on ``NAMESPACE/enable``.
+    Only the collisions of the model's contact sensors count. After the message, the plugin is disabled until a message
+    on ``NAMESPACE/enable`` enables it.
     """
 
     kind = "gz_touch"
 
     def configure(self, setup: Setup) -> None:
-        """Read target, time and namespace, and advertise.
+        """Read target, time and namespace, and advertise the topic.
 
         Raises:
-            SimulationError: one of them is missing, or the model has no contact sensor, with the place.
+            SimulationError: a parameter is missing, or the model has no contact sensor, with the position.
         """
         read = Parameters(self.plugin, self.spec, setup.names)
         for meaning in ("target", "namespace", "time"):
@@ -212,16 +213,16 @@ class GzTouch(Sensor):
         self._enabled, self._since = bool(message.data), None
 
     def reset(self, step: int = 0) -> None:
-        """Begin again at a step."""
+        """Restart at a step."""
         super().reset(step)
         self._enabled, self._since = self._starts_enabled, None
 
     def stop(self, step: int) -> int:
-        """Return the step at which the simulation has to stop for it while it is enabled and has subscribers."""
+        """Return the next step at which the simulation has to stop for the sensor; `NEVER` while it is disabled."""
         return super().stop(step) if self._enabled else NEVER
 
     def measure(self, state: State, count: int) -> None:
-        """Publish, once, when it has touched for long enough."""
+        """Publish true, once, when the contact has lasted longer than the given time."""
         if not self._enabled:
             return
         touches = self._watch.touches(self._watch.look(state), self._surroundings.layout())

@@ -1,9 +1,9 @@
-"""What collisions are called, by those who listen to contacts: the names that Gazebo gives them.
+"""Gazebo's names of collisions, which contact sensors and contact messages use.
 
-From URDF, Gazebo makes ``LINK_collision``, ``LINK_collision_1``, …, or ``NAME_collision`` where the collision has a
-name; of links that hang together by fixed joints it makes one, and calls the collisions that move there
-``PARENT_fixed_joint_lump__LINK_collision_1`` (sdformat, parser_urdf.cc). Here links stay apart, and any of these names
-finds its collision. In SDF a collision has the name that is written.
+From URDF, Gazebo makes ``LINK_collision``, ``LINK_collision_1``, …, or ``NAME_collision`` if the collision has a name.
+It merges links connected by fixed joints into one, and renames the collisions of a merged link to
+``PARENT_fixed_joint_lump__LINK_collision_1`` (sdformat, parser_urdf.cc). urdfkit does not merge links, and resolves
+each of these names to its collision. In SDF, collisions keep their names.
 """
 
 from __future__ import annotations
@@ -28,13 +28,13 @@ _COUNTED = re.compile(r"_\d+$")
 
 @dataclass(frozen=True, eq=False)
 class Collision:
-    """A collision of a robot.
+    """Collision of a robot.
 
     Attributes:
-        link: that it is on.
-        name: as Gazebo calls it.
-        number: among those of its link.
-        aliases: all names that find it.
+        link: its link.
+        name: its name in Gazebo.
+        number: its index among the collisions of its link.
+        aliases: all names that resolve to it.
     """
 
     link: str
@@ -62,24 +62,24 @@ def collisions_of(robot: Robot, scene: Scene) -> tuple[Collision, ...]:
 
 
 def find(wanted: str, collisions: Sequence[Collision], link: str) -> tuple[Collision, ...]:
-    """Return the collisions that a name means; those of `link` before all others, none where none is called so."""
+    """Return the collisions with a name, only those of `link` if it has any; empty for an unknown name."""
     name = wanted.rpartition("::")[2].strip()
     lumped = _LUMP in name
     if lumped:
         name = name.rpartition(_LUMP)[2]
     means = [each for each in collisions if name in each.aliases]
-    if lumped and not means:  # its number counts the collisions of the link that it was moved to
+    if lumped and not means:  # its number is an index in the merged link
         means = [each for each in collisions if _COUNTED.sub("", name) in each.aliases]
     return tuple([each for each in means if each.link == link] or means)
 
 
 def scoped_name(name: str, layout: Layout, number: int) -> str:
-    """Return what Gazebo calls a collision of something that was touched.
+    """Return Gazebo's scoped name of the collision of a contact.
 
     Args:
-        name: as contacts call it: a body of the world, a link of the first robot, ``ROBOT::LINK`` of another.
-        layout: what there was.
-        number: of the collision among those of the body or link.
+        name: name in the contact: a body of the world, a link of the first robot, or ``ROBOT::LINK`` of another robot.
+        layout: layout of the scene at the contact.
+        number: index of the collision among those of the body or link.
     """
     if (found := _of_world(name, layout.world, number)) is not None:
         return found
@@ -101,7 +101,7 @@ def _of_world(name: str, world: World, number: int) -> str | None:
         for part, _, links in parts_of(model):
             if part == name:
                 shapes = [(link, shape) for link, _, written in links for shape in touchable(written)]
-                # The plane that is the ground is none of its body.
+                # The ground plane does not count among the collisions of its body.
                 is_plane = [model.name == ground and isinstance(shape.geometry, Plane) for _, shape in shapes]
                 same = [each for each, plane in zip(shapes, is_plane, strict=True) if plane == (number < 0)]
                 link, shape = same[max(number, 0)]

@@ -1,8 +1,8 @@
 """Force and torque at a joint: gazebo_ros_ft_sensor of ROS 1 and ROS 2, and the new Gazebo's force_torque sensors.
 
-The wrench is the mean over the step that ended with the measurement, so the simulation stops one step before as well; a
-message that nobody waited for has the mean since the simulation last stopped. It is about the joint's origin (the
-sensor's, in the new Gazebo), along the axes of the child link unless said otherwise.
+The wrench is the mean over the step that ends with the measurement, so the simulation also stops one step earlier.
+Without subscribers it does not stop, and the mean covers the time since its last stop. The wrench is about the origin
+of the joint (of the sensor in the new Gazebo), along the axes of the child link unless configured otherwise.
 """
 
 from __future__ import annotations
@@ -42,13 +42,13 @@ DIRECTIONS = ("child_to_parent", "parent_to_child")
 
 @dataclass(frozen=True, eq=False)
 class Step:
-    """What is known of the last step.
+    """Measured quantities of the last step.
 
     Attributes:
-        now: its end.
-        before: when the simulation stopped last before that.
-        contacts: what touched in it.
-        pushes: force, torque and point of attack, in the world, of what pushes the links.
+        now: robot at the end of the step.
+        before: robot at the previous stop of the simulation; None at the first.
+        contacts: contacts in the step.
+        pushes: force [N], torque [N·m] and point of application [m] of each external wrench on the links, in the world.
     """
 
     now: Moment
@@ -58,25 +58,25 @@ class Step:
 
 
 class ForceTorque(Sensor):
-    """A sensor of what a joint carries.
+    """Sensor of the wrench that a joint transmits.
 
     Attributes:
-        frame: whose coordinates it tells.
+        frame: frame id of its messages.
     """
 
     lead = 1
     frame: str = ""
     _noises: tuple[Noise, ...]
     _sign = -1.0
-    """-1 for what the child does to the parent, 1 for the other way round."""
+    """-1 for the wrench of the child on the parent, 1 for the wrench of the parent on the child."""
     _mount: Array
-    """The sensor in the child link: about whose origin it tells; shape (4, 4)."""
+    """Placement of the sensor in the child link; torques are about its origin; shape (4, 4)."""
 
     def configure(self, setup: Setup) -> None:
-        """Find the joint, and advertise.
+        """Find the joint, and advertise the topic.
 
         Raises:
-            SimulationError: there is none, or something else makes no sense, with its place.
+            SimulationError: the joint is unknown or a parameter is invalid, with its position.
         """
         if setup.surroundings is None:
             raise SimulationError("nothing is around", position=self.plugin.element.origin.position)
@@ -97,10 +97,10 @@ class ForceTorque(Sensor):
         """Read joint, rate, frame, direction and noise, and fill `topics`."""
 
     def _read_joint(self, setup: Setup, name: str, place: Any) -> None:
-        """Take note of the joint.
+        """Read the parent and child link of a joint.
 
         Raises:
-            SimulationError: there is none of that name.
+            SimulationError: the robot has no joint of that name.
         """
         robot = setup.kinematics.robot
         joint = robot.joint_by_name.get(name)
@@ -111,17 +111,17 @@ class ForceTorque(Sensor):
         self._parent, self._child = joint.parent, joint.child
 
     def act(self, state: State) -> None:
-        """Publish the messages that are due, and keep this state for the next one."""
+        """Publish the messages that are due, and store this state for the next measurement."""
         super().act(state)
         self._before = Moment(self._kinematics, state)
 
     def reset(self, step: int = 0) -> None:
-        """Begin again at a step."""
+        """Restart at a step."""
         super().reset(step)
         self._before = None
 
     def measure(self, state: State, count: int) -> None:
-        """Publish."""
+        """Publish the measurement of this state."""
         now = Moment(self._kinematics, state)
         pushes = self._surroundings.pushes_on(self._model, self._links)
         step = Step(now, self._before, state.contacts, pushes)
@@ -139,21 +139,21 @@ class ForceTorque(Sensor):
 
     @abstractmethod
     def _axes(self, now: Moment) -> Array:
-        """Return the axes it tells along, in the world; shape (3, 3)."""
+        """Return the axes of the published wrench in the world; shape (3, 3)."""
 
     def _measured(self, step: Step) -> Wrench:
-        """Return what it tells, without noise."""
+        """Return the wrench without noise."""
         import pinocchio as pin
 
         here = step.now.motion(self._child, self._mount)
-        # Half a step ago, where the engine's velocities change.
+        # Half a step earlier, when the engine changes the velocities.
         half = 0.5 * (step.now.t - step.before.t) if step.before and step.now.step - step.before.step == 1 else 0.0
         force, torque = self._carried(step, here.position - half * here.linear)
         R = matmul(pin.exp3(-half * here.angular), self._axes(step.now))
         return self._sign * matmul(R.T, force), self._sign * matmul(R.T, torque)
 
     def _carried(self, step: Step, about: Array) -> Wrench:
-        """Return what the joint does to the child, about a point."""
+        """Return the wrench of the joint on the child, about a point."""
         now = [step.now.motion(each.link, each.frame) for each in self._lumps]
         old, dt = now, 1.0
         if step.before is not None and step.before.step < step.now.step:
@@ -175,7 +175,7 @@ class ForceTorque(Sensor):
 
 
 class JointForceTorque(ForceTorque):
-    """gazebo_ros_ft_sensor of ROS 1 and ROS 2: what the child does to the parent, along the child's axes."""
+    """gazebo_ros_ft_sensor of ROS 1 and ROS 2: the wrench of the child on the parent, along the child's axes."""
 
     kind = "force_torque"
 
@@ -203,7 +203,7 @@ class JointForceTorque(ForceTorque):
 
 
 class GzForceTorque(ForceTorque):
-    """A force_torque sensor of the new Gazebo, in the ``<gazebo reference=…>`` of a joint."""
+    """Sensor of type force_torque of the new Gazebo, in the ``<gazebo reference=…>`` of a joint."""
 
     kind = "gz_force_torque"
 

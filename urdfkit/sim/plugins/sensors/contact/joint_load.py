@@ -1,7 +1,8 @@
-"""What a joint carries: the force and torque that the link above exerts on the one below, by the balance of momentum.
+"""Joint load: the wrench that the parent link exerts on the child link, from the balance of momentum.
 
-Between two steps the momentum of everything below a joint changes by what gravity, contacts, pushes and the joint give
-it; all but the last are known. Momenta are those of the links as written, so it works for fixed joints as well.
+Between two steps, the momentum of the subtree below a joint changes by the impulses of gravity, contacts, external
+wrenches and the joint; all except the joint's are known. Momenta are computed from the links of the description, so the
+method also works for fixed joints.
 """
 
 from __future__ import annotations
@@ -24,13 +25,13 @@ Wrench = tuple[Array, Array]
 
 @dataclass(frozen=True, eq=False)
 class Lump:
-    """A link with mass.
+    """Link with mass.
 
     Attributes:
         link: its name.
         mass: [kg].
-        frame: centre of mass, and the axes of its inertia, in the link; shape (4, 4).
-        inertia: about the centre of mass [kg·m²]; shape (3, 3).
+        frame: frame of its inertia in the link, with the origin at the centre of mass; shape (4, 4).
+        inertia: inertia tensor about the centre of mass [kg·m²]; shape (3, 3).
     """
 
     link: str
@@ -40,7 +41,7 @@ class Lump:
 
 
 def below(robot: Robot, link: str) -> tuple[str, ...]:
-    """Return a link and all that hang on it."""
+    """Return a link and all its descendants."""
     found = [link]
     for name in found:
         found.extend(joint.child for joint in robot.children_of.get(name, ()) if joint.child is not None)
@@ -48,7 +49,7 @@ def below(robot: Robot, link: str) -> tuple[str, ...]:
 
 
 def lumps_of(robot: Robot, links: Sequence[str]) -> tuple[Lump, ...]:
-    """Return those of some links that have a mass."""
+    """Return the inertias of some links, without the massless ones."""
     found = []
     for name in links:
         inertial = robot.link_by_name[name].inertial
@@ -63,12 +64,12 @@ def lumps_of(robot: Robot, links: Sequence[str]) -> tuple[Lump, ...]:
 
 
 def momentum(lumps: Sequence[Lump], motions: Sequence[Motion], about: Array) -> Wrench:
-    """Return linear momentum [kg·m/s] and angular momentum [kg·m²/s] about a point that stands still.
+    """Return linear momentum [kg·m/s] and angular momentum [kg·m²/s] about a fixed point.
 
     Args:
-        lumps: bodies.
-        motions: of their centres of mass, with the axes of their inertias.
-        about: the point [m]; shape (3,).
+        lumps: links with mass.
+        motions: motion of the inertia frame of each link.
+        about: reference point [m]; shape (3,).
     """
     linear, angular = np.zeros(3), np.zeros(3)
     for lump, motion in zip(lumps, motions, strict=True):
@@ -80,13 +81,13 @@ def momentum(lumps: Sequence[Lump], motions: Sequence[Motion], about: Array) -> 
 
 
 def weight(lumps: Sequence[Lump], motions: Sequence[Motion], gravity: Array, about: Array) -> Wrench:
-    """Return what gravity does to bodies, about a point.
+    """Return the wrench of gravity on links, about a point.
 
     Args:
-        lumps: bodies.
-        motions: of their centres of mass.
-        gravity: [m/s²]; shape (3,).
-        about: the point [m]; shape (3,).
+        lumps: links with mass.
+        motions: motion of the inertia frame of each link.
+        gravity: gravitational acceleration [m/s²]; shape (3,).
+        about: reference point [m]; shape (3,).
     """
     force, torque = np.zeros(3), np.zeros(3)
     for lump, motion in zip(lumps, motions, strict=True):

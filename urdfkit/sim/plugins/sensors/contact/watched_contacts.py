@@ -1,4 +1,4 @@
-"""What touches the collisions that somebody watches."""
+"""Contacts of the collisions that a contact sensor watches."""
 
 from __future__ import annotations
 
@@ -22,17 +22,17 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 Seen = dict[tuple[str, str], "list[Contact]"]
-"""What touched what, by the names that contacts have."""
+"""(watched link, other body), named as in contacts → their contacts."""
 
 
 @dataclass(frozen=True, eq=False)
 class Touch:
-    """Two collisions that touch.
+    """Two collisions in contact.
 
     Attributes:
-        mine: the sensor's collision, as Gazebo calls it.
-        other: what it touches.
-        points: where, and how; at least one.
+        mine: Gazebo's scoped name of the sensor's collision.
+        other: Gazebo's scoped name of the other collision.
+        points: contact points; at least one.
     """
 
     mine: str
@@ -42,14 +42,14 @@ class Touch:
 
 @dataclass(frozen=True, eq=False)
 class Point:
-    """A point of contact, in the world's axes.
+    """Contact point, in the world's axes.
 
     Attributes:
-        position: [m]; shape (3,).
-        normal: towards the sensor's side; shape (3,).
-        depth: [m].
-        force: on the sensor's side [N]; shape (3,).
-        arm: from the centre of mass of the sensor's link [m]; shape (3,).
+        position: position of the point [m]; shape (3,).
+        normal: unit normal towards the sensor's link; shape (3,).
+        depth: penetration depth [m].
+        force: force on the sensor's link [N]; shape (3,).
+        arm: position relative to the centre of mass of the sensor's link [m]; shape (3,).
     """
 
     position: Array
@@ -60,14 +60,14 @@ class Point:
 
 
 class Watch:
-    """Collisions of a robot, and what touches them.
+    """Collisions that a plugin watches, and their contacts.
 
     Args:
-        setup: of who watches.
+        setup: setup of the plugin.
         sensors: the ``<sensor>`` elements whose ``<contact>`` names the collisions, each with its link.
 
     Raises:
-        SimulationError: one names none, or one that is not there, with its place.
+        SimulationError: a sensor names no collision or an unknown one, with its position.
     """
 
     def __init__(self, setup: Setup, sensors: Sequence[tuple[Element, str]]) -> None:
@@ -84,7 +84,7 @@ class Watch:
         self._links = {each.link for each in watched}
 
     def look(self, state: State) -> Seen:
-        """Return the contacts of the last step with links that have collisions that are watched."""
+        """Return the contacts of the last step with links that have watched collisions."""
         found: Seen = {}
         for contact in state.contacts:
             if contact.depth >= 0.0 or any(contact.force):
@@ -95,11 +95,11 @@ class Watch:
         return found
 
     def touches(self, seen: Seen, layout: Layout) -> list[Touch]:
-        """Return what touches the collisions that are watched.
+        """Return the touches of the watched collisions.
 
         Args:
-            seen: by `look`.
-            layout: what there was then.
+            seen: contacts from `look`.
+            layout: layout of the scene at that step.
         """
         found: dict[tuple[str, str], Touch] = {}
         for (mine, other), contacts in seen.items():
@@ -130,7 +130,7 @@ def _watched(element: Element, collisions: tuple[Collision, ...], link: str) -> 
     """Return the collisions that a sensor's ``<contact>`` names.
 
     Raises:
-        SimulationError: it names none, or one that is not there, with its place.
+        SimulationError: the sensor names no collision or an unknown one, with its position.
     """
     contact = element.find("contact")
     wanted = [] if contact is None else contact.find_all("collision")
