@@ -1,6 +1,6 @@
-"""Sensors; `SENSORS` lists them in the order they are tried.
+"""Simulated sensors; `SENSORS` lists their classes in the order of selection.
 
-The state of the robot and the scene around it go in; messages at the rate of the sensor come out.
+A sensor reads the state of the robot or the scene, and publishes messages at its update rate.
 """
 
 from __future__ import annotations
@@ -59,4 +59,4 @@ SENSORS: tuple[type[Sensor], ...] = (
     JointForceTorque,
     GzForceTorque,
 )
-"""Every sensor; a test walks this folder and fails if one is missing here."""
+"""All sensor classes; a test searches this folder and fails if a class is missing here."""

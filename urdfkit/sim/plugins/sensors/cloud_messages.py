@@ -1,4 +1,4 @@
-"""Messages that hold points: PointCloud2 with the fields each plugin writes, and the old PointCloud."""
+"""Point cloud messages: PointCloud2 with the field layout of each plugin, and the deprecated PointCloud."""
 
 from __future__ import annotations
 
@@ -14,18 +14,18 @@ POINT_CLOUD = "sensor_msgs/msg/PointCloud"
 POINT_CLOUD_2 = "sensor_msgs/msg/PointCloud2"
 
 _TYPES = {"f4": 7, "u2": 4, "u4": 6, "u1": 2}
-"""PointField's numbers of types."""
+"""numpy type → datatype of PointField."""
 
 Layout = tuple[tuple[tuple[str, str, int], ...], int]
 """(name, numpy type, offset) of each field, and bytes per point."""
 
 XYZ = (("x", "f4", 0), ("y", "f4", 4), ("z", "f4", 8))
 GAZEBO_ROS_2: Layout = ((*XYZ, ("intensity", "f4", 12)), 16)
-"""gazebo_ros conversions/sensor_msgs.hpp."""
+"""Layout in gazebo_ros, conversions/sensor_msgs.hpp."""
 VELODYNE_ROS_1: Layout = ((*XYZ, ("intensity", "f4", 16), ("ring", "u2", 20)), 32)
 VELODYNE_ROS_2: Layout = ((*XYZ, ("intensity", "f4", 12), ("ring", "u2", 16), ("time", "f4", 18)), 22)
 GZ: Layout = ((*XYZ, ("intensity", "f4", 16), ("ring", "u2", 24)), 32)
-"""gz-sensors GpuLidarSensor.cc: every field begins at a multiple of eight bytes."""
+"""gz-sensors GpuLidarSensor.cc: every field starts at a multiple of eight bytes."""
 
 
 def cloud(
@@ -41,12 +41,12 @@ def cloud(
     """Return a PointCloud2.
 
     Args:
-        t: when [s].
-        frame: whose coordinates.
-        layout: fields and their places.
-        columns: field → values, width · height of them; what is missing is zero.
-        width: points in a row.
-        height: rows.
+        t: time stamp [s].
+        frame: frame id of the header.
+        layout: fields with their offsets, and bytes per point.
+        columns: field → width · height values; missing fields are zero.
+        width: points per row.
+        height: number of rows.
         dense: whether all points are finite.
     """
     fields, step = layout
@@ -70,13 +70,13 @@ def cloud(
 
 
 def old_cloud(t: float, frame: str, points: NDArray[Any], intensities: NDArray[Any]) -> Any:
-    """Return a PointCloud with one channel.
+    """Return a PointCloud with the channel ``intensity``.
 
     Args:
-        t: when [s].
-        frame: whose coordinates.
-        points: [m]; shape (n, 3).
-        intensities: shape (n,).
+        t: time stamp [s].
+        frame: frame id of the header.
+        points: positions [m]; shape (n, 3).
+        intensities: values of the channel; shape (n,).
     """
     point = message_type("geometry_msgs/msg/Point32")
     channel = message_type("sensor_msgs/msg/ChannelFloat32")("intensity", intensities.astype(np.float32))

@@ -1,8 +1,8 @@
-"""How the sensors of hector_gazebo_plugins err: an offset, a drift and noise.
+"""Error model of the sensors of hector_gazebo_plugins: offset, drift and noise.
 
 The drift is a first-order Gauss-Markov process whose standard deviation is ``drift`` and whose time constant is the
-inverse of ``driftFrequency`` (hector_gazebo_plugins, sensor_model.h, which says so but multiplies its noise by the time
-step, so that its drift is smaller the oftener it measures).
+inverse of ``driftFrequency``. It follows the documentation in hector_gazebo_plugins, sensor_model.h. The code there
+multiplies the noise by the time step, so its drift decreases with the update rate.
 """
 
 from __future__ import annotations
@@ -18,19 +18,19 @@ from urdfkit.sim.plugins.parameters import Parameters
 Array = NDArray[np.float64]
 
 DRIFT_FREQUENCY = 1.0 / 3600.0
-"""Where nothing is written [Hz]."""
+"""Default of ``driftFrequency`` [Hz]."""
 
 
 class Drifting:
-    """The error of one quantity.
+    """Error of one quantity.
 
     Args:
-        offset: [unit of the quantity]; shape (n,).
+        offset: constant error, in the unit of the quantity; shape (n,).
         drift: standard deviation of the drift; shape (n,).
-        frequency: inverse of its time constant [Hz]; shape (n,).
+        frequency: inverse of the time constant of the drift [Hz]; shape (n,).
         noise: standard deviation of the noise; shape (n,).
-        period: from one reading to the next [s].
-        key: of its random numbers.
+        period: time between readings [s].
+        key: key of its random generators.
     """
 
     def __init__(self, offset: Array, drift: Array, frequency: Array, noise: Array, *, period: float, key: int) -> None:
@@ -46,12 +46,12 @@ class Drifting:
 
     @property
     def variance(self) -> Array:
-        """Of noise and drift together; shape (n,)."""
+        """Variance of noise plus drift; shape (n,)."""
         found: Array = self.noise**2 + self.drift**2
         return found
 
     def at(self, turn: int) -> Array:
-        """Return the error of a reading by its number, the same whichever were asked for before; shape (n,)."""
+        """Return the error of the reading with a number; does not depend on earlier calls; shape (n,)."""
         if turn < self._turn:
             self._restart()
         if self.drift.any():
@@ -71,21 +71,21 @@ def drifting(
 
     Args:
         read: the parameters, ``offset``, ``drift``, ``drift_frequency`` and ``gaussian_noise`` among them.
-        prefix: goes before these, e.g. ``accel_``.
-        size: how many numbers the quantity has.
-        rate: of the sensor [Hz]; zero for every step.
+        prefix: prefix of these names, e.g. ``accel_``.
+        size: number of components of the quantity.
+        rate: rate of the sensor [Hz]; zero for every step.
         dt: the simulation's step [s].
-        random: draws the key.
+        random: generator that draws the key.
 
     Raises:
-        SimulationError: one of them makes no sense, with its place.
+        SimulationError: a parameter is invalid, with its position.
     """
 
     def vector(meaning: str, default: float, *, least: float | None = None) -> Array:
         text = read.text(prefix + meaning)
         if not text:
             return np.full(size, default)
-        # gazebo::math::Vector3 reads one number as x, y and z alike.
+        # gazebo::math::Vector3 uses a single number for x, y and z.
         found = (
             np.full(size, read.number(prefix + meaning))
             if len(text.split()) == 1

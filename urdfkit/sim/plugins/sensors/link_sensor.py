@@ -121,7 +121,7 @@ class Carried(Sensor):
         self._before = None
 
     def measure(self, state: State, count: int) -> None:
-        """Publish the reading of this state; computed only when a subscriber reads a message."""
+        """Publish the reading of this state; computed only for a subscriber or a reader of `latest`."""
         now, before, turn = Moment(self._kinematics, state), self._before, self.done
 
         @cache

@@ -1,4 +1,4 @@
-"""Gaussian noise of sensors: SDF's ``<noise>``, and the standard deviation that plugins of ROS 1 bring themselves."""
+"""Gaussian noise of sensors: SDF's ``<noise>``, and the standard deviation in the parameters of ROS 1 plugins."""
 
 from __future__ import annotations
 
@@ -18,13 +18,13 @@ TYPES = ("none", "gaussian", "gaussian_quantized")
 
 @dataclass(frozen=True)
 class Noise:
-    """What is added to a reading.
+    """Noise model of a reading.
 
     Attributes:
-        mean: of the noise, in the unit of what is measured.
+        mean: mean, in the unit of the reading.
         deviation: standard deviation.
-        bias: added to all readings alike, drawn once.
-        precision: readings are multiples of it; zero for any.
+        bias: constant offset of all readings, drawn once.
+        precision: quantization step of the readings; zero for none.
     """
 
     mean: float = 0.0
@@ -36,7 +36,7 @@ class Noise:
         return any((self.mean, self.deviation, self.bias, self.precision))
 
     def on(self, readings: Array, random: np.random.Generator) -> Array:
-        """Return readings with noise on them (gazebo, GaussianNoiseModel.cc)."""
+        """Return readings with noise added (gazebo, GaussianNoiseModel.cc)."""
         found = readings + (self.mean + self.bias)
         if self.deviation > 0.0:
             found = found + self.deviation * random.standard_normal(readings.shape)
@@ -44,14 +44,14 @@ class Noise:
 
 
 def noise_of(parent: Element | None, random: np.random.Generator) -> Noise:
-    """Return the ``<noise>`` in an element; none where there is none. Its bias may have either sign, as Gazebo's.
+    """Return the ``<noise>`` in an element; zero noise if missing. The bias gets a random sign, as in Gazebo.
 
     Args:
-        parent: what is measured, such as ``<ray>``.
-        random: draws the bias.
+        parent: element that contains it, such as ``<ray>``.
+        random: generator that draws the bias.
 
     Raises:
-        SimulationError: it makes no sense, with its place.
+        SimulationError: a parameter is invalid, with its position.
     """
     element = None if parent is None else parent.find("noise")
     if element is None:

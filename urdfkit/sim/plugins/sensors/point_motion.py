@@ -1,4 +1,4 @@
-"""How a point on a link moves, worked out when somebody asks."""
+"""Motion of a frame on a link, computed on demand from a stored state of the robot."""
 
 from __future__ import annotations
 
@@ -19,13 +19,13 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True, eq=False)
 class Motion:
-    """A frame in the world.
+    """Pose and velocity of a frame in the world.
 
     Attributes:
-        rotation: of the frame in the world; shape (3, 3).
-        position: [m]; shape (3,).
+        rotation: orientation of the frame in the world; shape (3, 3).
+        position: position of its origin [m]; shape (3,).
         linear: velocity of its origin along the world's axes [m/s]; shape (3,).
-        angular: velocity along the world's axes [rad/s]; shape (3,).
+        angular: angular velocity along the world's axes [rad/s]; shape (3,).
     """
 
     rotation: Array
@@ -35,11 +35,11 @@ class Motion:
 
 
 class Moment:
-    """The robot at one moment, kept; motions are worked out when asked for.
+    """Stored state of the robot at one time; motions are computed on demand.
 
     Args:
         kinematics: the robot's model.
-        state: the present.
+        state: the state to store.
     """
 
     def __init__(self, kinematics: Kinematics, state: State) -> None:
@@ -49,10 +49,10 @@ class Moment:
         self._v = state.v.copy()
 
     def motion(self, link: str, mount: Array) -> Motion:
-        """Return how a frame that is fixed to a link moves.
+        """Return the motion of a frame fixed to a link.
 
         Args:
-            link: its name.
+            link: name of the link.
             mount: placement of the frame in the link; shape (4, 4).
         """
         import pinocchio as pin

@@ -100,7 +100,7 @@ class Mounted(Sensor):
         return tuple(partial(message, seen) for message in self.messages())
 
     def measure(self, state: State, count: int) -> None:
-        """Publish the observation of the current scene; computed only when a subscriber reads a message.
+        """Publish the observation of the current scene; computed only for a subscriber or a reader of `latest`.
 
         The noise depends only on the seed and the number of the publication.
         """

@@ -1,4 +1,4 @@
-"""Numbers of a ``<sensor>``, with the place of the wrong one in the error."""
+"""Numbers, pose and rate of a ``<sensor>``; errors contain the position of the invalid value."""
 
 from __future__ import annotations
 
@@ -21,17 +21,17 @@ if TYPE_CHECKING:
 def number(
     parent: Element | None, tag: str, default: float, *, infinite: bool = False, least: float | None = None
 ) -> float:
-    """Return the number in a child; a default where there is none.
+    """Return the number in a child element; the default if the element is missing or empty.
 
     Args:
-        parent: where to look; None for nowhere.
-        tag: of the child.
-        default: what counts where nothing is written.
-        infinite: whether it may be.
-        least: the smallest it may be.
+        parent: parent element; None if it is missing.
+        tag: tag of the child.
+        default: default value.
+        infinite: whether infinity is allowed.
+        least: smallest value allowed.
 
     Raises:
-        SimulationError: it is no such number, with its place.
+        SimulationError: the value is not such a number, with its position.
     """
     child = None if parent is None else parent.find(tag)
     if child is None or not child.text.strip():
@@ -48,10 +48,10 @@ def number(
 
 
 def refuse(found: Iterable[tuple[Element, str]]) -> None:
-    """Refuse the first of what makes no sense, if there is any.
+    """Raise an error for the first invalid element, if any.
 
     Raises:
-        SimulationError: with its place.
+        SimulationError: the list contains an invalid element, with its position.
     """
     for element, message in found:
         raise SimulationError(message, position=element.origin.position)
@@ -61,7 +61,7 @@ def pose_of(sensor: Element) -> NDArray[np.float64]:
     """Return the ``<pose>`` of a sensor in its link; shape (4, 4).
 
     Raises:
-        SimulationError: it is not six finite numbers, with its place.
+        SimulationError: it is not six finite numbers, with its position.
     """
     child = sensor.find("pose") or sensor.find("origin")
     if child is None:
@@ -77,12 +77,12 @@ def pose_of(sensor: Element) -> NDArray[np.float64]:
 
 
 def rate_of(sensor: Element | None, read: Parameters) -> float:
-    """Return how often a sensor measures [Hz]: the slower of its ``<update_rate>`` and its plugin's, where set.
+    """Return the rate of a sensor [Hz]: the lower of its ``<update_rate>`` and its plugin's; unset rates are ignored.
 
     Zero means every step, as in Gazebo.
 
     Raises:
-        SimulationError: a rate is negative or no number, with its place.
+        SimulationError: a rate is negative or no number, with its position.
     """
     rates = number(sensor, "update_rate", 0.0, least=0.0), read.number("update_rate", unsigned=True)
     return min((rate for rate in rates if rate > 0), default=0.0)

@@ -1,4 +1,4 @@
-"""Sensors of motion and place: IMU, GPS, true pose, magnetometer, altimeter and barometer.
+"""Navigation sensors: IMU, GPS, ground-truth pose, magnetometer, altimeter and barometer.
 
-The motion of a link goes in; messages with the noise that is configured come out.
+Each sensor measures the motion of a link and publishes messages with the configured noise.
 """

@@ -1,4 +1,4 @@
-"""How high a sensor is: altimeters, air pressure, and the barometer of the hector quadrotor."""
+"""Height sensors: altimeter, air pressure sensor, and the barometer of the hector quadrotor."""
 
 from __future__ import annotations
 
@@ -29,24 +29,24 @@ FLUID_PRESSURE = "sensor_msgs/msg/FluidPressure"
 POINT = "geometry_msgs/msg/PointStamped"
 
 SEA_LEVEL = 101325.0
-"""Pressure of the standard atmosphere [Pa] (ISO 2533), as gz-sensors has it."""
+"""Sea-level pressure of the standard atmosphere [Pa] (ISO 2533), as in gz-sensors."""
 SEA_LEVEL_TEMPERATURE = 288.15
-"""[K]."""
+"""Sea-level temperature of the standard atmosphere [K]."""
 LAPSE = 0.0065
-"""How much colder it gets upwards [K/m]."""
+"""Temperature lapse rate [K/m]."""
 EARTH_RADIUS = 6356766.0
-"""Of geopotential heights [m]."""
+"""Earth radius for geopotential heights [m]."""
 EXPONENT = 9.80665 * 28.9644 / (8314.32 * LAPSE)
 
 
 def pressure(height: float) -> float:
-    """Return the pressure of the standard atmosphere at a height above the sea [Pa] (AirPressureSensor.cc)."""
+    """Return the pressure of the standard atmosphere at a height [m] above sea level [Pa] (AirPressureSensor.cc)."""
     geopotential = EARTH_RADIUS * height / (EARTH_RADIUS + height)
     return SEA_LEVEL * exp(-EXPONENT * log(SEA_LEVEL_TEMPERATURE / (SEA_LEVEL_TEMPERATURE - LAPSE * geopotential)))
 
 
 class OneTopic(Carried):
-    """A sensor of the new Gazebo that publishes one message by itself."""
+    """Sensor of the new Gazebo with one topic, which publishes without a plugin."""
 
     type: str
 
@@ -58,20 +58,20 @@ class OneTopic(Carried):
 
     @abstractmethod
     def _read(self, setup: Setup, element: Element | None, surroundings: Surroundings) -> None:
-        """Read what is this kind's own."""
+        """Read the elements of this kind of sensor."""
 
     def messages(self) -> tuple[Callable[[Any], Any], ...]:
-        """Return what makes the message of each of `topics`: it is what was felt."""
+        """Return the function that builds the message of the topic: the reading is the message."""
         return (itself,)
 
 
 def itself(message: Any) -> Any:
-    """Return what is a message already."""
+    """Return a reading that is already a message."""
     return message
 
 
 class GzAirPressure(OneTopic):
-    """An air pressure sensor of the new Gazebo."""
+    """Air pressure sensor of the new Gazebo."""
 
     kind = "gz_air_pressure"
     type = FLUID_PRESSURE
@@ -88,7 +88,7 @@ class GzAirPressure(OneTopic):
 
 
 class GzAltimeter(OneTopic):
-    """An altimeter of the new Gazebo: the height over where it starts, and the vertical velocity."""
+    """Altimeter of the new Gazebo: height above its initial position, and vertical velocity."""
 
     kind = "gz_altimeter"
     type = GZ_ALTIMETER
@@ -103,13 +103,13 @@ class GzAltimeter(OneTopic):
         self._height_noise, self._climb_noise = noise("vertical_position"), noise("vertical_velocity")
 
     def act(self, state: State) -> None:
-        """Publish the messages that are due; the first state is the reference."""
+        """Publish the messages that are due; the first state is the reference height."""
         if self._start is None:
             self._start = float(Moment(self._kinematics, state).motion(self.link, self._mount).position[2])
         super().act(state)
 
     def stop(self, step: int) -> int:
-        """Return the step at which the simulation has to stop for it: the first one, and where it is due."""
+        """Return the next step at which the simulation has to stop for the sensor; the first step is one of them."""
         return step if self._start is None else super().stop(step)
 
     def _feel(self, ride: Ride) -> Any:
@@ -120,7 +120,7 @@ class GzAltimeter(OneTopic):
 
 
 class HectorBaro(Carried):
-    """hector_gazebo_ros_baro of ROS 1: the height in the world, and the pressure that goes with it."""
+    """hector_gazebo_ros_baro of ROS 1: height in the world, and the corresponding air pressure."""
 
     kind = "hector_baro"
 
@@ -138,7 +138,7 @@ class HectorBaro(Carried):
         return ride.t, float(ride.motion.position[2]) + float(self._error.at(ride.turn)[0])
 
     def messages(self) -> tuple[Callable[[Any], Any], ...]:
-        """Return what makes the message of each of `topics`."""
+        """Return the function that builds the message of each topic in `topics`."""
         return self._height, self._altimeter
 
     def _height(self, felt: tuple[float, float]) -> Any:

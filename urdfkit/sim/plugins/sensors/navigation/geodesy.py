@@ -1,4 +1,4 @@
-"""Where a world lies on the earth: its axes → latitude, longitude and altitude on WGS 84."""
+"""Geodetic coordinates: positions in the world → latitude, longitude and altitude on WGS 84."""
 
 from __future__ import annotations
 
@@ -23,13 +23,13 @@ E2 = F * (2 - F)
 
 @dataclass(frozen=True)
 class Earth:
-    """The world's origin on the earth, and which way its axes point.
+    """Geodetic position of the world's origin, and heading of its axes.
 
     Attributes:
-        latitude: of the origin [rad].
-        longitude: of the origin [rad].
-        elevation: of the origin above the ellipsoid [m].
-        heading: counter-clockwise, from east to the world's x axis [rad].
+        latitude: latitude of the origin [rad].
+        longitude: longitude of the origin [rad].
+        elevation: height of the origin above the ellipsoid [m].
+        heading: angle from east to the world's x axis, counter-clockwise [rad].
     """
 
     latitude: float = 0.0
@@ -38,25 +38,25 @@ class Earth:
     heading: float = 0.0
 
     def locate(self, position: Array) -> tuple[float, float, float]:
-        """Return latitude [°], longitude [°] and altitude [m] of a point in the world."""
+        """Return latitude [°], longitude [°] and altitude [m] of a position in the world."""
         found = self._centre(self.latitude, self.longitude, self.elevation) + matmul(self._axes(), position)
         x, y, z = found.tolist()
         flat = hypot(x, y)
         latitude, altitude = atan2(z, flat * (1 - E2)), 0.0
-        for _ in range(8):  # converges by a factor of E2 a round
+        for _ in range(8):  # the error shrinks by a factor of E2 per iteration
             n = A / sqrt(1 - E2 * sin(latitude) ** 2)
             altitude = flat * cos(latitude) + z * sin(latitude) - A * sqrt(1 - E2 * sin(latitude) ** 2)
             latitude = atan2(z, flat * (1 - E2 * n / (n + altitude)))
         return degrees(latitude), degrees(atan2(y, x)), altitude
 
     def compass(self, along: Array) -> tuple[float, float, float]:
-        """Return what a vector along the world's axes is to the east, to the north and up."""
+        """Return the east, north and up components of a vector along the world's axes."""
         x, y, z = along.tolist()
         c, s = cos(self.heading), sin(self.heading)
         return c * x - s * y, s * x + c * y, z
 
     def _axes(self) -> Array:
-        """Return the world's axes in the earth's; shape (3, 3)."""
+        """Return the world's axes in the earth-centred, earth-fixed frame; shape (3, 3)."""
         (s, c), (sl, cl) = (sin(self.latitude), cos(self.latitude)), (sin(self.longitude), cos(self.longitude))
         east, north, up = (-sl, cl, 0.0), (-s * cl, -s * sl, c), (c * cl, c * sl, s)
         turn = np.array(
@@ -82,10 +82,10 @@ class Earth:
 
 
 def earth_of(world: World) -> Earth | None:
-    """Return what a world's ``<spherical_coordinates>`` say; None where it has none.
+    """Return the geodetic reference in a world's ``<spherical_coordinates>``; None without that element.
 
     Raises:
-        SimulationError: a number is none, with its place.
+        SimulationError: a value is not a finite number, with its position.
     """
     element = next((kept.element for kept in world.kept if kept.element.tag == "spherical_coordinates"), None)
     if element is None:

@@ -1,6 +1,6 @@
 """GPS: gazebo_ros_gps_sensor of ROS 2, the new Gazebo's navsat and hector_gazebo_ros_gps, on WGS 84.
 
-Noise is in metres along east, north and up; the new Gazebo's source adds it to degrees.
+Noise is in metres along east, north and up; the new Gazebo's source adds the same numbers to degrees.
 """
 
 from __future__ import annotations
@@ -38,12 +38,12 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True, eq=False)
 class Fix:
-    """One reading.
+    """One reading of a GPS.
 
     Attributes:
-        t: when [s].
+        t: time stamp [s].
         place: latitude [°], longitude [°] and altitude [m].
-        velocity: to the north, the west and up [m/s]; shape (3,).
+        velocity: north, west and up components [m/s]; shape (3,).
     """
 
     t: float
@@ -56,7 +56,7 @@ class Gps(Carried):
 
     kind = "gps"
     _status = 0, 1
-    """NavSatStatus: STATUS_FIX, SERVICE_GPS."""
+    """Status and service of NavSatStatus: STATUS_FIX, SERVICE_GPS."""
     _variances: Array
 
     def _prepare(
@@ -87,7 +87,7 @@ class Gps(Carried):
         return self._fix(ride, (east, north, up), np.zeros(3))
 
     def _fix(self, ride: Ride, off: tuple[float, float, float], drift: Array) -> Fix:
-        """Return where it is, off by so much to the east, the north and up [m], and how it moves, off by `drift`."""
+        """Return the reading with the position error `off`, east, north and up [m], and the velocity error `drift`."""
         latitude, longitude, altitude = self._earth.locate(ride.motion.position)
         longitude += degrees(off[0] / (A * max(cos(radians(latitude)), 1e-9)))
         latitude += degrees(off[1] / A)
@@ -95,7 +95,7 @@ class Gps(Carried):
         return Fix(ride.t, (latitude, longitude, altitude + off[2]), np.array([north, -east, up]) + drift)
 
     def messages(self) -> tuple[Callable[[Fix], Any], ...]:
-        """Return what makes the message of each of `topics`."""
+        """Return the function that builds the message of each topic in `topics`."""
         return (self._message,)
 
     def _message(self, fix: Fix) -> Any:
@@ -106,13 +106,13 @@ class Gps(Carried):
 
 
 class GzNavSat(Gps):
-    """A navsat sensor of the new Gazebo, which publishes by itself."""
+    """Sensor of type navsat of the new Gazebo, which publishes without a plugin."""
 
     kind = "gz_navsat"
 
 
 class HectorGps(Gps):
-    """hector_gazebo_ros_gps of ROS 1: a fix, and the velocity to the north, the west and up; both drift."""
+    """hector_gazebo_ros_gps of ROS 1: fix and velocity (north, west, up), both with drifting errors."""
 
     kind = "hector_gps"
 
@@ -148,7 +148,7 @@ class HectorGps(Gps):
         return self._fix(ride, (east, north, up), self._speed.at(ride.turn))
 
     def messages(self) -> tuple[Callable[[Fix], Any], ...]:
-        """Return what makes the message of each of `topics`."""
+        """Return the function that builds the message of each topic in `topics`."""
         return self._message, self._velocity
 
     def _velocity(self, fix: Fix) -> Any:

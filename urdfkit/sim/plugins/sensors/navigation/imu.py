@@ -1,7 +1,7 @@
-"""Inertial measurement units: orientation, turning rate, and what an accelerometer feels, gravity included.
+"""Inertial measurement units: orientation, angular velocity and linear acceleration, gravity included.
 
-The acceleration is that of the step that ended with the measurement, so the simulation stops one step before as well; a
-message that nobody waited for has the mean since the simulation last stopped.
+The acceleration is the mean over the step that ends with the measurement, so the simulation also stops one step
+earlier. Without subscribers it does not stop, and the mean covers the time since its last stop.
 """
 
 from __future__ import annotations
@@ -36,21 +36,21 @@ if TYPE_CHECKING:
 IMU = "sensor_msgs/msg/Imu"
 
 G = 9.8065
-"""By which hector's ``rpyOffset`` becomes an offset of the acceleration [m/s²]."""
+"""Gravity with which hector converts ``rpyOffset`` to an offset of the acceleration [m/s²]."""
 
 Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)
 class Felt:
-    """One reading.
+    """One reading of an IMU.
 
     Attributes:
-        t: when [s].
-        rotation: of the sensor; shape (3, 3).
-        shaken: added to the quaternion x y z w before it is normalised; shape (4,).
-        turning: rate in the sensor's axes [rad/s]; shape (3,).
-        pulled: acceleration in the sensor's axes [m/s²]; shape (3,).
+        t: time stamp [s].
+        rotation: orientation of the sensor; shape (3, 3).
+        shaken: noise, added to the quaternion x y z w before it is normalised; shape (4,).
+        turning: angular velocity in the sensor's axes [rad/s]; shape (3,).
+        pulled: linear acceleration in the sensor's axes [m/s²]; shape (3,).
     """
 
     t: float
@@ -61,12 +61,12 @@ class Felt:
 
 
 class Imu(Carried):
-    """An inertial measurement unit; where it publishes and how it errs is its subclass's to say."""
+    """Inertial measurement unit; its subclass defines the topic and the errors."""
 
     lead = 1
     _relative = False
     _variances: tuple[Array, Array, Array]
-    """Diagonals of the covariances of orientation, turning rate and acceleration."""
+    """Diagonals of the covariances of orientation, angular velocity and linear acceleration."""
 
     def _prepare(
         self, setup: Setup, element: Element | None, read: Parameters, topics: Topics, surroundings: Surroundings
@@ -82,20 +82,20 @@ class Imu(Carried):
 
     @abstractmethod
     def _errors(self, setup: Setup, element: Element | None, read: Parameters) -> None:
-        """Read how it errs, and fill `_variances`."""
+        """Read the error model, and fill `_variances`."""
 
     @abstractmethod
     def _err(self, felt: Felt, ride: Ride) -> Felt:
-        """Return a reading with the errors on it."""
+        """Return a reading with errors added."""
 
     def act(self, state: State) -> None:
-        """Publish the messages that are due; the first state may be the reference."""
+        """Publish the messages that are due; the first orientation is the reference if `_relative` is set."""
         if self._reference is None and self._relative:
             self._reference = Moment(self._kinematics, state).motion(self.link, self._mount).rotation
         super().act(state)
 
     def messages(self) -> tuple[Callable[[Felt], Any], ...]:
-        """Return what makes the message of each of `topics`."""
+        """Return the function that builds the message of each topic in `topics`."""
         return (self._message,)
 
     def _feel(self, ride: Ride) -> Felt:
@@ -122,7 +122,7 @@ class Imu(Carried):
 
 
 class PlainImu(Imu):
-    """An IMU whose noise is SDF's, or one standard deviation for everything, or both."""
+    """IMU with the noise of SDF, with one standard deviation for all quantities, or with both."""
 
     _gyro: tuple[Noise, ...]
     _accelerometer: tuple[Noise, ...]
@@ -145,8 +145,8 @@ class PlainImu(Imu):
 class ImuSensor(PlainImu):
     """gazebo_ros_imu_sensor of ROS 1 and ROS 2.
 
-    The one of ROS 1 adds noise of its own to what Gazebo's sensor reads, SDF's noise included, and tells only its own
-    in the covariances (gazebo_ros_imu_sensor.cpp, UpdateChild).
+    The ROS 1 plugin adds its own noise to the readings of Gazebo's sensor, which already contain SDF's noise; its
+    covariances contain only its own noise (gazebo_ros_imu_sensor.cpp, UpdateChild).
     """
 
     kind = "imu_sensor"
@@ -169,7 +169,7 @@ class ImuSensor(PlainImu):
 
 
 class GzImu(PlainImu):
-    """An IMU of the new Gazebo, which publishes by itself."""
+    """IMU of the new Gazebo, which publishes without a plugin."""
 
     kind = "gz_imu"
     _relative = True
@@ -183,7 +183,7 @@ class GzImu(PlainImu):
 class BodyImu(PlainImu):
     """gazebo_ros_imu of ROS 1: acceleration without gravity, in the link's axes.
 
-    The plugin turns its vectors the wrong way round; here they are in the axes of the link that it names.
+    The plugin rotates its vectors in the wrong direction; urdfkit publishes them in the axes of the configured link.
     """
 
     kind = "imu"
@@ -201,7 +201,7 @@ class BodyImu(PlainImu):
 
 
 class HectorImu(Imu):
-    """hector_gazebo_ros_imu of ROS 1: errors that drift, and a heading of its own."""
+    """hector_gazebo_ros_imu of ROS 1: drifting errors of acceleration, angular velocity and heading."""
 
     kind = "hector_imu"
 
@@ -212,7 +212,7 @@ class HectorImu(Imu):
         yaw = "yaw_" if any(read.has(f"yaw_{each}") for each in ("offset", "drift", "gaussian_noise")) else "heading_"
         self._heading = errors(yaw, 1)
         roll, pitch, yaw_offset = read.vector("rpy_offset", 3)
-        self._offset = np.eye(3)  # not a rotation here, but what an IMU that is tilted so much would feel
+        self._offset = np.eye(3)  # rpy_offset is an error of acceleration and heading, as of a tilted IMU
         for error, offset in (
             (self._accelerometer, np.array([pitch * G, -roll * G, 0.0])),
             (self._heading, np.array([yaw_offset])),
@@ -234,7 +234,7 @@ class HectorImu(Imu):
 
 
 def _written(element: Element, random: np.random.Generator) -> tuple[tuple[Noise, ...], tuple[Noise, ...]]:
-    """Return the noises in a sensor's ``<imu>``: of turning rates and of accelerations, along x, y and z."""
+    """Return the noises of angular velocity and of linear acceleration in a sensor's ``<imu>``, along x, y and z."""
     imu = element.find("imu")
     kinds = [None if imu is None else imu.find(tag) for tag in ("angular_velocity", "linear_acceleration")]
     gyro, accelerometer = (

@@ -28,7 +28,7 @@ VECTOR = "geometry_msgs/msg/Vector3Stamped"
 
 
 class GzMagnetometer(OneTopic):
-    """A magnetometer of the new Gazebo: the world's ``<magnetic_field>`` [T]."""
+    """Magnetometer of the new Gazebo: measures the world's ``<magnetic_field>`` [T]."""
 
     kind = "gz_magnetometer"
     type = MAGNETIC_FIELD
@@ -47,14 +47,14 @@ class GzMagnetometer(OneTopic):
 
 
 class HectorMagnetic(Carried):
-    """hector_gazebo_ros_magnetic of ROS 1: a field by magnitude, declination and inclination."""
+    """hector_gazebo_ros_magnetic of ROS 1: field from magnitude, declination and inclination."""
 
     kind = "hector_magnetic"
 
     def _prepare(
         self, setup: Setup, element: Element | None, read: Parameters, topics: Topics, surroundings: Surroundings
     ) -> None:
-        heading = radians(read.number("heading"))  # of the world's x axis, clockwise from north
+        heading = radians(read.number("heading"))  # heading of the world's x axis, clockwise from north
         if not read.has("heading"):
             heading = pi / 2 - (earth_of(surroundings.world) or Earth()).heading
         declination, inclination = radians(read.number("declination")), radians(read.number("inclination"))
@@ -74,5 +74,5 @@ class HectorMagnetic(Carried):
         return message_type(VECTOR)(header(ride.t, self.frame), found)
 
     def messages(self) -> tuple[Callable[[Any], Any], ...]:
-        """Return what makes the message of each of `topics`: it is what was felt."""
+        """Return the function that builds the message of the topic: the reading is the message."""
         return (itself,)

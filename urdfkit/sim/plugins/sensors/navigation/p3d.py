@@ -1,6 +1,6 @@
-"""True poses: gazebo_ros_p3d of ROS 1 and ROS 2, an Odometry with the twist along the axes of the frame it names.
+"""Ground-truth pose: gazebo_ros_p3d of ROS 1 and ROS 2, which publishes Odometry.
 
-That frame is the world, or another link: then pose and twist are relative to it, as they are seen from there.
+Pose and twist are relative to ``frameName``, the world or another link; the twist is along the axes of that frame.
 """
 
 from __future__ import annotations
@@ -24,19 +24,19 @@ if TYPE_CHECKING:
     from urdfkit.sim.state.robot_state import State
 
 WORLD = ("world", "map")
-"""Names of the world's frame (gazebo_ros_p3d.cpp)."""
+"""Names of the world frame (gazebo_ros_p3d.cpp)."""
 
 
 class P3d(Sensor):
-    """Where a link is, and how it moves, in the world."""
+    """Ground-truth pose and twist of a link."""
 
     kind = "p3d"
 
     def configure(self, setup: Setup) -> None:
-        """Read the parameters and advertise.
+        """Read the parameters and advertise the topic.
 
         Raises:
-            SimulationError: a parameter makes no sense, with its place.
+            SimulationError: a parameter is invalid, with its position.
         """
         read = Parameters(self.plugin, self.spec, setup.names)
         links = setup.kinematics.link_names
@@ -67,16 +67,16 @@ class P3d(Sensor):
         self.topics = (setup.bus.advertise(Topics(self.plugin, self.spec).resolve(name), ODOMETRY),)
 
     def measure(self, state: State, count: int) -> None:
-        """Publish."""
+        """Publish the measurement of this state."""
         self.topics[0].offer(partial(self._message, Moment(self._kinematics, state), self.done), count=count)
 
     def _seen_from_there(self, now: Moment, motion: Motion) -> Motion:
-        """Return a motion relative to the frame that poses are told in."""
+        """Return a motion relative to the reference frame."""
         if self._frame in WORLD:
             return motion
         there = now.motion(self._frame, np.eye(4))
         back, arm = there.rotation.T, motion.position - there.position
-        # Of a point that moves, for somebody who turns along.
+        # Velocity of a moving point in a rotating frame.
         linear = motion.linear - there.linear - np.cross(there.angular, arm)
         return Motion(
             matmul(back, motion.rotation),
