@@ -1,4 +1,4 @@
-"""Gazebo plugins at work: drives, sensors, controllers, and what installs them from a description.
+"""Simulated Gazebo plugins: drives, sensors and controllers, and their installation from a description.
 
-Plugin elements go in; objects that write joint commands and publish messages come out.
+The installer makes an object of each plugin element; the objects write joint commands and publish messages.
 """

@@ -43,7 +43,7 @@ class Drive(Commanding):
     """Turns velocity commands into wheel motion, and wheel motion into odometry.
 
     Attributes:
-        kind: the ``kind`` of its tables.
+        kind: the ``kind`` of its `PluginSpec` tables.
         specs: its own tables, for plugins that `urdfkit.description.plugins` does not support.
         write_rate: rate of `write` [Hz]; zero means every step.
         read_rate: rate of `read` [Hz]; zero means every step.
@@ -92,10 +92,10 @@ class Drive(Commanding):
 
 
 class Sensor(Publisher):
-    """Measures and publishes.
+    """Measures the state of the robot or the scene, and publishes messages.
 
     Attributes:
-        kind: the ``kind`` of its tables.
+        kind: the ``kind`` of its `PluginSpec` tables.
         specs: its own tables, for plugins that `urdfkit.description.plugins` does not support.
         rate: rate of `measure` [Hz]; zero means every step.
         name: its name in the description; may be empty.
@@ -122,10 +122,10 @@ class Controller(Commanding):
     """Moves joints to commanded positions, velocities or efforts.
 
     Attributes:
-        kind: the ``kind`` of its tables.
+        kind: the ``kind`` of its `PluginSpec` tables.
         specs: its own tables, for plugins that `urdfkit.description.plugins` does not support.
         rate: rate of `write` [Hz]; zero means every step.
-        loop: control loop of controllers that can be listed, started and stopped; None for a plugin without.
+        loop: control loop of controllers that can be listed, started and stopped; None for a plugin without one.
         initial_positions: joint → initial position [rad] or [m], unless the user sets it.
     """
 
@@ -148,12 +148,12 @@ class Controller(Commanding):
         return self._ticks.next(step)
 
     def followers(self) -> Iterator[tuple[str, Follower]]:
-        """Yield each joint with a PID, with its path below the robot."""
+        """Yield each joint with a PID controller, with its path below the robot."""
         if self.loop is not None:
             yield from self.loop.followers()
 
     def wake(self) -> None:
-        """Call `write` at the next opportunity: a gain has changed."""
+        """Call `write` at the next opportunity, because a gain has changed."""
         if self.loop is not None:
             self.loop.wake()
 

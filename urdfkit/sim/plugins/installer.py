@@ -1,4 +1,4 @@
-"""Installation of a robot's plugins: choose a class for each element, configure it, report the ones left out."""
+"""Installation of a robot's plugins: select and configure a class for each element, report skipped plugins."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ class Simulated:
     """Decision to simulate a plugin.
 
     Attributes:
-        made: the object that simulates it.
+        made: the object that simulates the plugin.
     """
 
     made: Drive | Sensor | Controller | JointStates
@@ -38,10 +38,10 @@ class Simulated:
 
 @dataclass(frozen=True)
 class LeftOut:
-    """Decision to leave a plugin out.
+    """Decision not to simulate a plugin.
 
     Attributes:
-        reason: note for the user, with the position.
+        reason: note for the user, with the position of the plugin.
     """
 
     reason: str
@@ -49,7 +49,7 @@ class LeftOut:
 
 @dataclass(frozen=True)
 class Needless:
-    """Decision to skip a plugin whose function is built in, or which an earlier note reports."""
+    """Decision to skip a plugin whose function is built in, or that an earlier note reports."""
 
 
 Decision = Simulated | LeftOut | Needless
@@ -85,7 +85,7 @@ class Installed:
 
 
 def install(robot: Robot, setup: Setup, *, seed: int) -> Installed:
-    """Configure every plugin of a robot that can be simulated, and note each of the others once.
+    """Configure every plugin of a robot that can be simulated, and report each other plugin once.
 
     Args:
         robot: the robot as written.
@@ -126,7 +126,7 @@ def install(robot: Robot, setup: Setup, *, seed: int) -> Installed:
 
 
 def _plugins(robot: Robot) -> Iterator[tuple[Plugin, SensorTag | None, str]]:
-    """Yield each plugin with its sensor and link; a sensor without a plugin stands for itself."""
+    """Yield each plugin with its sensor and link; a sensor without plugins is yielded as its own plugin."""
     for block in robot.gazebo:
         link = block.reference or ""
         for plugin in block.plugins:
@@ -137,9 +137,9 @@ def _plugins(robot: Robot) -> Iterator[tuple[Plugin, SensorTag | None, str]]:
 
 
 def _choose(plugin: Plugin, setup: Setup, classes: tuple[type[Drive | Sensor | Controller], ...]) -> Decision:
-    """Decide about a plugin, and instantiate its class; note its unknown parameters.
+    """Decide whether to simulate a plugin, and instantiate its class; report its unknown parameters.
 
-    A class is chosen by the kind of the plugin's table, or because it has its own table for the file name.
+    A class matches by the kind of the plugin's table, or by its own table for the file name.
     """
     sensor = setup.sensor
     bare = sensor is not None and plugin.element is sensor.element
@@ -164,7 +164,7 @@ def _choose(plugin: Plugin, setup: Setup, classes: tuple[type[Drive | Sensor | C
 
 
 def _configure(made: Drive | Sensor | Controller | JointStates, setup: Setup) -> Decision:
-    """Configure a plugin; a sensor with a wrong parameter is left out.
+    """Configure a plugin; a sensor with a wrong parameter is skipped.
 
     Raises:
         SimulationError: a parameter of a drive or controller is wrong, with its position.

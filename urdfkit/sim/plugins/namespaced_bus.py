@@ -1,4 +1,4 @@
-"""The bus as one robot's plugins see it."""
+"""Bus of one robot's plugins, which records their subscriptions."""
 
 from __future__ import annotations
 
@@ -9,11 +9,11 @@ from urdfkit.bus import Bus, Subscription
 
 
 class OwnBus(Bus):
-    """A bus as one robot's plugins see it: the same topics; it knows what they listen to.
+    """Bus of one robot's plugins: shares the topics of the simulation's bus, and records the plugins' subscriptions.
 
     Args:
-        bus: everybody's.
-        invalidate: called with each message that they hear, before they do: something may be due sooner now.
+        bus: bus of the simulation.
+        invalidate: called before each message is delivered to a plugin, as the message may make work due earlier.
     """
 
     def __init__(self, bus: Bus, invalidate: Callable[[], None]) -> None:
@@ -33,6 +33,6 @@ class OwnBus(Bus):
         return found
 
     def close(self) -> None:
-        """Stop listening to anything."""
+        """Close all subscriptions of the plugins."""
         for each in self._subscriptions:
             each.close()

@@ -22,10 +22,10 @@ class Estimate:
     """Pose in the odometry frame and twist in the base frame.
 
     Attributes:
-        position: [m].
-        quaternion: x y z w.
-        linear: [m/s].
-        angular: [rad/s].
+        position: position [m].
+        quaternion: orientation x y z w.
+        linear: linear velocity [m/s].
+        angular: angular velocity [rad/s].
     """
 
     position: tuple[float, float, float]
@@ -43,9 +43,9 @@ def planar(x: float, y: float, heading: float, velocity: Twist) -> Estimate:
     """Return the estimate of a robot that moves in the plane.
 
     Args:
-        x: [m].
-        y: [m].
-        heading: [rad].
+        x: position [m].
+        y: position [m].
+        heading: yaw angle [rad].
         velocity: forward [m/s], to the left [m/s], turning [rad/s].
     """
     forward, left, turning = velocity
@@ -58,7 +58,7 @@ def from_world(pose: tuple[float, ...], velocity: tuple[float, ...]) -> Estimate
 
     Args:
         pose: x y z and quaternion x y z w of the root link in the world.
-        velocity: of the root link along and about the world's axes, linear first.
+        velocity: twist of the root link along and about the world's axes, linear first.
     """
     x, y, z, qx, qy, qz, qw = pose
     yaw = yaw_of(pose[3:])
@@ -72,13 +72,13 @@ class OdometryTopics:
 
     Args:
         bus: the bus.
-        topic: of the odometry message; None to publish none.
-        tf_topic: of the transform; None to publish none.
+        topic: topic of the odometry message; None to publish no message.
+        tf_topic: topic of the transform; None to publish no transform.
         frame: the odometry frame.
         child: the base frame.
         covariance: variances of the pose along [m²] and about [rad²] x, y, z; zeros where None.
         twist_covariance: variances of the twist; zeros where None.
-        flat: the message has no height; the transform has the true one.
+        flat: publish zero height in the message; the transform keeps the true height.
     """
 
     def __init__(

@@ -1,4 +1,4 @@
-"""A plugin's parameters by meaning, with the place of the wrong one in the error."""
+"""Parameters of a plugin by meaning; errors contain the position of the invalid parameter."""
 
 from __future__ import annotations
 
@@ -13,12 +13,12 @@ _TRUTHS = {"true": True, "1": True, "false": False, "0": False}
 
 
 class Parameters:
-    """What a plugin was told.
+    """Parameters of one plugin, as text, numbers, vectors and flags.
 
     Args:
         plugin: the plugin as written.
-        spec: its table.
-        names: what to put into the braces of defaults, e.g. ``{"model": "simpleton"}``.
+        spec: its table of parameters.
+        names: values of the placeholders in defaults, e.g. ``{"model": "simpleton"}``.
     """
 
     def __init__(self, plugin: Plugin, spec: PluginSpec, names: dict[str, str]) -> None:
@@ -29,11 +29,11 @@ class Parameters:
 
     @property
     def generation(self) -> str:
-        """Whose spelling it is: ``ros1``, ``ros2`` or ``gz``."""
+        """Generation of the plugin: ``ros1``, ``ros2`` or ``gz``."""
         return self._spec.generation
 
     def place(self, meaning: str) -> Position:
-        """Return where a parameter is written; the plugin itself where it is left out."""
+        """Return the position of a parameter; the position of the plugin if the parameter is missing."""
         parameter = self._spec.by_meaning(meaning)
         if parameter is not None:
             for text, element in values(self._plugin, parameter):
@@ -42,16 +42,16 @@ class Parameters:
         return self._plugin.element.origin.position
 
     def tag(self, meaning: str) -> str:
-        """Return how this generation spells a parameter."""
+        """Return the tag of a parameter in this generation."""
         parameter = self._spec.by_meaning(meaning)
         return meaning if parameter is None else parameter.tag
 
     def has(self, meaning: str) -> bool:
-        """Whether there is a value, written or default."""
+        """Whether a parameter has a value, written or default."""
         return bool(self._texts.get(meaning))
 
     def texts(self, meaning: str) -> tuple[str, ...]:
-        """Return every value."""
+        """Return all values of a parameter."""
         found = []
         for text in self._texts.get(meaning, ()):
             for name, value in self._names.items():
@@ -60,7 +60,7 @@ class Parameters:
         return tuple(found)
 
     def text(self, meaning: str, default: str = "") -> str:
-        """Return the first value."""
+        """Return the first value of a parameter."""
         found = self.texts(meaning)
         return found[0] if found else default
 
@@ -77,7 +77,7 @@ class Parameters:
         """Return every value as a number.
 
         Raises:
-            SimulationError: one is not a finite number, or negative or not positive where it must not be.
+            SimulationError: a value is not a finite number, or negative or not positive where it must not be.
         """
         found = []
         for text in self.texts(meaning):
@@ -95,10 +95,10 @@ class Parameters:
         return tuple(found)
 
     def vector(self, meaning: str, length: int) -> tuple[float, ...]:
-        """Return the first value as so many numbers with blanks between them; zeros where there is none.
+        """Return the first value as `length` numbers separated by blanks; zeros if the parameter is missing.
 
         Raises:
-            SimulationError: it is something else.
+            SimulationError: it is not `length` finite numbers.
         """
         text = self.text(meaning)
         try:
@@ -115,7 +115,7 @@ class Parameters:
         """Return the first value as true or false.
 
         Raises:
-            SimulationError: it is neither.
+            SimulationError: it is neither true nor false.
         """
         text = self.text(meaning, "false")
         if text.lower() not in _TRUTHS:

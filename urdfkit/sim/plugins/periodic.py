@@ -1,4 +1,4 @@
-"""Periodic: work that is due at some steps of a simulation, and publishers with a rate."""
+"""Base classes of periodic work in a simulation: calls and publishers with a rate."""
 
 from __future__ import annotations
 
@@ -14,10 +14,10 @@ if TYPE_CHECKING:
 
 
 class Periodic(ABC):
-    """Work that is due at some steps: the common interface of drives, controllers, sensors and publishers.
+    """Work that is due at certain steps: the common interface of drives, controllers, sensors and publishers.
 
     Attributes:
-        due: a step before which there is no work; zero if it is not known in advance.
+        due: step before which no work is due; zero if it is not known in advance.
     """
 
     due: int = 0
@@ -27,7 +27,7 @@ class Periodic(ABC):
         """Return the first step from `step` on at which `act` has work to do; `NEVER` for none."""
 
     def stop(self, step: int) -> int:
-        """Return the first step from `step` on at which the simulation has to stop for it; `NEVER` for none."""
+        """Return the first step from `step` on at which the simulation has to stop for this work; `NEVER` for none."""
         return self.next(step)
 
     @abstractmethod
@@ -39,9 +39,9 @@ class Timed(Periodic):
     """A call at a fixed rate.
 
     Args:
-        ticks: the steps.
-        call: the work.
-        resting: whether there is no work at present; None for work at every tick.
+        ticks: steps at which the call is due.
+        call: function to call.
+        resting: returns whether the call can be skipped at present; None to call at every tick.
     """
 
     def __init__(
@@ -60,21 +60,21 @@ class Timed(Periodic):
             self.due = self._ticks.after(state.step)
 
     def reset(self) -> None:
-        """Begin again at step 0."""
+        """Restart at step 0."""
         self.due = 0
 
 
 class Publisher(Periodic):
     """Measures or builds messages at a fixed rate, for one topic or several.
 
-    A simulation stops for it only while a topic has subscribers. Messages that became due without subscribers are
-    counted together at the next stop, so what is published may depend on the number of a message (`done`), but never on
-    how often `act` was called.
+    A simulation stops for a publisher only while a topic has subscribers. Messages that became due without subscribers
+    are counted together at the next stop, so a message may depend on its number (`done`), but never on the number of
+    calls of `act`.
 
     Attributes:
-        rate: [Hz]; zero or less means every step.
+        rate: rate of the messages [Hz]; zero or less means every step.
         topics: topics of the messages. Without any, the simulation stops at each due step.
-        lead: number of steps before a message from which on it measures; `NEVER` means at every step.
+        lead: number of steps before a message at which measuring begins; `NEVER` means at every step.
         done: number of messages so far.
         next_message: step of the next message.
     """
@@ -86,23 +86,23 @@ class Publisher(Periodic):
     next_message: int = 0
 
     def schedule(self, dt: float, step: int = 0) -> None:
-        """Begin at a step of a simulation with steps of `dt` [s]."""
+        """Start at a step of a simulation with steps of `dt` [s]."""
         self._ticks = Ticks(self.rate, dt)
         self.reset(step)
-        self.due = 0  # to see the first state
+        self.due = 0  # `act` gets the first state
 
     def reset(self, step: int = 0) -> None:
-        """Begin again at a step; messages due until then count as published."""
+        """Restart at a step; messages due until then count as published."""
         self.done = self._ticks.until(step)
         self.next_message = self._ticks.after(step)
         self.due = self.next_message - self.lead
 
     def next(self, step: int) -> int:
-        """Return the first step from `step` on at which it measures, with subscribers or without."""
+        """Return the first step from `step` on at which a measurement is due, with or without subscribers."""
         return self.due if self.due > step else step
 
     def stop(self, step: int) -> int:
-        """Return the step at which the simulation has to stop for it; `NEVER` without subscribers."""
+        """Return the next step at which the simulation has to stop for the publisher; `NEVER` without subscribers."""
         for topic in self.topics:
             if topic.subscribers:
                 return max(step, self._ticks.next(step) - self.lead)
@@ -119,4 +119,4 @@ class Publisher(Periodic):
 
     @abstractmethod
     def measure(self, state: State, count: int) -> None:
-        """Publish a measurement of this state, which stands for so many messages."""
+        """Publish a measurement of this state, which counts as `count` messages."""

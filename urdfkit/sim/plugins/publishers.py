@@ -1,4 +1,4 @@
-"""Publications of the simulator itself: joint states, transforms of the links, the clock.
+"""Built-in publishers of the simulator: joint states, transforms of the links, and the clock.
 
 In ROS, joint_state_publisher, robot_state_publisher and Gazebo publish them. A message without subscribers is counted
 but not built, and the simulation does not stop to count it.
@@ -27,17 +27,17 @@ if TYPE_CHECKING:
     from urdfkit.sim.state.robot_state import State
 
 CLOCK_RATE = 100.0
-"""[Hz]; the clock need not tick faster than the fastest controller."""
+"""Rate of ``/clock`` [Hz]; it need not be higher than that of the fastest controller."""
 
 TRANSFORM_RATE = 50.0
-"""[Hz]; the ``publish_frequency`` of robot_state_publisher."""
+"""Rate of ``/tf`` [Hz]; the ``publish_frequency`` of robot_state_publisher."""
 
 JOINT_STATE_RATE = 50.0
-"""[Hz] for robots whose description has no joint state publisher."""
+"""Rate of ``/joint_states`` [Hz] for robots whose description has no joint state publisher."""
 
 
 class Publication(Publisher):
-    """One topic filled at a fixed rate.
+    """Publisher of one topic at a fixed rate.
 
     Args:
         topic: the topic.
@@ -56,23 +56,23 @@ class Publication(Publisher):
 
     @abstractmethod
     def message(self, state: State) -> Callable[[], Any]:
-        """Return a function that builds the message of this state, also later."""
+        """Return a function that builds the message of this state; it may be called in a later step."""
 
 
 class Clock(Publication):
-    """``/clock``."""
+    """Publisher of ``/clock``."""
 
     def __init__(self, bus: Bus, dt: float) -> None:
         super().__init__(bus.advertise("/clock", CLOCK), CLOCK_RATE, dt)
 
     def message(self, state: State) -> Callable[[], Any]:
-        """Return a function that builds the message of this state, also later."""
+        """Return a function that builds the message of this state; it may be called in a later step."""
         t = state.t
         return lambda: message_type(CLOCK)(stamp(t))
 
 
 class JointStates(Publication):
-    """Positions, velocities and, without a plugin, efforts of joints."""
+    """Publisher of positions and velocities of joints, and of efforts if no plugin publishes joint states."""
 
     def __init__(self, topic: Topic, rate: float, dt: float, joints: tuple[str, ...], *, efforts: bool) -> None:
         super().__init__(topic, rate, dt)
@@ -80,7 +80,7 @@ class JointStates(Publication):
         self._efforts = efforts
 
     def message(self, state: State) -> Callable[[], Any]:
-        """Return a function that builds the message of this state, also later."""
+        """Return a function that builds the message of this state; it may be called in a later step."""
         t, values = state.t, state.keep_joints(self._joints)
 
         def build() -> Any:
@@ -92,14 +92,14 @@ class JointStates(Publication):
 
 
 class Transforms(Publication):
-    """``/tf``, below a namespace: each moving link in its parent, as robot_state_publisher publishes them."""
+    """Publisher of ``/tf`` below a namespace: each moving link in its parent, as in robot_state_publisher."""
 
     def __init__(self, bus: Bus, dt: float, kinematics: Kinematics, namespace: str = "") -> None:
         super().__init__(bus.advertise(f"{namespace}/tf", TF), TRANSFORM_RATE, dt)
         self._pairs = _parents(kinematics, movable=True)
 
     def message(self, state: State) -> Callable[[], Any]:
-        """Return a function that builds the message of this state, also later."""
+        """Return a function that builds the message of this state; it may be called in a later step."""
         snapshot = state.snapshot()
         return lambda: message_type(TF)(
             [transform(snapshot.t, parent, child, *snapshot.placement(child, parent)) for parent, child in self._pairs]
@@ -107,7 +107,7 @@ class Transforms(Publication):
 
 
 def publish_fixed(bus: Bus, state: State, kinematics: Kinematics, namespace: str = "") -> None:
-    """Publish ``/tf_static``, below a namespace, once: each link that is fixed to its parent."""
+    """Publish ``/tf_static`` below a namespace once: each link with a fixed joint in its parent."""
     if pairs := _parents(kinematics, movable=False):
         snapshot = state.snapshot()
         bus.advertise(f"{namespace}/tf_static", TF).offer(
@@ -123,14 +123,14 @@ def _parents(kinematics: Kinematics, *, movable: bool) -> tuple[tuple[str, str],
 
 
 def all_joint_states(setup: Setup) -> JointStates:
-    """Return the joint states of a robot without a joint state publisher."""
+    """Return the joint state publisher of a robot whose description has none."""
     joints = (*setup.kinematics.joint_names, *setup.kinematics.mimic_names)
     topic = setup.bus.advertise(f"{setup.namespace}/joint_states", JOINT_STATE)
     return JointStates(topic, JOINT_STATE_RATE, setup.dt, joints, efforts=True)
 
 
 def joint_states(plugin: Plugin, spec: PluginSpec, setup: Setup) -> JointStates:
-    """Return the joint states of a joint state publisher plugin: positions and velocities.
+    """Return the publisher of a joint state publisher plugin: positions and velocities.
 
     Raises:
         SimulationError: a joint is unknown or a parameter is wrong, with its position.

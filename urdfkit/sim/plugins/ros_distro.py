@@ -1,4 +1,4 @@
-"""Which ROS a model was written for: some plugins changed their behaviour from one distribution to the next."""
+"""ROS distributions: some plugins behave differently from one distribution to the next."""
 
 from __future__ import annotations
 
@@ -26,16 +26,16 @@ ROS_2 = (
 
 
 class Distro:
-    """A ROS distribution, or none in particular: then everything behaves as in the newest.
+    """ROS distribution that a robot was written for; if unspecified, plugins behave as in the newest.
 
     Args:
-        name: such as ``kinetic``; None for none in particular.
+        name: name of the distribution, e.g. ``kinetic``; None if unspecified.
 
     Raises:
-        UsageError: no such distribution, with the nearest one.
+        UsageError: the distribution is unknown, with the nearest name.
 
     Attributes:
-        name: in lower case; empty for none in particular.
+        name: name in lower case; empty if unspecified.
     """
 
     def __init__(self, name: str | None = None) -> None:
@@ -45,5 +45,5 @@ class Distro:
             raise UsageError(f"no ROS distribution `{name}`{did_you_mean(self.name, known)} (it is {', '.join(known)})")
 
     def before(self, other: str) -> bool:
-        """Whether it is older than another distribution of ROS 1."""
+        """Whether this is a distribution of ROS 1 older than `other`."""
         return self.name in ROS_1 and ROS_1.index(self.name) < ROS_1.index(other)

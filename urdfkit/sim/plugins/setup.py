@@ -1,4 +1,4 @@
-"""Setup: what a plugin of the simulator is configured with."""
+"""Setup: interfaces and options with which the simulator configures a plugin."""
 
 from __future__ import annotations
 
@@ -23,22 +23,22 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Setup:
-    """What a plugin may use.
+    """Interfaces and options of one plugin.
 
     Attributes:
-        bus: where it publishes and subscribes.
-        kinematics: the robot's model.
-        model: the name the robot was spawned under.
-        world: the world's name.
+        bus: bus on which the plugin publishes and subscribes.
+        kinematics: kinematic model of the robot.
+        model: name under which the robot was spawned.
+        world: name of the world.
         dt: the simulation's step [s].
-        random: the generator of this plugin alone, from the simulation's seed.
-        note: tells the user something, once per text.
-        surroundings: everything there is to see; None where nobody looks.
-        sensor: the ``<sensor>`` that the plugin stands in; None for others.
-        link: the link that the ``<gazebo>`` block is about; empty for those of the whole model.
-        distro: the ROS distribution whose behaviour is wanted.
-        parameter_files: of controllers, in place of those the robot's packages load.
-        namespace: of what is published unasked: empty for the first robot, ``/NAME`` for others.
+        random: random generator of this plugin, derived from the simulation's seed.
+        note: reports a note to the user, once per text.
+        surroundings: scene that sensors observe; None without a scene.
+        sensor: ``<sensor>`` that contains the plugin; None outside a sensor.
+        link: reference of the ``<gazebo>`` block, a link or joint; empty for a block of the whole model.
+        distro: ROS distribution whose behaviour the plugin follows.
+        parameter_files: parameter files of controllers, instead of the files that the robot's packages load.
+        namespace: namespace of the built-in topics: empty for the first robot, ``/NAME`` for others.
     """
 
     bus: Bus
@@ -57,14 +57,14 @@ class Setup:
 
     @property
     def names(self) -> dict[str, str]:
-        """What goes into the braces of a table's defaults."""
+        """Values of the placeholders in a table's defaults."""
         return {"model": self.model, "world": self.world, "root": self.kinematics.root}
 
     def joint(self, name: str, position: Position) -> str:
         """Return the name of a joint that moves in one degree of freedom.
 
         Raises:
-            SimulationError: there is none, at the place where it was asked for.
+            SimulationError: the joint is unknown or has not one degree of freedom, with the position of the parameter.
         """
         known = (*self.kinematics.joint_names, *self.kinematics.mimic_names)
         if name in known:

@@ -1,6 +1,6 @@
 """Limits of velocity, acceleration and jerk.
 
-They are the limits of the new Gazebo's drives (gz-math, SpeedLimiter.cc) and of ROS 2's diff_drive_controller
+They follow the drives of the new Gazebo (gz-math, SpeedLimiter.cc) and ROS 2's diff_drive_controller
 (control_toolbox, rate_limiter.hpp).
 """
 
@@ -17,14 +17,14 @@ if TYPE_CHECKING:
 
 @dataclass(slots=True)
 class SpeedLimiter:
-    """Limits a velocity and its derivatives. Applied in the order jerk, acceleration, velocity, as gz-math does.
+    """Limits a velocity and its derivatives, in the order jerk, acceleration, velocity, as in gz-math.
 
     Attributes:
         velocity: lowest and highest [m/s] or [rad/s].
         acceleration: lowest and highest [m/s²] or [rad/s²].
         jerk: lowest and highest [m/s³] or [rad/s³].
-        last: the velocity granted last.
-        before: the velocity granted before that.
+        last: last granted velocity.
+        before: granted velocity before the last one.
         backward: lowest and highest acceleration while driving backwards, if different.
         jerk_when_slowing: limit the jerk of slowing down too.
     """
@@ -66,7 +66,7 @@ class SpeedLimiter:
 
 
 class SpeedLimits:
-    """Limiters of several velocities, each with its own past.
+    """Limiters of several velocities, each with its own state.
 
     Args:
         limiters: one per velocity.
@@ -94,7 +94,7 @@ def _clamp(value: float, bounds: tuple[float, float]) -> float:
 
 
 def limiter(read: Parameters, which: str) -> SpeedLimiter:
-    """Read the limits of the ``linear`` or ``angular`` velocity: its own where they are written, else the common ones.
+    """Read the limits of the ``linear`` or ``angular`` velocity: its own if they are written, else the common ones.
 
     Raises:
         SimulationError: a limit is not a finite number.

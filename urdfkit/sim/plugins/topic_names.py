@@ -1,4 +1,4 @@
-"""Which topic a plugin means: namespaces, remappings and defaults of the three generations."""
+"""Resolution of a plugin's topic names: namespaces, remappings and defaults of the three generations."""
 
 from __future__ import annotations
 
@@ -10,20 +10,20 @@ from urdfkit.description.urdf.robot import Plugin
 from urdfkit.errors import SimulationError
 
 _TOPIC = re.compile(r"^/[A-Za-z0-9_./:~-]*$")
-"""ROS allows less; but names of things in the new Gazebo, of which it makes topics, may hold any of these."""
+"""Valid topic names. ROS allows fewer characters; the new Gazebo makes topics of entity names with any of these."""
 
 
 class Topics:
-    """Turns the topic names of one plugin into absolute ones.
+    """Resolves the topic names of one plugin to absolute names.
 
     ROS 1: relative names go below ``<robotNamespace>``. ROS 2: below ``<ros><namespace>``, after ``<remapping>`` (and
     the older ``<argument>``); ``~`` is the plugin's node. The new Gazebo has no namespaces.
 
     Args:
         plugin: the plugin as written.
-        spec: its table.
-        namespace: where ROS 1 puts the plugin that does not say (gazebo_ros: the model's name for some, the root for
-            others).
+        spec: its table of parameters.
+        namespace: namespace in ROS 1 without ``<robotNamespace>`` (gazebo_ros: the model's name for some plugins, the
+            root namespace for others).
     """
 
     def __init__(self, plugin: Plugin, spec: PluginSpec, *, namespace: str = "") -> None:
@@ -43,10 +43,10 @@ class Topics:
                     self._remappings[self._below(old.strip())] = self._below(new.strip())
 
     def resolve(self, name: str) -> str:
-        """Return the absolute topic for a name as the plugin knows it.
+        """Return the absolute topic of a name in the plugin.
 
         Raises:
-            SimulationError: it is none, with its place.
+            SimulationError: the result is no valid topic name, with its position.
         """
         full = self._below(name)
         found = self._remappings.get(full, full)

@@ -1,4 +1,4 @@
-"""Notes about a robot's ``<gazebo>`` blocks: unknown names with the nearest known one, sensors that share a topic."""
+"""Notes on a robot's ``<gazebo>`` blocks: unknown names with the nearest match, and sensors that share a topic."""
 
 from __future__ import annotations
 
@@ -30,14 +30,14 @@ def misspelt(robot: Robot) -> Iterator[str]:
 
 
 def not_read(plugin: Plugin, spec: PluginSpec) -> Iterator[str]:
-    """Yield a note for each parameter of a plugin that it does not read."""
+    """Yield a note for each parameter that a plugin does not read."""
     for each in unread(plugin, spec):
         if not each.promised:
             yield _ignored(each.element, f"unknown parameter <{each.element.tag}> of `{plugin.filename}`", each.meant)
 
 
 def unsupported_sensor(sensor: SensorTag, *, simulated: bool) -> str:
-    """Return why a sensor of this type is left out, with its position and the nearest type; empty if it is not."""
+    """Return the note on a sensor that is not simulated, with its position and the nearest type; else empty."""
     place, kind = sensor.element.origin.position, (sensor.type or "").strip()
     left_out = f"sensor `{sensor.name or 'sensor'}` is left out"
     if not kind:
@@ -52,7 +52,7 @@ def unsupported_sensor(sensor: SensorTag, *, simulated: bool) -> str:
 
 
 class SharedTopics:
-    """Notes about sensors that publish on one topic. Only CameraInfo topics may be shared.
+    """Reports sensors that publish on the same topic. Only CameraInfo topics may be shared.
 
     Args:
         note: reports a note to the user.
@@ -63,7 +63,7 @@ class SharedTopics:
         self._sensors: dict[str, Sensor] = {}
 
     def add(self, sensor: Sensor) -> None:
-        """Add the topics of a sensor; note each that another sensor publishes on."""
+        """Add the topics of a sensor; report each topic on which another sensor publishes."""
         for topic in dict.fromkeys(topic.name for topic in sensor.topics if not topic.type.endswith("/CameraInfo")):
             other = self._sensors.setdefault(topic, sensor)
             if other is not sensor:

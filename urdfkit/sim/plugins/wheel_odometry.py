@@ -17,9 +17,9 @@ class WheelOdometry(ABC):
     nothing is lost between updates. The first update only stores them.
 
     Attributes:
-        x: [m].
-        y: [m].
-        heading: [rad], not wrapped.
+        x: position [m].
+        y: position [m].
+        heading: yaw angle [rad], not wrapped.
         moved: displacement of the last update in the robot's axes: forward [m], to the left [m], turned [rad].
         distance: length of the last displacement [m]; never negative, also when driving backwards.
         t: time of the last update [s].
@@ -30,14 +30,14 @@ class WheelOdometry(ABC):
         self.reset()
 
     def reset(self) -> None:
-        """Return to the origin and forget the wheels."""
+        """Return to the origin and clear the stored wheel distances."""
         self.rolled: tuple[float, ...] | None = None
         self.x = self.y = self.heading = self.distance = self.t = self.period = 0.0
         self.moved = (0.0, 0.0, 0.0)
 
     @property
     def started(self) -> bool:
-        """Whether there was an update."""
+        """Whether `update` has been called."""
         return self.rolled is not None
 
     @property
@@ -103,9 +103,9 @@ class DifferentialOdometry(WheelOdometry):
 class BicycleOdometry(WheelOdometry):
     """Odometry of the middle of the driven axle, from one or two wheels on it and the steering angle [rad], the last.
 
-    The heading turns by distance·tan(angle)/base, as in the new Gazebo's AckermannSteering. Gazebo follows it step
-    by step and takes the heading at the end of each; here each update follows the exact arc of its mean steering angle,
-    which is the limit for short steps however far apart the updates are.
+    The heading changes by distance·tan(angle)/base, as in the new Gazebo's AckermannSteering. Gazebo integrates every
+    step with the heading at its end. Here each update follows the exact arc of its mean steering angle, which is the
+    limit for short steps regardless of the time between updates.
 
     Args:
         base: distance between the axles [m].
