@@ -85,7 +85,7 @@ class Installed:
 
 
 def install(robot: Robot, setup: Setup, *, seed: int) -> Installed:
-    """Configure every plugin of a robot that can be simulated, and report each other plugin once.
+    """Configure every plugin of a robot that can be simulated, and report every other plugin once.
 
     Args:
         robot: the robot as written.

@@ -64,7 +64,7 @@ class Setup:
         """Return the name of a joint that moves in one degree of freedom.
 
         Raises:
-            SimulationError: the joint is unknown or has not one degree of freedom, with the position of the parameter.
+            SimulationError: no joint with one degree of freedom has this name, with the position of the parameter.
         """
         known = (*self.kinematics.joint_names, *self.kinematics.mimic_names)
         if name in known:

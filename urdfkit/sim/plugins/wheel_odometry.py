@@ -158,7 +158,7 @@ class FourWheelOdometry(WheelOdometry):
         """Return displacement, or velocity, of the middle from those of the wheels.
 
         Args:
-            ways: of the four wheels, [m] or [m/s].
+            ways: displacements [m] or speeds [m/s] of the four wheels.
             front: steering angle of the front axle [rad].
             rear: steering angle of the rear axle [rad].
         """
@@ -177,8 +177,8 @@ class FourWheelOdometry(WheelOdometry):
 class MecanumOdometry(WheelOdometry):
     """Odometry from four mecanum wheels: front left, front right, back left, back right.
 
-    Wheels roll at vx ∓ vy ∓ w·(separation + base)/2 (front left: both minus); four distances make three displacements,
-    their mean with the signs of each.
+    Wheels roll at vx ∓ vy ∓ w·(separation + base)/2 (front left: both minus); each displacement is the mean of the four
+    distances with the signs of its term.
 
     Args:
         reach: (separation + base) / 2 [m].

@@ -144,7 +144,7 @@ def carrier(setup: Setup) -> str:
     """Return the link of a ``<sensor>``.
 
     Raises:
-        SimulationError: the reference of its ``<gazebo>`` block is missing or no link, with its position.
+        SimulationError: its ``<gazebo>`` block refers to no link, with its position and the nearest name.
     """
     assert setup.sensor is not None
     links = setup.kinematics.link_names

@@ -28,8 +28,8 @@ class Lump:
     """Link with mass.
 
     Attributes:
-        link: its name.
-        mass: [kg].
+        link: name of the link.
+        mass: mass [kg].
         frame: frame of its inertia in the link, with the origin at the centre of mass; shape (4, 4).
         inertia: inertia tensor about the centre of mass [kg·m²]; shape (3, 3).
     """
@@ -49,7 +49,7 @@ def below(robot: Robot, link: str) -> tuple[str, ...]:
 
 
 def lumps_of(robot: Robot, links: Sequence[str]) -> tuple[Lump, ...]:
-    """Return the inertias of some links, without the massless ones."""
+    """Return a `Lump` for each link with a mass."""
     found = []
     for name in links:
         inertial = robot.link_by_name[name].inertial

@@ -110,7 +110,7 @@ class Lidar(Mounted):
         return kind == "ultrasound"
 
     def points(self, ranges: Array) -> Array:
-        """Return the points of some ranges in the sensor's frame [m]; shape (rings · samples, 3)."""
+        """Return the points at the measured ranges in the sensor's frame [m]; shape (rings · samples, 3)."""
         with np.errstate(invalid="ignore"):
             found: Array = ranges.reshape(-1, 1) * self._directions
         return found
