@@ -1,4 +1,4 @@
 """State and commands of a robot: poses, velocities, joint commands, energy, and when periodic work is due.
 
-Arrays of the engine go in; read-only views for plugins, subscribers and users come out.
+Reads the arrays of the engine and gives plugins, subscribers and users read-only views of them.
 """

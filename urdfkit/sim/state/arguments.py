@@ -1,4 +1,4 @@
-"""What callers of the library give: numbers and vectors, looked at before anything is computed with them."""
+"""Validation of arguments from callers of the library: numbers, vectors and entity names."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ def number(value: Any, what: str, unit: str) -> float:
     """Return a number, finite or not.
 
     Raises:
-        SimulationError: it is not one.
+        SimulationError: `value` is not a number.
     """
     try:
         return float(value)
@@ -25,10 +25,10 @@ def number(value: Any, what: str, unit: str) -> float:
 
 
 def vector(values: Any, length: int, what: str, unit: str) -> tuple[float, ...]:
-    """Return so many finite numbers.
+    """Return `length` finite numbers.
 
     Raises:
-        SimulationError: they are something else.
+        SimulationError: `values` has another length or contains something else.
     """
     try:
         found = tuple(float(value) for value in values)
@@ -43,7 +43,7 @@ def three(values: Any, what: str, unit: str) -> tuple[float, ...]:
     """Return three numbers, finite or not.
 
     Raises:
-        SimulationError: they are something else.
+        SimulationError: `values` has another length or contains something else.
     """
     try:
         found = tuple(float(value) for value in values)
@@ -58,8 +58,8 @@ class ByName(dict[str, Found]):
     """Entities of a simulation by name.
 
     Args:
-        kind: what they are, for the error.
-        things: name → thing.
+        kind: kind of the entities, for the error message.
+        things: name → entity.
     """
 
     def __init__(self, kind: str, things: dict[str, Found]) -> None:
@@ -67,7 +67,7 @@ class ByName(dict[str, Found]):
         self._kind = kind
 
     def __missing__(self, name: str) -> Found:
-        """Say which is the nearest.
+        """Raise an error that suggests the nearest name.
 
         Raises:
             UnknownNameError: always.
@@ -76,7 +76,7 @@ class ByName(dict[str, Found]):
 
 
 def nearest(name: str, known: Any, *, most: int = 12) -> str:
-    """Return ``; did you mean …`` for the nearest of what is known; what there is where nothing is near."""
+    """Return ``; did you mean …`` with the nearest known name; a list of the known names if no name is near."""
     names = list(dict.fromkeys(known))
     if hint := did_you_mean(name, names):
         return hint

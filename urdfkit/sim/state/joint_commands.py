@@ -1,4 +1,4 @@
-"""What drives and controllers may write: the joints' motors and servos, efforts beside them, the base's velocity."""
+"""Commands of drives and controllers to the engine: joint motors, joint servos, joint efforts and the base velocity."""
 
 from __future__ import annotations
 
@@ -21,25 +21,25 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 
 APPROACH = 10.0
-"""A joint on its way to a position target closes the gap at this rate [1/s]: to 5e-5 of it in a second."""
+"""Rate at which a joint approaches its position target [1/s]: the error falls to 5e-5 of its value in a second."""
 
 
 @dataclass(frozen=True)
 class Servos:
-    """The engine's servos, which act on where the step ends, so that no stiffness makes them unstable; all (nv,).
+    """The engine's servos. They are implicit, hence stable at any stiffness. All arrays have the shape (nv,).
 
     Attributes:
         position: targets [rad] or [m].
         velocity: targets [rad/s] or [m/s].
         stiffness: [N·m/rad] or [N/m].
         damping: [N·m·s/rad] or [N·s/m].
-        effort: what they can do [N·m] or [N].
-        integral_gain: of the integral of the error.
-        least_integral: least effort that the integral may have.
-        most_integral: most effort.
-        antiwindup: 1 where the integral stops growing there.
-        feedforward: effort beside all that.
-        integral: of the error, up to now.
+        effort: effort limits [N·m] or [N].
+        integral_gain: gain of the integral of the error.
+        least_integral: lower bound of the integral's effort.
+        most_integral: upper bound of the integral's effort.
+        antiwindup: 1 to stop integrating at these bounds.
+        feedforward: effort added to the servo's.
+        integral: integral of the error so far.
     """
 
     position: Array
@@ -56,18 +56,18 @@ class Servos:
 
 
 class Motors:
-    """Velocity motors with effort limits and servos, one of each per joint of one degree of freedom.
+    """Velocity motors with effort limits, and servos: one of each for every joint with one degree of freedom.
 
     Args:
         kinematics: the robot's model.
         velocity: the engine's motor velocities [rad/s] or [m/s]; shape (nv,).
-        effort: the engine's effort limits [N·m] or [N], zero where there is no motor; shape (nv,).
-        applied: the engine's efforts beside motors [N·m] or [N]; shape (nv,).
-        servos: the engine's.
-        set_base_velocity: sets the floating base's twist in the base's own axes, linear first.
+        effort: the engine's effort limits [N·m] or [N], zero for a joint without a motor; shape (nv,).
+        applied: the engine's applied efforts, added to those of motors [N·m] or [N]; shape (nv,).
+        servos: the engine's servos.
+        set_base_velocity: sets the twist of the floating base in the base frame, linear first.
 
     Attributes:
-        invalidate: called when a joint is sent somewhere, so that somebody looks after it on its way.
+        invalidate: called when a joint gets a position target, so that `approach` is called in the following steps.
     """
 
     def __init__(
@@ -95,7 +95,7 @@ class Motors:
         servos: Servos,
         set_base_velocity: Callable[[Sequence[float]], None],
     ) -> None:
-        """Write to another engine from now on: one for the same robot in a world that has changed."""
+        """Write to another engine from now on, which simulates the same robot in a changed world."""
         self._velocity, self._effort, self._applied = numbers(velocity), numbers(effort), numbers(applied)
         self._servos = servos
         self._set_base_velocity = set_base_velocity
@@ -104,21 +104,21 @@ class Motors:
         """Turn a joint at `velocity` [rad/s] or [m/s] with at most `effort` [N·m] or [N].
 
         Args:
-            joint: its name.
-            velocity: target; stays until the next call.
-            effort: limit; the joint's ``<limit effort>`` when None, unlimited where there is none.
+            joint: name of the joint.
+            velocity: target, valid until the next call.
+            effort: limit. None means the joint's ``<limit effort>``, or no limit if the joint has none.
 
         Raises:
-            SimulationError: no such joint, or a value that is no finite number.
+            SimulationError: unknown joint, or a value is not finite.
         """
         self._goals.pop(joint, None)
         self._set(joint, velocity, self.limit(joint) if effort is None else effort)
 
     def hold(self, joint: str, position: float, effort: float | None = None) -> None:
-        """Bring a joint to `position` [rad] or [m] and keep it there, within its velocity and effort limits.
+        """Move a joint to `position` [rad] or [m] and hold it there, within its velocity and effort limits.
 
         Raises:
-            SimulationError: no such joint, a value that is no finite number or outside the joint's limits.
+            SimulationError: unknown joint, or a value is not finite or outside the joint's limits.
         """
         self._set(joint, 0.0, self.limit(joint) if effort is None else effort)
         unit = "m" if self._kinematics.robot.joint_by_name[joint].type == "prismatic" else "rad"
@@ -133,10 +133,10 @@ class Motors:
         self.invalidate()
 
     def exert(self, joint: str, effort: float) -> None:
-        """Apply an effort [N·m] or [N] to a joint, beside its motor, until the next call.
+        """Apply an effort [N·m] or [N] to a joint, in addition to its motor, until the next call.
 
         Raises:
-            SimulationError: no such joint, or a value that is no finite number.
+            SimulationError: unknown joint, or a value is not finite.
         """
         index = self._checked(joint)
         if not isfinite(effort):
@@ -158,21 +158,21 @@ class Motors:
     ) -> None:
         """Exert stiffness·(position − q) + damping·(velocity − q̇), at most `effort` [N·m] or [N], until the next call.
 
-        The joint's motor is switched off: a joint has one or the other. Zero stiffness and damping is no servo.
+        This disables the joint's motor: a joint has a motor or a servo. Zero stiffness and damping disable the servo.
 
         Args:
-            joint: its name.
+            joint: name of the joint.
             stiffness: [N·m/rad] or [N/m].
             damping: [N·m·s/rad] or [N·s/m].
-            position: [rad] or [m].
-            velocity: [rad/s] or [m/s].
-            effort: limit of the whole [N·m] or [N]; the joint's ``<limit effort>`` when None.
-            integral: gain and bounds of the integral part; of the error of velocity where there is no stiffness.
-            feedforward: a further part [N·m] or [N].
-            anew: forget the integral up to now.
+            position: target [rad] or [m].
+            velocity: target [rad/s] or [m/s].
+            effort: limit of the total effort [N·m] or [N]; the joint's ``<limit effort>`` when None.
+            integral: gain and bounds of the integral term. It integrates the velocity error if the stiffness is zero.
+            feedforward: effort added to the servo's [N·m] or [N].
+            anew: reset the integral first.
 
         Raises:
-            SimulationError: no such joint, or a value that is no finite number or negative where that makes no sense.
+            SimulationError: unknown joint, a value is not finite, or a stiffness, damping or effort limit is negative.
         """
         index = self._checked(joint)
         effort = self.limit(joint) if effort is None else effort
@@ -193,29 +193,29 @@ class Motors:
             servos.integral[index] = 0.0
 
     def integral(self, joint: str) -> float:
-        """Return the integral of the error of a joint's servo up to now [rad·s], [m·s], [rad] or [m]."""
+        """Return the integral of the error of a joint's servo so far [rad·s], [m·s], [rad] or [m]."""
         return float(self._servos.integral[self._checked(joint)])
 
     def move_base(self, linear: Sequence[float], angular: Sequence[float]) -> None:
-        """Give the floating base a velocity, once, in its own axes [m/s, rad/s]; the step that follows may change it.
+        """Set the velocity of the floating base once, in the base frame [m/s, rad/s]; the next step may change it.
 
         Raises:
-            SimulationError: the robot is bolted down, or a value is not finite.
+            SimulationError: the robot has a fixed base, or a value is not finite.
         """
         self._set_base_velocity((*linear, *angular))
 
     def limit(self, joint: str) -> float:
-        """Return the joint's ``<limit effort>`` [N·m] or [N], infinite where there is none."""
+        """Return the ``<limit effort>`` of a joint [N·m] or [N]; infinite if the joint has none."""
         return self._limits.get(joint, inf)
 
     def release(self, joint: str) -> None:
-        """Let a joint turn freely."""
+        """Disable the motor, servo and applied effort of a joint, so that it moves freely."""
         self._goals.pop(joint, None)
         self._set(joint, 0.0, 0.0)
         self._applied[self._index[joint]] = 0.0
 
     def release_all(self) -> None:
-        """Let every joint turn freely."""
+        """Disable the motors, servos and applied efforts of all joints, so that they move freely."""
         self._goals.clear()
         for values in (self._velocity, self._effort, self._applied):
             np.asarray(values)[:] = 0.0
@@ -227,10 +227,10 @@ class Motors:
         return bool(self._goals)
 
     def approach(self, positions: Any) -> None:
-        """Set the velocities of joints with a position target from where they are.
+        """Set the motor velocities of joints with a position target from their present positions.
 
         Args:
-            positions: joint name → position [rad] or [m], a function.
+            positions: function that returns the position of a joint [rad] or [m] for its name.
         """
         for joint, goal in self._goals.items():
             limit = self._kinematics.robot.joint_by_name[joint].limit
@@ -254,5 +254,5 @@ class Motors:
 
 
 def effort_limit(joint: Joint) -> float:
-    """Return the ``<limit effort>`` of a joint [N·m] or [N], infinite where there is none."""
+    """Return the ``<limit effort>`` of a joint [N·m] or [N]; infinite if the joint has none."""
     return inf if joint.limit is None or joint.limit.effort is None else joint.limit.effort

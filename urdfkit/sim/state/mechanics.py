@@ -1,4 +1,4 @@
-"""What follows from a configuration and a velocity: poses of links and joints, motion in the world, energy."""
+"""Functions of configuration and velocity: poses of links and joints, velocities in the world frame, energy."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from urdfkit.sim.state.quaternion import product, rotate
 
 Array = NDArray[np.float64]
 NONE = np.zeros(0), np.zeros((0, 3))
-"""No weightless bodies."""
+"""Default of `energy_of`: no weightless bodies."""
 
 
 def link_poses(kinematics: Kinematics, q: Array, base: Array | None) -> Array:
@@ -24,7 +24,7 @@ def link_poses(kinematics: Kinematics, q: Array, base: Array | None) -> Array:
     Args:
         kinematics: the robot's model.
         q: configuration; shape (nq,).
-        base: pose of the root link of a robot that is bolted down; None for one that floats.
+        base: pose of the root link of a robot with a fixed base; None for a floating base.
     """
     poses = kinematics.link_poses(q)
     if base is not None:
@@ -35,11 +35,11 @@ def link_poses(kinematics: Kinematics, q: Array, base: Array | None) -> Array:
 
 
 def in_the_world(pose: tuple[float, ...], twist: tuple[float, ...]) -> tuple[float, ...]:
-    """Return a velocity [m/s, rad/s] along the world's axes that a twist along a link's own axes is.
+    """Transform a twist from the link frame to the axes of the world [m/s, rad/s].
 
     Args:
-        pose: of the link, x y z [m] and quaternion x y z w.
-        twist: linear first.
+        pose: pose of the link, x y z [m] and quaternion x y z w.
+        twist: twist in the link frame, linear first.
     """
     return (*rotate(pose[3:], twist[:3]), *rotate(pose[3:], twist[3:]))
 
@@ -47,12 +47,12 @@ def in_the_world(pose: tuple[float, ...], twist: tuple[float, ...]) -> tuple[flo
 def pose_and_twist(
     joint_type: str, q: Sequence[float], v: Sequence[float]
 ) -> tuple[tuple[float, ...], tuple[float, ...]]:
-    """Return pose, and velocity along the same axes, of what a planar or floating joint moves.
+    """Return the pose of the child link of a planar or floating joint, and its velocity along the same axes.
 
     Args:
         joint_type: ``planar`` or ``floating``.
-        q: its part of a configuration, and what follows.
-        v: its part of a velocity, and what follows.
+        q: configuration from the joint's first coordinate on.
+        v: velocity from the joint's first coordinate on.
     """
     if joint_type == "planar":
         half = 0.5 * atan2(q[3], q[2])
@@ -69,13 +69,13 @@ def energy_of(
     gravity: Array,
     weightless: tuple[Array, Array] = NONE,
 ) -> tuple[float, float]:
-    """Return kinetic and potential energy of a robot [J], the latter zero at the world's origin.
+    """Return kinetic and potential energy of a robot [J]; the potential energy is zero at the world's origin.
 
     Args:
         kinematics: the robot's model.
         q: configuration; shape (nq,).
         v: velocity; shape (nv,).
-        base: pose of the root link of a robot that is bolted down; None for one that floats.
+        base: pose of the root link of a robot with a fixed base; None for a floating base.
         gravity: [m/s²]; shape (3,).
         weightless: see `Articulation.weightless`.
     """

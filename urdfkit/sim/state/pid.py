@@ -16,15 +16,15 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class Gains:
-    """What a PID law multiplies.
+    """Gains of a PID controller and bounds of its integral term.
 
     Attributes:
-        p: of the error [N·m/rad] (or per rad/s, for a velocity).
-        i: of its integral.
-        d: of its derivative.
-        i_min: least the integral part may be.
-        i_max: most it may be.
-        antiwindup: stop integrating there; without, the integral itself goes on growing.
+        p: gain of the error [N·m/rad] (or per rad/s, for a velocity).
+        i: gain of the integral of the error.
+        d: gain of the derivative of the error.
+        i_min: lower bound of the integral term.
+        i_max: upper bound of the integral term.
+        antiwindup: stop integrating at the bounds. Otherwise only the integral term is clamped, not the integral.
     """
 
     p: float
@@ -36,19 +36,19 @@ class Gains:
 
     @property
     def integrates(self) -> bool:
-        """Whether there is an integral part."""
+        """Whether the integral term can be other than zero."""
         return self.i != 0.0 and self.i_max > self.i_min
 
 
 def read_gains(settings: Settings, path: str, note: Callable[[str], None]) -> Gains | None:
-    """Return the gains in a group of parameters; None where there is no group.
+    """Return the gains in a group of parameters; None if the group does not exist.
 
-    `p` is required, `i`, `d` and ``i_clamp`` are zero when left out. So an `i` without ``i_clamp`` does nothing, which
-    is noted.
+    `p` is required; `i`, `d` and ``i_clamp`` default to zero. An `i` without ``i_clamp`` therefore has no effect and is
+    reported.
 
     Raises:
-        DescriptionError: a gain is no number or `p` is missing.
-        SimulationError: a negative gain, which drives the joint away from where it should be.
+        DescriptionError: a gain is not a number, or `p` is missing.
+        SimulationError: a gain is negative, which drives the joint away from its target.
     """
     group = settings.find(path)
     if group is None:
@@ -75,26 +75,26 @@ def read_gains(settings: Settings, path: str, note: Callable[[str], None]) -> Ga
 
 
 class Integral:
-    """The integral of an error and its part of the effort."""
+    """Integral of an error, and the integral term of the effort."""
 
     def __init__(self, gains: Gains) -> None:
         self.gains = gains
         self.reset()
 
     def reset(self) -> None:
-        """Forget the past."""
+        """Reset the integral to zero."""
         self._sum = 0.0
         self._last: tuple[float, float] | None = None
         self._fresh = True
         self.part = 0.0
 
     def begins(self) -> bool:
-        """Return whether the past has been forgotten since the last call."""
+        """Return whether the integral was reset since the last call of this method."""
         fresh, self._fresh = self._fresh, False
         return fresh
 
     def update(self, t: float, error: float) -> float:
-        """Integrate up to time `t` [s], straight from the last error to this one; return the integral part."""
+        """Integrate up to time `t` [s] with the trapezoidal rule; return the integral term."""
         gains = self.gains
         if self._last is not None:
             before, last = self._last
@@ -108,14 +108,14 @@ class Integral:
 
 @dataclass(slots=True)
 class GazeboPid:
-    """PID of gazebo::common::PID and gz::math::PID on an error that is the measured minus the desired value.
+    """PID of gazebo::common::PID and gz::math::PID; the error is the measured minus the desired value.
 
     Attributes:
-        gains: p [1], i [1/s], d [s] and the bounds of the integral part.
-        bounds: of the command.
-        offset: added to the command before it is bounded.
-        integral: integral part of the command so far.
-        before: the last error.
+        gains: p [1], i [1/s], d [s] and the bounds of the integral term.
+        bounds: lower and upper bound of the command.
+        offset: added to the command before it is clamped.
+        integral: integral term of the command so far.
+        before: last error.
     """
 
     gains: Gains

@@ -1,4 +1,4 @@
-"""Poses as people write them, as records, and as seven numbers."""
+"""Conversions of poses: from user input, to `Pose` records, and to seven numbers."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ def pose_of(pose: Pose | Sequence[float]) -> Pose:
     """Return a pose from x y z, x y z yaw, x y z roll pitch yaw, or x y z and a quaternion x y z w.
 
     Raises:
-        SimulationError: they are not as many, not finite, or the quaternion is zero.
+        SimulationError: wrong number of values, a value that is not finite, or a zero quaternion.
     """
     numbers: tuple[float, ...]
     if isinstance(pose, Pose):

@@ -1,4 +1,4 @@
-"""Unit quaternions x y z w on plain floats: for single poses, numpy costs more than it saves."""
+"""Unit quaternions x y z w on plain floats, which are faster than numpy for single poses."""
 
 from __future__ import annotations
 
@@ -9,11 +9,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 NOWHERE = np.zeros(3)
-"""A place that does not matter."""
+"""Placeholder for the translation of a pose of which only the rotation is used."""
 
 
 def rotate(quaternion: Any, vector: Any) -> tuple[float, float, float]:
-    """Return v + 2w(u × v) + 2u × (u × v), the vector turned by the unit quaternion (u, w)."""
+    """Return v + 2w(u × v) + 2u × (u × v), the vector rotated by the unit quaternion (u, w)."""
     x, y, z, w = map(float, quaternion)
     a, b, c = map(float, vector)
     tx, ty, tz = 2 * (y * c - z * b), 2 * (z * a - x * c), 2 * (x * b - y * a)
@@ -43,7 +43,7 @@ def from_rpy(roll: float, pitch: float, yaw: float) -> tuple[float, float, float
 def from_matrix(R: NDArray[np.float64]) -> NDArray[np.float64]:
     """Return the quaternion x y z w of a rotation matrix, shape (4,).
 
-    ``pin.Quaternion(R)`` keeps its 80 bytes for ever (Pinocchio 4.1): with every step or message, that adds up.
+    ``pin.Quaternion(R)`` leaks 80 bytes per call (Pinocchio 4.1), so it must not run in every step or message.
     """
     import pinocchio as pin
 
@@ -59,6 +59,6 @@ def to_rpy(quaternion: Any) -> tuple[float, float, float]:
 
 
 def yaw_of(quaternion: Any) -> float:
-    """Return the heading [rad] of a unit quaternion x y z w: the last of fixed-axis roll, pitch, yaw."""
+    """Return the yaw [rad] of a unit quaternion x y z w, as in fixed-axis roll, pitch, yaw."""
     x, y, z, w = quaternion
     return atan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z))

@@ -1,4 +1,4 @@
-"""State: where the robot is and how it moves. Read only; what plugins, subscribers and users look at."""
+"""State of a robot: configuration, velocity, efforts and contacts; read-only, for plugins, subscribers and users."""
 
 from __future__ import annotations
 
@@ -28,17 +28,17 @@ MOST_SHOWN = 6
 
 
 class Snapshot:
-    """The robot's configuration at one moment, kept; what follows from it is worked out when somebody asks.
+    """Copy of the robot's configuration at one time; link poses are computed on first access.
 
     Args:
         kinematics: the robot's model.
         t: simulated time [s].
-        articulation: which of the engine's robots it is; its coordinates are copied.
-        base: pose of the root link of a robot that is bolted down; None for one that floats.
+        articulation: the engine's articulation of this robot; its coordinates are copied.
+        base: pose of the root link of a robot with a fixed base; None for a floating base.
 
     Attributes:
         t: simulated time [s].
-        coordinates: everybody's, as the engine has them.
+        coordinates: joint coordinates of all bodies, in the order of the engine.
     """
 
     def __init__(self, kinematics: Kinematics, t: float, articulation: Articulation, base: Array | None) -> None:
@@ -71,16 +71,16 @@ class Snapshot:
 
 
 class State:
-    """The simulation's present. Nobody can write to it.
+    """Read-only view of the present state of a robot in the simulation.
 
     Args:
         kinematics: the robot's model.
-        engine: what moves it.
-        base: pose of the root link of a robot that is bolted down; None for one that floats.
-        articulation: which of the engine's robots it is; the first when None.
+        engine: the physics engine.
+        base: pose of the root link of a robot with a fixed base; None for a floating base.
+        articulation: the engine's articulation of this robot; the first one when None.
 
     Attributes:
-        step: steps since the start.
+        step: number of steps since the start.
     """
 
     def __init__(
@@ -116,7 +116,7 @@ class State:
         )
 
     def attach(self, engine: Engine, articulation: Articulation | None = None) -> None:
-        """Look at another engine from now on: one for the same robot in a world that has changed."""
+        """Read from another engine from now on, which simulates the same robot in a changed world."""
         self._engine = engine
         self._articulation: Articulation = engine if articulation is None else articulation
         self._snapshot: Snapshot | None = None
@@ -129,7 +129,7 @@ class State:
         self._root = int(arrays["tree_s"][tree])
 
     def advance(self, steps: int) -> None:
-        """Take note that the engine moved on by `steps`."""
+        """Advance the step count by `steps` and drop cached values; call after the engine has stepped."""
         self.step += steps
         self._snapshot = self._pose = None
 
@@ -147,32 +147,32 @@ class State:
 
     @property
     def v(self) -> Array:
-        """Velocity, a floating base's twist in its own axes and linear first, read-only; shape (nv,)."""
+        """Velocity, read-only; shape (nv,). The twist of a floating base is in the base frame, linear first."""
         return self._articulation.v
 
     @property
     def tau(self) -> Array:
-        """All effort of the last step but contacts and limits [N·m] or [N], read-only; shape (nv,)."""
+        """Efforts of the last step without those of contacts and limits [N·m] or [N], read-only; shape (nv,)."""
         return self._articulation.tau
 
     @property
     def contacts(self) -> tuple[Contact, ...]:
-        """What touched what in the last step, in the whole world."""
+        """Contacts between all bodies of the world in the last step."""
         return self._engine.contacts()
 
     @property
     def energy(self) -> tuple[float, float]:
-        """Kinetic and potential energy of the robot [J], the latter zero at the world's origin."""
+        """Kinetic and potential energy of the robot [J]; the potential energy is zero at the world's origin."""
         if self._articulation is self._engine:
             return self._engine.energy()
         own, gravity = self._articulation, self._engine.arrays["gravity"]
         return energy_of(self._kinematics, own.q, own.v, self._base, gravity, own.weightless)
 
     def position(self, joint: str) -> float:
-        """Return a joint's position [rad] or [m]; that of a continuous joint counts its turns.
+        """Return a joint's position [rad] or [m]; the position of a continuous joint is not wrapped.
 
         Raises:
-            UnknownNameError: no joint of that name moves in one degree of freedom.
+            UnknownNameError: no joint of that name with one degree of freedom.
         """
         try:
             found: float = self._coordinates[self._at[joint]]
@@ -184,7 +184,7 @@ class State:
         """Return a joint's velocity [rad/s] or [m/s].
 
         Raises:
-            UnknownNameError: no joint of that name moves in one degree of freedom.
+            UnknownNameError: no joint of that name with one degree of freedom.
         """
         try:
             found: float = self._velocities[self._index[joint]]
@@ -193,10 +193,10 @@ class State:
         return found
 
     def effort(self, joint: str) -> float:
-        """Return what the joint's motor, its servo and efforts beside them exerted in the last step [N·m] or [N].
+        """Return the total effort of a joint's motor, its servo and applied efforts in the last step [N·m] or [N].
 
         Raises:
-            UnknownNameError: no joint of that name moves in one degree of freedom.
+            UnknownNameError: no joint of that name with one degree of freedom.
         """
         try:
             index = self._index[joint]
@@ -206,7 +206,7 @@ class State:
         return found
 
     def several(self, joint: str) -> tuple[tuple[float, ...], tuple[float, ...]]:
-        """Return where a planar or floating joint is and how it moves, both in the frame the joint has in its parent.
+        """Return pose and velocity of a planar or floating joint, both in the joint's frame in the parent link.
 
         Returns:
             x y z [m] and quaternion x y z w of the child link; its velocity [m/s] and angular velocity [rad/s].
@@ -234,7 +234,7 @@ class State:
 
     @property
     def base_pose(self) -> tuple[float, ...]:
-        """The root link in the world: x y z [m] and quaternion x y z w."""
+        """Pose of the root link in the world: x y z [m] and quaternion x y z w."""
         if self._pose is None:
             if self._base is None:
                 self._pose = tuple(self._coordinates[self._root : self._root + 7].tolist())
@@ -244,19 +244,19 @@ class State:
 
     @property
     def base_twist(self) -> tuple[float, ...]:
-        """Velocity of the root link [m/s] and its angular velocity [rad/s], along its own axes."""
+        """Velocity [m/s] and angular velocity [rad/s] of the root link, along the axes of the link."""
         return (0.0,) * 6 if self._base is not None else tuple(self._velocities[:6].tolist())
 
     @property
     def base_velocity(self) -> tuple[float, ...]:
-        """Velocity of the root link's origin [m/s] and its angular velocity [rad/s], along the world's axes."""
+        """Velocity [m/s] of the root link's origin and angular velocity [rad/s], along the axes of the world."""
         return (0.0,) * 6 if self._base is not None else in_the_world(self.base_pose, self.base_twist)
 
     def keep_joints(self, joints: Sequence[str]) -> Callable[[], tuple[Array, Array, Array]]:
-        """Return what tells positions, velocities and efforts of joints at this moment, also later; shapes (n,).
+        """Return a function that gives the positions, velocities and efforts of joints at this time; shapes (n,).
 
         Args:
-            joints: names of joints that move in one degree of freedom.
+            joints: names of joints with one degree of freedom.
         """
         coordinates, velocities = self.snapshot().coordinates, self._articulation.v.copy()
         efforts = self._articulation.effort + self._articulation.applied
@@ -269,7 +269,7 @@ class State:
         return build
 
     def snapshot(self) -> Snapshot:
-        """Return this moment, kept; the same object for everybody who asks before the next step."""
+        """Return a copy of the present configuration; calls within one step return the same object."""
         if self._snapshot is None:
             self._snapshot = Snapshot(self._kinematics, self.t, self._articulation, self._base)
         return self._snapshot

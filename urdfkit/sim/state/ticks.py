@@ -1,4 +1,4 @@
-"""Ticks: the steps at which periodic work is due, as whole numbers, so that no period drifts."""
+"""Ticks: the steps at which periodic work is due, as integers, so that periods do not drift."""
 
 from __future__ import annotations
 
@@ -8,15 +8,15 @@ NEVER = 1 << 62
 """A step that is never reached."""
 
 _ROUNDING = 1e-6
-"""Steps within this fraction of a tick count as the tick: 0.01 / 0.001 is not quite 10."""
+"""Tolerance of rounding, as a fraction of a tick: 0.01 / 0.001 is not exactly 10 in floating point."""
 
 
 class Ticks:
-    """The steps at which work with a rate is due: the n-th is the first at or after n periods.
+    """The steps at which work with a rate is due: the n-th tick is the first step at or after n periods.
 
     Args:
-        rate: [Hz] of simulated time; zero or less, or faster than the steps, means every step.
-        dt: the simulation's step [s].
+        rate: rate in simulated time [Hz]. Zero, a negative rate or a rate above 1/dt means every step.
+        dt: time step of the simulation [s].
     """
 
     def __init__(self, rate: float, dt: float) -> None:
@@ -26,15 +26,15 @@ class Ticks:
         self._whole = nearest if abs(self.steps - nearest) < 1e-9 * nearest else 0
 
     def at(self, n: int) -> int:
-        """Return the step of the n-th tick (the zeroth is at step 0)."""
+        """Return the step of the n-th tick; tick 0 is at step 0."""
         return n * self._whole if self._whole else ceil(n * self.steps - _ROUNDING)
 
     def until(self, step: int) -> int:
-        """Return how many ticks lie in 1..step."""
+        """Return the number of ticks in the steps 1..step."""
         return step // self._whole if self._whole else floor((step + _ROUNDING) / self.steps)
 
     def next(self, step: int) -> int:
-        """Return the step of the first tick at or after `step`; the zeroth is at step 0."""
+        """Return the step of the first tick at or after `step`; tick 0 is at step 0."""
         whole = self._whole
         return step + -step % whole if whole else self.at(self.until(step - 1) + 1)
 
