@@ -59,7 +59,7 @@ class ByName(dict[str, Found]):
 
     Args:
         kind: kind of the entities, for the error message.
-        things: name → entity.
+        things: the entities by name.
     """
 
     def __init__(self, kind: str, things: dict[str, Found]) -> None:

@@ -1,6 +1,6 @@
 """Controllers of ros_control, ros2_control and Gazebo; `CONTROLLERS` lists them in the order they are tried.
 
-Parameters and commands go in; joint commands, states and odometry come out.
+A controller reads parameters and subscribes to commands. It writes joint commands and publishes states and odometry.
 """
 
 from __future__ import annotations
@@ -16,4 +16,4 @@ CONTROLLERS: tuple[type[Controller], ...] = (
     JointPositionController,
     JointController,
 )
-"""Every controller; a test walks this folder and fails if one is missing here."""
+"""All controller plugins; a test fails if one of this folder is missing here."""

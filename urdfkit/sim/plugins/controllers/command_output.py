@@ -1,4 +1,4 @@
-"""Outputs: a joint under one interface (position, velocity, effort), and how the simulated hardware obeys it.
+"""Command interfaces (position, velocity, effort) of joints, as the simulated hardware implements them.
 
 Sources: gazebo_ros_pkgs noetic-devel, gazebo_ros_control/src/default_robot_hw_sim.cpp; gz_ros2_control, gz_system.cpp;
 gazebo_ros2_control, gazebo_system.cpp.
@@ -19,23 +19,23 @@ if TYPE_CHECKING:
     from urdfkit.sim.state.robot_state import State
 
 INTERFACES = ("position", "velocity", "effort")
-"""What a joint may be commanded by."""
+"""Command interfaces of a joint."""
 
 
 BRISK = 0.5
-"""From this part of the fastest on an effort is looked after in every control period."""
+"""Fraction of the velocity limit above which an effort command is checked in every control period."""
 
 
 class Output(ABC):
-    """One interface of one joint.
+    """One command interface of one joint.
 
     Args:
         handle: the joint.
-        period: of the control loop [s].
-        limits: of what may be commanded, where they are enforced (ROS 1).
+        period: period of the control loop [s].
+        limits: limits of the commands, where they are enforced (ROS 1).
 
     Attributes:
-        follower: what obeys by PID; None where nothing does.
+        follower: PID that follows the command; None for an interface without PID.
     """
 
     interface: ClassVar[str]
@@ -49,36 +49,36 @@ class Output(ABC):
 
     @property
     def claim(self) -> tuple[str, str]:
-        """Joint and interface."""
+        """Name of the joint and of the interface."""
         return self.handle.name, self.interface
 
     def start(self, state: State) -> None:
-        """Make the present the command: standing where it stands, or doing nothing."""
+        """Set the initial command: the present position, or zero velocity or effort."""
         self.command = 0.0
 
     @abstractmethod
     def write(self, state: State, motors: Motors, command: float, velocity: float = 0.0) -> float:
-        """Obey a command; return how long that needs no attention [s]: 0 is until the next control period.
+        """Apply a command; return the time until the next update is needed [s]; 0 means the next control period.
 
         Args:
-            state: the present.
-            motors: what to write to.
+            state: present state.
+            motors: receives the joint commands.
             command: [rad] or [m], [rad/s] or [m/s], [N·m] or [N].
-            velocity: the rate of change of a position command.
+            velocity: rate of change of a position command.
         """
 
     def keep(self, state: State, motors: Motors) -> float:
-        """Obey the last command once more; see `write`."""
+        """Apply the last command again; see `write`."""
         return self.write(state, motors, self.command)
 
 
 class EffortOutput(Output):
-    """Efforts are exerted, within ``<limit effort>``, and not beyond ``<limit velocity>`` (ROS 1)."""
+    """Effort commands, limited by ``<limit effort>`` and, in ROS 1, by ``<limit velocity>``."""
 
     interface = "effort"
 
     def write(self, state: State, motors: Motors, command: float, velocity: float = 0.0) -> float:
-        """Obey a command; return how long that needs no attention [s]."""
+        """Apply a command; return the time until the next update is needed [s]."""
         self.command = command
         limits, name = self.limits, self.handle.name
         if limits is None or (command == 0.0 and limits.soft is None):
@@ -92,7 +92,7 @@ class EffortOutput(Output):
 
 
 class VelocityOutput(Output):
-    """Velocities: by a motor as strong as ``<limit effort>``, or by PID where there are gains."""
+    """Velocity commands, followed by a motor with at most ``<limit effort>``, or by a PID if gains are configured."""
 
     interface = "velocity"
 
@@ -103,13 +103,13 @@ class VelocityOutput(Output):
         self.follower = Follower(handle, gains) if gains is not None else None
 
     def start(self, state: State) -> None:
-        """Command zero."""
+        """Set the command to zero."""
         super().start(state)
         if self.follower is not None:
             self.follower.integral.reset()
 
     def write(self, state: State, motors: Motors, command: float, velocity: float = 0.0) -> float:
-        """Obey a command; return how long that needs no attention [s]."""
+        """Apply a command; return the time until the next update is needed [s]."""
         self.command = command
         soft = self.limits is not None and self.limits.soft is not None
         if self.limits is not None:
@@ -122,9 +122,9 @@ class VelocityOutput(Output):
 
 
 class PositionOutput(Output):
-    """Positions: set whatever that takes, or by PID where there are gains.
+    """Position commands, reached with unlimited effort, or by a PID if gains are configured.
 
-    In ROS 1 the command moves no faster than the joint may, and not beyond where it may be.
+    In ROS 1 the command is limited to the joint's velocity and position limits.
     """
 
     interface = "position"
@@ -137,23 +137,23 @@ class PositionOutput(Output):
 
     @property
     def has_gains(self) -> bool:
-        """Whether positions are reached by PID."""
+        """Whether a PID follows the position commands."""
         return self.follower is not None
 
     def start(self, state: State) -> None:
-        """Command standing where it stands."""
+        """Set the command to the present position."""
         self.command = self._granted = state.position(self.handle.name)
         if self.follower is not None:
             self.follower.integral.reset()
 
     def write(self, state: State, motors: Motors, command: float, velocity: float = 0.0) -> float:
-        """Obey a command; return how long that needs no attention [s]."""
+        """Apply a command; return the time until the next update is needed [s]."""
         self.command = command
         now, moving = state.position(self.handle.name), False
         command = self.handle.target(command, now)
         if self.limits is not None:
             before, self._granted = self._granted, self.limits.position(command, self._granted, self.period)
-            # A command that is still on its way has the velocity of its way.
+            # While the velocity limit delays the command, its rate of change is the velocity target.
             if moving := abs(self._granted - command) > NEAR and abs(self._granted - before) > NEAR:
                 command, velocity = self._granted, (self._granted - before) / self.period
             elif abs(self._granted - command) > NEAR:
@@ -165,7 +165,7 @@ class PositionOutput(Output):
 
 
 class ProportionalOutput(Output):
-    """Positions as gz_ros2_control goes there: velocity = error · gain · update rate, as strong as the effort limit."""
+    """Position commands as in gz_ros2_control: velocity = error · gain · update rate, within the effort limit."""
 
     interface = "position"
 
@@ -174,11 +174,11 @@ class ProportionalOutput(Output):
         self._rate = gain / period
 
     def start(self, state: State) -> None:
-        """Command standing where it stands."""
+        """Set the command to the present position."""
         self.command = state.position(self.handle.name)
 
     def write(self, state: State, motors: Motors, command: float, velocity: float = 0.0) -> float:
-        """Obey a command; return how long that needs no attention [s]."""
+        """Apply a command; return the time until the next update is needed [s]."""
         self.command = command
         now = state.position(self.handle.name)
         error = self.handle.target(command, now) - now

@@ -1,4 +1,4 @@
-"""ControlLoop: the controllers of one robot, loaded, started and stopped, and updated in every control period."""
+"""ControlLoop: loads, starts and stops the controllers of one robot and updates them in every control period."""
 
 from __future__ import annotations
 
@@ -22,19 +22,19 @@ if TYPE_CHECKING:
     from urdfkit.sim.state.robot_state import State
 
 STATES = {1: ("running", "stopped"), 2: ("active", "inactive")}
-"""What ros_control and ros2_control call a controller at work and one that is only loaded."""
+"""ROS version → names of the states of a running and of a loaded, stopped controller."""
 
 
 @dataclass(frozen=True)
 class ControllerStatus:
-    """One controller, as ``list_controllers`` reports it.
+    """State of one controller, as ``list_controllers`` reports it.
 
     Attributes:
-        name: without its namespace.
-        namespace: of its controller manager.
-        type: of the controller.
+        name: name of the controller without its namespace.
+        namespace: namespace of its controller manager.
+        type: type of the controller.
         state: ``running`` or ``stopped`` (ROS 1), ``active`` or ``inactive`` (ROS 2), ``unloaded``.
-        claims: ``joint/interface`` of everything it commands.
+        claims: ``joint/interface`` of each claimed command interface.
     """
 
     name: str
@@ -45,13 +45,13 @@ class ControllerStatus:
 
 
 class ControlLoop:
-    """What a controller manager does, for one robot.
+    """Controller manager of one robot.
 
     Args:
-        namespace: the controller manager's.
-        known: name → parameters of every controller that is configured.
-        hardware: what they may command.
-        hold: joints that no controller commands stay where they are; without, they are free.
+        namespace: namespace of the controller manager.
+        known: name → parameters of each configured controller.
+        hardware: joints and command interfaces of the robot.
+        hold: hold the position of joints that no controller commands; otherwise these joints move freely.
     """
 
     def __init__(self, namespace: str, known: dict[str, Settings], hardware: Hardware, *, hold: bool = True) -> None:
@@ -72,15 +72,15 @@ class ControlLoop:
     # Time
 
     def next(self, step: int) -> int:
-        """Return the first step from `step` on at which a control period with work to do begins."""
+        """Return the first step at or after `step` at which a control period begins and an update is due."""
         return NEVER if self._wake >= NEVER else self._ticks.next(max(step, self._wake))
 
     def wake(self) -> None:
-        """Have something to do in the next control period."""
+        """Request an update in the next control period."""
         self._wake = 0
 
     def followers(self) -> Iterator[tuple[str, Follower]]:
-        """Yield whatever obeys by PID, with a path to tell it by: ``CONTROLLER/JOINT``, or ``hardware/JOINT``."""
+        """Yield each PID with its path: ``CONTROLLER/JOINT``, or ``hardware/JOINT`` for a PID of the hardware."""
         for law in self.laws.values():
             for follower in law.followers:
                 yield f"{law.name}/{follower.handle.name}", follower
@@ -89,7 +89,7 @@ class ControlLoop:
                 yield f"hardware/{output.follower.handle.name}", output.follower
 
     def begin(self, state: State) -> None:
-        """Begin where the robot is; whatever runs begins anew."""
+        """Start from the present state, and restart the running controllers."""
         self._state = state
         self.halted = False
         for output in self.hardware.outputs.values():
@@ -100,7 +100,7 @@ class ControlLoop:
         self.wake()
 
     def update(self, state: State, motors: Motors) -> None:
-        """Let every running controller command its joints, and the others stay."""
+        """Update the running controllers, and hold or release the joints that no controller commands."""
         rest = inf
         free = dict(self._first)
         if not self.halted:
@@ -117,7 +117,7 @@ class ControlLoop:
         self._wake = NEVER if rest == inf else state.step + max(1, ceil(rest / dt - 1e-6))
 
     def halt(self, halted: bool) -> None:
-        """Stop everything at once, or go on."""
+        """Suspend all controllers and hold the joints (emergency stop), or resume."""
         if halted and not self.halted and self._state is not None:
             for output in self.hardware.outputs.values():
                 output.start(self._state)
@@ -130,7 +130,7 @@ class ControlLoop:
     # The controller manager's services
 
     def status(self) -> tuple[ControllerStatus, ...]:
-        """Return every controller that is configured."""
+        """Return the state of each configured controller."""
         found = []
         running, stopped = STATES[self.hardware.ros]
         for name, settings in self.known.items():
@@ -141,11 +141,11 @@ class ControlLoop:
         return tuple(found)
 
     def load(self, name: str) -> bool:
-        """Load a controller; False for one that we do not simulate.
+        """Load a controller; return False if its type is not simulated.
 
         Raises:
-            SimulationError: there is none of that name.
-            DescriptionError: its parameters make no sense, with their place.
+            SimulationError: unknown controller.
+            DescriptionError: a parameter is invalid, with its position.
         """
         if name not in self.known:
             raise SimulationError(f"no controller `{name}` in {self.namespace or '/'}{did_you_mean(name, self.known)}")
@@ -162,10 +162,10 @@ class ControlLoop:
         return True
 
     def unload(self, name: str) -> None:
-        """Forget a controller; it has to be stopped.
+        """Unload a stopped controller.
 
         Raises:
-            SimulationError: it runs, or there is none.
+            SimulationError: the controller is running, unknown or not loaded.
         """
         law = self._loaded(name)
         if law.running:
@@ -175,10 +175,10 @@ class ControlLoop:
         del self.laws[name]
 
     def switch(self, start: Iterable[str] = (), stop: Iterable[str] = ()) -> None:
-        """Stop some controllers and start others, all or none of it.
+        """Stop some controllers and start others; after an error, all controllers are as before.
 
         Raises:
-            SimulationError: one is not there, or wants a joint that another one has; names both.
+            SimulationError: unknown controller, or two controllers need the same joint; the message names both.
         """
         stopping = [self._loaded(name) for name in stop]
         starting = [self._loaded(name) for name in start if self.load(name)]
@@ -207,7 +207,7 @@ class ControlLoop:
         self.wake()
 
     def start_all(self) -> None:
-        """Start what is configured, one after the other; one whose joints are taken stays loaded, with a note."""
+        """Start all configured controllers in order; on a conflict of joints, warn and leave the later one loaded."""
         for name in self.known:
             try:
                 self.switch(start=[name])

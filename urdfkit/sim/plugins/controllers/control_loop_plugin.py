@@ -22,7 +22,7 @@ class ControlLoopPlugin(Controller):
         self.loop.begin(state)
 
     def next(self, step: int) -> int:
-        """Return the first step from `step` on before which `write` is due."""
+        """Return the first step at or after `step` before which `write` is due."""
         return self.loop.next(step)
 
     def write(self, state: State, motors: Motors) -> None:

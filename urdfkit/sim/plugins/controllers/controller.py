@@ -1,4 +1,4 @@
-"""Law: a controller of ros_control or ros2_control, and the hardware it is given."""
+"""Law: base class of the controllers of ros_control and ros2_control. Hardware: the interfaces they command."""
 
 from __future__ import annotations
 
@@ -25,17 +25,17 @@ if TYPE_CHECKING:
 
 @dataclass
 class Hardware:
-    """The joints of one robot as its controllers see them.
+    """Joints and command interfaces of one robot.
 
     Attributes:
-        setup: the plugin's.
-        resolve: turns a topic name, relative to the controller manager's namespace, into an absolute one.
-        ros: 1 or 2.
-        period: of the control loop [s].
-        outputs: (joint, interface) → what obeys, in the order they are written.
-        joints: the joints whose state is known, in the order they are reported.
-        wake: asks for an update in the next control period.
-        source: what to name when a joint is missing, e.g. ``<transmission>``.
+        setup: setup of the plugin.
+        resolve: returns the absolute name of a topic, which may be relative to the controller manager's namespace.
+        ros: version of ROS, 1 or 2.
+        period: period of the control loop [s].
+        outputs: (joint, interface) → output, in the order of the description.
+        joints: joints whose states are available, in the order of the description.
+        wake: requests an update in the next control period.
+        source: element that error messages name if a joint has no interface, e.g. ``<transmission>``.
     """
 
     setup: Setup
@@ -51,7 +51,7 @@ class Hardware:
         """Return the output of a joint named in a parameter.
 
         Raises:
-            DescriptionError: no such joint, or not that interface, at the place where it is named.
+            DescriptionError: unknown joint, or the joint lacks the interface; with the position of the parameter.
         """
         joint = entry.value or ""
         found = self.outputs.get((joint, interface))
@@ -70,22 +70,22 @@ class Hardware:
 
 
 class Law(ABC):
-    """A controller: configured when it is loaded, at work between `start` and `stop`.
+    """A controller, configured when it is loaded, and updated between `start` and `stop`.
 
     Args:
-        name: its own.
-        settings: its parameters.
-        hardware: what it may command.
+        name: name of the controller.
+        settings: parameters of the controller.
+        hardware: joints and command interfaces of the robot.
 
     Raises:
-        DescriptionError: a parameter is missing or makes no sense, with its place.
+        DescriptionError: a parameter is missing or invalid, with its position.
 
     Attributes:
-        types: the names of its types, each with what tells it from the others.
-        outputs: what it commands; nobody else may while it runs.
-        publications: what it publishes while it runs.
-        commands: topics of type Twist or TwistStamped it listens to.
-        running: whether it is at work.
+        types: type names that the class implements → variant of each type.
+        outputs: command interfaces, claimed exclusively while the controller runs.
+        publications: publications while the controller runs.
+        commands: topic → type, of the Twist and TwistStamped topics it subscribes to.
+        running: whether the controller is started.
     """
 
     types: ClassVar[dict[str, str]] = {}
@@ -103,7 +103,7 @@ class Law(ABC):
 
     @property
     def followers(self) -> tuple[Follower, ...]:
-        """What of it obeys by PID."""
+        """The controller's PIDs, one per joint."""
         return ()
 
     @abstractmethod
@@ -111,26 +111,26 @@ class Law(ABC):
         """Read the parameters, advertise and subscribe.
 
         Raises:
-            DescriptionError: a parameter is missing or makes no sense, with its place.
+            DescriptionError: a parameter is missing or invalid, with its position.
         """
 
     def start(self, state: State) -> None:
-        """Begin where the robot is."""
+        """Start from the present state."""
         for output in self.outputs:
             output.start(state)
 
-    def stop(self) -> None:  # noqa: B027 - most have nobody to tell
-        """End, and tell whoever waits for something."""
+    def stop(self) -> None:  # noqa: B027 - most controllers have nothing to cancel
+        """Stop, and cancel the action goal if there is one."""
 
     def update(self, state: State, motors: Motors) -> float:
-        """Command the outputs; return how long that needs no attention [s]: 0 is until the next control period."""
+        """Write the commands; return the time until the next update is needed [s]; 0 means the next control period."""
         return inf
 
     def estimate(self, state: State) -> dict[str, Pose]:
-        """Return odometry frame → pose in it; empty for a controller without odometry."""
+        """Return odometry frame → pose of the base in that frame; empty for a controller without odometry."""
         return {}
 
-    # For the laws
+    # For subclasses
 
     def topic(self, name: str) -> str:
         """Return the absolute name of a topic of this controller."""
@@ -147,23 +147,23 @@ class Law(ABC):
         self.hardware.setup.bus.subscribe(topic, type, receive)
 
     def report(self, topic: Topic, rate: float, build: Callable[[State], Callable[[], Any]]) -> None:
-        """Publish what `build` makes of the state at a rate [Hz] while the controller runs."""
+        """Publish the messages that `build` makes from states, at a rate [Hz], while the controller runs."""
         self.publications.append(Report(topic, rate, self.hardware.setup.dt, lambda: self.running, build))
 
     def note(self, text: str) -> None:
-        """Tell the user something about this controller."""
+        """Report a warning about this controller to the user."""
         self.hardware.setup.note(f"controller `{self.name}`: {text}")
 
 
 class Report(Publication):
-    """A topic that is filled while a controller runs.
+    """Periodic publication of a topic while a controller runs.
 
     Args:
-        topic: where to.
-        rate: [Hz]; zero or less means every step.
-        dt: the simulation's step [s].
-        running: whether the controller runs.
-        build: returns what builds the message of this moment, also later.
+        topic: topic of the messages.
+        rate: rate [Hz]; zero or less means every step.
+        dt: time step of the simulation [s].
+        running: returns whether the controller runs.
+        build: returns a function that builds the message of a state; it may be called after later steps.
     """
 
     def __init__(
@@ -179,16 +179,16 @@ class Report(Publication):
         self._build = build
 
     def stop(self, step: int) -> int:
-        """Return the step at which the simulation has to stop for it."""
+        """Return the next step at which a message is due; `NEVER` while the controller is stopped."""
         return super().stop(step) if self._running() else NEVER
 
     def act(self, state: State) -> None:
-        """Publish the messages that are due, except those of the time the controller was stopped."""
+        """Publish the messages that are due; skip those due while the controller was stopped."""
         if self._running():
             super().act(state)
         else:
             self.reset(state.step)
 
     def message(self, state: State) -> Callable[[], Any]:
-        """Return a function that builds the message of this state, also later."""
+        """Return a function that builds the message of this state; it may be called after later steps."""
         return self._build(state)

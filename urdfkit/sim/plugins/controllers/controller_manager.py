@@ -1,7 +1,7 @@
-"""What controller_manager is asked by services, as topics that carry the requests under the services' own names.
+"""Services of controller_manager, emulated by topics: a topic with the name of a service carries its requests.
 
-Sources: ros_control noetic, controller_manager; ros2_control, controller_manager. What fails is noted, as nothing can
-be answered.
+Sources: ros_control noetic, controller_manager; ros2_control, controller_manager. A failed request is reported as a
+warning, because a topic has no response.
 """
 
 from __future__ import annotations
@@ -17,15 +17,15 @@ if TYPE_CHECKING:
     from urdfkit.sim.plugins.controllers.control_loop import ControlLoop
 
 BEST_EFFORT = 1
-"""The strictness with which what cannot be switched is left out."""
+"""Strictness at which controllers that cannot be switched are skipped."""
 
 
 def serve(loop: ControlLoop, manager: str = "controller_manager") -> None:
-    """Do what is asked of a control loop.
+    """Subscribe to the requests to a control loop.
 
     Args:
-        loop: the controllers.
-        manager: name of its node.
+        loop: control loop that executes the requests.
+        manager: node name of the controller manager.
     """
     hardware = loop.hardware
 
@@ -55,5 +55,5 @@ def serve(loop: ControlLoop, manager: str = "controller_manager") -> None:
     listen("load_controller", LOAD, lambda message: loop.load(message.name))
     listen("unload_controller", UNLOAD, lambda message: loop.unload(message.name))
     listen("switch_controller", SWITCH, switch)
-    if hardware.ros == 2:  # loading configures
+    if hardware.ros == 2:  # `load` configures, too
         listen("configure_controller", CONFIGURE, lambda message: loop.load(message.name))

@@ -1,4 +1,4 @@
-"""Controllers: list, load, start, stop and switch, whatever plugin they live in."""
+"""Controllers: lists, loads, starts, stops and switches the controllers of all plugins."""
 
 from __future__ import annotations
 
@@ -15,16 +15,16 @@ if TYPE_CHECKING:
 
 
 class Controllers:
-    """The controllers of a simulation; what the services of controller_manager do.
+    """The controllers of a simulation; implements the services of controller_manager.
 
-    Controllers go by name, or by namespace and name (``/rrbot/joint1_position_controller``).
+    A controller is identified by its name, or by its namespace and name (``/rrbot/joint1_position_controller``).
 
     Args:
         loops: the control loops, one per plugin.
-        invalidate: called when something of them may be due sooner than it was.
+        invalidate: called when an update or a publication may be due earlier than before.
 
     Attributes:
-        each_publications: per loop, what its loaded controllers publish while they run.
+        each_publications: per loop, the publications of its loaded controllers.
     """
 
     def __init__(self, loops: Sequence[ControlLoop], invalidate: Callable[[], None] = lambda: None) -> None:
@@ -34,29 +34,29 @@ class Controllers:
 
     @property
     def publications(self) -> list[Publication]:
-        """What the loaded controllers publish while they run."""
+        """The publications of the loaded controllers."""
         return [publication for publications in self.each_publications for publication in publications]
 
     @property
     def command_topics(self) -> dict[str, str]:
-        """Topic → type, of the velocity commands that running controllers listen to."""
+        """Topic → type, of the velocity commands that running controllers subscribe to."""
         laws = [law for loop in self._loops for law in loop.laws.values() if law.running]
         return {topic: kind for law in laws for topic, kind in law.commands.items()}
 
     def odometry(self, state: State) -> dict[str, Pose]:
-        """Return odometry frame → pose that running controllers estimate."""
+        """Return odometry frame → pose, as estimated by the running controllers."""
         laws = [law for loop in self._loops for law in loop.laws.values() if law.running]
         return {frame: pose for law in laws for frame, pose in law.estimate(state).items()}
 
     def list(self) -> tuple[ControllerStatus, ...]:
-        """Return every controller that is configured, loaded or not."""
+        """Return the state of each configured controller, loaded or not."""
         return tuple(status for loop in self._loops for status in loop.status())
 
     def load(self, name: str) -> None:
         """Load a controller.
 
         Raises:
-            UrdfkitError: there is none of that name, or its parameters make no sense.
+            UrdfkitError: unknown controller, or a parameter is invalid.
         """
         loop, own = self._find(name)
         self._invalidate()
@@ -64,36 +64,36 @@ class Controllers:
             raise SimulationError(f"controller `{name}`: its type is not simulated")
 
     def unload(self, name: str) -> None:
-        """Forget a controller; it has to be stopped.
+        """Unload a stopped controller.
 
         Raises:
-            SimulationError: there is none of that name, or it runs.
+            SimulationError: unknown controller, or the controller is running.
         """
         loop, own = self._find(name)
         self._invalidate()
         loop.unload(own)
 
     def start(self, *names: str) -> None:
-        """Start controllers, loading them where they are not.
+        """Start controllers; load them first if necessary.
 
         Raises:
-            UrdfkitError: one is not there, makes no sense, or wants a joint that another one has.
+            UrdfkitError: unknown controller, invalid parameter, or a joint that another controller has claimed.
         """
         self.switch(start=names)
 
     def stop(self, *names: str) -> None:
-        """Stop controllers: a position is held, velocities and efforts become zero.
+        """Stop controllers. Position interfaces hold their last command; velocity and effort commands become zero.
 
         Raises:
-            SimulationError: one is not there.
+            SimulationError: unknown controller.
         """
         self.switch(stop=names)
 
     def switch(self, start: Sequence[str] = (), stop: Sequence[str] = ()) -> None:
-        """Stop some controllers and start others in the same control period, all or none of those in one namespace.
+        """Stop some controllers and start others in the same control period; atomic for each namespace.
 
         Raises:
-            UrdfkitError: one is not there, makes no sense, or wants a joint that another one has; names both.
+            UrdfkitError: unknown controller, invalid parameter, or two controllers need the same joint; names both.
         """
         wanted: dict[int, tuple[set[str], set[str]]] = {}
         for side, names in enumerate((start, stop)):

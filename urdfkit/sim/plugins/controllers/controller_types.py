@@ -1,4 +1,4 @@
-"""The controllers of ros_control and ros2_control that we know, by the names of their types."""
+"""Registry of the simulated controllers of ros_control and ros2_control by type name."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ LAWS: tuple[type[Law], ...] = (
     FourWheelSteeringController,
     MecanumController,
 )
-"""Every controller; a test fails if one is missing here."""
+"""All controller classes; a test fails if one is missing here."""
 
 ELSEWHERE = (
     "admittance_controller/AdmittanceController",
@@ -52,14 +52,14 @@ ELSEWHERE = (
     "steering_controllers_library/SteeringControllersLibrary",
     "tricycle_controller/TricycleController",
 )
-"""Controllers that exist and that we do not simulate."""
+"""Controller types of ros2_controllers and ros_controllers that are not simulated."""
 
 
 def load_law(name: str, settings: Settings, hardware: Hardware) -> Law | None:
-    """Return a controller, configured; None for one that exists, or may, but that we do not simulate.
+    """Return a configured controller; None for a type that is not simulated or belongs to an unknown package.
 
     Raises:
-        DescriptionError: no such type in a package that we know, or a parameter that makes no sense, with its place.
+        DescriptionError: unknown type in a known package, or an invalid parameter, with its position.
     """
     kind = settings.text("type")
     known = [name for law in LAWS for name in law.types]
@@ -70,6 +70,6 @@ def load_law(name: str, settings: Settings, hardware: Hardware) -> Law | None:
         return None
     package, packages = kind.partition("/")[0], {name.partition("/")[0] for name in known}
     if package not in packages and not did_you_mean(package, packages):
-        return None  # somebody's own: Gazebo would need its library, and goes on without
+        return None  # third-party: Gazebo runs without it if its library is missing
     hint = did_you_mean(kind, (*known, *ELSEWHERE))
     raise DescriptionError(f"no controller type `{kind}`{hint}", position=settings.group("type").position)

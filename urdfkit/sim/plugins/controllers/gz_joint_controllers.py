@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 
 
 class _GzJoint:
-    """What both have in common: joints, a topic, PID gains, limits of the command."""
+    """Parameters common to both controllers: joints, topic, PID gains and limits of the command."""
 
     def __init__(self, plugin: Plugin, spec: PluginSpec, setup: Setup) -> None:
         read = self.read = Parameters(plugin, spec, setup.names)
@@ -68,7 +68,7 @@ class _GzJoint:
         self.topic = topics.resolve(topic)
 
     def listen(self, take: Any) -> None:
-        """Hand every finite command on."""
+        """Subscribe, and pass every finite command to `take`."""
 
         def receive(message: Any) -> None:
             if isfinite(message.data):
@@ -79,20 +79,20 @@ class _GzJoint:
         self.setup.bus.subscribe(self.topic, FLOAT, receive)
 
     def bounds(self, handle: JointHandle) -> tuple[float, float]:
-        """Return the middle of what a joint may be made to exert, and how far that may go from there [N·m] or [N]."""
+        """Return the centre and the half-width of the effort range of a joint [N·m] or [N]."""
         least, most = max(self.least, -handle.limit), min(self.most, handle.limit)
         return (least + most) / 2, max(0.0, (most - least) / 2)
 
 
 class _Servo(Controller):
-    """A plugin that commands joints by itself: no controller manager, and nothing to do until a command comes."""
+    """Base of plugins that command joints without a controller manager; updated only after a new command."""
 
     _joint: _GzJoint
     _by_effort: bool
     _initial: float
 
     def _start(self, setup: Setup, initial: str) -> None:
-        """Read what both have, and where or how fast to begin."""
+        """Read the common parameters and the initial position or velocity, and subscribe."""
         self._joint = _GzJoint(self.plugin, self.spec, setup)
         self._dt, self._wake = setup.dt, 0
         self._initial = self._wanted = self._joint.read.number(initial)
@@ -102,23 +102,23 @@ class _Servo(Controller):
         self._wanted, self._wake = value, 0
 
     def begin(self, state: State) -> None:
-        """Go back to what it begins with."""
+        """Return to the initial command."""
         self._wanted, self._wake = self._initial, 0
         for follower in self._joint.followers:
             follower.integral.reset()
 
     def followers(self) -> Iterator[tuple[str, Follower]]:
-        """Yield whatever obeys by PID: ``joint_position_controller/JOINT``, ``joint_controller/JOINT``."""
+        """Yield each PID with its path: ``joint_position_controller/JOINT``, ``joint_controller/JOINT``."""
         if self._by_effort:
             for follower in self._joint.followers:
                 yield f"{self.kind}/{follower.handle.name}", follower
 
     def wake(self) -> None:
-        """Look at the command anew."""
+        """Request an update in the next step."""
         self._wake = 0
 
     def next(self, step: int) -> int:
-        """Return the first step from `step` on before which `write` is due."""
+        """Return the first step at or after `step` before which `write` is due."""
         return max(step, self._wake)
 
 
@@ -131,23 +131,23 @@ class JointPositionController(_Servo):
         """Read the parameters and subscribe.
 
         Raises:
-            SimulationError: a parameter makes no sense, with its place.
+            SimulationError: a parameter is invalid, with its position.
         """
         self._start(setup, "initial_position")
         self._by_effort = not self._joint.read.flag("use_velocity_commands")
 
     def write(self, state: State, motors: Motors) -> None:
-        """Command the joints."""
+        """Write the commands of the joints."""
         joint = self._joint
         if not self._by_effort:
-            # As fast as it may, and in one step over what is left.
+            # Move at the greatest command, and over the remaining error in one step.
             for handle in joint.handles:
                 error = self._wanted - state.position(handle.name)
                 handle.turn(motors, min(joint.most, max(-joint.most, error / self._dt)))
             self._wake = state.step + 1
             return
         for follower in joint.followers:
-            # The command is clamped between bounds that need not lie evenly about zero.
+            # The bounds of the command need not be symmetric about zero.
             middle, half = joint.bounds(follower.handle)
             follower.follow(state, motors, self._wanted, feedforward=joint.offset - middle, limit=half)
             if middle:
@@ -156,7 +156,7 @@ class JointPositionController(_Servo):
 
 
 class JointController(_Servo):
-    """A velocity: by the joint's motor, or by a PID whose output is an effort with ``use_force_commands``."""
+    """Velocity commands, followed by the joint's motor, or by a PID with effort output (``use_force_commands``)."""
 
     kind = "joint_controller"
 
@@ -164,13 +164,13 @@ class JointController(_Servo):
         """Read the parameters and subscribe.
 
         Raises:
-            SimulationError: a parameter makes no sense, with its place.
+            SimulationError: a parameter is invalid, with its position.
         """
         self._start(setup, "initial_velocity")
         self._by_effort = self._joint.read.flag("use_force_commands")
 
     def write(self, state: State, motors: Motors) -> None:
-        """Command the joints."""
+        """Write the commands of the joints."""
         joint = self._joint
         rest = inf
         for follower in joint.followers:

@@ -1,7 +1,7 @@
-"""JointHandle: one joint as controllers see it; it turns their commands into motor and servo targets.
+"""JointHandle: converts a controller's commands for one joint into motor and servo targets of the engine.
 
-A PID law runs as a servo of the engine, which acts on where the step ends: no gain makes it unstable at any step. The
-effort limit holds for the sum of all parts.
+A PID runs as an implicit servo of the engine, so it is stable for any gain and time step. The effort limit applies to
+the sum of all terms.
 """
 
 from __future__ import annotations
@@ -19,30 +19,30 @@ if TYPE_CHECKING:
     from urdfkit.sim.state.robot_state import State
 
 FASTEST = 20.0
-"""How fast a joint without ``<limit velocity>`` is brought to a commanded position [rad/s] or [m/s]."""
+"""Greatest velocity at which a joint without ``<limit velocity>`` moves to a commanded position [rad/s] or [m/s]."""
 
 
 LOOK = 0.01
-"""How often an effort is looked after that may make a joint too fast [s], while it is well below."""
+"""Interval between checks of an effort against the velocity limit while the joint is well below the limit [s]."""
 
 STANDING = 1e-3
-"""A joint slower than this [rad/s] or [m/s] stands, as far as a PID's effort has to be looked after."""
+"""A joint slower than this [rad/s] or [m/s] is at rest, for the interval between checks of a PID's effort."""
 
 NEAR = 1e-9
-"""A joint this near to where it should be [rad] or [m], and this slow [rad/s] or [m/s], is there."""
+"""Position error [rad] or [m] and velocity [rad/s] or [m/s] below which a joint has reached its target."""
 
 
 class JointHandle:
-    """What one joint can be told.
+    """Command interface to one joint, with its limits.
 
     Args:
         kinematics: the robot's model.
-        joint: the joint as written.
+        joint: the joint of the URDF.
 
     Attributes:
-        name: the joint's.
-        limit: what it can exert [N·m] or [N].
-        fastest: its ``<limit velocity>`` [rad/s] or [m/s]; infinite where there is none.
+        name: name of the joint.
+        limit: effort limit [N·m] or [N].
+        fastest: ``<limit velocity>`` [rad/s] or [m/s]; infinite if the joint has none.
     """
 
     def __init__(self, kinematics: Kinematics, joint: Joint) -> None:
@@ -55,7 +55,7 @@ class JointHandle:
         self._driven = False
 
     def reset(self) -> None:
-        """Forget what was commanded."""
+        """Clear the last command."""
         self._driven = False
 
     def within(self, position: float) -> float:
@@ -63,7 +63,7 @@ class JointHandle:
         return min(self.upper, max(self.lower, position))
 
     def target(self, position: float, now: float) -> float:
-        """Return where to go for a commanded position [rad] or [m]: within limits, and the short way round."""
+        """Return the target [rad] or [m]: within the limits; for a continuous joint the nearest equivalent angle."""
         if self._turns:
             return now + remainder(position - now, 2 * pi)
         return self.within(position)
@@ -71,14 +71,14 @@ class JointHandle:
     # Commands
 
     def exert(self, motors: Motors, effort: float) -> None:
-        """Exert a constant effort [N·m] or [N], within the limit; beside the motor of a drive, if there is one."""
+        """Exert a constant effort [N·m] or [N] within the limit, in addition to a drive's motor on the same joint."""
         if self._driven:
             motors.drive(self.name, 0.0, 0.0)
             self._driven = False
         motors.exert(self.name, min(self.limit, max(-self.limit, effort)))
 
     def turn(self, motors: Motors, velocity: float, effort: float | None = None) -> None:
-        """Turn at a velocity [rad/s] or [m/s], within the limits."""
+        """Move the joint at a velocity [rad/s] or [m/s] within the limits."""
         self._driven = True
         motors.exert(self.name, 0.0)
         motors.drive(
@@ -86,16 +86,16 @@ class JointHandle:
         )
 
     def place(self, motors: Motors, state: State, position: float, period: float) -> bool:
-        """Bring the joint to a position [rad] or [m] whatever that takes, no faster than it may; True when it is there.
+        """Move the joint to a position [rad] or [m] with unlimited effort, within its velocity limit; True if reached.
 
-        gazebo_ros_control without gains sets the position and so overcomes gravity and any load; ros_control's joint
-        limits let the command move at ``<limit velocity>``.
+        gazebo_ros_control without gains sets the position directly, against gravity and any load; ros_control's joint
+        limits move the command at ``<limit velocity>`` at most.
 
         Args:
-            motors: what to write to.
-            state: the present.
-            position: where it should be [rad] or [m].
-            period: until the next call [s].
+            motors: receives the joint command.
+            state: present state.
+            position: target [rad] or [m].
+            period: time until the next call [s].
         """
         now = state.position(self.name)
         fastest = self.fastest if isfinite(self.fastest) else FASTEST
@@ -118,13 +118,13 @@ class JointHandle:
         """Exert p·(position − q) + d·(velocity − q̇) + i·∫(position − q) + `feedforward`, within the limit.
 
         Args:
-            motors: what to write to.
+            motors: receives the joint command.
             gains: p, i and d.
-            position: where it should be [rad] or [m].
-            velocity: how fast it should be [rad/s] or [m/s].
-            feedforward: a further part [N·m] or [N].
-            limit: besides the joint's own [N·m] or [N].
-            anew: forget the integral up to now.
+            position: target [rad] or [m].
+            velocity: target [rad/s] or [m/s].
+            feedforward: effort added to the PID's [N·m] or [N].
+            limit: effort limit in addition to the joint's own [N·m] or [N].
+            anew: reset the integral first.
         """
         most = min(self.limit, limit)
         integral = gains if gains.integrates else None
@@ -150,20 +150,20 @@ class JointHandle:
         limit: float = inf,
         anew: bool = False,
     ) -> None:
-        """Exert p·(velocity − q̇) + d·(its rate of change) + `integral`, within the limit.
+        """Exert p·e + d·ė + `integral` with the error e = velocity − q̇, within the limit.
 
-        The derivative is taken over `period` up to where the step ends, (q̇ now − q̇ then)/period, which makes it a
-        damper too: implicit like the rest.
+        The derivative of the error is (q̇ at the start − q̇ at the end of the step)/period, so both terms are implicit
+        dampers.
 
         Args:
-            motors: what to write to.
-            gains: of the velocity error.
+            motors: receives the joint command.
+            gains: gains of the velocity error.
             now: the joint's velocity [rad/s] or [m/s].
-            velocity: the one it should have.
-            integral: the integral part [N·m] or [N], where there is a derivative; the engine finds it otherwise.
-            period: until the next call [s].
-            limit: besides the joint's own [N·m] or [N].
-            anew: forget the integral up to now.
+            velocity: target [rad/s] or [m/s].
+            integral: integral term [N·m] or [N] if the D gain is not zero; otherwise the engine integrates.
+            period: time until the next call [s].
+            limit: effort limit in addition to the joint's own [N·m] or [N].
+            anew: reset the integral first.
         """
         inertia = gains.d / period
         damping = gains.p + inertia
@@ -180,18 +180,18 @@ class JointHandle:
         )  # fmt: skip
 
     def release(self, motors: Motors) -> None:
-        """Let the joint go."""
+        """Disable the joint's motor and servo."""
         motors.release(self.name)
 
 
 class Follower:
-    """A handle with gains and their integral: what PID controllers hold for each joint.
+    """PID of one joint: joint handle, gains and integral.
 
     Args:
         handle: the joint.
-        gains: of the law.
-        limits: of the efforts it commands, where they are enforced (ROS 1): what they take away is taken away for a
-            control period at a time, in which a constant effort takes the servo's place.
+        gains: gains of the PID.
+        limits: limits of the effort, where they are enforced (ROS 1). While they reduce the effort, a constant effort
+            replaces the servo for one control period at a time.
     """
 
     def __init__(self, handle: JointHandle, gains: Gains, limits: JointLimits | None = None) -> None:
@@ -212,7 +212,7 @@ class Follower:
         feedforward: float = 0.0,
         limit: float = inf,
     ) -> None:
-        """Servo towards a position [rad] or [m] and velocity [rad/s] or [m/s]."""
+        """Follow a position [rad] or [m] and velocity [rad/s] or [m/s]."""
         self._of_velocity = False
         if self.limits is not None:
             now, speed, gains = state.position(self.handle.name), state.velocity(self.handle.name), self.gains
@@ -225,7 +225,7 @@ class Follower:
         )  # fmt: skip
 
     def chase(self, state: State, motors: Motors, velocity: float, period: float, limit: float = inf) -> None:
-        """Servo towards a velocity [rad/s] or [m/s]."""
+        """Follow a velocity [rad/s] or [m/s]."""
         now = state.velocity(self.handle.name)
         if self.limits is not None:
             effort = self.gains.p * (velocity - now)
@@ -240,21 +240,21 @@ class Follower:
         )
 
     def rest(self) -> float:
-        """Return how long the joint needs no attention [s]."""
+        """Return the time until the next update is needed [s]."""
         return self._look if self._by_engine or not self.gains.integrates else 0.0
 
     def _cut(
         self, motors: Motors, effort: float, position: float, speed: float, limit: float, *, target: float
     ) -> bool:
-        """Exert what the limits grant of an effort, where that is less; return whether it is.
+        """If the limits reduce an effort, exert the reduced effort; return whether they do.
 
         Args:
-            motors: what to write to.
-            effort: of the law but for its integral [N·m] or [N].
-            position: of the joint [rad] or [m].
-            speed: [rad/s] or [m/s].
-            limit: of the effort, besides the joint's own.
-            target: what the law is after.
+            motors: receives the effort.
+            effort: effort of the PID without its integral term [N·m] or [N].
+            position: the joint's position [rad] or [m].
+            speed: the joint's velocity [rad/s] or [m/s].
+            limit: effort limit in addition to the joint's own [N·m] or [N].
+            target: target position or velocity of the PID.
         """
         limits, most = self.limits, min(self.handle.limit, limit)
         assert limits is not None
@@ -262,7 +262,7 @@ class Follower:
             effort += min(self.gains.i_max, max(self.gains.i_min, self.gains.i * motors.integral(self.handle.name)))
         wanted = min(most, max(-most, effort))
         granted = min(most, max(-most, limits.exerting(wanted, position, speed)))
-        # Only what stands, and was seen before with the same command, may be left alone for a while.
+        # Check less often only if the joint is at rest and the command is the same as in the last call.
         stands = limits.soft is None and abs(speed) < STANDING and self._seen == (target, limit)
         self._look, self._seen = LOOK if stands else 0.0, (target, limit)
         if granted == wanted:
@@ -272,5 +272,5 @@ class Follower:
 
     @property
     def _by_engine(self) -> bool:
-        """Whether the engine integrates: not where a velocity servo is none, or its target moves by a derivative."""
+        """Whether the engine integrates the error; a velocity PID needs a positive P gain and no D gain for that."""
         return self.gains.p > 0.0 and self.gains.d == 0.0 if self._of_velocity else True

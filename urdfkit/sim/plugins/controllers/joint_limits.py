@@ -1,4 +1,4 @@
-"""Limits on what controllers of ROS 1 may command a joint, enforced in every control period.
+"""Limits of the joint commands of ROS 1 controllers, enforced in every control period.
 
 Sources: ros_control noetic, joint_limits_interface.h (saturation and soft limits), joint_limits_rosparam.h and
 joint_limits_urdf.h; gazebo_ros_pkgs noetic-devel, default_robot_hw_sim.cpp, registerJointLimits.
@@ -21,13 +21,13 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Soft:
-    """A ``<safety_controller>``.
+    """Soft limits of a ``<safety_controller>``.
 
     Attributes:
-        lower: where a spring of velocities begins [rad] or [m].
-        upper: the same on the other side.
-        k_position: how fast a joint may come nearer to it, per distance left [1/s].
-        k_velocity: how much effort it may use, per velocity left [N·m·s/rad] or [N·s/m].
+        lower: ``soft_lower_limit`` [rad] or [m].
+        upper: ``soft_upper_limit`` [rad] or [m].
+        k_position: greatest velocity towards a soft limit, per distance from it [1/s].
+        k_velocity: greatest effort, per velocity below the greatest velocity [N·m·s/rad] or [N·s/m].
     """
 
     lower: float
@@ -38,14 +38,14 @@ class Soft:
 
 @dataclass(frozen=True)
 class JointLimits:
-    """What one joint may be commanded.
+    """Limits of the commands of one joint.
 
     Attributes:
-        lower: least position [rad] or [m].
-        upper: greatest position.
-        velocity: [rad/s] or [m/s].
-        effort: [N·m] or [N].
-        soft: what holds before the end is reached.
+        lower: lower position limit [rad] or [m].
+        upper: upper position limit [rad] or [m].
+        velocity: velocity limit [rad/s] or [m/s].
+        effort: effort limit [N·m] or [N].
+        soft: soft limits; None for a joint without.
     """
 
     lower: float = -inf
@@ -56,22 +56,22 @@ class JointLimits:
 
     @property
     def cut_efforts(self) -> bool:
-        """Whether efforts may be granted less than ``<limit effort>``."""
+        """Whether `exerting` can reduce an effort below ``<limit effort>``."""
         return self.soft is not None or self.velocity < inf
 
     def position(self, wanted: float, before: float, period: float) -> float:
-        """Return the position command granted after `before`, a control period [s] later."""
+        """Return the limited position command, for the command `before` of the last control period."""
         least, most = self._velocities(before)
         low, high = max(before + least * period, self.lower), min(before + most * period, self.upper)
         return min(high, max(low, wanted)) if low <= high else min(self.upper, max(self.lower, wanted))
 
     def turning(self, wanted: float, position: float) -> float:
-        """Return the velocity command granted at a position."""
+        """Return the limited velocity command at a position."""
         least, most = self._velocities(position)
         return min(most, max(least, wanted))
 
     def exerting(self, wanted: float, position: float, velocity: float) -> float:
-        """Return the effort command granted at a position and velocity: none that makes a joint faster than it may."""
+        """Return the limited effort command: zero if it accelerates a joint above its velocity limit."""
         least, most = -self.effort, self.effort
         if self.soft is not None:
             slowest, fastest = self._velocities(position)
@@ -94,10 +94,10 @@ class JointLimits:
 
 
 def read_limits(joint: Joint, settings: Settings, note: Callable[[str], None]) -> JointLimits:
-    """Return the limits that a joint's ``<limit>`` and ``<safety_controller>`` and ``joint_limits/JOINT`` set.
+    """Return the limits of a joint from ``<limit>``, ``<safety_controller>`` and the parameters ``joint_limits/JOINT``.
 
     Raises:
-        DescriptionError: a parameter is no finite number.
+        DescriptionError: a parameter is missing, not a finite number or out of range.
     """
     found = JointLimits()
     if (limit := joint.limit) is not None:

@@ -40,24 +40,24 @@ SIMULATED = (
     "ign_ros2_control/IgnitionSystem",
     "gazebo_ros2_control/GazeboSystem",
 )
-"""Hardware plugins that stand for the simulator."""
+"""Hardware plugins of the simulators."""
 
 UPDATE_RATE = 100.0
-"""Default of the controller manager [Hz]."""
+"""Default update rate of the controller manager [Hz]."""
 
 _FIND = re.compile(r"\$\(\s*(?:find|find-pkg-share)\s+([^()\s]+)\s*\)")
 
 
 class Ros2Control(ControlLoopPlugin):
-    """The joints of the robot's ``<ros2_control>`` blocks and the controllers of its parameter files."""
+    """Plugin that runs the controllers of the parameter files on the joints of the ``<ros2_control>`` blocks."""
 
     kind = "ros2_control"
 
     def configure(self, setup: Setup) -> None:
-        """Find the joints and the controllers, and start them.
+        """Read the joints and the controllers, and start the controllers.
 
         Raises:
-            UrdfkitError: a file is not there, or a parameter makes no sense, with its place.
+            UrdfkitError: a file is missing, or a parameter is invalid, with its position.
         """
         read = Parameters(self.plugin, self.spec, setup.names)
         topics = Topics(self.plugin, GAZEBO_ROS2_CONTROL)
@@ -89,7 +89,7 @@ class Ros2Control(ControlLoopPlugin):
         return found
 
     def _joints(self, setup: Setup, hardware: Hardware, gain: float | None) -> list[str]:
-        """Fill the hardware's outputs; return the joints whose state is known."""
+        """Fill the outputs of the hardware; return the joints of the simulator's blocks."""
         joints: list[str] = []
         for block in setup.kinematics.robot.ros2_control:
             plugin = next((e for e in block.element.walk() if e.tag == "plugin"), None)
@@ -143,7 +143,7 @@ class Ros2Control(ControlLoopPlugin):
 
 
 def _controllers(root: Settings, namespace: str, boss: Settings) -> dict[str, Settings]:
-    """Return name → parameters of what has a ``type``: at the controller manager, or (newer) among its own."""
+    """Return name → parameters of each controller with a ``type``, at the controller manager or at its own node."""
     known = {}
     for name, entry in boss.children.items():
         if (kind := entry.children.get("type")) is not None and kind.value:
@@ -161,10 +161,10 @@ def _controllers(root: Settings, namespace: str, boss: Settings) -> dict[str, Se
 
 
 def _path(text: str, setup: Setup, position: Position) -> Path:
-    """Return the file a ``<parameters>`` means.
+    """Return the path of the file that a ``<parameters>`` element names.
 
     Raises:
-        SimulationError: there is none, at its place, with the nearest.
+        SimulationError: file or package not found; with the position of the element and the nearest file.
     """
     robot = setup.kinematics.robot
     packages, folder = robot.packages, (robot.files[0].parent if robot.files else Path())
@@ -181,7 +181,7 @@ def _path(text: str, setup: Setup, position: Position) -> Path:
     moved = packages.relocate(path) if packages is not None else None
     if moved is not None:
         return moved
-    # What installs as <share>/config may lie in the sources as bringup/config.
+    # A file that is installed to <share>/config may be in another folder of the sources, such as bringup/config.
     for package in (folder for folder in path.parents if (folder / "package.xml").is_file()):
         found = sorted(package.glob(f"*/{path.relative_to(package)}"))
         if len(found) == 1:

@@ -36,15 +36,15 @@ INTERFACES = {
 
 
 class GazeboRosControl(ControlLoopPlugin):
-    """The joints of the robot's transmissions and the controllers in its namespace."""
+    """Plugin that runs the controllers of the robot's namespace on the joints of its transmissions."""
 
     kind = "gazebo_ros_control"
 
     def configure(self, setup: Setup) -> None:
-        """Find the joints and the controllers; start those that a launch file starts, or all.
+        """Read the joints and the controllers; start the controllers that a launch file starts, otherwise all.
 
         Raises:
-            UrdfkitError: a transmission, or a controller's parameters, make no sense, with their place.
+            UrdfkitError: a transmission or a parameter of a controller is invalid, with its position.
         """
         read = Parameters(self.plugin, self.spec, setup.names)
         topics = Topics(self.plugin, self.spec, namespace=setup.model)
@@ -81,7 +81,7 @@ class GazeboRosControl(ControlLoopPlugin):
     def _hardware_settings(
         self, setup: Setup, read: Parameters, found: Configuration | None, settings: Settings
     ) -> Settings:
-        """Return where hardware looks for gains and limits: in Kinetic at the root unless ``legacyModeNS`` is false.
+        """Return the parameters of gains and limits: in Kinetic the root namespace's, unless ``legacyModeNS`` is false.
 
         Source: gazebo_ros_pkgs kinetic-devel, gazebo_ros_control_plugin.cpp.
         """
@@ -97,10 +97,10 @@ class GazeboRosControl(ControlLoopPlugin):
 
 
 def _output(transmission: Transmission, settings: Settings, setup: Setup, period: float) -> Output:
-    """Return what a transmission offers.
+    """Return the command interface of a transmission.
 
     Raises:
-        SimulationError: not one joint, or no hardware interface that Gazebo has; at its place.
+        SimulationError: not exactly one joint, or no interface that Gazebo supports; with its position.
     """
     name, place = transmission.name or "", transmission.element.origin.position
     if len(transmission.joints) != 1:
