@@ -1,4 +1,4 @@
-"""Action: a goal that a controller pursues, see `action_topics` for how it comes."""
+"""Action: action server of a controller, which executes one goal at a time; see `action_topics` for the topics."""
 
 from __future__ import annotations
 
@@ -25,14 +25,14 @@ if TYPE_CHECKING:
 __all__ = ["ABORTED", "SUCCEEDED", "Action", "RefusalError"]
 
 STATUS_RATE = 5.0
-"""How often actionlib publishes the states [Hz] (its ``status_frequency``)."""
+"""Rate of actionlib's status topic [Hz] (``status_frequency``)."""
 
 
 class RefusalError(Exception):
-    """A goal cannot be pursued.
+    """A goal is rejected.
 
     Args:
-        text: why.
+        text: reason.
         result: fields of the result.
     """
 
@@ -42,20 +42,20 @@ class RefusalError(Exception):
 
 
 class Action:
-    """One goal at a time; a new one takes the place of the one before.
+    """Action server of a controller; a new goal preempts the active one.
 
     Args:
         law: the controller.
-        name: of the action, below the controller's.
-        kind: the type of its messages without ``ActionGoal``, such as ``control_msgs/msg/GripperCommand``.
-        pursue: is given each goal; raises `RefusalError` for one that cannot be pursued.
-        stop: is called when the goal is cancelled.
-        feedback: returns what builds the fields of the feedback.
-        rate: of the feedback [Hz].
-        clock: returns the time [s].
+        name: name of the action, relative to the controller's.
+        kind: type of its messages without ``ActionGoal``, such as ``control_msgs/msg/GripperCommand``.
+        pursue: called with each goal; raises `RefusalError` to reject it.
+        stop: called when the goal is cancelled.
+        feedback: returns a function that builds the fields of the feedback for a state.
+        rate: rate of the feedback [Hz].
+        clock: returns the simulated time [s].
 
     Attributes:
-        goal: the one that is pursued.
+        goal: active goal; None without one.
     """
 
     def __init__(
@@ -82,13 +82,13 @@ class Action:
             law.report(self._topics.states, STATUS_RATE, self._list)
 
     def end(self, state: int, text: str = "", /, **result: Any) -> None:
-        """Tell that the goal was reached or will not be; does nothing without one."""
+        """End the active goal with a state and publish its result; without an active goal, do nothing."""
         if self.goal is not None:
             goal, self.goal = self.goal, None
             self._close(goal, state, text, result)
 
     def give_up(self, text: str) -> None:
-        """Tell that something else has taken the goal's place."""
+        """Preempt the active goal."""
         self.end(PREEMPTED, text)
 
     def _take(self, goal: Goal, wanted: Any) -> None:
@@ -103,7 +103,7 @@ class Action:
         self._topics.states.publish(self._topics.status(self._clock(), goal))
 
     def _cancel(self, name: str, until: float) -> None:
-        # Without a name all goals are meant, or those sent up to a time (action_server_base.h, CancelGoal.srv).
+        # A request without an id cancels all goals, or those sent up to a time (action_server_base.h, CancelGoal.srv).
         goal = self.goal
         if goal is not None and (name == goal.name or (not name and not until) or (until and goal.sent <= until)):
             self._stop()
@@ -123,6 +123,6 @@ class Action:
         return lambda: message
 
     def _tell(self, state: State) -> Callable[[], Any]:
-        assert self.goal is not None  # it is only told while there is one
+        assert self.goal is not None  # feedback is published only while a goal is active
         t, fields, goal = state.t, self._feedback(state), replace(self.goal)
         return lambda: self._topics.progress(t, goal, fields())

@@ -1,8 +1,8 @@
-"""How goals of an action come and what is told of them: the topics of actionlib (ROS 1) and of rcl_action (ROS 2).
+"""Topics of an action for its goals, status, feedback and results: of actionlib (ROS 1) and rcl_action (ROS 2).
 
-Sources: actionlib; the design of ROS 2 actions (design.ros2.org/articles/actions.html) and action_msgs. What ROS 2 does
-by services, a bus does by topics under the services' names: requests are listened to, and ``get_result`` answers when a
-goal has ended.
+Sources: actionlib; the design of ROS 2 actions (design.ros2.org/articles/actions.html) and action_msgs. The services of
+ROS 2 are emulated by topics with the names of the services: the requests are subscribed to, and the response is
+published on ``get_result`` when a goal has ended.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ ACTIVE, PREEMPTED, SUCCEEDED, ABORTED, REJECTED = 1, 2, 3, 4, 5
 """States of a goal (actionlib_msgs/GoalStatus)."""
 
 ROS_2 = {ACTIVE: 2, PREEMPTED: 5, SUCCEEDED: 4, ABORTED: 6}
-"""The same by action_msgs/GoalStatus: executing, canceled, succeeded, aborted. What is rejected has no state there."""
+"""State → state of action_msgs/GoalStatus (executing, canceled, succeeded, aborted), which has none for rejected."""
 
 STATES_2 = "action_msgs/msg/GoalStatusArray"
 CANCEL_2 = "action_msgs/srv/CancelGoal_Request"
@@ -32,14 +32,14 @@ CANCEL_2 = "action_msgs/srv/CancelGoal_Request"
 
 @dataclass
 class Goal:
-    """A goal that was sent.
+    """A goal and its state.
 
     Attributes:
-        id: as the sender named it, or as we did: a message.
-        name: the same as text.
-        stamp: when it was sent (ROS 1) or came (ROS 2).
+        id: message with the identifier, chosen by the sender or generated.
+        name: identifier as text.
+        stamp: time at which the goal was sent (ROS 1) or received (ROS 2).
         state: `ACTIVE`, …
-        text: why.
+        text: reason of the state.
     """
 
     id: Any
@@ -59,17 +59,17 @@ class ActionTopics(ABC):
 
     Args:
         law: the controller.
-        name: of the action, below the controller's.
-        kind: the type of its messages without ``ActionGoal``, such as ``control_msgs/msg/GripperCommand``.
-        take: is called with each goal and what it asks for.
-        cancel: is called with the name of a goal, empty for all, and the time until which they were sent [s], or zero.
-        clock: returns the time [s].
+        name: name of the action, relative to the controller's.
+        kind: type of its messages without ``ActionGoal``, such as ``control_msgs/msg/GripperCommand``.
+        take: called with each goal and its message.
+        cancel: called with the name of a goal, empty for all, and the latest time of sending [s], zero for any time.
+        clock: returns the simulated time [s].
 
     Attributes:
         feedback: topic of the feedback.
         states: topic of the states.
         results: topic of the results.
-        repeats: whether the states are told again and again.
+        repeats: whether the states are published periodically.
     """
 
     feedback: Topic
@@ -102,7 +102,7 @@ class ActionTopics(ABC):
 
     @abstractmethod
     def result(self, goal: Goal, fields: dict[str, Any]) -> Any:
-        """Return the message of a result; None where there is none."""
+        """Return the message of a result; None for a goal without a result message."""
 
     @abstractmethod
     def progress(self, t: float, goal: Goal, fields: dict[str, Any]) -> Any:
@@ -110,7 +110,7 @@ class ActionTopics(ABC):
 
 
 class Actionlib(ActionTopics):
-    """``goal`` and ``cancel`` are listened to, ``feedback``, ``result`` and ``status`` published."""
+    """Topics of actionlib: subscribes to ``goal`` and ``cancel``, publishes ``feedback``, ``result`` and ``status``."""
 
     repeats = True
 
@@ -152,9 +152,9 @@ class Actionlib(ActionTopics):
 
 
 class RclAction(ActionTopics):
-    """Below ``_action``: ``send_goal`` and ``cancel_goal`` are listened to, what is told of them is published.
+    """Topics of rcl_action, below ``_action``: subscribes to ``send_goal`` and ``cancel_goal``, publishes the others.
 
-    States are told as they change.
+    The status is published on each change.
     """
 
     repeats = False
@@ -173,7 +173,7 @@ class RclAction(ActionTopics):
     def _goal(self, message: Any) -> None:
         self._count += 1
         id, name = message.goal_id, _hex(message.goal_id)
-        if not name:  # nobody named it: the count does
+        if not name:  # no id in the message: use the count
             id.uuid[-8:] = list(self._count.to_bytes(8, "big"))
             name = _hex(id)
         self._take(Goal(id, name, stamp(self._clock())), message.goal)
@@ -209,6 +209,6 @@ def seconds(stamp: Any) -> float:
 
 
 def _hex(uuid: Any) -> str:
-    """Return a UUID as text, empty where it is zero."""
+    """Return a UUID as text; empty if it is zero."""
     found = bytes(int(byte) for byte in uuid.uuid)
     return found.hex() if any(found) else ""

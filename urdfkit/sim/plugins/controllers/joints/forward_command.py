@@ -1,4 +1,4 @@
-"""Controllers that hand commands on to the hardware, for one joint or a group.
+"""Controllers that forward commands to the hardware, for one joint or a group.
 
 Sources: ros_controllers noetic, forward_command_controller, {position,velocity,effort}_controllers; ros2_controllers,
 forward_command_controller.
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 
 class Forward(Law):
-    """One joint: ``command`` (Float64)."""
+    """Forwards commands to one joint: ``command`` (Float64)."""
 
     types: ClassVar[dict[str, str]] = {
         "position_controllers/JointPositionController": "position",
@@ -32,7 +32,7 @@ class Forward(Law):
         """Read the parameters and subscribe.
 
         Raises:
-            DescriptionError: no joint, or one that cannot be commanded so.
+            DescriptionError: no joint, or a joint without the command interface.
         """
         self.settings.text("joint")
         (entry,) = self.settings.texts("joint")[:1]
@@ -46,12 +46,12 @@ class Forward(Law):
             )
 
     def start(self, state: State) -> None:
-        """Begin where the robot is."""
+        """Start from the present state."""
         super().start(state)
         self._values = [output.command for output in self.outputs]
 
     def take(self, values: list[float]) -> None:
-        """Take a command; one of the wrong length, or that is not finite, is dropped with a note."""
+        """Accept a command; drop it with a warning if its length is wrong or a value is not finite."""
         if len(values) != len(self.outputs):
             self.note(f"dropped a command of {len(values)} values; it has {len(self.outputs)} joints")
         elif not all(map(isfinite, values)):
@@ -60,12 +60,12 @@ class Forward(Law):
             self._values = values
 
     def update(self, state: State, motors: Motors) -> float:
-        """Command the outputs."""
+        """Write the commands of the joints."""
         return min(output.write(state, motors, value) for output, value in zip(self.outputs, self._values, strict=True))
 
 
 class ForwardGroup(Forward):
-    """Several joints: ``command`` (ROS 1) or ``commands`` (ROS 2), Float64MultiArray."""
+    """Forwards commands to several joints: ``command`` (ROS 1) or ``commands`` (ROS 2), Float64MultiArray."""
 
     types: ClassVar[dict[str, str]] = {
         "position_controllers/JointGroupPositionController": "position",
@@ -78,7 +78,7 @@ class ForwardGroup(Forward):
         """Read the parameters and subscribe.
 
         Raises:
-            DescriptionError: no joints, or one that cannot be commanded so.
+            DescriptionError: no joints, or a joint without the command interface.
         """
         interface = self.types[self.type] or self.settings.text("interface_name")
         if interface not in INTERFACES:

@@ -1,4 +1,4 @@
-"""gripper_action_controller: one joint that is told to close until it is there or stalls.
+"""gripper_action_controller: moves one joint until it reaches the goal position or stalls.
 
 Sources: ros_controllers noetic, gripper_action_controller_impl.h; ros2_controllers, gripper_controllers.
 """
@@ -24,20 +24,20 @@ MONITOR_RATE = 20.0
 
 
 class Gripper(Law):
-    """Positions, or efforts from a PID (``gains/JOINT``) up to ``max_effort``, as goals of ``gripper_cmd``."""
+    """Gripper with goals on ``gripper_cmd``: position commands, or a PID (``gains/JOINT``) within ``max_effort``."""
 
     types: ClassVar[dict[str, str]] = {
         "position_controllers/GripperActionController": "position",
         "effort_controllers/GripperActionController": "effort",
     }
     kind: ClassVar[str] = "control_msgs/msg/GripperCommand"
-    """Of its goals, as `Action` wants it."""
+    """Type of the goals; see `Action`."""
 
     def configure(self) -> None:
         """Read the parameters, advertise and subscribe.
 
         Raises:
-            DescriptionError: no joint or no gains, or one that makes no sense.
+            DescriptionError: a joint, its gains or another parameter is missing or invalid.
         """
         read = self.settings
         read.text("joint")
@@ -68,11 +68,11 @@ class Gripper(Law):
 
     @property
     def followers(self) -> tuple[Follower, ...]:
-        """What obeys by PID: where it commands an effort."""
+        """The PID of the joint, for the effort interface."""
         return () if self._follower is None else (self._follower,)
 
     def start(self, state: State) -> None:
-        """Hold where it is."""
+        """Hold the present position."""
         super().start(state)
         self._present = state
         self._action.give_up("the controller was started anew")
@@ -81,17 +81,17 @@ class Gripper(Law):
         self._hold()
 
     def stop(self) -> None:
-        """Give up the goal."""
+        """Cancel the goal."""
         self._action.give_up("the controller was stopped")
 
     def _hold(self) -> None:
         self._wanted, self._most = self._present.position(self._name), self._usual
 
     def _pursue(self, goal: Any) -> None:
-        """Take a goal.
+        """Accept a goal.
 
         Raises:
-            RefusalError: it is not finite, or not for one joint.
+            RefusalError: the goal is not finite, or not for exactly one joint.
         """
         position, most = self._read(goal.command)
         if not (abs(position) < float("inf") and abs(most) < float("inf")):
@@ -100,7 +100,7 @@ class Gripper(Law):
         self._moved = self._present.t
 
     def update(self, state: State, motors: Motors) -> float:
-        """Command the output, and see whether the goal is reached."""
+        """Write the command, and check whether the goal is reached or the joint stalls."""
         goal = self._action.goal
         if goal is not None:
             self._judge(state)
@@ -122,13 +122,13 @@ class Gripper(Law):
             end = SUCCEEDED if self._content else ABORTED
             self._action.end(end, "stalled", **self._result(state, stalled=True))
 
-    # What differs between kinds of goals
+    # Overridden for other types of goals
 
     def command(self, position: float) -> dict[str, Any]:
         """Return the fields of a goal.
 
         Args:
-            position: to go to [rad or m].
+            position: target [rad or m].
         """
         return {"command": {"position": position, "max_effort": self._usual}}
 
@@ -136,7 +136,7 @@ class Gripper(Law):
         """Return the position and the greatest effort of a goal.
 
         Raises:
-            RefusalError: it is not for one joint.
+            RefusalError: the goal is not for exactly one joint.
         """
         return float(command.position), float(command.max_effort)
 

@@ -17,10 +17,11 @@ if TYPE_CHECKING:
 
 
 class JointStatePublisher(Law):
-    """Positions, velocities and efforts of every joint the hardware knows.
+    """Publishes positions, velocities and efforts of all joints of the hardware.
 
-    ROS 1: at ``publish_rate``, which is required, joints in alphabetical order (joint_state_controller.cpp). ROS 2: at
-    the controller manager's rate, or only ``joints``; ``use_local_topics`` puts the topic below the controller.
+    ROS 1: at the required ``publish_rate``, in alphabetical order of the joints (joint_state_controller.cpp). ROS 2: at
+    the controller manager's rate; ``joints`` selects joints, ``use_local_topics`` makes the topic relative to the
+    controller.
     """
 
     types: ClassVar[dict[str, str]] = {
@@ -32,7 +33,7 @@ class JointStatePublisher(Law):
         """Read the parameters and advertise.
 
         Raises:
-            DescriptionError: no rate (ROS 1) or one that makes no sense, an unknown joint.
+            DescriptionError: the rate is missing (ROS 1) or invalid, or a joint is unknown.
         """
         hardware = self.hardware
         if hardware.ros == 1:

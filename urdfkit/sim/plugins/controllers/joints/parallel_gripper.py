@@ -1,6 +1,6 @@
-"""parallel_gripper_action_controller: a gripper of one position, whose goals and results are joint states.
+"""parallel_gripper_action_controller: a gripper of one joint, whose goals and results are joint states.
 
-It takes the place of the other gripper controllers of ROS 2 from Jazzy on.
+It replaces the other gripper controllers of ROS 2 from Jazzy on.
 
 Sources: ros2_controllers 4.20, parallel_gripper_controller; control_msgs, ParallelGripperCommand.action.
 """
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 
 class ParallelGripper(Gripper):
-    """Positions, as goals of ``gripper_cmd``."""
+    """Gripper with joint states as goals on ``gripper_cmd``: position commands only."""
 
     types: ClassVar[dict[str, str]] = {"parallel_gripper_action_controller/GripperActionController": "position"}
     kind = "control_msgs/msg/ParallelGripperCommand"
@@ -29,7 +29,7 @@ class ParallelGripper(Gripper):
         """Read the parameters, advertise and subscribe.
 
         Raises:
-            DescriptionError: no joint, or a parameter that makes no sense.
+            DescriptionError: no joint, or an invalid parameter.
         """
         super().configure()
         for name in ("max_effort_interface", "max_velocity_interface"):
@@ -40,15 +40,15 @@ class ParallelGripper(Gripper):
         """Return the fields of a goal.
 
         Args:
-            position: to go to [rad or m].
+            position: target [rad or m].
         """
         return {"command": {"name": [self._name], "position": [position]}}
 
     def _read(self, command: Any) -> tuple[float, float]:
-        """Return the position of a goal; velocities and efforts count for interfaces that Gazebo has not.
+        """Return the position of a goal; its velocity and effort need interfaces that Gazebo does not offer.
 
         Raises:
-            RefusalError: it is not for one joint.
+            RefusalError: the goal is not for exactly one joint.
         """
         if len(command.position) != 1:
             raise RefusalError(f"a gripper takes one position, not {len(command.position)}")

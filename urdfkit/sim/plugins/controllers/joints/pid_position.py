@@ -1,4 +1,4 @@
-"""Controllers that close the loop themselves: PID on the position or velocity of a joint.
+"""PID controllers for the position or velocity of joints.
 
 Sources: ros_controllers noetic, effort_controllers and velocity_controllers, joint_position_controller.cpp,
 joint_velocity_controller.cpp, joint_group_position_controller.cpp.
@@ -24,11 +24,11 @@ if TYPE_CHECKING:
     from urdfkit.sim.state.robot_state import State
 
 STATES_EVERY = 10
-"""``state`` is published every so many control periods."""
+"""Control periods between messages on ``state``."""
 
 
 class PidPosition(Law):
-    """Effort or velocity from a PID on position: ``command`` (Float64), ``state`` (JointControllerState)."""
+    """PID on position with effort or velocity output: ``command`` (Float64), ``state`` (JointControllerState)."""
 
     types: ClassVar[dict[str, str]] = {
         "effort_controllers/JointPositionController": "effort",
@@ -39,7 +39,7 @@ class PidPosition(Law):
         """Read the parameters, advertise and subscribe.
 
         Raises:
-            DescriptionError: no joint or no gains, or one that makes no sense.
+            DescriptionError: a joint, its gains or another parameter is missing or invalid.
         """
         self.settings.text("joint")
         (entry,) = self.settings.texts("joint")[:1]
@@ -57,17 +57,17 @@ class PidPosition(Law):
 
     @property
     def followers(self) -> tuple[Follower, ...]:
-        """What obeys by PID."""
+        """The PID of the joint."""
         return (self.follower,)
 
     def start(self, state: State) -> None:
-        """Begin where the robot is."""
+        """Start from the present state."""
         super().start(state)
         self.follower.integral.reset()
         self._wanted = self.measured(state)
 
     def measured(self, state: State) -> float:
-        """Return what the command is about, as it is now."""
+        """Return the present value of the controlled variable."""
         return state.position(self.follower.handle.name)
 
     def _take(self, message: Any) -> None:
@@ -77,7 +77,7 @@ class PidPosition(Law):
             self.note("dropped a command that is not finite")
 
     def update(self, state: State, motors: Motors) -> float:
-        """Command the output."""
+        """Write the command of the joint."""
         handle, gains = self.follower.handle, self.follower.gains
         now = self.measured(state)
         position = handle.target(self._wanted, now)
@@ -100,36 +100,36 @@ class PidPosition(Law):
         )  # fmt: skip
 
     def error(self, now: float) -> float:
-        """Return how far it is to go."""
+        """Return the error for a measured value."""
         return self.follower.handle.target(self._wanted, now) - now
 
 
 class PidVelocity(PidPosition):
-    """Effort from a PID on velocity."""
+    """PID on velocity with effort output."""
 
     types: ClassVar[dict[str, str]] = {"effort_controllers/JointVelocityController": "effort"}
 
     def start(self, state: State) -> None:
-        """Begin standing."""
+        """Start with a target velocity of zero."""
         super().start(state)
         self._wanted = 0.0
 
     def measured(self, state: State) -> float:
-        """Return what the command is about, as it is now."""
+        """Return the present value of the controlled variable."""
         return state.velocity(self.follower.handle.name)
 
     def update(self, state: State, motors: Motors) -> float:
-        """Command the output."""
+        """Write the command of the joint."""
         self.follower.chase(state, motors, self._wanted, self.hardware.period)
         return 0.0 if self.follower.gains.d else self.follower.rest()
 
     def error(self, now: float) -> float:
-        """Return how far it is to go."""
+        """Return the error for a measured value."""
         return self._wanted - now
 
 
 class PidGroup(Law):
-    """Efforts from a PID on each position: ``command`` (Float64MultiArray), gains at ``<joint>/pid``."""
+    """PID on joint positions with effort output: ``command`` (Float64MultiArray), gains in ``<joint>/pid``."""
 
     types: ClassVar[dict[str, str]] = {"effort_controllers/JointGroupPositionController": "effort"}
 
@@ -137,7 +137,7 @@ class PidGroup(Law):
         """Read the parameters and subscribe.
 
         Raises:
-            DescriptionError: no joints or no gains for one, or one that makes no sense.
+            DescriptionError: the joints, the gains of a joint or another parameter is missing or invalid.
         """
         joints = self.settings.texts("joints")
         if not joints:
@@ -156,11 +156,11 @@ class PidGroup(Law):
 
     @property
     def followers(self) -> tuple[Follower, ...]:
-        """What obeys by PID, joint by joint."""
+        """The PIDs of the joints, in order."""
         return self._followers
 
     def start(self, state: State) -> None:
-        """Begin where the robot is."""
+        """Start from the present state."""
         super().start(state)
         for follower in self._followers:
             follower.integral.reset()
@@ -174,7 +174,7 @@ class PidGroup(Law):
             self.note(f"dropped a command: {len(self._wanted)} finite values are wanted")
 
     def update(self, state: State, motors: Motors) -> float:
-        """Command the outputs."""
+        """Write the commands of the joints."""
         rest = inf
         for follower, wanted in zip(self._followers, self._wanted.tolist(), strict=True):
             follower.follow(state, motors, follower.handle.target(wanted, state.position(follower.handle.name)))

@@ -1,4 +1,4 @@
 """The joint trajectory controller: messages, splines, tolerances.
 
-A trajectory goes in; joint commands over time come out.
+The controller subscribes to trajectories and writes joint commands in each control period.
 """

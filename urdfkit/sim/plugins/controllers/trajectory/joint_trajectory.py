@@ -1,4 +1,4 @@
-"""joint_trajectory_controller: follows trajectories that come by topic or as goals of ``follow_joint_trajectory``.
+"""joint_trajectory_controller: follows trajectories from a topic or from goals of ``follow_joint_trajectory``.
 
 Sources: ros_controllers noetic, joint_trajectory_controller; ros2_controllers, joint_trajectory_controller.
 """
@@ -28,16 +28,16 @@ if TYPE_CHECKING:
 
 ACTION = "control_msgs/msg/FollowJointTrajectory"
 OFF_PATH, OFF_GOAL = -4, -5
-"""Error codes of its result: PATH_TOLERANCE_VIOLATED, GOAL_TOLERANCE_VIOLATED."""
+"""Error codes of FollowJointTrajectory: PATH_TOLERANCE_VIOLATED, GOAL_TOLERANCE_VIOLATED."""
 
 
 class TrajectoryFollower(Law):
-    """Several joints along a trajectory: ``command`` (ROS 1) or ``joint_trajectory`` (ROS 2), or a goal.
+    """Moves joints along a trajectory from ``command`` (ROS 1), ``joint_trajectory`` (ROS 2) or a goal.
 
-    Positions are handed on to the hardware; velocities and efforts come from a PID with feedforward. A trajectory
-    begins where the last one has led to: in ROS 1 at its start time, in ROS 2 at once. After its end the last positions
-    are held. One without points stops the joints (ROS 1). Who strays further than ``constraints`` allow loses the goal;
-    in ROS 2 the joints then stop, also without a goal.
+    Position interfaces receive the desired positions. Velocity and effort interfaces use a PID with feedforward. A new
+    trajectory continues from the desired state of the previous one: in ROS 1 at the new start time, in ROS 2
+    immediately. After the end, the controller holds the last positions. In ROS 1 a trajectory without points stops the
+    joints. A violation of ``constraints`` aborts the goal; in ROS 2 it also stops the joints, with or without a goal.
     """
 
     types: ClassVar[dict[str, str]] = {
@@ -51,7 +51,7 @@ class TrajectoryFollower(Law):
         """Read the parameters, advertise and subscribe.
 
         Raises:
-            DescriptionError: no joints, or one that cannot be commanded so.
+            DescriptionError: no joints, or a joint without the command interface.
         """
         hardware, settings = self.hardware, self.settings
         joints = settings.texts("joints")
@@ -90,7 +90,7 @@ class TrajectoryFollower(Law):
         self.report(topic, settings.number("state_publish_rate", 50.0), self._state)
 
     def _chosen(self) -> str:
-        """Return the interface that ``command_interfaces`` asks for: positions where they are among them."""
+        """Return the interface to use of ``command_interfaces``: position if it is one of them."""
         asked = self.settings.texts("command_interfaces")
         if not asked:
             self.settings.text("command_interfaces")
@@ -121,11 +121,11 @@ class TrajectoryFollower(Law):
 
     @property
     def followers(self) -> tuple[Follower, ...]:
-        """What obeys by PID, joint by joint; none where positions are commanded."""
+        """The PIDs of the joints, in order; empty for position interfaces."""
         return tuple(follower for follower in self._followers if follower is not None)
 
     def start(self, state: State) -> None:
-        """Hold where the robot is."""
+        """Hold the present position."""
         super().start(state)
         positions = np.array([state.position(name) for name in self._names])
         self._trajectory = Trajectory([Waypoint(state.t, positions)])
@@ -136,7 +136,7 @@ class TrajectoryFollower(Law):
                 follower.integral.reset()
 
     def stop(self) -> None:
-        """Give up the goal."""
+        """Cancel the goal."""
         self._action.give_up("the controller was stopped")
 
     # Messages
@@ -154,10 +154,10 @@ class TrajectoryFollower(Law):
         self._action.give_up("a trajectory came by topic")
 
     def _pursue(self, goal: Any) -> None:
-        """Take a goal.
+        """Accept a goal.
 
         Raises:
-            RefusalError: it cannot be followed; says why.
+            RefusalError: the trajectory is invalid; with the reason.
         """
         try:
             tolerances = self._usual.of(goal)
@@ -170,7 +170,7 @@ class TrajectoryFollower(Law):
         self._tolerances, self._watched = tolerances, True
 
     def _hold(self) -> None:
-        """Stop: at once, or in ROS 1 within ``stop_trajectory_duration``, as setHoldPosition does it."""
+        """Stop immediately, or in ROS 1 within ``stop_trajectory_duration``; see setHoldPosition."""
         state = self._present
         t, T = state.t, self._stop_time
         positions, velocities, _ = self._measured(state)
@@ -179,20 +179,20 @@ class TrajectoryFollower(Law):
         if T <= 0.0:
             self._trajectory = Trajectory([Waypoint(t, positions)])
             return
-        # There and back again; half way it stands.
+        # A symmetric trajectory of twice the duration is at rest in its middle; use its first half.
         back = Waypoint(t + 2 * T, positions, -velocities, np.zeros(len(positions)))
         self._trajectory = Trajectory([here, Waypoint(t + T, *Trajectory([here, back]).at(t + T))])
 
     def _read(self, message: Any) -> Trajectory:
         return self._reader.read(message, self._present.t, self._trajectory)
 
-    # At work
+    # Control
 
     def update(self, state: State, motors: Motors) -> float:
-        """Command the outputs."""
+        """Write the commands of the joints, and check the goal."""
         if self._watched:
             self._watch(state)
-        # What is commanded now has to be reached at the end of this control period.
+        # The command is the desired state at the end of this control period.
         goal = self._trajectory.at(state.t + self.hardware.period)
         rest = max(0.0, self._trajectory.waypoints[0].t - state.t)
         if self._trajectory.before is not None and state.t < self._trajectory.before.end:
@@ -223,7 +223,7 @@ class TrajectoryFollower(Law):
     # The goal
 
     def _watch(self, state: State) -> None:
-        """See whether the joints are where they should be, and end the goal when they are at its end or too far off."""
+        """Check the tolerances; end the goal when it is reached or a tolerance is violated."""
         t, end = state.t, self._trajectory.end
         wanted, (positions, velocities, _) = self._trajectory.at(min(t, end)), self._measured(state)
         off, speed = wanted[0] - positions, wanted[1] - velocities
@@ -237,7 +237,7 @@ class TrajectoryFollower(Law):
         if missed is None:
             self._watched = False
             self._action.end(SUCCEEDED)
-        elif t > end + most - ROUNDING and (self._ros1 or most > 0.0):  # in ROS 2 zero is as long as it takes
+        elif t > end + most - ROUNDING and (self._ros1 or most > 0.0):  # zero: no time limit in ROS 2
             self._lose(missed, OFF_GOAL)
 
     def _lose(self, text: str, code: int) -> None:
@@ -248,7 +248,7 @@ class TrajectoryFollower(Law):
         if not self._ros1:
             self._hold()
 
-    # What it tells
+    # Publications
 
     def _measured(self, state: State) -> tuple[Array, Array, Array]:
         positions = np.array([state.position(name) for name in self._names])

@@ -1,7 +1,8 @@
-"""Trajectories between waypoints: straight, cubic or quintic, by what the waypoints give.
+"""Trajectories through waypoints: linear, cubic or quintic splines.
 
-The rule of joint_trajectory_controller: positions alone are joined by straight lines, with velocities by cubics, with
-accelerations too by quintics (ros_controllers noetic, trajectory_interface/quintic_spline_segment.h).
+The degree depends on the waypoints, as in joint_trajectory_controller: linear for positions only, cubic for positions
+and velocities, quintic for positions, velocities and accelerations (ros_controllers noetic,
+trajectory_interface/quintic_spline_segment.h).
 """
 
 from __future__ import annotations
@@ -18,18 +19,18 @@ from urdfkit.linear_algebra import matmul
 Array = NDArray[np.float64]
 
 ROUNDING = 1e-9
-"""Times this near [s] are the same."""
+"""Tolerance within which two times are equal [s]."""
 
 
 @dataclass(frozen=True)
 class Waypoint:
-    """Where to be when.
+    """Desired state of the joints at a time.
 
     Attributes:
         t: simulated time [s].
         positions: [rad] or [m]; shape (n,).
-        velocities: [rad/s] or [m/s]; None where they are not given.
-        accelerations: [rad/s²] or [m/s²]; None where they are not given.
+        velocities: [rad/s] or [m/s]; None if not specified.
+        accelerations: [rad/s²] or [m/s²]; None if not specified.
     """
 
     t: float
@@ -39,11 +40,11 @@ class Waypoint:
 
 
 class Trajectory:
-    """Waypoints in the order of their times, the first where it begins.
+    """Spline through waypoints.
 
     Args:
-        waypoints: one at least.
-        before: what leads to the first; None for standing there.
+        waypoints: at least one, in the order of their times; the first one is the start.
+        before: trajectory before the first waypoint; None to rest at the first waypoint.
     """
 
     def __init__(self, waypoints: list[Waypoint], before: Trajectory | None = None) -> None:
@@ -54,11 +55,11 @@ class Trajectory:
 
     @property
     def end(self) -> float:
-        """When it is over [s]."""
+        """Time of the last waypoint [s]."""
         return self._times[-1]
 
     def at(self, t: float) -> tuple[Array, Array, Array]:
-        """Return positions, velocities and accelerations at a time [s]; it stands still after the end."""
+        """Return positions, velocities and accelerations at a time [s]; at rest after the end."""
         if self.before is not None and t < self._times[0]:
             return self.before.at(t)
         if t < self._times[0] or t > self.end + ROUNDING or not self._segments:
@@ -75,7 +76,7 @@ class Trajectory:
 
 
 def _coefficients(start: Waypoint, end: Waypoint) -> Array:
-    """Return the polynomial's coefficients, lowest power first; shape (6, n)."""
+    """Return the coefficients of the polynomial, lowest power first; shape (6, n)."""
     T = end.t - start.t
     found = np.zeros((6, len(start.positions)))
     found[0] = start.positions

@@ -1,6 +1,7 @@
-"""How far joints may be off a trajectory and its end: joint_trajectory_controller's ``constraints`` and those of goals.
+"""Path and goal tolerances of a trajectory: joint_trajectory_controller's ``constraints`` and tolerances of goals.
 
-Sources: ros_controllers noetic and ros2_controllers, joint_trajectory_controller, tolerances.h(pp). Zero is no check.
+Sources: ros_controllers noetic and ros2_controllers, joint_trajectory_controller, tolerances.h(pp). A tolerance of zero
+disables the check.
 """
 
 from __future__ import annotations
@@ -23,14 +24,14 @@ STOPPED = 0.01
 
 @dataclass(frozen=True)
 class Tolerances:
-    """Of one trajectory.
+    """Tolerances of one trajectory.
 
     Attributes:
-        names: the joints.
-        path: how far each may be off on the way [rad] or [m]; shape (n,).
-        goal: how far each may be off at the end; shape (n,).
-        stopped: how fast each may be at the end [rad/s] or [m/s]; shape (n,).
-        time: how long after the end it may take to be there [s].
+        names: names of the joints.
+        path: greatest position error during the trajectory [rad] or [m]; shape (n,).
+        goal: greatest position error at the end [rad] or [m]; shape (n,).
+        stopped: greatest velocity at the end [rad/s] or [m/s]; shape (n,).
+        time: time allowed after the end to reach the goal [s].
     """
 
     names: Sequence[str]
@@ -44,7 +45,7 @@ class Tolerances:
         """Read a controller's ``constraints``.
 
         Raises:
-            DescriptionError: one is no finite number.
+            DescriptionError: a tolerance is not a finite number.
         """
         group = settings.group("constraints")
 
@@ -57,10 +58,12 @@ class Tolerances:
         )
 
     def of(self, goal: Any) -> Tolerances:
-        """Return those of a goal (FollowJointTrajectoryGoal): what it says is greater or (negative) lifted, else these.
+        """Return the tolerances for a FollowJointTrajectoryGoal.
+
+        Values of the goal other than zero override these tolerances; a negative value disables the check.
 
         Raises:
-            ValueError: it names a joint that is not there.
+            ValueError: the goal names an unknown joint.
         """
         path, end, stopped = self.path.copy(), self.goal.copy(), self.stopped.copy()
         for written, place, pace in ((goal.path_tolerance, path, None), (goal.goal_tolerance, end, stopped)):
@@ -75,11 +78,11 @@ class Tolerances:
         return replace(self, path=path, goal=end, stopped=stopped, time=max(0.0, given) if given else self.time)
 
     def strays(self, off: Array) -> str | None:
-        """Return the first joint that is too far off its way, and by how much; None for none."""
+        """Return a description of the first violation of the path tolerances; None without one."""
         return self._first(off, self.path)
 
     def misses(self, off: Array, speed: Array) -> str | None:
-        """Return the first joint that is not at the end, or not at rest there; None for none."""
+        """Return a description of the first violation of the goal tolerances; None without one."""
         return self._first(off, self.goal) or self._first(speed, self.stopped)
 
     def _first(self, off: Array, most: Array) -> str | None:

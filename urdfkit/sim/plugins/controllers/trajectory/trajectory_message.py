@@ -1,4 +1,4 @@
-"""From JointTrajectory messages to trajectories, by the rules of joint_trajectory_controller.
+"""Conversion of JointTrajectory messages to trajectories, with the checks of joint_trajectory_controller.
 
 Sources: ros_controllers noetic, init_joint_trajectory.h; ros2_controllers, joint_trajectory_controller.cpp.
 """
@@ -21,14 +21,14 @@ INVALID_GOAL, INVALID_JOINTS, OLD_STAMP = -1, -2, -3
 
 
 class TrajectoryReader:
-    """Reads messages for some joints.
+    """Converts JointTrajectory messages for the joints of a controller.
 
     Args:
-        names: of the joints.
-        turning: which are continuous and take the short way round.
-        partial: a message may leave joints out; they stay.
-        waits: the way to the first point begins at the start time (ROS 1), not when the message comes.
-        ends_at_rest: refuse a trajectory that does not.
+        names: names of the joints.
+        turning: whether each joint is continuous and moves to the nearest equivalent angle.
+        partial: accept messages without some of the joints; these joints keep their positions.
+        waits: move to the first point from the start time on (ROS 1), not from the receipt of the message on.
+        ends_at_rest: reject trajectories with a final velocity other than zero.
     """
 
     def __init__(
@@ -38,10 +38,15 @@ class TrajectoryReader:
         self.partial, self.waits, self.ends_at_rest = partial, waits, ends_at_rest
 
     def read(self, message: Any, now: float, present: Trajectory) -> Trajectory:
-        """Return the trajectory of a message (JointTrajectory) that comes at a time [s], from where `present` leads.
+        """Return the trajectory of a JointTrajectory message, which continues from the desired state of `present`.
+
+        Args:
+            message: the JointTrajectory message.
+            now: time of receipt [s].
+            present: trajectory that is followed at present.
 
         Raises:
-            RefusalError: it cannot be followed; says why.
+            RefusalError: the trajectory is invalid; with the reason.
         """
 
         def refuse(text: str, code: int = INVALID_GOAL) -> RefusalError:
@@ -81,7 +86,7 @@ class TrajectoryReader:
                 raise refuse(f"point {number + 1} has no positions")
             target = position.copy()
             target[order] = given
-            if number == 0:  # continuous joints go the short way round
+            if number == 0:  # continuous joints move to the nearest equivalent angle
                 turns = np.where(self.turning, 2 * pi * np.round((position - target) / (2 * pi)), 0.0)
             rates = []
             for row in given_rates:
@@ -90,7 +95,7 @@ class TrajectoryReader:
                     whole[order] = row
                     row = whole
                 rates.append(row)
-            if start + after > now:  # ros_controllers drops what is past
+            if start + after > now:  # ros_controllers drops points of the past
                 points.append(Waypoint(start + after, target + turns, *rates))
         if len(points) == 1:
             raise refuse("it has no point that is not past", OLD_STAMP)
@@ -100,10 +105,10 @@ class TrajectoryReader:
 
 
 def _row(values: Any, count: int) -> Array | None:
-    """Return the numbers of a point, None for none.
+    """Return the values of a point as an array; None if the list is empty.
 
     Raises:
-        ValueError: not one for each joint, or not finite.
+        ValueError: the number of values differs from the number of joints, or a value is not finite.
     """
     found = np.asarray(values, dtype=float)
     if found.size == 0:
