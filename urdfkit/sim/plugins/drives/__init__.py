@@ -1,6 +1,6 @@
 """Drives of wheeled robots; `DRIVES` lists them in the order they are tried.
 
-Velocity commands go in; joint commands, odometry and transforms come out.
+A drive subscribes to velocity commands, writes joint commands and publishes odometry and transforms.
 """
 
 from __future__ import annotations
@@ -27,4 +27,4 @@ DRIVES: tuple[type[Drive], ...] = (
     MecanumDrive,
     OdometryPublisher,
 )
-"""Every drive; a test walks this folder and fails if one is missing here."""
+"""All drives; a test fails if a drive of this folder is missing here."""

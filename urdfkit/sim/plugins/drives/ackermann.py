@@ -1,7 +1,7 @@
 """Ackermann drive: gazebo_ros_ackermann_drive (ROS 2). The command's angular.z is the steering angle, not a rate.
 
-Source: gazebo_ros_pkgs ros2, gazebo_plugins/src/gazebo_ros_ackermann_drive.cpp. Gazebo exerts an effort for one step
-after each update; here the same impulse is spread over the time until the next update.
+Source: gazebo_ros_pkgs ros2, gazebo_plugins/src/gazebo_ros_ackermann_drive.cpp. Gazebo applies an effort for one step
+after each update; urdfkit distributes the same impulse over the steps until the next update.
 """
 
 from __future__ import annotations
@@ -35,16 +35,16 @@ JOINTS = (
     "right_steering_joint",
     "left_steering_joint",
 )
-"""The required joints, in the order of publication."""
+"""Parameters of the required joints, in the order of publication."""
 
 STEERING_WHEEL = "steering_wheel_joint"
-"""The driver's wheel, which turns with the steering; optional."""
+"""Parameter of the steering wheel in the cabin, which turns with the steering; optional."""
 
 
 class Ackermann(VelocityDrive):
-    """Two steered front wheels and two driven rear wheels, all by PID: linear.x [m/s] and the steering angle [rad].
+    """PIDs for two steered front wheels and two driven rear wheels; the command is linear.x [m/s] and the angle [rad].
 
-    Track, wheel base and wheel radius are measured between the collisions. Backwards, the wheels steer the other way.
+    Track, wheel base and wheel radius come from the collision shapes. In reverse, the steering angle changes sign.
     """
 
     kind = "ackermann"
@@ -53,7 +53,7 @@ class Ackermann(VelocityDrive):
         """Read the parameters, advertise and subscribe.
 
         Raises:
-            SimulationError: a parameter makes no sense, with its place.
+            SimulationError: a parameter is invalid, with its position.
         """
         read = Parameters(self.plugin, self.spec, setup.names)
         topics = Topics(self.plugin, self.spec)
@@ -88,7 +88,7 @@ class Ackermann(VelocityDrive):
         self._last: tuple[float, ...] | None = None
 
     def _read_geometry(self, setup: Setup, read: Parameters) -> None:
-        """Find the joints, and measure the car."""
+        """Find the joints; compute track, wheel base and wheel radius."""
         self._joints = {meaning: setup.joint(read.text(meaning), read.place(meaning)) for meaning in JOINTS}
         self._steering_wheel = ""
         if read.has(STEERING_WHEEL):
@@ -130,7 +130,7 @@ class Ackermann(VelocityDrive):
         self._pids = {meaning: pid(meaning) for meaning in ("speed", "right_steering", "left_steering")}
 
     def write(self, state: State, motors: Motors) -> None:
-        """Exert efforts on steering and rear wheels."""
+        """Apply efforts to the steering joints and the rear wheels."""
         joints, pids, period = self._joints, self._pids, self._ticks.period
         drive = pids["speed"].update(state.velocity(joints["rear_right_joint"]) - self._turning, period)
         self._exert("rear_right_joint", drive, motors)
@@ -148,19 +148,19 @@ class Ackermann(VelocityDrive):
         motors.exert(self._joints[meaning], max(-most, min(most, effort)) / self._ticks.steps)
 
     def wake(self) -> None:
-        """Compute the targets of a command: the rate of the wheels [rad/s] and the steering angles [rad]."""
+        """Compute the targets of a command: wheel speed [rad/s] and steering angles [rad]."""
         speed, angle = self.command.linear[0], self.command.angular[2]
         self._turning = max(-self._fastest, min(self._fastest, speed)) / self._radius
         self._right, self._left = self.angles(copysign(1.0, speed) * angle)
 
     def angles(self, angle: float) -> tuple[float, float]:
-        """Return the angles [rad] of the right and the left wheel for a steering angle."""
+        """Return the steering angles of the right and the left wheel for the angle of the bicycle model [rad]."""
         slope = tan(max(-self._steepest, min(self._steepest, angle)))
         left, right = steering_angles(slope, self._track / 2 / self._base)
         return right, left
 
     def read(self, state: State) -> None:
-        """Publish odometry, the true pose in the world, wheel transforms, the distance so far, the steering angle."""
+        """Publish odometry (the true pose in the world), wheel transforms, distance travelled and steering angle."""
         super().read(state)
         self._wheels.publish(state)
         pose = state.base_pose
@@ -181,7 +181,7 @@ class Ackermann(VelocityDrive):
         return message_type("std_msgs/msg/Float32")(value)
 
     def reset(self) -> None:
-        """Clear commands, the integrals of errors and the distance."""
+        """Clear the command, the PIDs and the distance."""
         super().reset()
         self.wake()
         for pid in self._pids.values():

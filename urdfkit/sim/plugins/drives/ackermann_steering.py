@@ -24,17 +24,17 @@ if TYPE_CHECKING:
     from urdfkit.sim.state.robot_state import State
 
 STRAIGHT = 0.001
-"""Yaw rates smaller than this [rad/s] mean straight ahead."""
+"""Yaw rate below which the robot drives straight ahead [rad/s]."""
 
 FAR = 1e9
-"""Radius [m] of driving straight ahead."""
+"""Turning radius used for driving straight ahead [m]."""
 
 STEERED = 1e-6
-"""Steering nearer to its target than this [rad] needs no further commands while the targets do not change."""
+"""Steering error below which the drive rests until the targets change [rad]."""
 
 
 class AckermannSteering(VelocityDrive):
-    """Wheels turned as by a differential, steered wheels turned towards their angles by a PID on the joint's speed.
+    """Drives the wheels as a differential does, and steers by a PID with velocity output.
 
     With ``steering_only`` the command is the steering angle and no wheel is driven.
     """
@@ -45,7 +45,7 @@ class AckermannSteering(VelocityDrive):
         """Read the parameters, advertise and subscribe.
 
         Raises:
-            SimulationError: a parameter makes no sense, with its place.
+            SimulationError: a parameter is invalid, with its position.
         """
         read = Parameters(self.plugin, self.spec, setup.names)
         topics = Topics(self.plugin, self.spec)
@@ -97,7 +97,7 @@ class AckermannSteering(VelocityDrive):
     # Before the step
 
     def write(self, state: State, motors: Motors) -> None:
-        """Set the velocities of wheels and steering."""
+        """Set the velocities of the wheels and of the steering joints."""
         dt = self._setup.dt
         self.start_odometry(state)
         targets = (0.0, self._angle) if self._only_steers else (self.command.linear[0], self.command.angular[2])
@@ -116,7 +116,7 @@ class AckermannSteering(VelocityDrive):
         self.resting = settled and self._steered(state)
 
     def _drive(self, v: float, w: float, motors: Motors) -> None:
-        """Turn the wheels, and compute the targets of the steering."""
+        """Set the wheel velocities, and compute the steering angles."""
         tightest = self._base / sin(self._steepest)
         if abs(w) < STRAIGHT:
             radius = FAR
@@ -126,7 +126,7 @@ class AckermannSteering(VelocityDrive):
         else:
             radius = copysign(tightest, w)
         self._targets = steering_angles(self._base / radius, self._kingpin / 2 / self._base)
-        # tan(atan(base / radius)) · separation / (2 · base), a simple differential
+        # Kinematics of a differential drive: tan(atan(base / radius)) · separation / (2 · base)
         share = self._separation / (2 * radius)
         for joints, speed in ((self._left, v * (1 - share)), (self._right, v * (1 + share))):
             for joint in joints:
@@ -139,14 +139,14 @@ class AckermannSteering(VelocityDrive):
     # After the step
 
     def read(self, state: State) -> None:
-        """Publish odometry: distance of the first wheels along the mean of the first steering angles."""
+        """Publish the odometry of the first wheels and the first steering joints."""
         if self.resting and not self._steered(state):
             self.resting = False
         if not self._only_steers:
             super().read(state)
 
     def rolled(self, state: State) -> tuple[float, ...]:
-        """Return the mean distance of the first wheels [m] and the mean angle of the first steering joints [rad]."""
+        """Return the mean rolled distance of the first wheels [m] and mean angle of the first steering joints [rad]."""
         turned = state.position(self._left[0]) + state.position(self._right[0])
         steered = state.position(self._left_steering[0]) + state.position(self._right_steering[0])
         return turned / 2 * self._radius, steered / 2

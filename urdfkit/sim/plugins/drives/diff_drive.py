@@ -1,8 +1,8 @@
 """Differential drive: gazebo_ros_diff_drive (ROS 1, ROS 2) and the new Gazebo's DiffDrive system.
 
 Sources: gazebo_ros_pkgs noetic-devel and ros2, gazebo_plugins/src/gazebo_ros_diff_drive.cpp; gz-sim main,
-src/systems/diff_drive/DiffDrive.cc. Until Lunar, ROS 1 had left and right swapped (``legacyMode``); that is emulated
-for those distributions only.
+src/systems/diff_drive/DiffDrive.cc. Until Lunar, ROS 1 swapped left and right (``legacyMode``); urdfkit emulates this
+for these distributions only.
 """
 
 from __future__ import annotations
@@ -29,13 +29,13 @@ if TYPE_CHECKING:
     from urdfkit.sim.state.robot_state import State
 
 CLOSE = 0.01
-"""Wheel speeds nearer to their target than this [m/s] are set directly, whatever the acceleration limit."""
+"""Difference to the target below which a wheel speed is set without the acceleration limit [m/s]."""
 
 
 class DiffDrive(VelocityDrive):
-    """Two wheels (or pairs of them) turned at v ± w·separation/2.
+    """Drives one or more pairs of wheels at v ± w·separation/2.
 
-    A command is valid until the next one. A wheel whose axis points the other way is not corrected.
+    A command is valid until the next one. The direction of a joint axis is not corrected.
     """
 
     kind = "diff_drive"
@@ -49,13 +49,13 @@ class DiffDrive(VelocityDrive):
         """Read the parameters, advertise and subscribe.
 
         Raises:
-            SimulationError: a parameter makes no sense, with its place.
+            SimulationError: a parameter is invalid, with its position.
         """
         read = Parameters(self.plugin, self.spec, setup.names)
         topics = self._topic_names(setup)
         self._setup = setup
         self._read_wheels(setup, read)
-        # The new Gazebo has no torque of its own: the joints' <limit effort> holds.
+        # The new Gazebo has no torque parameter: the joints' <limit effort> applies.
         self._torque = None if self._gz else read.number("max_wheel_torque", unsigned=True)
         self._acceleration = read.number("max_wheel_acceleration", unsigned=True)
         self._instructed = [0.0] * (2 * len(self._pairs))
@@ -74,7 +74,7 @@ class DiffDrive(VelocityDrive):
         return Topics(self.plugin, self.spec, namespace=setup.model)
 
     def _read_wheels(self, setup: Setup, read: Parameters) -> None:
-        """Find the joints, and separation and radius of each pair."""
+        """Read the joints, the separation and the radius of each pair."""
         left, right = read.texts("left_joint"), read.texts("right_joint")
         pairs = int(read.number("wheel_pairs", len(left), positive=True)) if left and right else 0
         if not pairs or len(left) != pairs or len(right) != pairs:
@@ -94,13 +94,13 @@ class DiffDrive(VelocityDrive):
             radii: tuple[float, ...] = read.numbers("wheel_radius", positive=True)
         else:
             radii = tuple(diameter / 2 for diameter in read.numbers("wheel_diameter", positive=True))
-        # The first value serves every pair in the new Gazebo; in ROS 2 what is missing takes the default.
+        # Defaults of missing values: the first value in the new Gazebo, the parameter's default in ROS 2.
         rest = (separations[0], radii[0]) if self._gz else (0.34, 0.075)
         self._separations = (separations + (rest[0],) * pairs)[:pairs]
         self._radii = (radii + (rest[1],) * pairs)[:pairs]
 
     def _legacy(self, setup: Setup, read: Parameters) -> bool:
-        """Whether left and right are swapped: always before Kinetic, and in Kinetic and Lunar by default."""
+        """Return whether left and right are swapped: always before Kinetic, by default in Kinetic and Lunar."""
         if self.spec.generation != "ros1" or not setup.distro.before("melodic"):
             if self.spec.generation == "ros1" and not setup.distro.name:
                 self._note_legacy(setup, read)
@@ -109,7 +109,7 @@ class DiffDrive(VelocityDrive):
         return setup.distro.before("kinetic") or text not in ("false", "0")
 
     def _note_legacy(self, setup: Setup, read: Parameters) -> None:
-        """Note a model that seems to rely on swapped sides."""
+        """Report a warning for a model that seems to rely on swapped sides."""
         place, remedy = read.place("legacy_mode"), "--ros-distro kinetic swaps them"
         if read.text("legacy_mode").lower() in ("true", "1"):
             setup.note(f"{place}: legacyMode (left and right swapped, until Lunar) is off: left is left; {remedy}")
@@ -123,7 +123,7 @@ class DiffDrive(VelocityDrive):
         if by_encoder(read):
             self.odometry = DifferentialOdometry(self._separations[0], exact=self._gz)
         published = self._gz or read.flag("publish_odometry")
-        # <publishOdomTF> is read since Kinetic; before, the transform was always published with the message.
+        # <publishOdomTF> exists since Kinetic. Before, the transform was always published with the message.
         with_tf = self._gz or read.flag("publish_odometry_tf")
         if self.spec.generation == "ros1":
             with_tf = published and (with_tf or setup.distro.before("kinetic"))
@@ -175,7 +175,7 @@ class DiffDrive(VelocityDrive):
     def _accelerate(self, i: int, pair: tuple[str, str], radius: float, speeds: list[float], state: State) -> None:
         """Limit the acceleration of wheel speeds [m/s], as gazebo_ros_diff_drive does.
 
-        ROS 1 jumps to the target as soon as one wheel is close to its own, ROS 2 when both are.
+        ROS 1 sets the targets directly once one wheel is close to its target, ROS 2 once both are.
         """
         now = [state.velocity(joint) * radius for joint in pair]
         near = [abs(speed - current) < CLOSE for speed, current in zip(speeds, now, strict=True)]
@@ -194,14 +194,14 @@ class DiffDrive(VelocityDrive):
         self._wheels.publish(state)
 
     def rolled(self, state: State) -> tuple[float, ...]:
-        """Return the distances of the left and the right wheel [m]. Only the first pair has encoders."""
+        """Return the rolled distances of the left and the right wheel of the first pair, which has the encoders [m]."""
         (left, right), radius = self._pairs[0], self._radii[0]
         if self._swapped:
             left, right = right, left
         return state.position(left) * radius, state.position(right) * radius
 
     def measure(self, state: State, odometry: WheelOdometry | None) -> Estimate:
-        """Return the estimate; gazebo_ros_diff_drive reports a speed that is never negative."""
+        """Return the estimate of the present state; gazebo_ros_diff_drive reports the absolute value of the speed."""
         now = super().measure(state, odometry)
         if odometry is None or self._gz or not odometry.period:
             return now

@@ -25,11 +25,11 @@ CORNERS = {
     "back_left_joint": (1, -1),
     "back_right_joint": (-1, 1),
 }
-"""Signs with which the velocity to the left and the yaw rate enter the rate of a wheel."""
+"""Wheel → signs of the lateral velocity and of the yaw rate in its speed."""
 
 
 class MecanumDrive(VelocityDrive):
-    """Wheels turned at vx ± vy ± w·(separation + base)/2. A command holds until the next one."""
+    """Drives four wheels at vx ± vy ± w·(separation + base)/2. A command is valid until the next one."""
 
     kind = "mecanum_drive"
 
@@ -37,7 +37,7 @@ class MecanumDrive(VelocityDrive):
         """Read the parameters, advertise and subscribe.
 
         Raises:
-            SimulationError: a parameter makes no sense, with its place.
+            SimulationError: a parameter is invalid, with its position.
         """
         read = Parameters(self.plugin, self.spec, setup.names)
         topics = Topics(self.plugin, self.spec)
@@ -46,7 +46,7 @@ class MecanumDrive(VelocityDrive):
         separation = read.number("wheel_separation", positive=True)
         self._reach = (separation + read.number("wheel_base", positive=True)) / 2
         self._radius = read.number("wheel_radius", positive=True)
-        # Forward and sideways have the same limits, but each its own past.
+        # The longitudinal and the lateral velocity have equal limits, but separate limiters.
         self.limits = SpeedLimits(limiter(read, "linear"), limiter(read, "linear"), limiter(read, "angular"))
         self.read_rate = read.number("odometry_rate")
         self.subscribe(setup, topics.resolve(read.text("command_topic")))
@@ -64,5 +64,5 @@ class MecanumDrive(VelocityDrive):
                 motors.drive(joint, (vx + left * vy + turn * w * self._reach) / self._radius)
 
     def rolled(self, state: State) -> tuple[float, ...]:
-        """Return the distance of the first wheel of each corner [m]."""
+        """Return the rolled distance of the first wheel of each corner [m]."""
         return tuple(state.position(joints[0]) * self._radius for joints in self._joints.values())

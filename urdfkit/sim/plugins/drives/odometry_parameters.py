@@ -1,4 +1,4 @@
-"""Odometry parameters that drives share: topics, frames, covariances, and the source of the pose."""
+"""Common odometry parameters of drives: topics, frames, covariances and the source of the pose."""
 
 from __future__ import annotations
 
@@ -26,16 +26,16 @@ def odometry_topics(
     twist_covariance: bool = False,
     flat: bool = False,
 ) -> OdometryTopics:
-    """Return the odometry topics that a drive's table describes.
+    """Return the odometry topics of a drive.
 
     Args:
         setup: setup of the drive.
-        read: its parameters; topics and covariance default to those of gazebo_ros_diff_drive.
-        topics: its topics.
+        read: parameters of the drive; topics and covariance default to those of gazebo_ros_diff_drive.
+        topics: topic names of the drive.
         published: publish the odometry message.
         with_tf: publish the transform.
         twist_covariance: the twist has the same variances as the pose.
-        flat: the message has no height.
+        flat: set the height in the message to zero.
     """
     gz = read.generation == "gz"
     x, y, yaw = (
@@ -58,7 +58,7 @@ def by_encoder(read: Parameters) -> bool:
     """Return whether odometry comes from the wheels, not from the world.
 
     Raises:
-        SimulationError: the parameter has another value.
+        SimulationError: unknown odometry source.
     """
     source = read.text("odometry_source", "encoder").strip()
     if source not in ("encoder", "world", "0", "1"):

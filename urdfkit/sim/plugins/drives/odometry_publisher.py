@@ -1,7 +1,7 @@
 """Odometry publisher: the new Gazebo's OdometryPublisher, for robots whose drive has no odometry.
 
-Source: gz-sim main, src/systems/odometry_publisher/OdometryPublisher.cc. It differentiates poses over each step and
-takes the mean of ten; here velocities are those of the moment.
+Source: gz-sim main, src/systems/odometry_publisher/OdometryPublisher.cc. Gazebo publishes the mean velocity of ten
+steps; urdfkit publishes the velocity of the present state.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 
 class OdometryPublisher(Drive):
-    """Publishes the true pose in the world, and the velocity in the robot's own axes with optional noise."""
+    """Publishes the true pose in the world, and the velocity in the robot's frame with optional noise."""
 
     kind = "odometry_publisher"
     resting = True
@@ -31,7 +31,7 @@ class OdometryPublisher(Drive):
         """Read the parameters and advertise.
 
         Raises:
-            SimulationError: a parameter makes no sense, with its place.
+            SimulationError: a parameter is invalid, with its position.
         """
         read = Parameters(self.plugin, self.spec, setup.names)
         topics = Topics(self.plugin, self.spec)
@@ -71,10 +71,10 @@ class OdometryPublisher(Drive):
         )
 
     def write(self, state: State, motors: Motors) -> None:
-        """Move nothing."""
+        """Do nothing; this plugin has no joint commands."""
 
     def read(self, state: State) -> None:
-        """Publish."""
+        """Publish the odometry."""
         now = self._with_noise(self._estimate(state))
         for topics in self._topics:
             topics.publish(state.t, now)
@@ -106,4 +106,4 @@ class OdometryPublisher(Drive):
         return {self._topics[0].frame: self._estimate(state).pose}
 
     def reset(self) -> None:
-        """There is nothing to clear."""
+        """Do nothing; this plugin has no state."""

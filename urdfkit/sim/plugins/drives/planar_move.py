@@ -1,7 +1,7 @@
-"""Planar move: gazebo_ros_planar_move (ROS 1, ROS 2), which moves the model itself, without wheels.
+"""Planar move: gazebo_ros_planar_move (ROS 1, ROS 2), which sets the velocity of the model without using wheels.
 
-Sources: gazebo_ros_pkgs noetic-devel and ros2, gazebo_plugins/src/gazebo_ros_planar_move.cpp. Gazebo gives every link
-the commanded velocity; here the root link has it, and joints keep their velocities.
+Sources: gazebo_ros_pkgs noetic-devel and ros2, gazebo_plugins/src/gazebo_ros_planar_move.cpp. Gazebo sets the velocity
+of every link; urdfkit sets that of the root link, and joints keep their velocities.
 """
 
 from __future__ import annotations
@@ -25,10 +25,10 @@ if TYPE_CHECKING:
 
 
 class PlanarMove(VelocityDrive):
-    """The base has the commanded velocity in the plane, no vertical one, and turns about the vertical only.
+    """Sets the planar velocity and the yaw rate of the base to the command; the vertical velocity is zero.
 
-    ROS 1 sets it before every step, so gravity and friction act for one step at a time; ROS 2 sets it at its update
-    rate, and in between the robot sags and slips. Contacts are solved afterwards, so a wall stops the robot.
+    ROS 1 sets the velocity before each step, so gravity and friction act for one step only. ROS 2 sets it at the update
+    rate; gravity and friction act in between. Contacts are solved afterwards, so a wall stops the robot.
     """
 
     kind = "planar_move"
@@ -41,7 +41,7 @@ class PlanarMove(VelocityDrive):
         """Read the parameters, advertise and subscribe.
 
         Raises:
-            SimulationError: a parameter makes no sense, with its place.
+            SimulationError: a parameter is invalid, with its position.
         """
         read = Parameters(self.plugin, self.spec, setup.names)
         topics = Topics(self.plugin, self.spec)
@@ -67,7 +67,7 @@ class PlanarMove(VelocityDrive):
         self._before: tuple[float, float, float, float] | None = None
 
     def write(self, state: State, motors: Motors) -> None:
-        """Give the base its velocity."""
+        """Set the velocity of the base."""
         rotation = x, y, z, w = state.base_pose[3:]
         heading = yaw_of(rotation)
         if self._before is None:
@@ -86,7 +86,7 @@ class PlanarMove(VelocityDrive):
         motors.move_base(rotate(back, (along, across, 0.0)), rotate(back, (0.0, 0.0, turning)))
 
     def read(self, state: State) -> None:
-        """Publish odometry: the true pose in the world; in ROS 1 with the mean velocity since the last message."""
+        """Publish the true pose in the world, in ROS 1 with the mean velocity since the last message."""
         now = self.measure(state, None)
         if self._ros1:
             now = self._difference(state, now)
@@ -94,7 +94,7 @@ class PlanarMove(VelocityDrive):
         self.topics.publish(state.t, now)
 
     def _difference(self, state: State, now: Estimate) -> Estimate:
-        """Return the estimate with the mean velocity since the last message, in the base's axes."""
+        """Return the estimate with the mean velocity since the last message, in the base frame."""
         heading = yaw_of(state.base_pose[3:])
         t, x, y, last = self._before or _place(state, heading)
         period = state.t - t
@@ -103,7 +103,7 @@ class PlanarMove(VelocityDrive):
             return now
         vx, vy = (here[1] - x) / period, (here[2] - y) / period
         w = self.command.angular[2]
-        if w <= pi / period:  # faster turns are ambiguous: keep the command
+        if w <= pi / period:  # faster rotations are ambiguous: keep the commanded yaw rate
             w = remainder(heading - last, 2 * pi) / period
         linear = (cos(heading) * vx + sin(heading) * vy, cos(heading) * vy - sin(heading) * vx, 0.0)
         return Estimate(now.position, now.quaternion, linear, (0.0, 0.0, w))
@@ -116,7 +116,7 @@ class PlanarMove(VelocityDrive):
 
 
 def movable(setup: Setup, read: Parameters) -> bool:
-    """Return whether the robot's base can move; note if it cannot."""
+    """Return whether the robot's base can move; report a warning if it cannot."""
     if not setup.kinematics.floating_base:
         setup.note(f"{read.place('command_topic')}: the robot has a fixed base, so this plugin cannot move it")
     return bool(setup.kinematics.floating_base)

@@ -18,9 +18,9 @@ if TYPE_CHECKING:
 
 
 class SkidSteer(DiffDrive):
-    """Two wheels on each side, turned at v ± w·separation/2; friction determines how the robot moves.
+    """Drives two wheels on each side at v ± w·separation/2; the motion of the robot results from wheel friction.
 
-    Odometry is the true pose in the world, its message without height. Left and right are never swapped.
+    The odometry is the true pose in the world with a height of zero. Left and right are never swapped.
     """
 
     kind = "skid_steer"

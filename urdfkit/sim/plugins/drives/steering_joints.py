@@ -1,4 +1,4 @@
-"""Joints whose position Gazebo sets directly, instead of driving them there."""
+"""Steering joints whose position Gazebo sets directly."""
 
 from __future__ import annotations
 
@@ -12,10 +12,10 @@ if TYPE_CHECKING:
 
 
 def put(joint: str, position: float, period: float, *, setup: Setup, state: State, motors: Motors) -> None:
-    """Bring a joint to a position [rad], within its limits, in `period` [s] with unlimited effort.
+    """Move a joint to a position [rad] within its limits, in `period` [s] and with unlimited effort.
 
-    Gazebo's Joint::SetPosition sets it at once, which disturbs contacts. A step moves half its way with the velocity
-    it began with, so a joint that is stopped still moves for half a step.
+    Gazebo's Joint::SetPosition sets the position directly, which disturbs contacts. A step integrates with the mean of
+    the velocities at its start and end, so a joint still moves for half a step when its motor stops it.
     """
     lower, upper = setup.kinematics.limits(joint)
     target = max(lower, min(upper, position))

@@ -1,8 +1,8 @@
 """Tricycle drive: gazebo_ros_tricycle_drive (ROS 1, ROS 2). The command's angular.z is the steering angle, not a rate.
 
-Sources: gazebo_ros_pkgs noetic-devel and ros2, gazebo_plugins/src/gazebo_ros_tricycle_drive.cpp. Three mistakes of the
-plugin are fixed here: with a steering speed it compares the missing angle with the speed of the wheel, and so steers
-away from most targets; its encoders turn the wrong way round; their velocity is along the odometry frame's axes.
+Sources: gazebo_ros_pkgs noetic-devel and ros2, gazebo_plugins/src/gazebo_ros_tricycle_drive.cpp. Three bugs of the
+plugin are fixed here: with a steering speed it compares the steering error with the speed of the wheel, and so steers
+away from most targets; its encoders have the wrong sign; its velocity is in the odometry frame, not in the base frame.
 """
 
 from __future__ import annotations
@@ -26,9 +26,9 @@ if TYPE_CHECKING:
 
 
 class Tricycle(VelocityDrive):
-    """One wheel that is steered and driven, two with encoders. Angles are limited to a right angle.
+    """Drives and steers one wheel; two other wheels have encoders. The steering angle is limited to ±90°.
 
-    Accelerations are of the wheel's rotation [rad/s²]. Without a steering speed the joint is set to its target.
+    Acceleration limits apply to the wheel's rotation [rad/s²]. Without a steering speed, the angle is set directly.
     """
 
     kind = "tricycle"
@@ -37,7 +37,7 @@ class Tricycle(VelocityDrive):
         """Read the parameters, advertise and subscribe.
 
         Raises:
-            SimulationError: a parameter makes no sense, with its place.
+            SimulationError: a parameter is invalid, with its position.
         """
         read = Parameters(self.plugin, self.spec, setup.names)
         topics = Topics(self.plugin, self.spec, namespace=setup.model)
@@ -71,7 +71,7 @@ class Tricycle(VelocityDrive):
         )
 
     def write(self, state: State, motors: Motors) -> None:
-        """Set the velocities of the driven wheel and of the steering."""
+        """Set the velocities of the driven wheel and of the steering joint."""
         self.start_odometry(state)
         motors.drive(self._actuated, self._speed(state), self._torque)
         angle = max(-pi / 2, min(pi / 2, self.command.angular[2]))
@@ -85,7 +85,7 @@ class Tricycle(VelocityDrive):
         motors.drive(self._steering, speed, self._torque)
 
     def _speed(self, state: State) -> float:
-        """Return the wheel's rate [rad/s] that the acceleration limits grant."""
+        """Return the wheel speed within the acceleration limits [rad/s]."""
         target = self.command.linear[0] / self._radius
         if self._faster <= 0 and self._slower <= 0:
             return target
@@ -104,6 +104,6 @@ class Tricycle(VelocityDrive):
         self._wheels.publish(state)
 
     def rolled(self, state: State) -> tuple[float, ...]:
-        """Return the distances of the left and the right wheel [m]."""
+        """Return the rolled distances of the left and the right wheel [m]."""
         radius = self._encoder_radius
         return state.position(self._left) * radius, state.position(self._right) * radius

@@ -1,4 +1,4 @@
-"""Velocity control: the new Gazebo's VelocityControl, which gives the model a velocity in all six directions.
+"""Velocity control: the new Gazebo's VelocityControl, which sets the linear and angular velocity of the model.
 
 Source: gz-sim main, src/systems/velocity_control/VelocityControl.cc. It publishes no odometry.
 """
@@ -21,22 +21,22 @@ if TYPE_CHECKING:
 
 
 class VelocityControl(VelocityDrive):
-    """The base has the commanded velocity, in its own axes, before every step; contacts are solved afterwards.
+    """Sets the velocity of the base, in the base frame, before each step; contacts are solved afterwards.
 
-    That holds from the start, also before the first command: such a robot does not fall.
+    The velocity is set from the start on, even before the first command, so gravity does not move the robot.
     """
 
     kind = "velocity_control"
 
     def __init__(self, plugin: Plugin, spec: PluginSpec) -> None:
         super().__init__(plugin, spec)
-        self.read_rate = 1.0  # there is nothing to publish
+        self.read_rate = 1.0  # nothing to publish
 
     def configure(self, setup: Setup) -> None:
         """Read the parameters and subscribe.
 
         Raises:
-            SimulationError: a parameter makes no sense, with its place.
+            SimulationError: a parameter is invalid, with its position.
         """
         read = Parameters(self.plugin, self.spec, setup.names)
         if read.texts("link"):
@@ -54,7 +54,7 @@ class VelocityControl(VelocityDrive):
         self.resting = not self._movable
 
     def write(self, state: State, motors: Motors) -> None:
-        """Give the base its velocity."""
+        """Set the velocity of the base."""
         commanded = self.command.count > self._ignored
         linear, angular = (self.command.linear, self.command.angular) if commanded else self._initial
         motors.move_base(linear, angular)

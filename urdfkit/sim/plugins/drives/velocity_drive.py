@@ -1,4 +1,4 @@
-"""Base of drives: the last velocity command, the limits on it, and odometry from the wheels or from the world."""
+"""Base class of drives: velocity command, its limits, and odometry from the wheels or from the true pose."""
 
 from __future__ import annotations
 
@@ -23,17 +23,17 @@ ZERO = (0.0, 0.0, 0.0)
 
 
 class Command:
-    """The last Twist on a topic; a Twist that is not finite is dropped with a note.
+    """Last Twist on a topic. A Twist that is not finite is dropped with a warning.
 
     Args:
         setup: setup of the drive.
-        topic: absolute.
+        topic: absolute name of the topic.
         arrived: called after each command.
 
     Attributes:
-        topic: absolute.
-        linear: [m/s]; shape (3,).
-        angular: [rad/s]; shape (3,).
+        topic: absolute name of the topic.
+        linear: linear velocity [m/s]; shape (3,).
+        angular: angular velocity [rad/s]; shape (3,).
         count: number of commands so far.
     """
 
@@ -66,15 +66,15 @@ class Command:
 
 
 class VelocityDrive(Drive):
-    """A drive that a Twist commands and that publishes odometry.
+    """Drive with Twist commands and odometry.
 
     A subclass sets the attributes in `configure`.
 
     Attributes:
-        command: last velocity command; None for a drive without.
+        command: last velocity command; None for a drive without commands.
         limits: limits of the commanded velocities.
-        odometry: integrator of the wheels; None where the true pose is published.
-        topics: topics of the odometry; None for a drive without.
+        odometry: wheel odometry; None to publish the true pose.
+        topics: topics of the odometry; None for a drive without odometry.
     """
 
     command: Command
@@ -88,11 +88,11 @@ class VelocityDrive(Drive):
         self.commands = (topic,)
 
     def wake(self) -> None:
-        """Call `write` again from the next step on."""
+        """Resume calls of `write` from the next step on."""
         self.resting = False
 
     def rolled(self, state: State) -> tuple[float, ...]:
-        """Return the distances that the wheels have rolled, as the odometry takes them."""
+        """Return the arguments of the odometry: the rolled distances of the wheels and steering angles."""
         raise NotImplementedError
 
     def start_odometry(self, state: State) -> None:
@@ -105,7 +105,7 @@ class VelocityDrive(Drive):
 
         Args:
             state: state of the robot.
-            odometry: integrator to update; None for the true pose.
+            odometry: wheel odometry to update; None for the true pose.
         """
         if odometry is None:
             return from_world(state.base_pose, state.base_velocity)
@@ -119,7 +119,7 @@ class VelocityDrive(Drive):
             self.topics.publish(state.t, now)
 
     def estimate(self, state: State) -> dict[str, Pose]:
-        """Return odometry frame → pose in it, whether or not it is published."""
+        """Return odometry frame → pose of the base in that frame, whether or not it is published."""
         return {} if self.topics is None else {self.topics.frame: self.measure(state, copy(self.odometry)).pose}
 
     def reset(self) -> None:
@@ -136,7 +136,7 @@ def joints_of(setup: Setup, read: Parameters, meaning: str) -> tuple[str, ...]:
     """Return the joints that a parameter names.
 
     Raises:
-        SimulationError: it names none, or one is unknown, with its position.
+        SimulationError: no joint, or an unknown joint, with its position.
     """
     names = read.texts(meaning)
     if not names:

@@ -1,4 +1,4 @@
-"""What drives publish about their wheels: transforms and joint states."""
+"""Wheel transforms and wheel joint states of drives."""
 
 from __future__ import annotations
 
@@ -13,17 +13,17 @@ if TYPE_CHECKING:
 
 
 class Wheels:
-    """Publishes where the wheels are and how they turn.
+    """Publishes the transforms and the joint states of wheels.
 
     Args:
-        setup: the drive's.
-        joints: the wheels' joints, in the order they are published.
-        with_tf: publish the transform of each wheel in the link that carries it.
-        states: topic of their joint states; None to publish none.
-        measured: joint states have velocities and efforts, not only positions.
-        named_by_joint: the transform's child frame is the joint's name (gazebo_ros_tricycle_drive), not the link's.
-        base: the frame that all transforms are in and that is the root link's (gazebo_ros_ackermann_drive); that of the
-            link that carries the wheel when empty.
+        setup: setup of the drive.
+        joints: joints of the wheels, in the order of publication.
+        with_tf: publish the transform of each wheel relative to its parent link.
+        states: topic of the joint states; None to publish none.
+        measured: publish velocities and efforts in addition to positions.
+        named_by_joint: name the child frame after the joint (gazebo_ros_tricycle_drive), not after the link.
+        base: frame of the root link, to which all transforms are relative (gazebo_ros_ackermann_drive). When empty,
+            each transform is relative to the parent link of the wheel.
     """
 
     def __init__(
@@ -46,7 +46,7 @@ class Wheels:
         self._states = setup.bus.advertise(states, JOINT_STATE) if states else None
 
     def publish(self, state: State) -> None:
-        """Offer transforms and joint states of this moment."""
+        """Publish transforms and joint states of the present state."""
         t = state.t
         if self._tf is not None:
             moved = state.snapshot()

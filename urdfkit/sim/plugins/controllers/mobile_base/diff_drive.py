@@ -33,7 +33,7 @@ if TYPE_CHECKING:
 
 
 class DiffDriveController(WheeledBase):
-    """Wheels at v ± w·separation/2; stops when no commands arrive."""
+    """Differential drive: wheel speeds v ± w·separation/2; stops after the command timeout."""
 
     types: ClassVar[dict[str, str]] = {"diff_drive_controller/DiffDriveController": ""}
 
@@ -41,7 +41,7 @@ class DiffDriveController(WheeledBase):
         """Read the parameters, advertise and subscribe.
 
         Raises:
-            DescriptionError: no wheels, or a wrong parameter.
+            DescriptionError: no wheels, or an invalid parameter.
         """
         self._ros1 = self.hardware.ros == 1
         self._left = self._wheels("left_wheel" if self._ros1 else "left_wheel_names")
@@ -91,7 +91,7 @@ class DiffDriveController(WheeledBase):
         self._right_radius = radius * read.number("right_wheel_radius_multiplier", both)
 
     def _measured_separation(self) -> float:
-        """Return the distance of the first wheels' joints, as ROS 1 reads it from the URDF."""
+        """Return the distance between the joints of the first left and right wheel, as ROS 1 reads it from the URDF."""
         joints = self.hardware.setup.kinematics.robot.joint_by_name
         left, right = (joints[wheels[0].handle.name].origin.xyz for wheels in (self._left, self._right))
         return vector_norm(np.subtract(left, right))
@@ -109,7 +109,7 @@ class DiffDriveController(WheeledBase):
         distro = self.hardware.setup.distro.name
         stamped = not self._ros1
         name = "cmd_vel"
-        plain = not self.settings.flag("use_stamped_vel", True)  # gone since Jazzy
+        plain = not self.settings.flag("use_stamped_vel", True)  # removed in Jazzy
         if stamped and plain and distro in ("", "foxy", "galactic", "humble", "iron"):
             stamped, name = False, "cmd_vel_unstamped"
         timeout = self.settings.number("cmd_vel_timeout", TIMEOUT)
@@ -118,18 +118,18 @@ class DiffDriveController(WheeledBase):
         self.reference = Reference(self, timeout, topic=name, stamped=stamped)
 
     def start(self, state: State) -> None:
-        """Begin at rest, at the origin of the odometry frame."""
+        """Start at rest, at the origin of the odometry frame."""
         self._speeds = (0.0, 0.0)
         super().start(state)
 
     # Control and odometry
 
     def update(self, state: State, motors: Motors) -> float:
-        """Turn the wheels and update the odometry."""
+        """Write the wheel commands and update the odometry."""
         t = state.t
         self.measure(state, self.odometry)
         v, _, w = self.reference.at(t) or (0.0, 0.0, 0.0)
-        # After a long time at rest, acceleration starts now.
+        # After a long rest, the acceleration limit applies from this control period on.
         v_now, w_now = self.limits.limit((v, w), self.hardware.period)
         settled = self.limits.settled((v, w))
         half = w_now * self._separation / 2
@@ -148,8 +148,8 @@ class DiffDriveController(WheeledBase):
         return sum(of(wheel.handle.name) for wheel in wheels) / len(wheels)
 
     def measure(self, state: State, odometry: WheelOdometry) -> Twist:
-        """Integrate an odometry up to the present state, and return the measured velocity."""
-        if self._open:  # the commanded velocity, as if the wheels had followed it
+        """Update the odometry to the present state, and return the measured velocity."""
+        if self._open:  # open loop: integrate the commanded velocity
             (v, w), period = self._speeds, state.t - odometry.t
             left, right = odometry.rolled or (0.0, 0.0)
             half = w * self._separation / 2

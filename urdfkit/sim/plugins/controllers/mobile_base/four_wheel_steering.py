@@ -1,4 +1,4 @@
-"""four_wheel_steering_controller of ROS 1: four driven wheels on knuckles; the rear ones steer against the front.
+"""four_wheel_steering_controller of ROS 1: four driven and steered wheels; the rear axle steers opposite to the front.
 
 Sources: ros_controllers noetic, four_wheel_steering_controller.cpp, odometry.cpp; urdf_geometry_parser.cpp.
 """
@@ -20,14 +20,14 @@ if TYPE_CHECKING:
     from urdfkit.sim.state.robot_state import State
 
 STANDING = 0.001
-"""Speeds up to this [m/s] turn no wheels."""
+"""Speed up to which the wheels stay at rest [m/s]."""
 
 
 class FourWheelSteeringController(WheeledBase):
-    """Wheels and steering, each the left one first, for the speed and the yaw rate on ``cmd_vel``.
+    """Drives and steers four wheels, the left one of each axle first, by speed and yaw rate on ``cmd_vel``.
 
-    Both axles steer by the same angles, the rear one to the other side. Track, wheel base and wheel radius default to
-    those of the URDF; the distance from the wheels to their steering joints is always that of the URDF.
+    The rear axle has the negative steering angles of the front axle. Track, wheel base and wheel radius default to the
+    values of the URDF; the distance from a wheel to its steering joint is always that of the URDF.
     """
 
     types: ClassVar[dict[str, str]] = {"four_wheel_steering_controller/FourWheelSteeringController": ""}
@@ -36,7 +36,7 @@ class FourWheelSteeringController(WheeledBase):
         """Read the parameters, advertise and subscribe.
 
         Raises:
-            DescriptionError: a joint or a length is missing, or a parameter is wrong.
+            DescriptionError: a joint or a length is missing, or a parameter is invalid.
         """
         read = self.settings
         if self.hardware.ros != 1:
@@ -68,7 +68,7 @@ class FourWheelSteeringController(WheeledBase):
         return left, right
 
     def _place(self, output: Output) -> tuple[float, ...]:
-        """Return where a joint is below the root: the sum of the origins, as urdf_geometry_parser has it."""
+        """Return the position of a joint as the sum of the origins from the root on, as in urdf_geometry_parser [m]."""
         robot = self.hardware.setup.kinematics.robot
         by_child = {joint.child: joint for joint in robot.joints}
         joint = robot.joint_by_name.get(output.handle.name)
@@ -87,7 +87,7 @@ class FourWheelSteeringController(WheeledBase):
         return found
 
     def update(self, state: State, motors: Motors) -> float:
-        """Turn and steer the wheels, and update the odometry."""
+        """Write the wheel and steering commands, and update the odometry."""
         self.measure(state, self.odometry)
         targets = (self.reference.at(state.t) or (0.0, 0.0, 0.0))[::2]
         v, w = self.limits.limit(targets, self.hardware.period)
@@ -97,7 +97,7 @@ class FourWheelSteeringController(WheeledBase):
             rate = angle = 0.0
             if abs(v) > STANDING:
                 rate = copysign(hypot(along, self._base * w / 2), v) + side * w * self._offset
-                # A centre of rotation between the wheels is too near to steer about.
+                # With the centre of rotation between the wheels, the steering angle is ±90°.
                 outside = 2.0 * abs(v) > abs(w * self._track)
                 angle = atan(w * self._base / 2 / along) if outside else copysign(pi / 2, w)
             rest = min(rest, self._wheels[i].write(state, motors, rate / self._radius))
@@ -107,7 +107,7 @@ class FourWheelSteeringController(WheeledBase):
     # Odometry
 
     def _axles(self, state: State) -> tuple[float, float]:
-        """Return the angles of one wheel in the middle of each axle that would steer as its two wheels do [rad]."""
+        """Return the equivalent steering angles of a single wheel at the centre of each axle [rad]."""
         tangents = [tan(state.position(output.handle.name)) for output in self._steering]
 
         def mean(left: float, right: float) -> float:
@@ -116,7 +116,7 @@ class FourWheelSteeringController(WheeledBase):
         return mean(*tangents[:2]), mean(*tangents[2:])
 
     def measure(self, state: State, odometry: WheelOdometry) -> Twist:
-        """Integrate an odometry up to the present state, and return the measured velocity."""
+        """Update the odometry to the present state, and return the measured velocity."""
         angles = self._axles(state)
         odometry.update(state.t, *(state.position(each.handle.name) * self._radius for each in self._wheels), *angles)
         speeds = [state.velocity(output.handle.name) * self._radius for output in self._wheels]

@@ -1,4 +1,4 @@
-"""mecanum_drive_controller of ROS 2: four wheels with rollers.
+"""mecanum_drive_controller of ROS 2: four mecanum wheels.
 
 Source: ros2_controllers, mecanum_drive_controller.cpp and odometry.cpp.
 """
@@ -18,11 +18,11 @@ if TYPE_CHECKING:
     from urdfkit.sim.state.robot_state import State
 
 CORNERS = {"front_left": (-1, -1), "front_right": (1, 1), "rear_left": (1, -1), "rear_right": (-1, 1)}
-"""Signs of the velocity to the left and of the yaw rate in the rate of a wheel, in the order of `MecanumOdometry`."""
+"""Wheel → signs of the lateral velocity and of the yaw rate in its speed, in the order of `MecanumOdometry`."""
 
 
 class MecanumController(WheeledBase):
-    """Wheels at vx ± vy ± w·(lx + ly), at the wheels' centre, which may be offset from the base's frame."""
+    """Wheel speeds vx ± vy ± w·(lx + ly) from the twist of the wheels' centre, which may be offset from the base."""
 
     types: ClassVar[dict[str, str]] = {"mecanum_drive_controller/MecanumDriveController": ""}
 
@@ -30,7 +30,7 @@ class MecanumController(WheeledBase):
         """Read the parameters, advertise and subscribe.
 
         Raises:
-            DescriptionError: a wheel or a length is missing, or a parameter is wrong.
+            DescriptionError: a wheel or a length is missing, or a parameter is invalid.
         """
         read = self.settings
         wheels = []
@@ -51,7 +51,7 @@ class MecanumController(WheeledBase):
         self.publish_odometry(topic="odometry", transforms="tf_odometry", prefixed=True, covariance=DIAGONAL)
 
     def update(self, state: State, motors: Motors) -> float:
-        """Turn the wheels and update the odometry."""
+        """Write the wheel commands and update the odometry."""
         self.measure(state, self.odometry)
         targets = self.reference.at(state.t) or (0.0, 0.0, 0.0)
         vx, vy, w = self.limits.limit(targets, self.hardware.period)
@@ -67,7 +67,7 @@ class MecanumController(WheeledBase):
         return min(10 * self.hardware.period, self.reference.left(state.t))
 
     def measure(self, state: State, odometry: WheelOdometry) -> Twist:
-        """Integrate an odometry up to the present state, and return the velocity of the base."""
+        """Update the odometry to the present state, and return the velocity of the base."""
         names = [output.handle.name for output in self.outputs]
         odometry.update(state.t, *(state.position(name) * self._radius for name in names))
         rates = [state.velocity(name) * self._radius for name in names]
@@ -83,6 +83,6 @@ class MecanumController(WheeledBase):
         """Return x [m], y [m] and heading [rad] of the base from the pose of the wheels' centre."""
         x, y, theta = self._offset
         c, s = cos(odometry.heading), sin(odometry.heading)
-        # Position of the base in the first frame of the centre, then in the first frame of the base.
+        # Displacement of the base in the initial frame of the wheels' centre, then in the initial frame of the base.
         dx, dy = odometry.x + c * x - s * y - x, odometry.y + s * x + c * y - y
         return cos(theta) * dx + sin(theta) * dy, cos(theta) * dy - sin(theta) * dx, odometry.heading

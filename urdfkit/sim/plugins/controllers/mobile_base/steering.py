@@ -1,7 +1,7 @@
-"""Controllers of robots that are steered: bicycle, tricycle and Ackermann.
+"""Controllers of bases with steered wheels: bicycle, tricycle and Ackermann.
 
 Sources: ros2_controllers, steering_controllers_library (steering_odometry.cpp, steering_controllers_library.cpp) and
-the three controllers on it; ros_controllers noetic, ackermann_steering_controller.cpp.
+its three controllers; ros_controllers noetic, ackermann_steering_controller.cpp.
 """
 
 from __future__ import annotations
@@ -29,15 +29,15 @@ if TYPE_CHECKING:
     from urdfkit.sim.state.robot_state import State
 
 SLOW = 1.1920929e-07
-"""Speeds below this [m/s] have no steering angle (``std::numeric_limits<float>::epsilon``)."""
+"""Speed below which the steering angle is undefined [m/s] (``std::numeric_limits<float>::epsilon``)."""
 
 
 class SteeringController(WheeledBase):
-    """Driven wheels and steered wheels: one of each, two driven, or two of both, the right one first.
+    """Drives one or two wheels and steers one or two wheels; the right wheel before the left one.
 
-    ROS 2 reads the yaw rate on ``reference``, and stops the wheels when no references arrive; the steering keeps its
-    angle. ROS 1 has the bicycle only, reads the steering *angle* on ``cmd_vel``, and returns to angle zero when no
-    commands arrive.
+    ROS 2 commands the yaw rate on ``reference``. After a timeout the wheels stop and the steering keeps its angle.
+    ROS 1 supports the bicycle only and commands the steering *angle* on ``cmd_vel``. After a timeout the angle returns
+    to zero.
     """
 
     types: ClassVar[dict[str, str]] = {
@@ -50,7 +50,7 @@ class SteeringController(WheeledBase):
         """Read the parameters, advertise and subscribe.
 
         Raises:
-            DescriptionError: a joint or a length is missing, or a parameter is wrong.
+            DescriptionError: a joint or a length is missing, or a parameter is invalid.
         """
         self._ros1 = self.hardware.ros == 1
         self._driven: tuple[Output, ...] = ()
@@ -82,7 +82,7 @@ class SteeringController(WheeledBase):
     def _configure_ros_2(self) -> None:
         read = self.settings
         driven, steered = (int(number) for number in self.types[self.type].split())
-        ahead = read.flag("front_steering", True)  # Humble named the wheels by where they are
+        ahead = read.flag("front_steering", True)  # Humble names the wheels by axle, front or rear
         rear, front = ("rear", "front") if ahead else ("front", "rear")
         self._driven = self._joints(("traction_joints_names", f"{rear}_wheels_names"), driven, "velocity")
         self._steered = self._joints(("steering_joints_names", f"{front}_wheels_names"), steered, "position")
@@ -120,19 +120,19 @@ class SteeringController(WheeledBase):
         return self.positive(self._first(*names) or names[0])
 
     def start(self, state: State) -> None:
-        """Begin at rest, at the origin of the odometry frame."""
+        """Start at rest, at the origin of the odometry frame."""
         self._speeds = (0.0, 0.0)
         super().start(state)
 
     def update(self, state: State, motors: Motors) -> float:
-        """Turn and steer the wheels, and update the odometry."""
+        """Write the wheel and steering commands, and update the odometry."""
         self.measure(state, self.odometry)
         target = self.reference.at(state.t)
         settled = self._steer(state, motors, target) if self._ros1 else self._follow(state, motors, target)
         return self.rest(state.t, settled=settled)
 
     def _steer(self, state: State, motors: Motors, target: Twist | None) -> bool:
-        """Follow ROS 1: the speed of the wheel and the angle of the steering."""
+        """Follow a command of ROS 1: wheel speed and steering angle."""
         v, _, angle = target or (0.0, 0.0, 0.0)
         v_now, angle_now = self.limits.limit((v, angle), self.hardware.period)
         (wheel,), (steering,) = self._driven, self._steered
@@ -141,7 +141,7 @@ class SteeringController(WheeledBase):
         return rest > 0.0 and self.limits.settled((v, angle))
 
     def _follow(self, state: State, motors: Motors, target: Twist | None) -> bool:
-        """Follow ROS 2: the speed of the axle's middle and the yaw rate."""
+        """Follow a command of ROS 2: speed of the axle's centre and yaw rate."""
         if target is None:
             self._speeds = (0.0, 0.0)
             rest = min(output.write(state, motors, 0.0) for output in self._driven)
@@ -162,7 +162,7 @@ class SteeringController(WheeledBase):
     # Odometry
 
     def _measured_angle(self, state: State) -> float:
-        """Return the angle of one wheel at the middle that would steer as the steered wheels do [rad]."""
+        """Return the equivalent steering angle of a single wheel at the centre of the axle [rad]."""
         angles = [state.position(output.handle.name) * self._share for output in self._steered]
         if len(angles) == 1:
             return angles[0]
@@ -173,8 +173,8 @@ class SteeringController(WheeledBase):
         ) / 2  # fmt: skip
 
     def measure(self, state: State, odometry: WheelOdometry) -> Twist:
-        """Integrate an odometry up to the present state, and return the measured velocity."""
-        if self._open:  # the commanded velocity, as if the wheels had followed it
+        """Update the odometry to the present state, and return the measured velocity."""
+        if self._open:  # open loop: integrate the commanded velocity
             v, w = self._speeds
             turning, period = v * tan(w) / self._base if self._ros1 else w, state.t - odometry.t
             odometry.t = state.t
@@ -188,7 +188,7 @@ class SteeringController(WheeledBase):
 
 
 def _named(read: Settings, path: str, default: str) -> Settings:
-    """Return a parameter that names a joint, or its default."""
+    """Return the parameter with the name of a joint, or its default."""
     from urdfkit.description.control import Settings
 
     return read.find(path) or Settings(path, read.position, default)

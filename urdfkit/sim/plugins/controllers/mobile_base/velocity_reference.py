@@ -1,4 +1,4 @@
-"""Reference: the last commanded twist of a wheeled robot, until it is too old."""
+"""Reference: last commanded twist of a wheeled robot, valid until a timeout."""
 
 from __future__ import annotations
 
@@ -13,18 +13,18 @@ if TYPE_CHECKING:
 
 
 class Reference:
-    """Subscribes to a topic and holds the last twist until it is too old.
+    """Subscribes to a topic and stores the last twist, which is valid until a timeout.
 
     Args:
         law: the controller.
-        timeout: [s].
-        topic: below the controller's name.
+        timeout: greatest age of a twist [s].
+        topic: name of the topic, relative to the controller's.
         stamped: whether messages are of type TwistStamped.
-        dated: the age is that of the message's stamp, where it has one.
+        dated: measure the age from the message's stamp if it has one, not from its receipt.
         once: a reference is valid for one control period.
 
     Attributes:
-        timeout: [s].
+        timeout: greatest age of a twist [s].
     """
 
     def __init__(
@@ -38,7 +38,7 @@ class Reference:
         self.clear()
 
     def clear(self) -> None:
-        """Drop the reference."""
+        """Clear the reference."""
         self._target: Twist | None = None
         self._given: float | None = None
         self._fresh = False
@@ -54,7 +54,7 @@ class Reference:
         self._target, self._given, self._fresh = target, given or None, True
 
     def at(self, t: float) -> Twist | None:
-        """Return the reference at a time [s]; None if there is none, or it is too old."""
+        """Return the reference at a time [s]; None without a reference or after the timeout."""
         if self._target is None:
             return None
         if self._given is None:
@@ -68,7 +68,7 @@ class Reference:
         return self._target
 
     def left(self, t: float) -> float:
-        """Return how long the reference stays valid [s]."""
+        """Return the time until the reference expires [s]."""
         if self._target is None:
             return inf
         if self._once or self._given is None:
@@ -79,7 +79,7 @@ class Reference:
 def usual_reference(law: Law, timeout: float) -> Reference:
     """Return the reference on ``reference`` (ROS 2) or ``cmd_vel`` (ROS 1).
 
-    In ROS 2 the age is that of the message's stamp; with a timeout of 0 a reference is valid for one control period
+    In ROS 2, the age is measured from the message's stamp, and a timeout of 0 limits the validity to one control period
     (steering_controllers_library.cpp, mecanum_drive_controller.cpp).
     """
     ros2 = law.hardware.ros == 2

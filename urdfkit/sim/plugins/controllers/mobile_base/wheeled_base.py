@@ -28,17 +28,17 @@ TIMEOUT = 0.5
 """Default ``cmd_vel_timeout`` [s]."""
 
 DIAGONAL = (0.0, 7.0, 14.0, 21.0, 28.0, 35.0)
-"""Default covariances of ros2_controllers' steering and mecanum controllers, as their parameter files have them."""
+"""Default covariances of the steering and mecanum controllers, from the parameter files of ros2_controllers."""
 
 
 class WheeledBase(Law):
-    """A controller of a wheeled robot, which publishes odometry.
+    """Base class of the controllers of wheeled robots; publishes odometry.
 
     Attributes:
         limits: limits of the commanded velocities.
         reference: the commanded velocity.
-        odometry: integrator of the wheels.
-        rate: of the odometry [Hz].
+        odometry: wheel odometry.
+        rate: rate of the odometry [Hz].
     """
 
     limits: SpeedLimits = SpeedLimits()
@@ -57,13 +57,13 @@ class WheeledBase(Law):
         """Advertise odometry and its transform, with the parameters of ros_controllers and ros2_controllers.
 
         Args:
-            topic: of the odometry, below the controller's name.
-            transforms: topic of the transform; below the controller's name unless it is absolute.
-            prefixed: frames are below ``tf_frame_prefix``, or below the namespace by default (ROS 2).
-            covariance: default variances; None where the parameters are required.
+            topic: topic of the odometry, relative to the controller's name.
+            transforms: topic of the transform, absolute or relative to the controller's name.
+            prefixed: add the prefix ``tf_frame_prefix``, by default the namespace, to the frames (ROS 2).
+            covariance: default variances; None if the parameters are required.
 
         Raises:
-            DescriptionError: a parameter is missing or wrong, with its position.
+            DescriptionError: a parameter is missing or invalid, with its position.
         """
         read = self.settings
         prefix = self._prefix() if prefixed else ""
@@ -95,18 +95,18 @@ class WheeledBase(Law):
 
     @abstractmethod
     def measure(self, state: State, odometry: WheelOdometry) -> Twist:
-        """Integrate an odometry up to the present state, and return the measured velocity."""
+        """Update the odometry to the present state, and return the measured velocity."""
 
     def pose(self, odometry: WheelOdometry) -> tuple[float, float, float]:
-        """Return x [m], y [m] and heading [rad] of the base for the pose that the wheels give."""
+        """Return x [m], y [m] and heading [rad] of the base from the pose of the wheel odometry."""
         return odometry.x, odometry.y, odometry.heading
 
     def estimate(self, state: State) -> dict[str, Pose]:
-        """Return odometry frame → pose in it."""
+        """Return odometry frame → pose of the base in that frame."""
         return {self._topics.frame: self._estimate(state, copy(self.odometry)).pose}
 
     def start(self, state: State) -> None:
-        """Begin at rest, at the origin of the odometry frame."""
+        """Start at rest, at the origin of the odometry frame."""
         super().start(state)
         self.reference.clear()
         self.limits.reset()
@@ -130,11 +130,11 @@ class WheeledBase(Law):
         return collision_radius(self.hardware.setup.kinematics.robot, output.handle.name) or 0.0
 
     def rest(self, t: float, *, settled: bool) -> float:
-        """Return how long the outputs need no update [s]."""
+        """Return the time until the next update of the outputs [s]."""
         return min(1.0 / self.rate, self.reference.left(t)) if settled else 0.0
 
     def _prefix(self) -> str:
-        """Return the prefix of frames in diff_drive_controller and mecanum_drive_controller of ROS 2."""
+        """Return the frame prefix of diff_drive_controller and mecanum_drive_controller in ROS 2."""
         if not self.settings.flag("tf_frame_prefix_enable", True):
             return ""
         namespace = self.hardware.resolve("").strip("/")
@@ -153,7 +153,7 @@ class WheeledBase(Law):
 
 
 def limits_of_ros_1(group: Settings) -> SpeedLimiter:
-    """Read the limits of ROS 1: each is active if its ``has_…`` is true; the lower defaults to minus the upper."""
+    """Read the limits of ROS 1. A limit is active if its ``has_…`` is true; the lower defaults to minus the upper."""
 
     def bounds(which: str) -> tuple[float, float]:
         if not group.flag(f"has_{which}_limits", False):
@@ -165,10 +165,10 @@ def limits_of_ros_1(group: Settings) -> SpeedLimiter:
 
 
 def limits_of_ros_2(group: Settings) -> SpeedLimiter:
-    """Read the limits of ROS 2: each is active if it is written and not ``nan``; ``has_…: false`` (Humble) disables it.
+    """Read the limits of ROS 2. A limit is active if it is set and not ``nan``; ``has_…: false`` (Humble) disables it.
 
-    Since Jazzy, speeding up and slowing down have separate limits in each direction; a missing limit defaults to that
-    of the other direction, or of speeding up. Humble's ``min_acceleration`` is for both directions.
+    Since Jazzy, acceleration and deceleration have separate limits for each direction. A missing limit defaults to that
+    of the other direction, or to the acceleration limit. Humble's ``min_acceleration`` applies to both directions.
     """
 
     def bounds(which: str) -> tuple[float, float]:
