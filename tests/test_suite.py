@@ -79,7 +79,7 @@ def test_signals_are_handled_as_in_a_terminal_unless_ignored() -> None:
 
 
 def test_the_summary_names_wrong_marks_by_the_slowest_case_of_a_test() -> None:
-    times = {"a.py::test_long[1]": 0.1, "a.py::test_long[2]": 9.0, "a.py::test_short": 0.2, "a.py::test_quick": 1.5}
+    times = {"a.py::test_long[1]": 0.1, "a.py::test_long[2]": 9.0, "a.py::test_short": 0.2, "a.py::test_quick": 0.8}
     assert wrong_marks(times, {"a.py::test_short"}) == [
         "a.py::test_long: 9.0 s of CPU time, slow",
         "a.py::test_short: 0.2 s of CPU time, not slow",

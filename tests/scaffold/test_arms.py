@@ -136,8 +136,8 @@ def test_every_size_that_is_accepted_stands_stretched_out(robot_template, tell, 
 @pytest.mark.parametrize(
     ("given", "message"),
     [
-        ({"arm": "2"}, "--arm `2` is not available.*there is: none, 3, 4, 5, 6, 7"),
-        ({"gripper": "yes"}, "--`gripper` requires --arm 3 or 4 or 5 or 6 or 7"),
+        ({"arm": "2"}, "--arm `2` is not available; choose from: none, 3, 4, 5, 6, 7"),
+        ({"gripper": "yes"}, "--gripper requires --arm 3 or 4 or 5 or 6 or 7"),
         ({"arm_reach": "1"}, "--arm-reach requires --arm 3 or"),
         ({"arm": "6", "finger_travel": "0.02"}, "--finger-travel requires --gripper yes"),
         ({"arm": "6", "arm_reach": "1"}, "tip over with the arm stretched out"),

@@ -158,7 +158,7 @@ def test_what_is_driven_stays_and_the_rest_is_added(place, capsys):
     assert new() == 0
     said = capsys.readouterr().err
     assert "`left_joint` is already driven by plugin `gz::sim::systems::DiffDrive`" in said
-    assert "`other_joint` follows `finger_joint`" in said
+    assert "`other_joint` mimics `finger_joint`" in said
     settings = yaml.safe_load((place / "rover_control/config/controllers.yaml").read_text())
     assert set(settings) == {"controller_manager", "arm_controller", "gripper_controller"}
     assert settings["arm_controller"]["ros__parameters"]["joints"] == ["shoulder_joint", "elbow_joint"]

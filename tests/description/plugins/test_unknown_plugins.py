@@ -28,7 +28,7 @@ def test_a_plugin_that_nobody_knows_is_told_from_one_of_gazebo(tmp_path) -> None
     path.write_text(f'<robot name="r"><link name="world"/>\n<gazebo>{plugins}</gazebo></robot>')
     notes: list[str] = []
     Simulator(path, note=notes.append)
-    assert [note.removeprefix(f"{tmp_path}/") for note in notes] == [
+    assert [note.removeprefix(f"{tmp_path}/") for note in notes if not note.startswith("compiling")] == [
         "robot.urdf:2:9: unknown plugin `libmy_stuff.so`: urdfkit does not simulate it",
         "plugin libgazebo_ros_elevator.so: not simulated yet",
     ]

@@ -278,7 +278,7 @@ def test_where_a_new_file_goes_among_those_that_are_installed(tmp_path, before, 
         (["lidar", "--xyz", "0,0,1"], "expected 3 arguments: three numbers separated by spaces"),
         (["lidar", "scout_description"], "did you mean `--into scout_description`?"),
         (["lidar", "--into", "scout"], "did you mean `scout_description`?"),
-        (["lidar", "--name", "left_wheel"], "`left_wheel_joint` already"),
+        (["lidar", "--name", "left_wheel"], "already has a `left_wheel_joint`"),
         (["lidar", "--name", "a b"], "letters, digits and underscores"),
         (["lidar", "--topic", "a//b"], "is not a valid topic"),
         (["lidar", "--xyz", "a", "0", "0"], "--xyz: `a` is not a number"),
@@ -325,7 +325,7 @@ def test_a_topic_that_is_taken_is_refused(place, capsys):
     assert new("lidar", folder, "--name", "a") == 0
     before = everything(place)
     assert new("lidar", folder, "--name", "b", "--topic", "a/scan") == 2
-    assert "publishes on `a/scan` already" in capsys.readouterr().err
+    assert "already publishes `a/scan`" in capsys.readouterr().err
     assert everything(place) == before
 
 

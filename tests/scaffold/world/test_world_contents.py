@@ -215,7 +215,7 @@ def test_the_title_says_what_is_in_it():
     answers = TEMPLATE.answers({"name": "lab", "kind": "house", "rooms": "3", "seed": "5"})
     found = computed("world", answers)
     assert found["title"].startswith("A house of 10 m by 8 m, 3 rooms and 3 doors")
-    assert "rooms 3" in found["said"]
-    assert "seed 5" in found["said"]
+    assert "rooms 3" in found["arguments"]
+    assert "seed 5" in found["arguments"]
     with pytest.raises(UsageError, match=r"--rooms 3\.5 is not an integer"):
         computed("world", answers | {"rooms": "3.5"})

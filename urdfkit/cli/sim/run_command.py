@@ -284,9 +284,9 @@ def publish_at(simulator: Simulator, wanted: option_values.TopicMessage) -> None
     simulator.bus.advertise(wanted.topic, kind)
     if absolute(wanted.topic) not in subscribed:
         own = sorted(topic for topic in subscribed if not topic.startswith(("/gazebo/", "/world/")))
-        known = f" (topics with subscribers: {', '.join(own)})" if own else ""
+        others = f" (topics with subscribers: {', '.join(own)})" if own else ""
         near = nearest_topic(absolute(wanted.topic), subscribed)
-        simulator.note(f"{absolute(wanted.topic)} has no subscribers{suggestion(near) or known}")
+        simulator.note(f"{absolute(wanted.topic)} has no subscribers{suggestion(near) or others}")
     simulator.at(wanted.t, lambda: simulator.bus.publish(wanted.topic, kind, message))
 
 

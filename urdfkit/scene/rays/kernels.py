@@ -155,7 +155,7 @@ def warmup(progress: Progress | None = None) -> bool:
 
     compiled: list[str] = []
 
-    class RayKernelListener(event.Listener):  # type: ignore[misc]
+    class RayKernelEvents(event.Listener):  # type: ignore[misc]
         def on_start(self, event: Any) -> None:
             if progress is not None:
                 progress(len(compiled))
@@ -164,7 +164,7 @@ def warmup(progress: Progress | None = None) -> bool:
         def on_end(self, event: Any) -> None:
             pass
 
-    with event.install_listener("numba:compile", RayKernelListener()):
+    with event.install_listener("numba:compile", RayKernelEvents()):
         for kernel in (builder, widener, filler, placer, caster, tracer, outliner):
             kernel()
     return bool(compiled)
