@@ -38,9 +38,9 @@ def lint(
     Args:
         robots: one or more files, folders, names of bundled robots, or loaded robots. The files of a loaded robot are
             read again, with the xacro arguments that it was loaded with.
-        select: codes, or beginnings of codes, to report; all if empty.
-        ignore: codes, or beginnings of codes, not to report.
-        target: the consumer the robot is meant for, one of `TARGETS`, or with its release: ``ros2-jazzy``.
+        select: codes, or prefixes of codes, to report; all if empty.
+        ignore: codes, or prefixes of codes, not to report.
+        target: the consumer of the robot, one of `TARGETS`, or with its release: ``ros2-jazzy``.
         arguments: values for ``$(arg …)``.
         package_path: folders to search first for packages.
 

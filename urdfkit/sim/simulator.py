@@ -40,41 +40,42 @@ LOG = logging.getLogger("urdfkit.sim")
 
 
 class Simulator:
-    """A robot in a world, advanced in simulated time by whoever holds it. One thread, no clock of its own.
+    """Simulation of a robot in a world; simulated time advances only in calls of `run` and `step`.
 
     Its `world` spawns, removes, places, pushes and saves entities.
 
-    Same seed, same calls: the same numbers to the last bit. Several simulators may run in several threads.
+    The same seed and the same calls give bit-identical results. A simulator uses the thread of its caller; several
+    simulators may run in several threads.
 
     Args:
         robot: a loaded robot, a file, a package folder or the name of a bundled robot; see `urdfkit.load`.
-        world: a world, the name of one we ship (``empty``, ``void``, ``house``, …) or an SDF file.
+        world: a world, the name of a bundled world (``empty``, ``void``, ``house``, …) or an SDF file.
         dt: length of a step [s]; the world's ``<max_step_size>`` when None.
-        seed: of everything random.
-        spawn: where and how the robot starts.
-        bus: where to publish; a new one when None.
-        name: what the robot is spawned as, for topics; its own name when None.
+        seed: seed of all random numbers.
+        spawn: initial pose, velocity and joint positions of the robot.
+        bus: message bus to publish on; a new one when None.
+        name: name of the robot in the world and in its topics; the name in the description when None.
         gravity: [m/s²]; the world's when None.
-        fixed_base: bolt the root link to the world. A root link called ``world`` always is.
-        sleep: let what is at rest sleep until something happens to it.
-        ros_distro: the ROS distribution whose behaviour plugins are to have, such as ``kinetic``; the newest when None.
-        controllers: parameter files of controllers, in place of those the robot's packages load.
-        package_path: folders to look for packages in, when `robot` is a file or a name.
-        renderer: who takes the cameras' pictures: ``ray`` casts rays, ``gl`` draws by OpenGL, ``auto`` where it works.
-        scene: the robot's shapes, where they have been read already.
-        note: receives remarks for the user, once each; the log ``urdfkit.sim`` when None.
+        fixed_base: fix the root link to the world. A root link named ``world`` is always fixed.
+        sleep: let bodies at rest sleep until a contact or a command wakes them.
+        ros_distro: the ROS distribution that plugins behave like, such as ``kinetic``; the newest when None.
+        controllers: parameter files of controllers, replacing those that the robot's packages load.
+        package_path: folders to search for packages, when `robot` is a file or a name.
+        renderer: camera renderer: ``ray`` casts rays, ``gl`` uses OpenGL, ``auto`` prefers OpenGL if it is available.
+        scene: the robot's shapes, if they have been loaded already.
+        note: called with each warning for the user, once per text; the log ``urdfkit.sim`` when None.
 
     Raises:
-        UrdfkitError: the robot or the world cannot be loaded or simulated; says why and where.
+        UrdfkitError: the robot or the world cannot be loaded or simulated; with the reason and the source position.
 
     Attributes:
-        surroundings: the scene of its sensors.
-        world: the live world; its other robots and its bodies.
-        robot: the robot as written.
-        kinematics: the robot's model.
-        scene: its shapes.
-        bus: where it publishes and listens.
-        state: the present, read only.
+        surroundings: the scene that the sensors measure.
+        world: the simulated world with all robots and bodies.
+        robot: the robot as described in its files.
+        kinematics: the kinematic model of the robot.
+        scene: the shapes of the robot.
+        bus: the message bus of all topics.
+        state: the current state, read-only.
         motors: velocity and position targets by joint name.
         controllers: the robot's controllers, to list, load, start, stop and switch.
         note: reports a warning to the user, each text once.
@@ -129,7 +130,7 @@ class Simulator:
         builder = WorldBuilder(first, found, dt=dt, note=self.note, package_path=package_path, sleep=sleep)
         self.state, self.motors = first.state, first.motors
         self._scheduler = Scheduler(builder, self.state, dt)
-        message_type(TWIST)  # loads the types now, or says that they are missing
+        message_type(TWIST)  # fails now if the message types are missing
         self.world = LiveWorld(builder, self._scheduler, note=self.note, seed=seed, package_path=package_path)
         self.surroundings = Surroundings(self.world, self.note, renderer)
         setup = Setup(
@@ -148,7 +149,7 @@ class Simulator:
         note_overlaps(builder.engine, self.kinematics.link_names, self.note)
 
     def __repr__(self) -> str:
-        """Return robot, world and time."""
+        """Return the names of robot and world, and the simulated time."""
         return f"<Simulator of {self.name} in world {self.world.name} at t = {self.t:g} s>"
 
     # Time
@@ -173,7 +174,7 @@ class Simulator:
         """Advance by `n` steps.
 
         Raises:
-            SimulationError: the simulation diverged, or `n` is no number of steps.
+            SimulationError: the simulation diverged, or `n` is not a valid number of steps.
         """
         if not isinstance(n, int) or n < 0:
             raise SimulationError(f"`{n}` is no number of steps: a whole number, zero or more; `run` takes seconds")
@@ -185,32 +186,32 @@ class Simulator:
             stop = end
             if scheduler.write_due < end or scheduler.read_due < end:
                 stop = min(end, scheduler.next_stop())
-            world.advance(stop - step)  # 2 the engine advances; 3 frames: computed when somebody asks
+            world.advance(stop - step)  # 2 the engine advances; 3 frames: computed on first access
             if stop >= scheduler.read_due:
                 scheduler.read()  # 4 sensors that are due measure; 5 joint states, transforms, clock
 
     def reset(self) -> None:
-        """Start again: robots, bodies and time; subscriptions and message counts stay, scheduled calls are dropped.
+        """Reset robots, bodies and time; subscriptions and message counts are kept, scheduled calls are dropped.
 
-        What was spawned stays, where it was spawned; what was removed stays away.
+        Spawned entities return to their spawn poses; removed entities stay removed.
         """
         for robot in self.world.builder.robot_list:
             robot.reset()
         self._scheduler.reset()
         self.world.reset()
 
-    # Doing things at a time
+    # Scheduled calls
 
     def at(self, t: float, call: Callable[[], None]) -> None:
         """Call `call` before the first step at or after simulated time `t` [s].
 
         Raises:
-            SimulationError: `t` is no finite number.
+            SimulationError: `t` is not a finite number.
         """
         self._schedule(t, 0.0, call)
 
     def every(self, period: float, call: Callable[[], None], *, start: float = 0.0) -> None:
-        """Call `call` every `period` [s], from `start` [s] on, before the step that begins then.
+        """Call `call` every `period` [s] of simulated time, first at `start` [s], before the step that begins then.
 
         Raises:
             SimulationError: the period is not greater than zero, or a number is not finite.
@@ -224,7 +225,7 @@ class Simulator:
             raise SimulationError(f"nothing can be called at {t:g} s; it must be a finite number")
         self._scheduler.schedule(max(self.state.step, int(np.ceil(t / self.dt - 1e-6))), period, call)
 
-    # Commands and looks
+    # Commands, topics and state
 
     @property
     def _drives(self) -> list[Drive]:
@@ -232,20 +233,20 @@ class Simulator:
 
     @property
     def command_topics(self) -> tuple[str, ...]:
-        """The topics of type Twist (or TwistStamped) that the robot's drives and running controllers listen to."""
+        """The topics of type Twist (or TwistStamped) that the robot's drives and running controllers subscribe to."""
         topics = [topic for drive in self._drives for topic in drive.commands]
         return tuple(dict.fromkeys((*topics, *self.controllers.command_topics)))
 
     @property
     def command_period(self) -> float:
-        """How often the drives look at commands [s]; the step where they always do, or where there is none."""
+        """Period at which the drives read commands [s]; the time step if they read every step or none exists."""
         return max((Ticks(drive.write_rate, self.dt).period for drive in self._drives), default=self.dt)
 
     def command(self, linear: Sequence[float], angular: Sequence[float]) -> None:
         """Publish a velocity command [m/s, rad/s] to every drive of the robot.
 
         Raises:
-            SimulationError: the robot has no drive, or these are not three numbers each.
+            SimulationError: the robot has no drive, or a velocity is not three numbers.
         """
         linear, angular = three(linear, "the linear velocity", "m/s"), three(angular, "the angular velocity", "rad/s")
         if not self.command_topics:
@@ -258,16 +259,16 @@ class Simulator:
                 self.bus.publish(topic, TWIST, twist(linear, angular))
 
     def subscribe(self, topic: str, type: str, callback: Callable[[Any], None], *, wait: bool = False) -> Subscription:
-        """Call `callback` with every message on a topic, while the simulation advances, in its thread.
+        """Call `callback` with every message on a topic, in the thread that advances the simulation.
 
         Args:
             topic: name of the topic.
-            type: of its messages, such as ``nav_msgs/msg/Odometry``.
+            type: type of its messages, such as ``nav_msgs/msg/Odometry``.
             callback: receives the messages.
-            wait: accept a topic that does not exist yet, because something publishes it later.
+            wait: accept a topic that does not exist yet.
 
         Raises:
-            UnknownNameError: unknown topic, without `wait`.
+            UnknownNameError: the topic is unknown, and `wait` is false.
             UsageError: the topic has another type.
         """
         known = [each.name for each in self.bus.topics]
@@ -293,7 +294,7 @@ class Simulator:
         return self.state.link_poses()
 
     def odometry(self) -> Mapping[str, tuple[tuple[float, ...], tuple[float, ...]]]:
-        """Return odometry frame → position [m] and quaternion x y z w where drives and controllers have the robot."""
+        """Return odometry frame → position [m] and quaternion x y z w that drives and controllers estimate."""
         found: dict[str, tuple[tuple[float, ...], tuple[float, ...]]] = {}
         for estimate in (*(drive.estimate for drive in self._drives), self.controllers.odometry):
             for frame, pose in estimate(self.state).items():

@@ -40,7 +40,7 @@ class Fit:
         label: the displayed and inserted text.
         kind: ``element``, ``attribute``, ``name``, ``value``, ``file`` or ``parameter``.
         detail: a short description.
-        typed: number of characters before the cursor that it replaces.
+        typed: number of characters before the cursor that the item replaces.
     """
 
     label: str
@@ -78,7 +78,7 @@ def fits(model: Model, cursor: Cursor) -> list[Fit]:
 
 
 def _around(cursor: Cursor) -> Tag | None:
-    """Return the element around the text being typed."""
+    """Return the element that encloses the text being typed."""
     start = cursor.document.source.text.rfind("<", 0, cursor.offset)
     tag = cursor.tag
     while tag is not None and tag.start >= start:
@@ -87,7 +87,7 @@ def _around(cursor: Cursor) -> Tag | None:
 
 
 def _open_at(text: str) -> Iterator[str]:
-    """Yield the name of the element that is open where a text ends, if any."""
+    """Yield the name of the element that is open at the end of a text, if any."""
     from urdfkit.description.xml.source import Source
     from urdfkit.lint.model.tags import Document
 
@@ -193,7 +193,7 @@ def _packages(model: Model) -> list[str]:
 
 
 def _in_text(model: Model, cursor: Cursor, tail: str) -> Iterator[Fit]:
-    """Yield the names that a plugin's parameter may refer to."""
+    """Yield the names that the parameter of a plugin accepts as its value."""
     tag = cursor.tag
     if tag is None or tag.parent is None:
         return

@@ -17,11 +17,11 @@ class Cursor:
 
     Attributes:
         document: the file.
-        offset: the place.
-        tag: the innermost element around it; None outside of all.
-        attribute: the attribute it is in, name or value.
-        in_value: whether it is in the value.
-        in_name: whether it is in the name of the tag, or of its end tag.
+        offset: offset into the text.
+        tag: the innermost element that contains the offset; None outside of all elements.
+        attribute: the attribute whose name or value contains the offset.
+        in_value: whether the offset is in the value of the attribute.
+        in_name: whether the offset is in the name of the start tag or end tag.
     """
 
     def __init__(self, document: Document, offset: int) -> None:
@@ -43,7 +43,7 @@ class Cursor:
 
     @property
     def text(self) -> tuple[str, int]:
-        """The value, or text, it is in, and where that begins; empty elsewhere."""
+        """The attribute value or element text at the cursor, and its start offset; empty elsewhere."""
         tag, attribute = self.tag, self.attribute
         if attribute is not None:
             return (attribute.value, attribute.value_start) if self.in_value else ("", self.offset)
@@ -53,7 +53,7 @@ class Cursor:
 
     @property
     def expression(self) -> tuple[str, int] | None:
-        """The ``${…}`` or ``$(…)`` it is in, and where that begins."""
+        """The ``${…}`` or ``$(…)`` at the cursor, and its start offset; None elsewhere."""
         text, start = self.text
         for found in re.finditer(r"\$\{[^{}]*\}|\$\([^()]*\)", text):
             if found.start() <= self.offset - start <= found.end():
@@ -62,7 +62,7 @@ class Cursor:
 
     @property
     def word(self) -> tuple[str, int]:
-        """The name in an expression, or the parameter of a macro, it is at, and where that begins; empty elsewhere."""
+        """The name in an expression or macro parameter at the cursor, and its start offset; empty elsewhere."""
         text, start = self.text
         within = self.expression
         pattern = _WORD if within is not None else _PARAMETER

@@ -25,8 +25,8 @@ def hover(
 
     Args:
         model: the model that the file belongs to.
-        cursor: the place.
-        findings: of the file.
+        cursor: the position in the file.
+        findings: the findings of the file.
         probe: returns the values of a text inserted at an offset, one for each expansion.
     """
     pieces = [*_value(model, cursor, probe), *_macro(model, cursor), *_parameter(cursor), *_masses(model, cursor)]
@@ -66,7 +66,7 @@ def _listed(written: str, values: list[str]) -> str:
 
 
 def _parameter(cursor: Cursor) -> list[str]:
-    """Return what the tables say of a plugin's parameter."""
+    """Return the documentation of the plugin parameter under the cursor, from the plugin tables."""
     tag = cursor.tag
     if tag is None or tag.parent is None:
         return []
@@ -79,7 +79,7 @@ def _parameter(cursor: Cursor) -> list[str]:
 
 
 def _macro(model: Model, cursor: Cursor) -> list[str]:
-    """Return the head of the macro that is called under the cursor, and where it is."""
+    """Return the signature of the macro called under the cursor, and the position of its definition."""
     tag = cursor.tag
     called = [one for one in at(model, cursor) if one.kind == "macro"] if tag is not None and cursor.in_name else []
     macro = model.expanded.macros.get(called[0].name) if called else None

@@ -24,7 +24,7 @@ def at(model: Model, cursor: Cursor) -> list[Occurrence]:
     """Return the symbols under the cursor; several if a macro is expanded several times."""
     source = cursor.document.source
     here = [o for o in of_model(model) if o.span.file == source.file and _holds(source, o.span, cursor.offset)]
-    inner = [o for o in here if o.kind not in EXPANDED]  # in ${…}: the property, not the name that comes of it
+    inner = [o for o in here if o.kind not in EXPANDED]  # in ${…}: the property, not the expanded name
     return inner or here
 
 
@@ -84,7 +84,7 @@ def references(models: Sequence[Model], cursor: Cursor, *, with_definition: bool
 
 
 def _parameter_at(cursor: Cursor) -> tuple[str, Tag] | None:
-    """Return the parameter under the cursor and its macro: where it is declared, or used in an expression."""
+    """Return the macro parameter under the cursor and its macro, in the declaration or in an expression."""
     attribute, word = cursor.attribute, cursor.word[0]
     if attribute is None or not word or not (cursor.expression or attribute.name == "params"):
         return None
@@ -98,7 +98,7 @@ def _parameter_at(cursor: Cursor) -> tuple[str, Tag] | None:
 def _of_parameter(
     models: Sequence[Model], cursor: Cursor, name: str, macro: Tag, *, with_definition: bool
 ) -> Iterator[Span]:
-    """Yield where a parameter is used in its macro, where calls give it, and where it is declared."""
+    """Yield the uses of a parameter in its macro, its arguments in calls, and its declaration."""
     source = cursor.document.source
     if with_definition:
         yield source.span(*parameters_around(macro)[name])

@@ -1,4 +1,4 @@
-"""Project: the files of an editor, saved or not, and the models that they make."""
+"""Project: the files open in an editor, saved or not, and the models read from them."""
 
 from __future__ import annotations
 
@@ -26,12 +26,12 @@ class Analysis:
     """One entry file, expanded and linted with the texts of the editor.
 
     Attributes:
-        model: what came out; None where the entry cannot be read.
-        findings: in all of its files.
-        files: name in findings → file, absolute.
-        failure: the reason why there is no model, or the rule that failed.
-        is_ours: whether the failure is our fault.
-        known: the model as it was when it could last be read: while a tag is typed, the names in it still count.
+        model: the expanded model; None if the entry file cannot be read.
+        findings: the findings in all files of the model.
+        files: name in findings → absolute path.
+        failure: the reason why the model is None, or the rule that failed.
+        is_ours: whether the failure is an internal error of urdfkit.
+        known: the last readable model; provides names while a tag is being typed.
     """
 
     model: Model | None
@@ -46,7 +46,7 @@ class Project:
     """The texts in an editor and their analyses.
 
     Args:
-        options: how to lint.
+        options: lint options.
     """
 
     def __init__(self, options: Options) -> None:
@@ -60,7 +60,7 @@ class Project:
         self._memories: dict[Entry, Memory] = {}
 
     def set_text(self, path: Path, text: str | None) -> None:
-        """Take a text from the editor; None where the file on disk counts again."""
+        """Set the editor's text of a file; None to read the file from disk again."""
         if text is None:
             self.texts.pop(str(path), None)
         elif self.texts.get(str(path)) == text:
@@ -87,7 +87,7 @@ class Project:
         return self._entries[path]
 
     def analyses(self, path: Path) -> list[Analysis]:
-        """Return the models that a file is part of, expanded and linted as the texts are now."""
+        """Return the models that a file is part of, expanded and linted with the current texts."""
         return [self._analysis(entry) for entry in self.entries(path)]
 
     def findings(self, path: Path) -> dict[Path, list[Finding]]:
@@ -115,8 +115,8 @@ class Project:
         Args:
             entry: the model to expand.
             path: the file.
-            offset: where to put an element with the text in an attribute.
-            written: the text, with its ``${…}``.
+            offset: where to insert an element with the text in an attribute.
+            written: the text, including its ``${…}``.
         """
         text = self.texts.get(str(path))
         text = path.read_text("utf-8", "replace") if text is None else text
@@ -135,7 +135,7 @@ class Project:
         if entry not in self._analyses:
             options = Options(**{**self.options.__dict__, "texts": dict(self.texts)})
             try:
-                if self._checker is None:  # it looks through the installed packages for rules: once is enough
+                if self._checker is None:  # created once, because it searches installed packages for rules
                     self._checker = Checker(options, keep_going=True)
                 checker = self._checker
                 checker.options, checker.packages = options, self._packages

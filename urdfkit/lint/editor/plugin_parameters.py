@@ -1,4 +1,4 @@
-"""What the plugin tables say of the plugin that a tag is."""
+"""Lookup of plugin tables for a tag, and the descriptions of plugin parameters."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ if TYPE_CHECKING:
 
 
 def plugin_around(tag: Tag | None) -> list[PluginSpec]:
-    """Return the tables of the plugin that a tag is; none where it is none, or none that we know."""
+    """Return the tables of the plugin at a tag; empty if the tag is not a plugin or the plugin is unknown."""
     written = tag.attributes.get("filename") if tag is not None and tag.name == "plugin" else None
     if written is None or tag is None:
         return []
@@ -23,7 +23,7 @@ def plugin_around(tag: Tag | None) -> list[PluginSpec]:
 
 
 def described(parameter: Parameter) -> str:
-    """Return what a parameter is, in a few words."""
+    """Return a short description of a parameter."""
     meaning = parameter.meaning.replace("_", " ")
     unit = f" {parameter.unit}" if parameter.unit else ""
     default = parameter.default

@@ -1,7 +1,7 @@
 """Symbols: the named entities in the files of a model, with their definitions and references.
 
-Links, joints and materials are known after expansion: a name made of ``${prefix}_wheel`` leads to the line in the
-macro. Macros, properties and arguments are known as they are written.
+Links, joints and materials are collected after expansion: a name made of ``${prefix}_wheel`` leads to the line in the
+macro. Macros, properties and arguments are collected from the source text.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from urdfkit.lint.model.tags import Document, Tag
 
 EXPANDED = ("link", "joint", "material")
-"""Kinds of symbols that are known after expansion."""
+"""Kinds of symbols that are collected after expansion."""
 
 REFERENCES = {
     ("parent", "link"): "link",
@@ -41,8 +41,8 @@ class Occurrence:
     Attributes:
         kind: ``link``, ``joint``, ``material``, ``macro``, ``property``, ``argument`` or ``file``.
         name: name of the symbol after expansion.
-        span: the name as written, or the expression that makes it.
-        defines: whether it is the definition.
+        span: the name in the source, or the expression that computes the name.
+        defines: whether the occurrence is the definition.
         written: the source text.
     """
 
@@ -54,7 +54,7 @@ class Occurrence:
 
 
 def of_model(model: Model) -> list[Occurrence]:
-    """Return every occurrence in the files of a model."""
+    """Return all occurrences of symbols in the files of a model."""
     found = dict.fromkeys(_expanded(model))
     macros = set(model.expanded.macros)
     for file in model.expanded.sources:
@@ -63,7 +63,7 @@ def of_model(model: Model) -> list[Occurrence]:
 
 
 def in_settings(model: Model) -> Iterator[Occurrence]:
-    """Yield the links and joints that the YAML of the package, and of those around it, names."""
+    """Yield the links and joints named in YAML files of the package and of related packages."""
     from urdfkit.lint.facts.control.controller_joints import joints
     from urdfkit.lint.facts.control.launch_files import uncommented
 
@@ -170,7 +170,7 @@ def _written(document: Document, macros: set[str]) -> Iterator[Occurrence]:
 
 
 _FRAME = r"(?m)^[ \t]*\w*(?:frame|frame_id|link|links)[ \t]*:[ \t]*[\"']?([\w./-]*/)?([\w.-]+)[\"']?[ \t]*\r?$"
-"""Settings that are a frame."""
+"""YAML settings whose value is a frame."""
 
 _URDF = frozenset(("link", "joint", "material", "origin", "visual", "collision", "inertial", "gazebo", "transmission"))
 _PYTHON = frozenset(
@@ -179,12 +179,12 @@ _PYTHON = frozenset(
 
 
 def position_of(span: Span) -> Position:
-    """Return where a span begins."""
+    """Return the start position of a span."""
     return Position(span.file, span.line, span.column)
 
 
 def parameters_around(tag: Tag | None) -> dict[str, tuple[int, int]]:
-    """Return the parameters of the macros around a tag: name → where it is written, as offsets."""
+    """Return the parameters of the macros that enclose a tag: name → start and end offset."""
     found: dict[str, tuple[int, int]] = {}
     above = [tag, *tag.ancestors()] if tag is not None else []
     for outer in above:

@@ -61,7 +61,7 @@ def folder() -> Path:
 
 
 class Cache:
-    """The findings of earlier runs.
+    """Findings of earlier lint runs.
 
     Args:
         options: options of this lint run.
@@ -74,7 +74,7 @@ class Cache:
         self.hits = 0
 
     def get(self, entry: Entry) -> EntryResult | None:
-        """Return the cached result; None if there is none or an input has changed."""
+        """Return the cached result; None if none is stored or an input has changed."""
         path = self._path(entry)
         try:
             content = path.read_bytes()
@@ -215,7 +215,7 @@ def _digest(content: bytes) -> str:
 
 
 def _row(finding: Finding) -> list[Any]:
-    """Return a finding as a list of what marshal can write."""
+    """Return a finding as a list of values that marshal supports."""
     fix = finding.fix
     edits = fix and [[*_values(edit.span), edit.text] for edit in fix.edits]
     chains = [[[call.macro, *_values(call.position)] for call in chain] for chain in finding.chains]

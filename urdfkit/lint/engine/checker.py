@@ -45,7 +45,7 @@ def model_of(path: Path, options: Options, *, packages: Packages | None = None, 
         memory: parsed files of earlier calls.
 
     Raises:
-        ResourceError: it cannot be read.
+        ResourceError: the file cannot be read.
         ModelError: the file is not a robot description.
     """
     packages = packages if packages is not None else Packages(options.package_path, near=path)

@@ -25,15 +25,15 @@ if TYPE_CHECKING:
     from urdfkit.lint.model.tags import Document, Tag
 
     class ExpandedModel(Protocol):
-        """What is asked here of `urdfkit.lint.model.model.Model`."""
+        """The members of `urdfkit.lint.model.model.Model` that this module uses."""
 
         @property
         def robot(self) -> Robot:
-            """The robot."""
+            """The parsed robot."""
 
         @property
         def expanded(self) -> Expanded:
-            """The outcome of the expansion."""
+            """The result of the expansion."""
 
         @property
         def masked_names(self) -> MaskedNames:

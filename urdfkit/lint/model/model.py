@@ -48,7 +48,7 @@ class Model:
 
     Attributes:
         expanded: result of the expansion with error recovery, with missing ``xacro:`` prefixes added.
-        robot: the parsed robot; empty if there is none.
+        robot: the parsed robot; empty if the files define none.
         target: the consumer of the robot; None for all consumers.
         expand_as_written: expands the robot without adding missing prefixes; see `as_written`.
         release: release of the target (``jazzy``); empty if unspecified.

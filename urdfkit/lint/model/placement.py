@@ -33,7 +33,7 @@ class Frame:
     translation: Vector = (0.0, 0.0, 0.0)
 
     def moved(self, pose: Pose) -> Frame:
-        """Return the frame at a pose that is given in this one."""
+        """Return the frame at a pose relative to this frame."""
         offset = rotate(self.rotation, pose.xyz)
         x, y, z = (a + b for a, b in zip(self.translation, offset, strict=True))
         return Frame(product(self.rotation, rotation_of(pose.rpy)), (x, y, z))
@@ -75,15 +75,15 @@ class Extent:
         return sqrt(sum((high - low) ** 2 for low, high in zip(self.low, self.high, strict=True)))
 
     def radius(self, point: Vector) -> float:
-        """Return how far the farthest point of a shape is from `point` [m]."""
+        """Return the distance from `point` to the farthest point of all shapes [m]."""
         return max(self.reaches(point))
 
     def reaches(self, point: Vector) -> list[float]:
-        """Return how far the farthest point of each shape is from `point` [m]."""
+        """Return the distance from `point` to the farthest point of each shape [m]."""
         return [_farthest(shape, pose, point) for shape, pose in self.shapes]
 
     def outside(self, point: Vector) -> float:
-        """Return how far `point` is outside of the box [m]; 0 inside."""
+        """Return the distance of `point` from the bounding box [m]; 0 inside."""
         return sqrt(sum(max(a - x, 0.0, x - b) ** 2 for a, x, b in zip(self.low, point, self.high, strict=True)))
 
 

@@ -41,7 +41,7 @@ class Tag:
     """An element as written.
 
     Attributes:
-        name: with prefix.
+        name: the name with its prefix.
         start: offset of ``<``.
         end: offset after ``>`` of the start tag.
         close: offset of ``</``; None for an empty or unclosed element.
@@ -86,7 +86,7 @@ class Document:
     """The tags and comments of one file, at most `MAX_TAGS`; parsed on first access.
 
     Attributes:
-        source: its text.
+        source: the text of the file.
     """
 
     def __init__(self, source: Source) -> None:

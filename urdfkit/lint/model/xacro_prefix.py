@@ -31,7 +31,7 @@ URDF_CHILDREN: dict[str, frozenset[str]] = {
         ("origin", "parent", "child", "axis", "limit", "dynamics", "mimic", "safety_controller", "calibration")
     ),
 }
-"""The elements of URDF and what each may hold (http://wiki.ros.org/urdf/XML)."""
+"""URDF element → its allowed children (http://wiki.ros.org/urdf/XML)."""
 
 _NAME = ("name",)
 URDF_ATTRIBUTES: dict[str, tuple[str, ...]] = {
@@ -61,7 +61,7 @@ URDF_ATTRIBUTES: dict[str, tuple[str, ...]] = {
     "safety_controller": ("soft_lower_limit", "soft_upper_limit", "k_position", "k_velocity"),
     "calibration": ("rising", "falling", "reference_position"),
 }
-"""The attributes of the elements of URDF (urdfdom 4.0 and http://wiki.ros.org/urdf/XML)."""
+"""Attributes of the URDF elements (urdfdom 4.0 and http://wiki.ros.org/urdf/XML)."""
 
 URDF_ELEMENTS = frozenset(URDF_CHILDREN).union(*URDF_CHILDREN.values())
 
@@ -146,7 +146,7 @@ def prefixing(document: Document, tag: Tag) -> tuple[Edit, ...]:
 
 
 def misspelt_in_robot(element: Element) -> str | None:
-    """Return the child of ``<robot>`` that a misspelt element stands for; None if the element is valid or unlike all.
+    """Return the child of ``<robot>`` most similar to a misspelt element; None if the element is valid or unlike all.
 
     Args:
         element: a child of ``<robot>``.

@@ -12,16 +12,16 @@ if TYPE_CHECKING:
 
 @record
 class Options:
-    """What to look for, and how to expand.
+    """Options of a lint run.
 
     Attributes:
-        select: codes, or beginnings of codes, to report; all where it is empty.
-        ignore: codes, or beginnings, not to report.
-        target: the consumer the robot is meant for, as `parse_target` returns it.
+        select: codes, or prefixes of codes, to report; all if empty.
+        ignore: codes, or prefixes of codes, not to report.
+        target: the consumer of the robot, as `parse_target` returns it; None for all consumers.
         arguments: values for ``$(arg …)``.
-        package_path: folders to look for packages in first.
-        texts: contents to lint instead of those on disk, by absolute path.
-        guess_target: where `target` is None, take what the package.xml of each robot tells.
+        package_path: folders to search for packages first.
+        texts: absolute path → content that replaces the file on disk.
+        guess_target: if `target` is None, guess the target from the package.xml of each robot.
     """
 
     select: tuple[str, ...] = ()

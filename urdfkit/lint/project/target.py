@@ -55,7 +55,7 @@ class Guess:
     Attributes:
         target: ``ros1``, ``ros2``, ``gz``, or None if package.xml fits none or several.
         why: the reason for the guess, for messages.
-        manifest: path of the package.xml; None if there is none.
+        manifest: path of the package.xml; None if it was not found.
     """
 
     target: str | None

@@ -1,4 +1,4 @@
-"""Formulas of inertia as they are written in macros, compared with those of solid bodies at a few sizes."""
+"""Inertia formulas in macros, compared numerically with the closed forms of solid bodies."""
 
 from __future__ import annotations
 
@@ -22,17 +22,17 @@ _OPERATORS = (ast.Add, ast.Sub, ast.Mult, ast.Div, ast.Pow, ast.USub, ast.UAdd)
 _SAMPLES = ((1.3, 0.7, 2.9, 1.9, 0.4, 2.2), (0.9, 3.1, 1.7, 0.6, 2.4, 1.1), (2.1, 1.2, 0.8, 3.3, 1.5, 0.5))
 _MOMENTS = ("ixx", "iyy", "izz")
 _TOLERANCE = 2e-3
-"""Relative; constants such as 0.083 for 1/12 are let be."""
+"""Relative tolerance; accepts rounded constants such as 0.083 for 1/12."""
 
 
 @record
 class Slip:
-    """One wrong moment in a formula whose other two are those of a solid body.
+    """One wrong moment of inertia, if the other two are those of a solid body.
 
     Attributes:
         shape: ``box``, ``cylinder`` or ``sphere``.
         component: ``ixx``, ``iyy`` or ``izz``.
-        right: the right expression, without ``${`` and ``}``.
+        right: the correct expression, without ``${`` and ``}``.
     """
 
     shape: str
@@ -41,16 +41,16 @@ class Slip:
 
 
 def has_slip(model: Model, element: Element) -> bool:
-    """Return whether the formulas of an ``<inertia>`` have one wrong moment, which X119 reports."""
+    """Return whether rule X119 reports one wrong moment in the formulas of an ``<inertia>``."""
     tag = model.tag(element.origin.position)
     return tag is not None and slip({name: attribute.value for name, attribute in tag.attributes.items()}) is not None
 
 
 def slip(formulas: Mapping[str, str]) -> Slip | None:
-    """Return the moment that is wrong, where the other two are those of a solid box, cylinder or sphere.
+    """Return the wrong moment, if the other two are those of a solid box, cylinder or sphere.
 
     Args:
-        formulas: ixx, iyy and izz as written, each one ``${…}``.
+        formulas: source text of ixx, iyy and izz, each a single ``${…}``.
     """
     functions, names = {}, set()
     for component in _MOMENTS:
@@ -73,7 +73,7 @@ def slip(formulas: Mapping[str, str]) -> Slip | None:
 
 
 def _candidates(names: Sequence[str]) -> Iterator[tuple[str, dict[str, tuple[Formula, str]]]]:
-    """Yield each way in which the names may be mass and sizes: the shape, and its moments with how they are written."""
+    """Yield each assignment of the names to mass and sizes: the shape, and its moments as functions and as text."""
     for m, a, b, c in permutations(names, 4):
         yield "box", {"ixx": _box(m, b, c), "iyy": _box(m, a, c), "izz": _box(m, a, b)}
     for m, r, h in permutations(names, 3):
@@ -98,7 +98,7 @@ def _round(m: str, r: str, divisor: int, factor: int) -> tuple[Formula, str]:
 
 
 def _parsed(text: str) -> tuple[Formula, set[str]] | None:
-    """Return what computes a formula from its names, and the names; None where it is more than arithmetic."""
+    """Return a formula as a function of its names, and the names; None if it is not plain arithmetic."""
     written = re.fullmatch(r"\s*\$\{([^{}]*)\}\s*", text)
     return _compiled(written[1].strip()) if written else None
 

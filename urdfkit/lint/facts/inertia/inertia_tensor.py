@@ -1,4 +1,4 @@
-"""The inertia tensor of a link's shapes, in plain Python: what rules compare with and fixes write."""
+"""Inertia tensor of a link's shapes, in plain Python; the reference for rules and fixes."""
 
 from __future__ import annotations
 
@@ -14,14 +14,15 @@ if TYPE_CHECKING:
     from urdfkit.lint.model.model import Model
 
 COMPONENTS = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
-"""The entries of a tensor, as URDF names them."""
+"""URDF names of the entries of a tensor."""
 
 
 def tensor_of(link: Link, extent: Extent, mass: float) -> tuple[float, ...] | None:
-    """Return the six entries [kg·m²] of a link's shapes filled evenly with `mass` [kg], in its inertial frame.
+    """Return the six entries [kg·m²] of a link's shapes with uniform density and `mass` [kg], in its inertial frame.
 
-    Collision shapes count; visual ones where there are none. Shapes that overlap count twice, and of a mesh the box
-    around it is taken. The tensor is about the shapes' own centre of mass. None where they have no volume.
+    Uses the collision shapes, or the visual shapes of a link without collision shapes. Overlaps count twice; meshes
+    are replaced by their bounding boxes. The tensor is about the centre of mass of the shapes. None if they have no
+    volume.
     """
     count = len(link.visuals)
     shapes = extent.shapes[count:] or extent.shapes[:count]
@@ -44,7 +45,7 @@ def _is_turned(link: Link) -> bool:
 
 
 def computed(model: Model, link: Link, element: Element) -> Fix | None:
-    """Return the fix that writes the tensor of the link's shapes; None where they, or the mass, are not known."""
+    """Return the fix that writes the tensor of the link's shapes; None if the shapes or the mass are unknown."""
     extent = model.extents.get(link.name)
     mass = link.inertial.mass if link.inertial is not None else None
     if extent is None or mass is None or mass <= 0.0:

@@ -1,4 +1,4 @@
-"""What a mesh weighs: moments of its volume, summed over the tetrahedra of its triangles."""
+"""Volume moments of a mesh, summed over the tetrahedra of its triangles."""
 
 from __future__ import annotations
 
@@ -13,13 +13,13 @@ if TYPE_CHECKING:
 
 
 def moments(mesh: Mesh, expanded: Expanded) -> tuple[Moments, str]:
-    """Return what a mesh weighs about its own frame, scale included, and what had to be taken for it; see `Moments`.
+    """Return the moments of a mesh in its own frame, scale included, and the assumption made about an open surface.
 
-    A closed surface is summed up over the tetrahedra between its triangles and the origin (Mirtich 1996 has the
-    integrals); what is not closed is taken as its convex hull, and as the box around it where there is no scipy.
+    A closed surface is integrated over the tetrahedra between its triangles and the origin (integrals: Mirtich 1996).
+    An open surface is replaced by its convex hull, or by its bounding box if scipy is not installed.
 
     Raises:
-        ResourceError: it is not there, or broken.
+        ResourceError: the mesh file does not exist or cannot be read.
         MissingDependencyError: trimesh is not installed.
     """
     import numpy as np
@@ -55,14 +55,14 @@ def moments(mesh: Mesh, expanded: Expanded) -> tuple[Moments, str]:
     whole = corners.sum(axis=1)
     second = np.einsum("n,nci,ncj->ij", volumes, corners, corners) + np.einsum("n,ni,nj->ij", volumes, whole, whole)
     second /= 20.0
-    sign = -1.0 if volumes.sum() < 0.0 else 1.0  # a surface inside out, or mirrored by its scale
+    sign = -1.0 if volumes.sum() < 0.0 else 1.0  # negative if the surface is inside out or mirrored by its scale
     x, y, z = (sign * first).tolist()
     squares = tuple((sign * second[np.triu_indices(3)]).tolist())
     return Moments(abs(float(volumes.sum())), (x, y, z), squares), note
 
 
 def _is_closed(faces: Any) -> bool:
-    """Whether every edge of a surface is walked once in each direction."""
+    """Return whether every edge of a surface occurs once in each direction."""
     import numpy as np
 
     faces = faces[(faces[:, 0] != faces[:, 1]) & (faces[:, 1] != faces[:, 2]) & (faces[:, 2] != faces[:, 0])]

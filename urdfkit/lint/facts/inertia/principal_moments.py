@@ -17,9 +17,10 @@ _COMPONENTS = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
 
 
 def principal_moments(link: Link) -> Iterator[tuple[tuple[float, float, float], Element]]:
-    """Yield the principal moments [kg·m²] of each ``<inertia>`` of a link, smallest first, and its element.
+    """Yield the principal moments [kg·m²] of each ``<inertia>`` of a link, smallest first, and the element.
 
-    Readers differ in which of several they take, so each is looked at. One that cannot be read is left out.
+    URDF parsers differ in which of several ``<inertia>`` elements they use, so each is checked; unreadable elements are
+    skipped.
     """
     if link.inertial is None:
         return
@@ -34,16 +35,16 @@ def principal_moments(link: Link) -> Iterator[tuple[tuple[float, float, float], 
 def eigenvalues(xx: float, xy: float, xz: float, yy: float, yz: float, zz: float) -> tuple[float, float, float]:
     """Return the eigenvalues of a symmetric 3 × 3 matrix, smallest first.
 
-    Relative to the largest entry they are exact to about 1e-15: Jacobi's rotations on the matrix scaled to 1 (Golub and
-    Van Loan, Matrix Computations, 8.5).
+    The error relative to the largest entry is about 1e-15: Jacobi rotations on the matrix scaled to 1 (Golub and Van
+    Loan, Matrix Computations, 8.5).
 
     Args:
-        xx: an entry, which has to be finite.
-        xy: another.
-        xz: another.
-        yy: another.
-        yz: another.
-        zz: another.
+        xx: an entry; all entries must be finite.
+        xy: an entry.
+        xz: an entry.
+        yy: an entry.
+        yz: an entry.
+        zz: an entry.
     """
     if xy == xz == yz == 0.0:
         first, second, third = sorted((xx, yy, zz))
@@ -87,14 +88,14 @@ _ORDERS = {
     "with the diagonal first (ixx, iyy, izz, ixy, iyz, ixz)": (0, 3, 5, 1, 4, 2),
     "with the diagonal first (ixx, iyy, izz, iyz, ixz, ixy)": (0, 5, 4, 1, 3, 2),
 }
-"""Orders in which the six entries may have been given → where ixx, ixy, ixz, iyy, iyz and izz are among them."""
+"""Mistaken order of the six entries → indices of ixx, ixy, ixz, iyy, iyz and izz in that order."""
 
 
 def reordered(element: Element) -> tuple[str, tuple[float, ...]] | None:
-    """Return in which other order the entries of an ``<inertia>`` must have been given, and what they are then.
+    """Return the mistaken order in which the entries of an ``<inertia>`` are written, and the reordered entries.
 
-    That is where the tensor as written has a moment that is not positive, and one other order alone gives a tensor that
-    a body can have, with a diagonal that outweighs its products. None for all others.
+    The order is mistaken if a moment of the tensor is not positive, and exactly one other order gives a physical tensor
+    whose moments are more than twice its products of inertia. None otherwise.
 
     Args:
         element: the ``<inertia>``.
@@ -113,7 +114,7 @@ def reordered(element: Element) -> tuple[str, tuple[float, ...]] | None:
 
 
 def is_possible(values: Sequence[float]) -> bool:
-    """Return whether a body can have the six entries ixx, ixy, ixz, iyy, iyz, izz."""
+    """Return whether the six entries ixx, ixy, ixz, iyy, iyz, izz are a physical inertia tensor."""
     xx, xy, xz, yy, yz, zz = values
     small, middle, large = eigenvalues(xx, xy, xz, yy, yz, zz)
     return small > 1e-9 * large and small + middle >= large * (1.0 - 1e-3)
