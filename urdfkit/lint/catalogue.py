@@ -17,7 +17,7 @@ _FIXES = {
 
 
 def rules() -> tuple[type[Rule], ...]:
-    """Return all rules, those of other packages included, in the order of their codes.
+    """Return all built-in and third-party rules, sorted by code.
 
     Raises:
         ResourceError: a third-party rule cannot be imported.

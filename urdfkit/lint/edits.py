@@ -146,6 +146,6 @@ def nearest(name: str, candidates: Iterable[str], *, cutoff: float = 0.6) -> str
 
 
 def meant(name: str, candidates: Iterable[str]) -> tuple[str | None, str]:
-    """Return the candidate most similar to a misspelt name (or None), and ``; did you mean …`` (or an empty text)."""
+    """Return the candidate most similar to a misspelt name (or None), and ``; did you mean …`` (or an empty string)."""
     near = nearest(name, candidates, cutoff=0.7)
     return near, f"; did you mean `{near}`?" if near else ""

@@ -94,12 +94,12 @@ class Finding:
 
     @property
     def line(self) -> int:
-        """Its first line, from 1."""
+        """The first line of the span, from 1."""
         return self.span.line
 
     @property
     def column(self) -> int:
-        """Its first column, from 1, in characters."""
+        """The first column of the span, from 1, in characters."""
         return self.span.column
 
     @property

@@ -6,7 +6,7 @@ import re
 
 _INSIDE_OUT = r"\{\$(?<!\$\{\$)(?!\()[^{}]*\}"
 _BROKEN = r"\$(?: +\{[^{}]*\}|\\\{|\{(?<!\$\$\{)[^{}\"'<>]*(?=[\"'<>]|\Z))"
-"""``{$…}``; ``$ {…}``, ``$\\{`` and ``${…`` without end. Both begin with a letter, so that they are found fast."""
+"""``{$…}``; ``$ {…}``, ``$\\{`` and ``${…`` without end. Each pattern begins with a literal, for a fast search."""
 
 _ODD = frozenset("{\"'<>")
 _SWAPPED = r"(?:(?<!\$)\{\$(?!\()|\$ +\{)([^{}]*)\}"

@@ -55,11 +55,11 @@ def root_cause(model: Model, element: Element, attribute: str, is_wrong: Callabl
 
 
 def call_of(element: Element, right: Iterable[Element]) -> Position | None:
-    """Return the macro call that makes an element wrong while other calls make it right; None if there is none.
+    """Return the macro call that produces a wrong element while other calls produce correct ones; None if not found.
 
     Args:
         element: the wrong expanded element.
-        right: elements of the same kind that are right.
+        right: correct elements of the same kind.
     """
     others = [one.origin for one in right if one.origin.position == element.origin.position]
     if not others:

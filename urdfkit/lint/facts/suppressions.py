@@ -48,7 +48,7 @@ class Suppression:
     last: int
 
     def covers(self, finding: Finding) -> bool:
-        """Return whether the finding is suppressed, provided that it is in the same file."""
+        """Return whether the comment suppresses a finding of the same file."""
         if self.verb not in ("ignore", "ignore-file") or (self.codes and finding.code not in self.codes):
             return False
         return self.verb == "ignore-file" or self.first <= finding.line <= self.last

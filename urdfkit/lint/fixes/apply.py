@@ -98,7 +98,7 @@ def fix(
     unsafe: bool = False,
     only: Callable[[Finding], bool] | None = None,
 ) -> Fixed:
-    """Compute all fixes in memory; `Change.write` writes them.
+    """Compute all fixes in memory; `FileChange.write` writes them.
 
     Args:
         entries: the entry files.
@@ -131,7 +131,7 @@ def editable_folders(paths: Iterable[Path]) -> list[Path]:
 
 
 def changes(edits: Iterable[Edit], sources: Mapping[str, Source], *, within: Iterable[Path]) -> list[FileChange]:
-    """Apply edits in memory and return the changed files; `Change.write` writes them.
+    """Apply edits in memory and return the changed files; `FileChange.write` writes them.
 
     Args:
         edits: non-overlapping edits; their files are keys of `sources`.

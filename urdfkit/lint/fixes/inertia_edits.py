@@ -33,9 +33,10 @@ class ComputedInertial:
         count: number of shapes.
         volume: volume of the union of the shapes [m³].
         shared: volume of the overlaps of primitives [m³]; it counts once in `volume`.
-        mass: [kg].
-        xyz: the centre of mass in the link's frame [m].
-        tensor: ixx, ixy, ixz, iyy, iyz, izz about it [kg·m²], along the axes of the present inertial frame.
+        mass: mass [kg].
+        xyz: centre of mass in the link's frame [m].
+        tensor: ixx, ixy, ixz, iyy, iyz, izz about the centre of mass [kg·m²], along the axes of the inertial frame in
+            the source.
         notes: assumptions, one line each.
     """
 
@@ -155,10 +156,10 @@ def _at(element: Element) -> Position:
 
 
 def _alone(model: Model, link: Link, element: Element) -> Tag:
-    """Return the tag of an element that only this link has.
+    """Return the source tag of an element, which must belong to this link only.
 
     Raises:
-        UrdfkitError: other links have it too, as it is in a macro that is called several times.
+        UrdfkitError: the tag is in a macro with several calls, so other links share it.
     """
     position = element.origin.position
     same = [other for other in model.robot.element.walk() if other.origin.position == position]
@@ -193,7 +194,7 @@ def _replaced(model: Model, link: Link, element: Element, values: dict[str, str]
 
 
 def _same(text: str | None, other: str) -> bool:
-    """Return whether two texts are the same numbers to six digits."""
+    """Return whether two texts contain equal numbers to six digits."""
     from urdfkit.description.xml.numbers import numbers
 
     values, others = numbers(text or ""), numbers(other)

@@ -1,4 +1,4 @@
-"""Formats of findings: text for people; JSON, SARIF, JUnit and GitHub annotations for programs.
+"""Output formats of findings: text, JSON, SARIF, JUnit and GitHub annotations.
 
-Findings go in; text comes out.
+Input: findings; output: text.
 """

@@ -1,4 +1,4 @@
-"""Findings as annotations of GitHub Actions: one workflow command a line.
+"""Findings as annotations of GitHub Actions: one workflow command per line.
 
 https://docs.github.com/en/actions/reference/workflow-commands-for-github-actions
 """
@@ -15,14 +15,14 @@ _LEVELS = {"error": "error", "warning": "warning", "note": "notice"}
 
 
 def as_github(findings: Iterable[Finding]) -> str:
-    """Return one line for each finding."""
+    """Return one workflow command per finding."""
     return "\n".join(map(_line, findings))
 
 
 def _line(finding: Finding) -> str:
     span = finding.span
     places = {"file": finding.file, "line": span.line, "endLine": span.end_line, "col": span.column}
-    if span.end_line == span.line:  # GitHub takes columns within one line only
+    if span.end_line == span.line:  # GitHub supports columns only within one line
         places["endColumn"] = span.end_column
     places["title"] = f"{finding.code} {finding.name}"
     text = f"{finding.message}; {finding.help}" if finding.help else finding.message

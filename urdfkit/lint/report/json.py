@@ -1,4 +1,4 @@
-"""Findings as one JSON value; the keys are part of the command line's contract."""
+"""Findings as one JSON value; the keys are a stable interface."""
 
 from __future__ import annotations
 

@@ -1,6 +1,6 @@
-"""Findings as JUnit XML: a suite for each file, a failed case for each error and warning.
+"""Findings as JUnit XML: one test suite per file, one failed test case per error and warning.
 
-The form is that of the schema of Jenkins' xUnit plugin (junit-10.xsd).
+The output follows the schema of the Jenkins xUnit plugin (junit-10.xsd).
 """
 
 from __future__ import annotations
@@ -15,11 +15,11 @@ if TYPE_CHECKING:
     from urdfkit.lint.finding import Finding
 
 _FORBIDDEN = re.compile("[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
-"""What XML 1.0 has no character for."""
+"""Characters that XML 1.0 does not allow."""
 
 
 def as_junit(findings: Sequence[Finding], files: Iterable[str]) -> str:
-    """Return the document. Files without findings have one case that passes; notes are cases that were skipped.
+    """Return the document. Files without findings have one passed test case; notes are skipped test cases.
 
     Args:
         findings: the findings.

@@ -1,6 +1,6 @@
-"""Findings as SARIF 2.1.0, which GitHub's code scanning and editors read.
+"""Findings as SARIF 2.1.0, for GitHub code scanning and editors.
 
-https://docs.oasis-open.org/sarif/sarif/v2.1.0/sarif-v2.1.0.html; the numbers in comments are its sections.
+https://docs.oasis-open.org/sarif/sarif/v2.1.0/sarif-v2.1.0.html; numbers in comments refer to its sections.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from urdfkit.lint.rule import Rule
 
 SCHEMA = "https://docs.oasis-open.org/sarif/sarif/v2.1.0/errata01/os/schemas/sarif-schema-2.1.0.json"
-"""Where the schema of the format is."""
+"""URL of the SARIF schema."""
 
 _LEVELS = {"error": "error", "warning": "warning", "note": "note"}
 _ROOT = "SRCROOT"
@@ -47,7 +47,7 @@ def as_sarif(findings: Sequence[Finding]) -> str:
             }
         },
         "originalUriBaseIds": {_ROOT: {"uri": f"{Path.cwd().as_uri()}/"}},
-        "columnKind": "unicodeCodePoints",  # 3.14.27: what our columns count
+        "columnKind": "unicodeCodePoints",  # 3.14.27: columns count characters
         "results": [_result(finding, order) for finding in findings],
     }
     return json.dumps({"$schema": SCHEMA, "version": "2.1.0", "runs": [run]}, indent=1, ensure_ascii=False)
@@ -111,7 +111,7 @@ def _at(position: Position) -> dict[str, Any]:
 
 
 def _region(span: Span) -> dict[str, int]:
-    """Return a region; an end column is, as ours, the one after the last character (3.30.8)."""
+    """Return a region; the end column is exclusive, as in `Span` (3.30.8)."""
     return {
         "startLine": span.line,
         "startColumn": span.column,

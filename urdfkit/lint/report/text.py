@@ -1,4 +1,4 @@
-"""Findings as text: the place, the message, the source line with a caret, the chain of macro calls, what to do.
+"""Findings as text: position, message, source line with a caret, macro calls and help.
 
 ::
 
@@ -26,19 +26,19 @@ _RESET = "\x1b[0m"
 _STYLES = {"error": "\x1b[1;31m", "warning": "\x1b[1;33m", "note": "\x1b[1;36m", "bold": "\x1b[1m", "dim": "\x1b[34m"}
 _TAB = "    "
 _CONTROL = r"[\x00-\x1f\x7f-\x9f]"
-"""Control characters of terminals."""
+"""Control characters, which a terminal may interpret."""
 _LISTED_CALLS = 4
 _LONG = 400
-"""Columns to which a source line is cut where the output is no terminal."""
+"""Maximum width of a source line if the output is not a terminal [columns]."""
 
 
 class TextReport:
-    """Prints findings for people.
+    """Formats findings as text.
 
     Args:
-        sources: the text of each file, by the name findings use.
+        sources: name in findings → text of the file.
         colour: whether to use colours.
-        width: columns of the terminal; source lines are cut to it. None for no limit.
+        width: width of the terminal [columns], to which source lines are cut; None if the output is not a terminal.
     """
 
     def __init__(self, sources: Mapping[str, Source], *, colour: bool = False, width: int | None = None) -> None:
@@ -47,7 +47,7 @@ class TextReport:
         self.width = width
 
     def finding(self, finding: Finding) -> str:
-        """Return one finding, without a final line end."""
+        """Return one finding as text, without a trailing newline."""
         place = self._styled(f"{finding.file}:{finding.line}:{finding.column}", "bold")
         fixable = "" if finding.fix is None or finding.fix.safety != "safe" else " [*]"
         mild = "" if finding.severity == "error" else f" {finding.severity}:"
@@ -96,7 +96,7 @@ class TextReport:
 
 
 def summary(findings: Sequence[Finding]) -> str:
-    """Return the last line: how many findings of which severity, and how many of them can be fixed."""
+    """Return the summary line: number of findings by severity, and number of fixable findings."""
     if not findings:
         return "All checks passed."
     counts = [(sum(f.severity == severity for f in findings), severity) for severity in ("error", "warning", "note")]
@@ -120,12 +120,12 @@ def counts(findings: Iterable[Finding]) -> list[tuple[str, str, str, int]]:
 
 
 def statistics(findings: Iterable[Finding]) -> list[str]:
-    """Return one line for each rule that found something, most findings first."""
+    """Return one line for each rule with findings, most findings first."""
     return [f"{count:6d}  {code}  {severity:7s}  {name}" for code, name, severity, count in counts(findings)]
 
 
 def _expansions(chains: Sequence[tuple[Expansion, ...]]) -> str:
-    """Return where the macro was called: the innermost call, then what that is inside of."""
+    """Return the positions of the macro calls: the innermost macro first, then its callers."""
     macro = chains[0][0].macro
     calls = list(dict.fromkeys((c[0].position.file, c[0].position.line) for c in chains if c[0].macro == macro))
     places = []
@@ -141,7 +141,7 @@ def _expansions(chains: Sequence[tuple[Expansion, ...]]) -> str:
 
 
 def _columns(text: str) -> int:
-    """Return how many terminal columns a text takes; tabs are shown as four blanks."""
+    """Return the width of a text in terminal columns; a tab is four columns wide."""
     if text.isascii():
         return len(text) + text.count("\t") * (len(_TAB) - 1)
     from unicodedata import combining, east_asian_width
@@ -151,7 +151,7 @@ def _columns(text: str) -> int:
 
 
 def _cut(line: str, start: int, length: int, width: int) -> tuple[str, int, int]:
-    """Return the part of a line around the marked stretch that fits into `width` columns."""
+    """Return the part of a line around the marked text that fits into `width` columns."""
     if len(line) <= width:
         return line, start, length
     first = 0 if start + min(length, width // 2) <= width - 1 else max(start - width // 4, 0)

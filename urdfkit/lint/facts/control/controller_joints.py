@@ -1,4 +1,4 @@
-"""Controllers in YAML: their names and types, and the joints they name, with their places."""
+"""Controllers in YAML: their names, types and joints, with source offsets."""
 
 from __future__ import annotations
 
@@ -51,14 +51,14 @@ TYPES = (
     "force_torque_sensor_broadcaster/ForceTorqueSensorBroadcaster",
     "range_sensor_broadcaster/RangeSensorBroadcaster",
 )
-"""The types of ros_controllers (Noetic) and ros2_controllers (Rolling)."""
+"""Controller types of ros_controllers (Noetic) and ros2_controllers (Rolling)."""
 
 _WRITTEN_TYPE = r"(?m)(?:^|[{,])[ \t]*type[ \t]*:[ \t]*[\"']?([\w]+/[\w]+)[\"']?[ \t]*(?=\r?$|[},])"
 
 
 @record
 class Named:
-    """A name in YAML, and the offset of its first letter."""
+    """A name in YAML, and the offset of its first character."""
 
     name: str
     start: int
@@ -71,19 +71,19 @@ def typed(source: Source) -> Iterator[Named]:
 
 
 def controllers(source: Source) -> list[str]:
-    """Return the names of the controllers that a YAML file gives a type."""
+    """Return the names of the controllers with a type in a YAML file."""
     return [name for name, _ in _of_controllers(source)]
 
 
 def joints(source: Source) -> Iterator[Named]:
-    """Yield the joints that controllers name in a YAML file, where it has any controllers."""
+    """Yield the joints named in a YAML file that configures controllers; nothing for other files."""
     if controllers(source):
         for root in documents(source)[0]:
             yield from _named(source, root)
 
 
 def joints_of(source: Source, kind: Named) -> list[str]:
-    """Return the joints in the same group as the type of a controller, as `typed` returns it."""
+    """Return the joints in the settings of the controller with the type `kind`, which is a result of `typed`."""
     for _, group in _of_controllers(source):
         node = group.find("type")
         if node is not None and start_of(source, node) == kind.start:
@@ -100,7 +100,7 @@ def _of_controllers(source: Source) -> Iterator[tuple[str, Node]]:
 
 
 def _named(source: Source, part: Node) -> Iterator[Named]:
-    """Yield the joints that a part of a document names, each place once: aliases repeat places."""
+    """Yield the joints named below a node; each source offset once, because aliases repeat nodes."""
     places: dict[int, str] = {}
     for node in walk(part):
         for key, value in node.entries if node.kind == "group" else ():

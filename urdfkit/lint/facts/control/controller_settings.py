@@ -52,17 +52,17 @@ _OF_TYPES = {
         for kind, name in (("position", "Position"), ("velocity", "Velocity"), ("effort", "Effort"))
     },
 }
-"""Type → the parameters that it reads in any release: Noetic's ros_controllers, ros2_controllers from Humble on."""
+"""Controller type → its parameters in any release: ros_controllers (Noetic), ros2_controllers (from Humble)."""
 
 
 @record(eq=False)
 class ControllerSettings:
-    """The settings of a controller.
+    """Settings of one controller.
 
     Attributes:
-        name: of the controller, without name spaces.
-        kind: its type.
-        group: its parameters.
+        name: name of the controller, without namespaces.
+        kind: type of the controller.
+        group: parameters of the controller.
     """
 
     name: str
@@ -71,7 +71,7 @@ class ControllerSettings:
 
 
 def settings(source: Source) -> Iterator[ControllerSettings]:
-    """Yield the settings of the controllers that a file in YAML gives a type; of each group once."""
+    """Yield the settings of the controllers with a type in a YAML file; each mapping once."""
     seen: set[int] = set()
     for controller in declared(source) if PARAMETERS in source.text else ():
         if controller.settings is not None:

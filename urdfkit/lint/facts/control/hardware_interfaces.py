@@ -1,4 +1,4 @@
-"""The hardware interfaces of ros_control, and where transmissions name them."""
+"""Hardware interfaces of ros_control and ros2_control, and misspelt names of them in transmissions."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ if TYPE_CHECKING:
     from urdfkit.description.xml.element import Element
 
 PACKAGE = "hardware_interface"
-"""What stands before the slash."""
+"""Package prefix of the interface names, before the slash."""
 
 INTERFACES = (
     "EffortJointInterface",
@@ -25,10 +25,10 @@ INTERFACES = (
     "ImuSensorInterface",
     "JointModeInterface",
 )
-"""The interfaces that hardware_interface has in ROS Noetic."""
+"""Interfaces of the package hardware_interface in ROS Noetic."""
 
 STANDARD = ("position", "velocity", "acceleration", "effort")
-"""The interfaces of joints that hardware_interface of ros2_control names."""
+"""Standard joint interfaces of hardware_interface in ros2_control."""
 
 _PARTS: dict[str, tuple[str, ...]] = {
     "transmission": ("type", "joint", "actuator", "plugin", "role"),
@@ -49,7 +49,7 @@ _OTHERS = frozenset(("motor", "effort", "reduction", "joints", "sensors", "actua
 def misspelt_parts(element: Element, where: str) -> Iterator[tuple[Element, Element, str]]:
     """Yield the misspelt elements in a ``<transmission>`` or ``<ros2_control>``: parent, child, correct name.
 
-    Both may hold elements of anybody's own; only what is nearly one of theirs is misspelt.
+    Custom elements are allowed; an element is misspelt only if its name is similar to a standard one.
 
     Args:
         element: a transmission, a block of ros2_control, or a part of one.
@@ -70,7 +70,7 @@ def misspelt_parts(element: Element, where: str) -> Iterator[tuple[Element, Elem
 
 
 def written(robot: Robot) -> Iterator[tuple[str, Element, Transmission]]:
-    """Yield every ``<hardwareInterface>``: its text, its element and the transmission it is in."""
+    """Yield the text, the element and the transmission of every ``<hardwareInterface>``."""
     for transmission in robot.transmissions:
         parts = [part.element for part in transmission.joints] + [part.element for part in transmission.actuators]
         for part in parts:
@@ -94,7 +94,7 @@ def meant_interface(name: str) -> str | None:
 
 
 def meant_joints(robot: Robot) -> set[str]:
-    """Return the joints of a robot that its ``<ros2_control>`` must mean by names that no joint has."""
+    """Return the joints most similar to the undefined joint names in the robot's ``<ros2_control>``."""
     from urdfkit.lint.edits import meant
 
     known = robot.joint_by_name
@@ -103,12 +103,12 @@ def meant_joints(robot: Robot) -> set[str]:
 
 
 def is_old(transmission: Transmission) -> bool:
-    """Whether a transmission is written as PR2's were: its type in an attribute."""
+    """Return whether a transmission has the old form of the PR2, with its type in an attribute."""
     return transmission.element.find("type") is None and transmission.element.get("type") is not None
 
 
 def has_gazebo_ros_control(robot: Robot) -> bool:
-    """Whether the robot brings the plugin that reads transmissions."""
+    """Return whether the robot has the plugin gazebo_ros_control, which reads transmissions."""
     from urdfkit.lint.facts.gazebo.plugins import plugins
 
     return any("gazebo_ros_control" in (plugin.filename or "") for plugin, _, _ in plugins(robot))

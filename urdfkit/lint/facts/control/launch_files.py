@@ -26,10 +26,10 @@ class PackagePath:
     """A path in a package, as named in a launch file.
 
     Attributes:
-        package: its name.
-        path: inside the package's share folder.
-        start: offset of where it is written.
-        end: offset behind it.
+        package: name of the package.
+        path: path relative to the share folder of the package.
+        start: start offset in the launch file.
+        end: end offset in the launch file.
     """
 
     package: str
@@ -39,7 +39,7 @@ class PackagePath:
 
 
 def package_paths(source: Source) -> Iterator[PackagePath]:
-    """Yield the paths of packages that a launch file names as constants."""
+    """Yield the constant package paths in a launch file."""
     if source.file.endswith(".py"):
         yield from _in_python(source)
         return
@@ -49,7 +49,7 @@ def package_paths(source: Source) -> Iterator[PackagePath]:
 
 
 def packages_used(source: Source) -> Iterator[tuple[str, int, int]]:
-    """Yield the packages whose files or programs a launch file names as constants, with their offsets."""
+    """Yield name, start and end offset of each package in a launch file whose files or executables are constants."""
     if not source.file.endswith(".py"):
         for at in re.finditer(_USES, uncommented(source)):
             group = 1 if at[1] is not None else 2
@@ -72,7 +72,7 @@ def packages_used(source: Source) -> Iterator[tuple[str, int, int]]:
 
 
 def uncommented(source: Source) -> str:
-    """Return the text of a launch file or YAML, every comment replaced by as many spaces."""
+    """Return the text of a launch or YAML file with each comment replaced by spaces of the same length."""
     pattern = r"#[^\n]*" if source.file.endswith((".yaml", ".yml")) else r"(?s)<!--.*?(?:-->|\Z)"
     return re.sub(pattern, lambda at: re.sub(r"[^\n]", " ", at[0]), source.text)
 
@@ -91,7 +91,7 @@ def parsed(source: Source) -> ast.Module | None:
 
 
 def place(source: Source, node: ast.expr) -> tuple[int, int]:
-    """Return the offsets of a node; ast counts columns in bytes of UTF-8."""
+    """Return start and end offset of a node; the columns of `ast` are UTF-8 bytes."""
 
     def offset(line: int, column: int) -> int:
         before = source.line(line).encode("utf-8", "surrogatepass")[:column].decode("utf-8", "ignore")
@@ -127,10 +127,10 @@ def _in_python(source: Source) -> Iterator[PackagePath]:
 
 
 class LaunchReader:
-    """Reads constants, and names that are given one constant only.
+    """Evaluate constants, and names that are assigned exactly once.
 
     Args:
-        tree: of the launch file.
+        tree: syntax tree of the launch file.
     """
 
     def __init__(self, tree: ast.Module) -> None:
@@ -168,7 +168,7 @@ class LaunchReader:
         return None
 
     def path(self, node: ast.expr, depth: int = 0) -> tuple[str, str] | None:
-        """Return package and path that an expression comes out as; None where it is no path or is computed."""
+        """Return package and path that an expression evaluates to; None if it is computed or not a package path."""
         import ast
 
         if depth > 20:

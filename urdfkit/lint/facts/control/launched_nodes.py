@@ -1,4 +1,4 @@
-"""The programs that launch files start, with the arguments that are written out; nothing is run."""
+"""Nodes that launch files start, with their constant arguments; launch files are not executed."""
 
 from __future__ import annotations
 
@@ -20,12 +20,12 @@ _ARGUMENTS = r"\bargs\s*=\s*(?:\"([^\"]*)\"|'([^']*)')"
 
 @record(eq=False)
 class Started:
-    """A node.
+    """A node that a launch file starts.
 
     Attributes:
-        package: of its program; empty where that is computed.
-        program: likewise.
-        arguments: in order, with their places; None for each that is computed.
+        package: package of the executable; empty if it is computed.
+        program: name of the executable; empty if it is computed.
+        arguments: command line arguments in order, with their offsets; None for each computed argument.
     """
 
     package: str
@@ -34,13 +34,13 @@ class Started:
 
 
 def launches(model: Model) -> Iterator[Source]:
-    """Yield the launch files around a model."""
+    """Yield the launch files of the model's package and of related packages."""
     endings = (".launch", ".launch.xml", ".launch.py", ".launch.yaml")
     yield from (source for name, source in model.related_files.items() if name.endswith(endings))
 
 
 def started(source: Source) -> Iterator[Started]:
-    """Yield the nodes of a launch file."""
+    """Yield the nodes that a launch file starts."""
     from urdfkit.lint.facts.control.launch_files import uncommented
 
     if source.file.endswith(".py"):
@@ -80,7 +80,7 @@ def _in_yaml(source: Source) -> Iterator[Started]:
             if arguments is not None and arguments.kind == "text":
                 start = source.offset(arguments.line, arguments.column)
                 start += not arguments.is_plain
-                if source.text.startswith(arguments.text, start):  # not folded, nor with letters that are escaped
+                if source.text.startswith(arguments.text, start):  # neither folded nor escaped
                     written = _words(arguments.text, start)
             yield Started("" if "$" in names[0] else names[0], "" if "$" in names[1] else names[1], written)
 

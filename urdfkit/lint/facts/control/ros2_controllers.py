@@ -20,12 +20,12 @@ PARAMETERS = "ros__parameters"
 
 @record(eq=False)
 class DeclaredController:
-    """A controller.
+    """A controller that a controller manager loads.
 
     Attributes:
-        name: its own, without name spaces.
-        kind: where its type is written.
-        settings: its parameters; None if the file has none.
+        name: name of the controller, without namespaces.
+        kind: YAML node of the controller's type.
+        settings: parameters of the controller; None if the file has none.
     """
 
     name: str
@@ -38,10 +38,10 @@ class Wanted:
     """A joint interface that a controller requires.
 
     Attributes:
-        joint: its name.
+        joint: name of the joint.
         interface: ``position``, ``velocity`` …
-        is_command: whether it is for commands, not for states.
-        where: what names it, or else the joint.
+        is_command: whether it is a command interface; else it is a state interface.
+        where: YAML node that names the interface, or else the joint.
     """
 
     joint: str
@@ -51,7 +51,7 @@ class Wanted:
 
 
 def declared(source: Source) -> Iterator[DeclaredController]:
-    """Yield the controllers that a file in YAML gives a type in a controller manager of ROS 2."""
+    """Yield the controllers with a type in the parameters of a ROS 2 controller manager in a YAML file."""
     roots, _ = documents(source)
     groups = [each for root in roots for each in _parameters(root, "", 0)]
     settings: dict[str, Node] = {}
@@ -65,7 +65,7 @@ def declared(source: Source) -> Iterator[DeclaredController]:
 
 
 def _parameters(node: Node, name: str, depth: int) -> Iterator[tuple[str, Node]]:
-    """Yield the groups of parameters, with the last part of the name of their node."""
+    """Yield the parameters of each node, with the last part of the node's name."""
     for key, value in node.entries:
         if key.text == PARAMETERS:
             yield name, value
@@ -135,9 +135,9 @@ def _truth(settings: Node, name: str) -> bool | None:
 
 
 def offered(model: Model) -> dict[str, dict[bool, list[str]]] | None:
-    """Return joint → for commands (True) and states (False) the interfaces that its hardware offers.
+    """Return joint → its command interfaces (True) and state interfaces (False) in ``<ros2_control>``.
 
-    None where arguments, or another description of the package, may make it another hardware.
+    None if xacro arguments or another description of the package may define different hardware.
     """
     from urdfkit.description.packages.related_files import package_of
     from urdfkit.lint.facts.neighbouring_names import is_conditional
@@ -168,4 +168,4 @@ def offered(model: Model) -> dict[str, dict[bool, list[str]]] | None:
 
 
 _PARTS = r"_interface|<xacro:(?!if|unless|property|arg)\w"
-"""What may bring an interface."""
+"""Source text that may add an interface: an interface element or a macro call."""

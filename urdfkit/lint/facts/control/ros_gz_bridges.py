@@ -48,11 +48,11 @@ KEYS = (
     *("ign_topic_name", "ign_type_name"),
 )
 DIRECTIONS = ("BIDIRECTIONAL", "GZ_TO_ROS", "ROS_TO_GZ", "IGN_TO_ROS", "ROS_TO_IGN")
-"""The names and directions in its YAML (ros_gz_bridge, Humble to Rolling)."""
+"""Directions in the YAML files of ros_gz_bridge (Humble to Rolling)."""
 
 
 def pairs() -> dict[str, tuple[str, ...]]:
-    """Return type of ROS → those of Gazebo that the bridge makes of it (the README of ros_gz_bridge)."""
+    """Return ROS message type → Gazebo message types that the bridge converts it to (README of ros_gz_bridge)."""
     found = {}
     for word in _PAIRS.split():
         ros, _, gazebo = word.partition("=")
@@ -65,9 +65,9 @@ class Bridged:
     """One bridged topic.
 
     Attributes:
-        topic: of Gazebo; None where it is not written.
-        ros: its type there.
-        gazebo: its type there.
+        topic: name of the Gazebo topic; None if it is not written.
+        ros: ROS message type.
+        gazebo: Gazebo message type.
         direction: one of `DIRECTIONS`, or the source text.
     """
 
@@ -78,7 +78,7 @@ class Bridged:
 
 
 def in_yaml(source: Source) -> Iterator[tuple[Bridged, tuple[Node, ...]]]:
-    """Yield the bridges in a YAML file, with the keys of each."""
+    """Yield the bridges in a YAML file, each with its key nodes."""
     from urdfkit.lint.facts.control.yaml_tree import documents, span_of
 
     def named(entry: Node, *keys: str) -> Named | None:

@@ -1,4 +1,4 @@
-"""YAML as a tree whose parts know their places: groups, lists and texts; nothing is constructed from it."""
+"""YAML syntax tree with source positions: mappings, lists and scalars; no Python objects are constructed."""
 
 from __future__ import annotations
 
@@ -20,16 +20,16 @@ _MAX_DEPTH = 12
 
 @record(eq=False)
 class Node:
-    """A part of a YAML document.
+    """Node of a YAML document.
 
     Attributes:
-        kind: ``group``, ``list`` or ``text``.
-        text: of a text; empty else.
-        entries: of a mapping: key and value nodes.
-        items: of a list.
-        line: where it begins, from 1.
-        column: likewise.
-        is_plain: a text without quotes, not a block of lines.
+        kind: ``group`` (a mapping), ``list`` or ``text`` (a scalar).
+        text: text of a scalar; empty for other nodes.
+        entries: keys and values of a mapping.
+        items: items of a list.
+        line: line of the start of the node, from 1.
+        column: column of the start of the node, from 1.
+        is_plain: whether the node is a scalar without quotes and not a block scalar.
     """
 
     kind: str
@@ -41,17 +41,17 @@ class Node:
     is_plain: bool = False
 
     def find(self, name: str) -> Node | None:
-        """Return the value of a key in a mapping; None if there is none."""
+        """Return the value of a key in a mapping; None if the key is missing."""
         return next((value for key, value in self.entries if key.text == name), None)
 
     def texts(self) -> list[str]:
-        """Return the text, or those of the list, that are not empty."""
+        """Return the non-empty scalars among the node and its list items."""
         return [node.text for node in (self, *self.items) if node.kind == "text" and node.text]
 
 
 @record(eq=False)
 class Broken:
-    """Where a text is no YAML any more, from 1, and why."""
+    """Line and column of a YAML syntax error, from 1, and the reason."""
 
     line: int
     column: int
@@ -59,29 +59,29 @@ class Broken:
 
 
 def yamls(model: Model) -> Iterator[Source]:
-    """Yield the files in YAML around a model."""
+    """Yield the YAML files of the model's package and of related packages."""
     yield from (source for name, source in model.related_files.items() if name.endswith((".yaml", ".yml")))
 
 
 def documents(source: Source) -> tuple[tuple[Node, ...], Broken | None]:
-    """Return the documents of a file in YAML, as far as it can be read, and where it cannot."""
+    """Return the documents of a YAML file up to the first syntax error, and the error or None."""
     return _read(source.text)
 
 
 def start_of(source: Source, node: Node) -> int:
-    """Return the offset of a text, without its quotes; else of the first letter."""
+    """Return the start offset of a node; after the opening quote of a quoted scalar."""
     start = source.offset(node.line, node.column)
     return start + (source.text[start : start + 1] in ("'", '"'))
 
 
 def span_of(source: Source, node: Node) -> Span:
-    """Return the span of a text in one line, without its quotes; else of the first letter."""
+    """Return the span of a scalar on one line, without quotes; for other nodes, of the first character."""
     start = start_of(source, node)
     return source.span(start, start + max(len(node.text) if "\n" not in node.text else 1, 1))
 
 
 def walk(node: Node, depth: int = 0) -> Iterator[Node]:
-    """Yield a node and all that is in it."""
+    """Yield a node and all nodes below it."""
     yield node
     if depth < _MAX_DEPTH:
         for inner in (*(value for _, value in node.entries), *node.items):
@@ -89,7 +89,7 @@ def walk(node: Node, depth: int = 0) -> Iterator[Node]:
 
 
 def groups(node: Node, name: str = "", depth: int = 0) -> Iterator[tuple[str, Node]]:
-    """Yield the groups of parameters with their names: of ``ros__parameters``, the name of the node."""
+    """Yield a node and the values below it with their names; ``ros__parameters`` has the name of its ROS node."""
     yield name, node
     for key, value in node.entries if depth < 4 else ():
         called = name if key.text == "ros__parameters" else key.text.strip("/").rpartition("/")[2]
@@ -115,7 +115,7 @@ def _read(text: str) -> tuple[tuple[Node, ...], Broken | None]:
 
 
 class _Reader:
-    """From what yaml composes to nodes; aliases are followed, so the number of nodes is bounded."""
+    """Convert PyYAML nodes to `Node`; the number of nodes is bounded, because aliases are followed."""
 
     def __init__(self) -> None:
         self._count = 0

@@ -1,4 +1,4 @@
 """Contents of ``<gazebo>`` blocks: plugins and their specifications, libraries, drive wheels, sensor topics.
 
-A `Model` goes in; plugin records, joints and topic names come out.
+Input: a `Model`; output: plugin records, joints and topic names.
 """

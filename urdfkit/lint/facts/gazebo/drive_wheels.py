@@ -39,10 +39,10 @@ class Wheel:
         joint: the joint; the most similar name if the drive's parameter names an undefined joint.
         element: the parameter that names the joint; None for the default.
         named: name of the joint in the parameter.
-        place: the origin of the joint in the root link [m].
-        axis: its axis in the root link.
-        radii: radii of the cylinders and spheres of its link [m]; empty if it has other shapes.
-        middles: the origins of the joint and of every shape of its link, in the root link [m].
+        place: origin of the joint in the root link [m].
+        axis: axis of the joint in the root link.
+        radii: radii of the cylinders and spheres of the joint's child link [m]; empty if the link has other shapes.
+        middles: origins of the joint and of every shape of its child link, in the root link [m].
     """
 
     joint: Joint
@@ -179,9 +179,9 @@ def track(left: Wheel, right: Wheel, distances: Iterable[float]) -> tuple[float,
     """Return the distance of two wheels [m], and its endpoints: their shapes if those agree, else their joints.
 
     Args:
-        left: a wheel.
-        right: the other.
-        distances: distances of their `middles`: of the joints, then of the shapes [m].
+        left: the left wheel.
+        right: the right wheel.
+        distances: distances between the `middles` of the wheels: of the joints, then of the shapes [m].
     """
     joints, *shapes = distances
     names = f"`{left.joint.name}` and `{right.joint.name}`"
@@ -191,7 +191,7 @@ def track(left: Wheel, right: Wheel, distances: Iterable[float]) -> tuple[float,
 
 
 def same_turn(first: Vector, second: Vector) -> float:
-    """Return the largest difference between the rotation matrices of two triples of angles."""
+    """Return the largest difference between the entries of the rotation matrices of two roll-pitch-yaw triples."""
     return max(
         abs(a - b)
         for rows in zip(rotation_of(first), rotation_of(second), strict=True)

@@ -47,7 +47,7 @@ thermal-sensor=ThermalSensor thruster=Thruster touchplugin=TouchPlugin track-con
 tracked-vehicle=TrackedVehicle trajectory-follower=TrajectoryFollower triggered-publisher=TriggeredPublisher
 user-commands=UserCommands velocity-control=VelocityControl wheel-slip=WheelSlip wind-effects=WindEffects
 """
-"""``gz-sim-<name>-system`` = its class in ``gz::sim::systems``; nothing after = where it has several, or another."""
+"""``<name>=<class>``: ``gz-sim-<name>-system`` and its class in ``gz::sim::systems``; no class if any name is valid."""
 
 
 @cache
@@ -68,8 +68,8 @@ def classes() -> dict[str, tuple[str, ...]]:
 def meant_library(stem: str) -> str | None:
     """Return the library stem that a misspelt name stands for; None if the name may be a different library.
 
-    A name means another where every word of it is that of the other, or nearly, or its beginning, where only the
-    dashes and underscores are others, and a letter at most, or where it has one more word that any library could have.
+    A name is a misspelling of a library if each word equals, resembles or abbreviates a word of the library's name, if
+    the names differ in dashes, underscores and at most one letter, or if the name has an additional generic word.
     """
     if not stem or stem in classes():
         return None
@@ -97,7 +97,7 @@ def _with_ending(stem: str) -> str:
 
 
 def _without_ending(stem: str) -> str | None:
-    """Return the library whose name is extended by a generic last word; None if there is none."""
+    """Return the library whose name is extended by a generic last word; None if no library matches."""
     name, _, last = stem.rpartition("_")
     return name if name in classes() and any(_is_like(last, word, 0.8) for word in _GENERAL) else None
 

@@ -28,7 +28,7 @@ def plugins(robot: Robot) -> Iterator[tuple[Plugin, GazeboBlock, SensorTag | Non
 
 
 def specs(plugin: Plugin) -> list[PluginSpec]:
-    """Return the tables of every generation that has a plugin of that file name."""
+    """Return the specifications of a plugin's library in every generation that has it."""
     from urdfkit.description.plugins.unread_parameters import tables
 
     return tables(plugin)
@@ -58,14 +58,14 @@ def allowed(model: Model) -> set[str]:
 
 
 def simulated_hardware(model: Model) -> tuple[str, ...] | None:
-    """Return the packages that bring ros2_control's hardware in the target's Gazebo; None where it may be any."""
+    """Return the packages with ros2_control hardware for the target's Gazebo; None if the target allows any."""
     if allowed(model) == {"gz"}:
         return ("gz_ros2_control", "ign_ros2_control")
     return ("gazebo_ros2_control",) if model.target == "classic" else None
 
 
 def is_foreign(plugin: Plugin, model: Model) -> bool:
-    """Return whether the target has no such plugin; its parameters are then not checked."""
+    """Return whether the target lacks the plugin; parameters of the plugin are then not checked."""
     found = generations(plugin)
     return bool(found) and found.isdisjoint(allowed(model))
 
@@ -83,7 +83,15 @@ def spec_of(plugin: Plugin, target: str | None) -> PluginSpec | None:
 
 
 def references(model: Model, kinds: tuple[str, ...]) -> Iterator[tuple[str, Element, Parameter, Plugin]]:
-    """Yield what plugins name, with the element that names it, in any generation's spelling."""
+    """Yield the names of the given kinds that plugin parameters contain, in the spelling of any generation.
+
+    Args:
+        model: the linted model.
+        kinds: kinds of entities, see `Parameter.names`.
+
+    Yields:
+        The name, its element, the parameter and the plugin.
+    """
     from urdfkit.description.plugins import values
 
     for plugin, _, _ in plugins(model.robot):
@@ -98,19 +106,19 @@ def references(model: Model, kinds: tuple[str, ...]) -> Iterator[tuple[str, Elem
 
 
 def is_simulated(model: Model) -> bool:
-    """Whether the robot is meant for a simulator: the target is one, or it brings plugins or sensors for Gazebo."""
+    """Return whether the target is a simulator, or the robot has plugins or sensors for Gazebo."""
     if model.target is not None and model.target not in ("ros1", "ros2", "moveit"):
         return True
     return any(block.plugins or block.sensors for block in model.robot.gazebo)
 
 
 def is_frame(text: str, robot: Robot) -> bool:
-    """Whether a frame is a link of the robot, perhaps with the name space of a robot before it, or none of a robot."""
+    """Return whether a frame is a link of the robot, with or without a namespace, or one of `OUTSIDE_FRAMES`."""
     return text in OUTSIDE_FRAMES or text in robot.link_by_name or text.rpartition("/")[2] in robot.link_by_name
 
 
 def lumped(robot: Robot) -> set[str]:
-    """Return the links that Gazebo makes part of their parents, as fixed joints lead to them that nothing preserves."""
+    """Return the links that Gazebo lumps into their parents: children of fixed joints that are not preserved."""
     kept = set()
     for block in robot.gazebo:
         for child in block.element.children:

@@ -24,7 +24,7 @@ _ROS_2 = {
     "gps": ("~/out",),
     "camera": ("{camera}/image_raw",),
 }
-"""Kind of a plugin → the topics of its node before they are remapped."""
+"""Kind of a ROS 2 plugin → its default topics before remapping."""
 
 _SHARED = frozenset(("range", "hector_sonar", "sonar", "bumper"))
 """Kinds whose messages identify the sensor by frame; several sensors often share a topic."""
@@ -44,13 +44,13 @@ _GZ = {
 
 @record(eq=False)
 class Published:
-    """A topic and what publishes on it.
+    """A topic and its publisher.
 
     Attributes:
-        topic: with its namespace.
-        name: of the sensor or plugin.
-        key: two of the same key are the same sensor twice, which is reported as such.
-        element: what names the topic; the plugin or sensor where nothing does.
+        topic: name of the topic with its namespace.
+        name: name of the sensor or plugin.
+        key: identity of the sensor; duplicates of one sensor have the same key and are reported separately.
+        element: the element that names the topic; the plugin or sensor for a default topic.
     """
 
     topic: str
@@ -60,7 +60,7 @@ class Published:
 
 
 def published(model: Model) -> Iterator[Published]:
-    """Yield the topics of the robot's sensors; those of the new Gazebo where a sensor has no plugin for the classic."""
+    """Yield the topics of the robot's sensors; sensors without a Gazebo classic plugin publish as in the new Gazebo."""
     classic: set[int] = set()
     for plugin, block, sensor in plugins(model.robot):
         spec = spec_of(plugin, model.target)
