@@ -1,6 +1,6 @@
-"""Read robots and worlds, without mathematics.
+"""Read robots and worlds: the parsers, without kinematics or dynamics.
 
-xacro, URDF and SDF go in; links, joints and models with source positions come out.
+Input: xacro, URDF and SDF; output: links, joints and models with source positions.
 """
 
 from __future__ import annotations

@@ -20,7 +20,7 @@ from urdfkit.resources import ModelArgument, find_model
 _HARMLESS = frozenset({"unknown-value", "missing"})
 _NEEDED = {("joint", "type"), ("parent", "link"), ("child", "link"), ("mimic", "joint")}
 _UNREAD = frozenset({"mechanicalReduction"})
-"""Elements whose text neither urdfkit computes with nor urdfdom reads; only the linter checks them."""
+"""Elements whose text neither urdfkit nor urdfdom uses; only the linter checks them."""
 _OTHER_ROOTS = {
     "sdf": "an SDF file",
     "gazebo": "an SDF file",
@@ -169,13 +169,13 @@ def check_is_robot(root: Element) -> None:
 
 
 def check(robot: Robot) -> None:
-    """Raise the most important reason why a robot is not one tree that can be computed with.
+    """Raise the most important error of a robot that is not a single valid tree.
 
     Args:
-        robot: as `parse` read it.
+        robot: the robot returned by `parse`.
 
     Raises:
-        ModelError: the reason, with its place.
+        ModelError: the error, with its source position.
     """
     for found in _reasons(robot):
         raise found
@@ -219,7 +219,7 @@ def _unusable_values(robot: Robot) -> Iterator[ModelError]:
 
 
 def _is_needed(problem: Problem) -> bool:
-    """Whether no sensible default exists for the missing value (urdfdom refuses these problems too)."""
+    """Return whether a missing value has no valid default (urdfdom rejects these problems too)."""
     tag = problem.element.tag
     if problem.kind == "unknown-value":
         return tag == "joint"

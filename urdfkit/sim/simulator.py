@@ -59,7 +59,7 @@ class Simulator:
         fixed_base: fix the root link to the world. A root link named ``world`` is always fixed.
         sleep: let bodies at rest sleep until a contact or a command wakes them.
         ros_distro: the ROS distribution that plugins behave like, such as ``kinetic``; the newest when None.
-        controllers: parameter files of controllers, replacing those that the robot's packages load.
+        controllers: parameter files of controllers, replacing the files that the robot's packages load.
         package_path: folders to search for packages, when `robot` is a file or a name.
         renderer: camera renderer: ``ray`` casts rays, ``gl`` uses OpenGL, ``auto`` prefers OpenGL if it is available.
         scene: the robot's shapes, if they have been loaded already.

@@ -1,6 +1,6 @@
 """Configuration of controllers: YAML parameters, the launch files that load them, and the search for both.
 
-A robot and its packages go in; settings with their source positions come out.
+Input: a robot and its packages; output: settings with their source positions.
 """
 
 from __future__ import annotations

@@ -25,12 +25,12 @@ class Settings:
     """A parameter, or a group of them.
 
     Attributes:
-        name: the last part of its name.
-        position: position of its value.
-        value: its text; None for a list or a group.
-        items: the entries of a list; None for other parameters.
-        children: name → parameter, of a group.
-        key: position of its name.
+        name: last part of the parameter's name.
+        position: source position of the value.
+        value: text of the value; None for a list or a group.
+        items: entries of a list; None for other parameters.
+        children: name → parameter in a group.
+        key: source position of the name.
     """
 
     name: str
@@ -42,7 +42,7 @@ class Settings:
 
     @property
     def place(self) -> Position:
-        """Position of its name, or of its value if it has no name."""
+        """Source position of the name, or of the value if the parameter has no name."""
         return self.key or self.position
 
     def find(self, path: str) -> Settings | None:
@@ -61,7 +61,7 @@ class Settings:
         """Return a parameter's text.
 
         Raises:
-            DescriptionError: it is a list or group, or is missing without a default.
+            DescriptionError: the parameter is a list or group, or is missing without a default.
         """
         found = self._scalar(path)
         if found is None or found.value is None:
@@ -74,12 +74,12 @@ class Settings:
         """Return a parameter as a number.
 
         Args:
-            path: its name.
-            default: used if it is missing; None for a required parameter.
+            path: path of the parameter, such as ``pid/p``.
+            default: value of a missing parameter; None for a required parameter.
             unset: treat ``nan`` as missing (ROS 2).
 
         Raises:
-            DescriptionError: it is not a finite number, or is missing without a default.
+            DescriptionError: the parameter is not a finite number, or is missing without a default.
         """
         found = self._scalar(path)
         if found is None or (unset and default is not None and (found.value or "").lower().strip(".") == "nan"):
@@ -92,7 +92,7 @@ class Settings:
         """Return a list of numbers.
 
         Raises:
-            DescriptionError: it is not a list of numbers.
+            DescriptionError: the parameter is not a list of numbers.
         """
         found = self.find(path)
         if found is None:
@@ -105,7 +105,7 @@ class Settings:
         """Return a parameter as true or false.
 
         Raises:
-            DescriptionError: it is neither.
+            DescriptionError: the parameter is neither.
         """
         found = self._scalar(path)
         if found is None or found.value is None:
@@ -118,7 +118,7 @@ class Settings:
         """Return the entries of a list of texts; a single text is a list of one, a missing parameter an empty list.
 
         Raises:
-            DescriptionError: it is a group, or an entry is.
+            DescriptionError: the parameter or an entry of it is a group.
         """
         found = self.find(path)
         if found is None or (found.value is None and found.items is None and not found.children):
@@ -130,7 +130,7 @@ class Settings:
         return entries
 
     def merged(self, other: Settings) -> Settings:
-        """Return these parameters overridden by others, as ``rosparam load`` does."""
+        """Return these parameters overridden by `other`, as ``rosparam load`` does."""
         if not self.children or not other.children:
             return other
         children = dict(self.children)
@@ -264,12 +264,14 @@ class _YamlReader:
 
 
 def node_settings(root: Settings, namespace: str, node: str) -> Settings:
-    """Return the parameters of a ROS 2 node: those for all nodes, then its own, by name, full name or below namespaces.
+    """Return the parameters of a ROS 2 node: parameters for all nodes, overridden by parameters for this node.
+
+    The file may list the node by name, by full name or below its namespaces.
 
     Args:
-        root: a parameter file.
-        namespace: the node's, absolute.
-        node: its name.
+        root: the parameters of a file.
+        namespace: absolute namespace of the node.
+        node: name of the node.
     """
     full = "/" + "/".join(part for part in f"{namespace}/{node}".split("/") if part)
     found = Settings(node, root.position)

@@ -52,7 +52,7 @@ class Configuration:
 
 
 def find_configuration(robot: Robot, namespace: str, named: tuple[Path, ...] = ()) -> Configuration | None:
-    """Return the controller configuration of a namespace; None if there is none.
+    """Return the controller configuration of a namespace; None if it was not found.
 
     Args:
         robot: the robot.
@@ -76,7 +76,7 @@ def find_configuration(robot: Robot, namespace: str, named: tuple[Path, ...] = (
     packages = robot.packages or Packages(near=folders[0] if folders else None)
     launched = [launch for folder in near for launch in _launches(folder, packages, namespace)]
     for folder in others:
-        with suppress(UrdfkitError):  # broken files of other robots do not matter
+        with suppress(UrdfkitError):  # ignore broken files of other robots
             launched += _launches(folder, packages, namespace)
     starting = [launch for launch in launched if _spawned(launch, namespace)]
     for launch in starting or launched:

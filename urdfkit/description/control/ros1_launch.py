@@ -23,9 +23,9 @@ class Launch:
 
     Attributes:
         path: the file.
-        files: the parameter files it loads.
-        settings: all parameters it loads, in their namespaces; None if it loads none.
-        spawned: full name of every controller that it starts, in order.
+        files: the loaded parameter files.
+        settings: all loaded parameters, in their namespaces; None if the file loads none.
+        spawned: full names of the spawned controllers, in order.
     """
 
     path: Path

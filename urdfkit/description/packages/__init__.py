@@ -1,4 +1,4 @@
 """Find packages and files: ``package://``, ``model://``, ``$(find ...)`` and relative paths, with or without ROS.
 
-A URI and the file it is written in go in; a path comes out.
+Input: a URI and the file that contains it; output: a path.
 """

@@ -18,12 +18,12 @@ class Packages:
 
     The order is: `search`, the package around `near`, its workspace, ``ROS_PACKAGE_PATH``, ``AMENT_PREFIX_PATH``,
     ``CMAKE_PREFIX_PATH``, the model paths of Gazebo, the bundled robots, and last a folder of that name around `near`
-    although it has no package.xml.
+    without a package.xml.
 
     Args:
         search: folders to search first: packages, folders of packages, or install prefixes.
         near: a file or folder of the workspace to search.
-        environment: the variables to use; those of the process when None.
+        environment: environment variables; the environment of the process when None.
     """
 
     def __init__(
@@ -40,10 +40,10 @@ class Packages:
         self._seen: dict[str, Path] = {}
         self._scanned: dict[Path, dict[str, Path]] = {}
         self.answers: dict[tuple[str, ...], str] = {}
-        """Question → answer of each query so far; a cached result is valid as long as `answer` returns the same."""
+        """Query → its result, for each query so far; a cached result is valid as long as `answer` returns the same."""
 
     def answer(self, question: tuple[str, ...]) -> str:
-        """Return the current answer to a question of `answers`: a path, or the error message after ``!``."""
+        """Return the current result of a query in `answers`: a path, or the error message after ``!``."""
         kind, *words = question
         try:
             if kind == "find":
@@ -63,13 +63,13 @@ class Packages:
         return other
 
     def find(self, name: str) -> Path:
-        """Return the folder of a package: where its package.xml is, or its share folder when installed.
+        """Return the folder of a package: the folder of its package.xml, or its share folder when installed.
 
         Args:
-            name: as in ``$(find name)``.
+            name: name of the package, as in ``$(find name)``.
 
         Raises:
-            ResourceError: unknown package; names the searched places and the nearest name.
+            ResourceError: unknown package; lists the searched folders and the most similar name.
         """
         if name not in self._found:
             found = self._look_up(name) if _is_plain(name) else None
@@ -83,14 +83,14 @@ class Packages:
         return self._found[name]
 
     def resolve(self, uri: str, relative_to: str | Path) -> Path:
-        """Return the file that a mesh or texture URI means.
+        """Return the file of a mesh or texture URI.
 
         Args:
             uri: ``package://name/path``, ``model://name/path``, ``file:///path``, or a path.
             relative_to: the description file (or its folder) that a relative path starts from.
 
         Raises:
-            ResourceError: there is no such package or file; names the nearest file.
+            ResourceError: the package or file does not exist; names the most similar file.
         """
         question = ("resolve", uri, str(relative_to))
         try:
@@ -128,7 +128,7 @@ class Packages:
             path: a path that does not exist.
 
         Returns:
-            A path that does, or None.
+            The existing path, or None.
         """
         moved = self._relocated(path)
         self.answers[("relocate", str(path))] = str(moved or "")

@@ -1,6 +1,7 @@
 """PluginSpec tables: the names and parameters of each Gazebo plugin. Pure data for linter, simulator and docs.
 
-``match(plugin)`` finds the table, ``read(plugin, spec)`` gives meaning → text (``read_all`` for repeated parameters).
+``match(plugin)`` finds the table; ``read(plugin, spec)`` returns meaning → text, ``read_all`` all texts of repeated
+parameters.
 """
 
 from urdfkit.description.plugins.drives.diff_drive import DIFF_DRIVE

@@ -21,7 +21,7 @@ GZ_LIMITS = (
     Parameter("min_jerk", "min_jerk", unit="[m/s³, rad/s³]"),
     Parameter("max_jerk", "max_jerk", unit="[m/s³, rad/s³]"),
 )
-"""Limits of the linear and of the angular velocity alike."""
+"""Limits that apply to both the linear and the angular velocity."""
 
 GZ_SEPARATE_LIMITS = (
     Parameter("min_linear_velocity", "min_linear_velocity", unit="[m/s]"),
@@ -37,7 +37,7 @@ GZ_SEPARATE_LIMITS = (
     Parameter("min_angular_jerk", "min_angular_jerk", unit="[rad/s³]"),
     Parameter("max_angular_jerk", "max_angular_jerk", unit="[rad/s³]"),
 )
-"""Limits of one of the two; they come before the common ones."""
+"""Limits of either the linear or the angular velocity; they override the common limits."""
 
 GZ_ODOMETRY = (
     Parameter("command_topic", "topic", "/model/{model}/cmd_vel", names="topic"),
@@ -47,4 +47,4 @@ GZ_ODOMETRY = (
     Parameter("base_frame", "child_frame_id", "{model}/{root}", names="frame"),
     Parameter("odometry_rate", "odom_publish_frequency", "50", "[Hz]"),
 )
-"""Topics, frames and rate of the drives with odometry of their own."""
+"""Topics, frames and rate of the drives that publish odometry."""

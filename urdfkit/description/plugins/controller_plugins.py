@@ -113,7 +113,7 @@ GAZEBO_ROS_CONTROL = PluginSpec(
     ),
     source="gazebo_ros_pkgs noetic-devel, gazebo_ros_control/src/gazebo_ros_control_plugin.cpp (legacyModeNS: kinetic)",
 )
-"""The controllers are those of the parameter server; the joints those of ``<transmission>``."""
+"""Uses the controllers on the parameter server and the joints of each ``<transmission>``."""
 
 GAZEBO_ROS2_CONTROL = PluginSpec(
     kind="ros2_control",
@@ -157,4 +157,4 @@ CONTROL = (
     GAZEBO_ROS2_CONTROL,
     GZ_ROS2_CONTROL,
 )
-"""Every joint state publisher, joint controller and controller manager."""
+"""All joint state publishers, joint controllers and controller managers."""

@@ -1,4 +1,4 @@
-"""Gazebo classic's materials: their names and colours.
+"""Names and colours of the materials of Gazebo classic.
 
 Source: gazebo-classic, media/materials/scripts/gazebo.material and grid.material.
 """
@@ -62,25 +62,25 @@ GAZEBO: dict[str, Rgba] = {
     "YellowTransparent": (1.0, 1.0, 0.0, 0.5),
     "ZincYellow": (0.9725, 0.9529, 0.2078, 1.0),
 }
-"""Name without its prefix ``Gazebo/`` → the diffuse colour, or one like the texture where the material is a picture."""
+"""Name without its prefix ``Gazebo/`` → diffuse colour; for textured materials, a colour similar to the texture."""
 
 PLAIN = (
     *("BlueTransparentOverlay", "CloudySky", "Footway", "GreenTransparentOverlay", "Grid", "GreyGradientSky"),
     *("Lane_1", "Lanes_2", "Lanes_4", "Lanes_6", "Motorway", "Pedestrian", "PointCloud", "Primary"),
     *("RedTransparentOverlay", "Secondary", "Steps", "Tertiary", "Trunk", "TurquoiseGlowOutline", "WindowFrame"),
 )
-"""Gazebo's other materials; they get the colour of shapes without a material."""
+"""Other materials of Gazebo, drawn in the default colour of shapes without a material."""
 
 
 def script_of(material: Element) -> tuple[Element, str]:
-    """Return where a ``<material>`` names its script, and the name: in ``<script><name>``, its text or its value."""
+    """Return the element naming the script of a ``<material>``, and the name: ``<script><name>``, text or value."""
     script = material.find("script")
     place = (script.find("name") if script is not None else None) or material
     return place, (place.text or place.get("value") or "").strip()
 
 
 def unknown_materials(robot: Robot) -> Iterator[tuple[Element, str, str | None]]:
-    """Yield where a ``<gazebo>`` block names an unknown material ``Gazebo/…``, the name, and the nearest."""
+    """Yield element, name and most similar name of each unknown material ``Gazebo/…`` in the ``<gazebo>`` blocks."""
     for block in robot.gazebo:
         for parent in (block.element, *block.element.find_all("visual")):
             for material in parent.find_all("material"):
@@ -89,7 +89,7 @@ def unknown_materials(robot: Robot) -> Iterator[tuple[Element, str, str | None]]
 
 
 def unknown_material(material: Element) -> tuple[Element, str, str | None] | None:
-    """Return where a ``<material>`` names an unknown ``Gazebo/…``, the name, and the nearest; else None."""
+    """Return element, name and most similar name if a ``<material>`` names an unknown ``Gazebo/…``; else None."""
     names = (*GAZEBO, *PLAIN)
     place, name = script_of(material)
     short = name.removeprefix("Gazebo/")

@@ -13,7 +13,7 @@ from urdfkit.description.urdf.robot import Plugin
 from urdfkit.description.xml.element import Element
 
 ALL_SPECS: tuple[PluginSpec, ...] = (*DRIVES, *CONTROL, *SENSORS)
-"""Every plugin with a table."""
+"""The tables of all plugins."""
 
 _VERSIONED = re.compile(r"^(gz-sim|ignition-gazebo)\d+-(.+-system)$")
 
@@ -30,10 +30,10 @@ def stem(filename: str) -> str:
 def match(plugin: Plugin) -> PluginSpec | None:
     """Return the table of a plugin, by file name; None for an unknown plugin.
 
-    ROS 1 and ROS 2 plugins of Gazebo Classic share file names and differ in spelling: a ``<ros>`` block means ROS 2,
-    else the table with more of the written parameters is used, else more snake_case than camelCase means ROS 2. In the
-    new Gazebo one library may hold several classes, so the plugin's ``name`` decides for a known class and
-    the file name otherwise.
+    ROS 1 and ROS 2 plugins of Gazebo Classic share file names and differ in spelling. A ``<ros>`` block means ROS 2;
+    without one, the table that contains more of the written parameters is used; in a tie, more snake_case than
+    camelCase means ROS 2. In the new Gazebo, a library may contain several classes, so a known class in the plugin's
+    ``name`` has precedence over the file name.
     """
     if plugin.filename is None:
         return None
@@ -60,7 +60,7 @@ def _is_ros2(plugin: Element) -> bool:
 
 
 def values(plugin: Plugin, parameter: Parameter) -> Iterator[tuple[str, Element]]:
-    """Yield the values written for a parameter, each with its element; one by one where a separator joins them."""
+    """Yield the values of a parameter, each with its element; values joined by the separator are yielded separately."""
     for child in plugin.element.children:
         if child.tag == parameter.tag:
             words = child.text.split(parameter.separator) if parameter.separator else [child.text]
@@ -71,13 +71,13 @@ def values(plugin: Plugin, parameter: Parameter) -> Iterator[tuple[str, Element]
 
 
 def read(plugin: Plugin, spec: PluginSpec) -> dict[str, str]:
-    """Return meaning → text: the first value written, else the default; left out where there is neither."""
+    """Return meaning → text: the first value, or the default; parameters without either are omitted."""
     found = read_all(plugin, spec)
     return {meaning: texts[0] for meaning, texts in found.items() if texts}
 
 
 def read_all(plugin: Plugin, spec: PluginSpec) -> dict[str, tuple[str, ...]]:
-    """Return meaning → every text written, else the default; an empty tuple where there is neither."""
+    """Return meaning → all values, or the default; an empty tuple for parameters without either."""
     found: dict[str, tuple[str, ...]] = {}
     for parameter in spec.parameters:
         texts = tuple(text for text, _ in values(plugin, parameter) if text)

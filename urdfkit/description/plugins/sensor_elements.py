@@ -18,12 +18,12 @@ if TYPE_CHECKING:
 
 @record
 class UnknownSensorElement:
-    """Element that is not read at its place.
+    """Element that sdformat does not read in its parent.
 
     Attributes:
         element: the element.
-        inside: the tag of its parent.
-        meant: the nearest element that is read there; None if none is similar.
+        inside: tag of the parent.
+        meant: the most similar element allowed in the parent; None if none is similar.
     """
 
     element: Element

@@ -29,7 +29,7 @@ NUMBERS = frozenset(
 """Elements of a ``<sensor>`` outside plugins that hold a number (sdformat: sensor.sdf, noise.sdf …)."""
 
 _MAX_ANGLE = 6.3
-"""A little more than a full turn [rad]: 6.2832 is written often."""
+"""Slightly more than a full turn [rad], because descriptions often contain the rounded value 6.2832."""
 
 WIDE = ("wideanglecamera", "wide_angle_camera")
 """Types of cameras with a field of view of up to a full turn (sdformat, camera.sdf: ``horizontal_fov`` to 6.283186)."""
@@ -88,7 +88,7 @@ def senseless_camera(camera: Element, *, is_wide: bool = False) -> Senseless:
 
     Args:
         camera: the element.
-        is_wide: whether its sensor is of one of the `WIDE` types, which see up to a full turn.
+        is_wide: whether its sensor is of one of the `WIDE` types, with a field of view of up to a full turn.
     """
     angle = _number(camera, "horizontal_fov", 1.047)
     if not (0.0 < angle < pi or isnan(angle) or (is_wide and 0.0 < angle < _MAX_ANGLE)):

@@ -1,4 +1,4 @@
-"""PluginSpec: the one table of a plugin's names and XML parameters."""
+"""PluginSpec: table of the names and XML parameters of a plugin."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 @record
 class Parameter:
-    """One XML child a plugin reads.
+    """One XML child that a plugin reads.
 
     Attributes:
         meaning: its name in the simulator, the same across generations, e.g. ``wheel_separation``.
@@ -25,7 +25,7 @@ class Parameter:
         unit: SI unit in brackets, or empty.
         names: the kind of entity the value names; empty if it is not a name.
         repeats: may be given more than once.
-        separator: splits one value into several, e.g. ``,``; empty where the text is one value.
+        separator: separator of several values in one text, e.g. ``,``; empty if the text is one value.
     """
 
     meaning: str
@@ -42,12 +42,12 @@ class PluginSpec:
     """One plugin in one generation.
 
     Attributes:
-        kind: its kind in the simulator, e.g. ``diff_drive``.
-        generation: the generation of Gazebo and ROS.
-        filenames: stems of its libraries (without directory, ``lib`` and ``.so``).
-        class_names: C++ classes its ``name`` may be (new Gazebo only).
-        parameters: every XML child it reads.
-        source: the source file this table was read from.
+        kind: kind of the plugin in the simulator, e.g. ``diff_drive``.
+        generation: generation of Gazebo and ROS.
+        filenames: stems of the plugin's libraries (without directory, ``lib`` and ``.so``).
+        class_names: C++ classes that its ``name`` may contain (new Gazebo only).
+        parameters: all XML children that the plugin reads.
+        source: source file of the plugin that defines these parameters.
     """
 
     kind: str
@@ -58,9 +58,9 @@ class PluginSpec:
     source: str
 
     def parameter(self, tag: str) -> Parameter | None:
-        """Return the parameter spelled `tag`."""
+        """Return the parameter with this tag."""
         return next((p for p in self.parameters if p.tag == tag), None)
 
     def by_meaning(self, meaning: str) -> Parameter | None:
-        """Return the parameter that means `meaning`."""
+        """Return the parameter with this meaning."""
         return next((p for p in self.parameters if p.meaning == meaning), None)

@@ -1,4 +1,4 @@
-"""Messages about plugins that are not simulated: the position, and the nearest simulated plugin."""
+"""Messages about plugins that are not simulated, with position and most similar simulated plugin."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from urdfkit.description.plugins.lookup import ALL_SPECS, stem
 from urdfkit.description.urdf.robot import Plugin
 
 _GAZEBO = re.compile(r"^(gazebo_ros_|gazebo_|gz-sim-|ignition-gazebo-|gz_|hector_gazebo_)")
-"""How names of Gazebo's own plugins begin."""
+"""Prefixes of Gazebo plugin libraries."""
 _END = re.compile(r"(-system|_plugin)$")
 
 
@@ -19,9 +19,9 @@ def unknown(plugin: Plugin, sensor: str | None = None, others: Iterable[str] = (
     """Return the message about a plugin that is not simulated.
 
     Args:
-        plugin: as written.
-        sensor: name of the ``<sensor>`` it stands in, if it does.
-        others: bare file names that are supported besides those of the tables.
+        plugin: the plugin.
+        sensor: name of the ``<sensor>`` that contains the plugin; None for other plugins.
+        others: stems of supported libraries that are not in the tables.
     """
     place = plugin.element.origin.position
     left_out = "" if sensor is None else f"; sensor `{sensor or 'sensor'}` is left out"
@@ -38,11 +38,11 @@ def unknown(plugin: Plugin, sensor: str | None = None, others: Iterable[str] = (
 
 
 def nearest(name: str, others: Iterable[str] = ()) -> str:
-    """Return the known bare file name that is nearest to one; empty where none is near.
+    """Return the library stem most similar to a name; empty if none is similar.
 
     Args:
-        name: without directory, ``lib`` and ``.so``.
-        others: names that are supported besides those of the tables.
+        name: name of a library without directory, ``lib`` and ``.so``.
+        others: stems of supported libraries that are not in the tables.
     """
     candidates = [other for spec in ALL_SPECS for other in spec.filenames] + list(others)
     # Parts common to most names do not make names similar.

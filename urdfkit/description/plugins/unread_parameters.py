@@ -23,7 +23,7 @@ READ_TOO = {
 """Stem of a library → parameters it reads that are not in the tables, because they are not simulated."""
 
 HARMLESS = frozenset(("alwaysOn", "always_on", "ros", "plugin", "xacro", "robotParam", "rosDebugLevel"))
-"""Parameters that are common in plugins and read by none, or by all."""
+"""Common parameters that are never reported: no plugin reads them, or every plugin does."""
 
 _EQUIVALENT = {("diff_drive", "ros1", "torque"): "wheelTorque", ("diff_drive", "ros1", "broadcastTF"): "publishOdomTF"}
 """Parameter of another plugin → its equivalent here."""
@@ -38,13 +38,13 @@ _PROMISED = {
 
 @record
 class Unread:
-    """A parameter that its plugin does not read, in no generation.
+    """A parameter that its plugin does not read in any generation.
 
     Attributes:
         element: the parameter.
         message: the defect, without the position.
-        meant: the nearest parameter that is read and not written; None if none is similar.
-        promised: whether examples of the plugin show it.
+        meant: the most similar parameter that the plugin reads and the description lacks; None if none is similar.
+        promised: whether the plugin's documentation shows the parameter, although the plugin does not read it.
     """
 
     element: Element
@@ -67,8 +67,8 @@ def unread(plugin: Plugin, spec: PluginSpec) -> Iterator[Unread]:
     """Yield the parameters of a plugin that no generation of it reads.
 
     Args:
-        plugin: as written.
-        spec: the table it is read by.
+        plugin: the plugin.
+        spec: the table of the plugin.
     """
     every = {parameter.tag for other in (spec, *tables(plugin)) for parameter in other.parameters}
     also = READ_TOO.get(stem(plugin.filename or ""), ())

@@ -1,4 +1,4 @@
-"""The description under lint: the robot, every file it was read from, and the tags exactly as they are written.
+"""The linted description: the robot, every file it was read from, and the source tags.
 
-Rules and edits read it; nothing here reports a finding.
+Rules and edits read the model; this package reports no findings.
 """

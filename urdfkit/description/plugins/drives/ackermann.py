@@ -1,4 +1,4 @@
-"""Ackermann steering: gazebo_ros_ackermann_drive (ROS 2) and the new Gazebo's AckermannSteering. ROS 1 had none."""
+"""Ackermann steering: gazebo_ros_ackermann_drive (ROS 2) and the new Gazebo's AckermannSteering. Not in ROS 1."""
 
 from __future__ import annotations
 
@@ -42,9 +42,9 @@ ACKERMANN_ROS_2 = PluginSpec(
     ),
     source="gazebo_ros_pkgs ros2, gazebo_plugins/src/gazebo_ros_ackermann_drive.cpp",
 )
-"""Gains are proportional, integral and derivative; ranges the least and the most the integral may exert.
+"""Gains are proportional, integral and derivative; ranges are the minimum and maximum of the integral term.
 
-The steering wheel's joint is called ``steering_wheel_joint`` where nothing is written, and may be missing.
+The default name of the steering wheel's joint is ``steering_wheel_joint``; the joint is optional.
 ``publish_steerangle`` publishes the mean of both steered wheels' angles on ``steerangle``.
 """
 
@@ -81,8 +81,8 @@ ACKERMANN_GZ = PluginSpec(
     ),
     source="gz-sim main, src/systems/ackermann_steering/AckermannSteering.cc",
 )
-"""The topic is ``/model/MODEL/cmd_vel`` where neither ``topic`` nor ``sub_topic`` is written; ``…/steer_angle`` for
+"""The default topic, without ``topic`` and ``sub_topic``, is ``/model/MODEL/cmd_vel``; ``…/steer_angle`` with
 ``steering_only``."""
 
 ACKERMANN = (ACKERMANN_ROS_2, ACKERMANN_GZ)
-"""Ackermann steering in its two spellings."""
+"""The specifications of Ackermann steering in both generations."""

@@ -1,4 +1,4 @@
-"""The differential drive in three spellings."""
+"""Differential drive: ROS 1, ROS 2 and the new Gazebo."""
 
 from __future__ import annotations
 
@@ -86,7 +86,7 @@ DIFF_DRIVE_GZ = PluginSpec(
     ),
     source="gz-sim main, src/systems/diff_drive/DiffDrive.cc",
 )
-"""The generic limits set the linear and the angular one. A rate of zero or less publishes odometry every step."""
+"""Generic limits apply to linear and angular velocity. A rate of zero or less publishes odometry every step."""
 
 DIFF_DRIVE = (DIFF_DRIVE_ROS_1, DIFF_DRIVE_ROS_2, DIFF_DRIVE_GZ)
-"""The differential drive in its three spellings."""
+"""The specifications of the differential drive in all generations."""

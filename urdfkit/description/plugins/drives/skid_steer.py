@@ -31,4 +31,4 @@ SKID_STEER_ROS_1 = PluginSpec(
     ),
     source="gazebo_ros_pkgs noetic-devel, gazebo_plugins/src/gazebo_ros_skid_steer_drive.cpp",
 )
-"""ROS 2 and the new Gazebo steer by skidding with the diff drive and several wheel pairs."""
+"""In ROS 2 and the new Gazebo, skid steering uses the differential drive with several wheel pairs."""

@@ -21,4 +21,4 @@ DRIVES = (
     MECANUM_DRIVE_GZ,
     ODOMETRY_PUBLISHER_GZ,
 )
-"""Every drive."""
+"""All drives."""

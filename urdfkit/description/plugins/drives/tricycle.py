@@ -36,7 +36,7 @@ TRICYCLE_ROS_1 = PluginSpec(
     ),
     source="gazebo_ros_pkgs noetic-devel, gazebo_plugins/src/gazebo_ros_tricycle_drive.cpp",
 )
-"""Odometry and its transform are always published. The deceleration is the acceleration where it is left out."""
+"""Odometry and its transform are always published. The default deceleration is the acceleration."""
 
 TRICYCLE_ROS_2 = PluginSpec(
     kind="tricycle",
@@ -71,4 +71,4 @@ TRICYCLE_ROS_2 = PluginSpec(
 """`publish_odom` turns on the odometry message and its transform."""
 
 TRICYCLE = (TRICYCLE_ROS_1, TRICYCLE_ROS_2)
-"""The tricycle drive in its two spellings."""
+"""The specifications of the tricycle drive in both generations."""

@@ -1,7 +1,6 @@
 """Cameras: the plugins of Gazebo Classic's camera and depth sensors, and the cameras of the new Gazebo.
 
-Placeholders in defaults are replaced per model: ``{world}``, ``{model}``, ``{link}`` and ``{sensor}`` are
-names.
+Placeholders in defaults are replaced per model: ``{world}``, ``{model}``, ``{link}`` and ``{sensor}`` are names.
 """
 
 from __future__ import annotations
@@ -41,7 +40,7 @@ CAMERA_ROS_1 = PluginSpec(
     ),
     source="gazebo_ros_pkgs noetic-devel, gazebo_plugins/src/gazebo_ros_camera_utils.cpp",
 )
-"""Topics go below ``robotNamespace`` and ``cameraName``."""
+"""Topics are relative to ``robotNamespace`` and ``cameraName``."""
 
 MULTICAMERA_ROS_1 = PluginSpec(
     kind="multicamera",
@@ -51,7 +50,7 @@ MULTICAMERA_ROS_1 = PluginSpec(
     parameters=CAMERA_ROS_1.parameters,
     source="gazebo_ros_pkgs noetic-devel, gazebo_plugins/src/gazebo_ros_multicamera.cpp",
 )
-"""As `CAMERA_ROS_1`, with ``/left`` and ``/right`` after ``cameraName``; the baseline counts for the right one."""
+"""Like `CAMERA_ROS_1`, with ``/left`` and ``/right`` after ``cameraName``; the baseline applies to the right camera."""
 
 _DEPTH_ROS_1 = (
     Parameter("depth_topic", "depthImageTopicName", "depth/image_raw", names="topic"),
@@ -134,4 +133,4 @@ SEGMENTATION_CAMERA_GZ = _gz("gz_segmentation_camera", "/segmentation")
 BOUNDING_BOX_CAMERA_GZ = _gz("gz_bounding_box_camera", "/boundingbox")
 
 CAMERAS = (CAMERA_ROS_1, MULTICAMERA_ROS_1, OPENNI_KINECT_ROS_1, DEPTH_CAMERA_ROS_1, CAMERA_ROS_2)
-"""Every camera plugin."""
+"""All camera plugins."""

@@ -1,4 +1,4 @@
-"""Sensors of touch and load: bumpers, contact sensors and the force and torque at a joint."""
+"""Contact and force sensors: bumpers, contact sensors, touch sensors and force/torque sensors of joints."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ BUMPER_ROS_1 = PluginSpec(
     ),
     source="gazebo_ros_pkgs noetic-devel, gazebo_plugins/src/gazebo_ros_bumper.cpp",
 )
-"""All values are in the world's axes, whatever ``frameName`` is."""
+"""All values are in world axes, independent of ``frameName``."""
 
 BUMPER_ROS_2 = PluginSpec(
     kind="bumper",
@@ -39,7 +39,7 @@ CONTACT_GZ = PluginSpec(
     ),
     source="gz-sim main, src/systems/contact/Contact.cc",
 )
-"""Read from the ``<sensor>`` itself; a ``<topic>`` inside its ``<contact>`` counts more."""
+"""Read from the ``<sensor>`` itself; a ``<topic>`` inside its ``<contact>`` has precedence."""
 
 FORCE_TORQUE_ROS_1 = PluginSpec(
     kind="force_torque",
@@ -71,7 +71,7 @@ FORCE_TORQUE_ROS_2 = PluginSpec(
     ),
     source="gazebo_ros_pkgs ros2, gazebo_plugins/src/gazebo_ros_ft_sensor.cpp",
 )
-"""Publishes on ``wrench``, changed by ``<ros><remapping>`` only; with ``body_name`` the wrench on that link."""
+"""Publishes on ``wrench``, changed by ``<ros><remapping>`` only; ``body_name`` selects the wrench on that link."""
 
 FORCE_TORQUE_GZ = PluginSpec(
     kind="gz_force_torque",
@@ -106,4 +106,4 @@ TOUCH_GZ = PluginSpec(
 """A plugin of the model; it uses the model's contact sensors."""
 
 TOUCH = (BUMPER_ROS_1, BUMPER_ROS_2, FORCE_TORQUE_ROS_1, FORCE_TORQUE_ROS_2, TOUCH_GZ)
-"""Every plugin that senses touch or load."""
+"""All contact and force plugins."""

@@ -73,7 +73,7 @@ HECTOR_GPS = PluginSpec(
     ),
     source=f"{_REPOSITORY}/gazebo_ros_gps.cpp",
 )
-"""Missing reference values come from the world's ``<spherical_coordinates>``."""
+"""The defaults of the reference values are the world's ``<spherical_coordinates>``."""
 
 HECTOR_MAGNETIC = PluginSpec(
     kind="hector_magnetic",
@@ -107,7 +107,7 @@ HECTOR_SONAR = PluginSpec(
     ),
     source=f"{_REPOSITORY}/gazebo_ros_sonar.cpp",
 )
-"""Stands in a ray sensor."""
+"""A plugin of a ray sensor."""
 
 HECTOR_BARO = PluginSpec(
     kind="hector_baro",
@@ -126,4 +126,4 @@ HECTOR_BARO = PluginSpec(
 )
 
 HECTOR = (HECTOR_IMU, HECTOR_GPS, HECTOR_MAGNETIC, HECTOR_SONAR, HECTOR_BARO)
-"""Every sensor of hector's."""
+"""All Hector sensors."""

@@ -1,4 +1,4 @@
-"""Sensors of motion and place: inertial measurement units, true poses (p3d) and GPS."""
+"""Motion and position sensors: IMU, ground-truth pose (p3d), GPS and other sensors of the new Gazebo."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ IMU_SENSOR_ROS_1 = PluginSpec(
     ),
     source="gazebo_ros_pkgs noetic-devel, gazebo_plugins/src/gazebo_ros_imu_sensor.cpp",
 )
-"""Without ``robotNamespace`` topics go below the model's name."""
+"""Without ``robotNamespace``, topics are relative to the model's name."""
 
 IMU_SENSOR_ROS_2 = PluginSpec(
     kind="imu_sensor",
@@ -37,7 +37,7 @@ IMU_SENSOR_ROS_2 = PluginSpec(
     ),
     source="gazebo_ros_pkgs ros2, gazebo_plugins/src/gazebo_ros_imu_sensor.cpp",
 )
-"""Publishes on ``~/out``; noise and covariances are the ``<sensor>``'s."""
+"""Publishes on ``~/out``; noise and covariances are defined in the ``<sensor>``."""
 
 IMU_BODY_ROS_1 = PluginSpec(
     kind="imu",
@@ -57,7 +57,7 @@ IMU_BODY_ROS_1 = PluginSpec(
     ),
     source="gazebo_ros_pkgs noetic-devel, gazebo_plugins/src/gazebo_ros_imu.cpp",
 )
-"""A plugin of the model, not of a sensor; its accelerations are without gravity."""
+"""A plugin of the model, not of a sensor; its accelerations exclude gravity."""
 
 IMU_GZ = PluginSpec(
     kind="gz_imu",
@@ -72,7 +72,7 @@ IMU_GZ = PluginSpec(
     ),
     source="gz-sensors main, src/ImuSensor.cc",
 )
-"""Read from the ``<sensor>`` itself. The orientation is relative to where the sensor starts."""
+"""Read from the ``<sensor>`` itself. The orientation is relative to the initial orientation of the sensor."""
 
 P3D_ROS_1 = PluginSpec(
     kind="p3d",
@@ -122,7 +122,7 @@ GPS_ROS_2 = PluginSpec(
 
 
 def _bare(kind: str, topic: str, source: str) -> PluginSpec:
-    """Return the table of a sensor of the new Gazebo, which publishes by itself: read from the ``<sensor>``."""
+    """Return the table of a sensor of the new Gazebo, which needs no plugin and is configured in the ``<sensor>``."""
     scoped = "/world/{world}/model/{model}/link/{link}/sensor/{sensor}/"
     return PluginSpec(
         kind=kind,
@@ -146,4 +146,4 @@ AIR_PRESSURE_GZ = _bare("gz_air_pressure", "air_pressure", "AirPressureSensor.cc
 LOGICAL_CAMERA_GZ = _bare("gz_logical_camera", "logical_camera", "LogicalCameraSensor.cc")
 
 MOTION = (IMU_SENSOR_ROS_1, IMU_SENSOR_ROS_2, IMU_BODY_ROS_1, P3D_ROS_1, P3D_ROS_2, GPS_ROS_2)
-"""Every plugin that senses motion."""
+"""All plugins of motion and position sensors."""

@@ -1,6 +1,6 @@
 """Lidars and rangefinders: the plugins of Gazebo Classic's ray sensors, and the lidars of the new Gazebo.
 
-The scan itself (angles, samples, ranges, noise) is written in the ``<sensor>`` the plugin stands in. Placeholders in
+The scan (angles, samples, ranges, noise) is configured in the ``<sensor>`` that contains the plugin. Placeholders in
 defaults are replaced per model: ``{world}``, ``{model}``, ``{link}`` and ``{sensor}`` are names.
 """
 
@@ -37,7 +37,7 @@ BLOCK_LASER_ROS_1 = PluginSpec(
     ),
     source="gazebo_ros_pkgs noetic-devel, gazebo_plugins/src/gazebo_ros_block_laser.cpp",
 )
-"""``hokuyoMinIntensity`` and ``updateRate`` are read and then left unused by the plugin."""
+"""The plugin reads ``hokuyoMinIntensity`` and ``updateRate`` but does not use them."""
 
 RANGE_ROS_1 = PluginSpec(
     kind="range",
@@ -124,10 +124,10 @@ LIDAR_GZ = PluginSpec(
     ),
     source="gz-sensors main, src/Sensor.cc, src/Lidar.cc and src/GpuLidarSensor.cc",
 )
-"""Read from the ``<sensor>`` itself. The cloud goes to the topic with ``/points`` after it."""
+"""Read from the ``<sensor>`` itself. The point cloud is published on the topic with the suffix ``/points``."""
 
 LIDARS = (LASER_ROS_1, BLOCK_LASER_ROS_1, RANGE_ROS_1, RAY_SENSOR_ROS_2, VELODYNE_ROS_1, VELODYNE_ROS_2)
-"""Every lidar plugin."""
+"""All lidar plugins."""
 
 LIDAR_TYPES = ("ray", "gpu_ray", "lidar", "gpu_lidar")
 """Types of a lidar's ``<sensor>``."""

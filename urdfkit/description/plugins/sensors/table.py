@@ -1,4 +1,4 @@
-"""Sensors: the plugins that stand in a ``<sensor>``, and the sensors that need none, one module per family."""
+"""Sensors: the plugins in a ``<sensor>``, and the sensors that need no plugin, one module per family."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ from urdfkit.description.plugins.sensors.lidar import LIDAR_GZ, LIDAR_TYPES, LID
 from urdfkit.description.plugins.spec import PluginSpec
 
 SENSORS = (*LIDARS, *CAMERAS, *MOTION, *TOUCH, *HECTOR)
-"""Every sensor plugin."""
+"""All sensor plugins."""
 
 BARE: dict[str, PluginSpec] = {
     **dict.fromkeys(LIDAR_TYPES, LIDAR_GZ),
@@ -48,7 +48,7 @@ BARE: dict[str, PluginSpec] = {
     "boundingbox": BOUNDING_BOX_CAMERA_GZ,
     "boundingbox_camera": BOUNDING_BOX_CAMERA_GZ,
 }
-"""Type of a ``<sensor>`` without a plugin → its table: in the new Gazebo sensors publish by themselves."""
+"""Type of a ``<sensor>`` without a plugin → its table; sensors of the new Gazebo need no plugin."""
 
 SENSOR_TYPES = tuple(
     dict.fromkeys(
@@ -61,7 +61,7 @@ SENSOR_TYPES = tuple(
         )
     )
 )
-"""Types of a ``<sensor>`` (sdformat main, src/Sensor.cc), simulated here or not."""
+"""Valid types of a ``<sensor>`` (sdformat main, src/Sensor.cc), including types that urdfkit does not simulate."""
 
 _NEAREST_OF_RAYS = (
     'write type="ray" and a plugin that publishes the nearest range, libgazebo_ros_range.so in ROS 1 or '
@@ -80,4 +80,4 @@ INSTEAD: dict[str, str] = {
     ),
     "laser": 'write type="ray"',
 }
-"""Type of a ``<sensor>`` that is not simulated, or that SDF does not have → what to write instead."""
+"""Type of a ``<sensor>`` that is not simulated or unknown in SDF → suggested replacement."""
