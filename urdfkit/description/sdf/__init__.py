@@ -1,6 +1,6 @@
 """Read and write worlds in SDF.
 
-Files go in; models and lights with resolved poses and source positions come out.
+Input: SDF files; output: models and lights with resolved poses and source positions.
 """
 
 from urdfkit.description.sdf.edit import add_model, move_model, remove_model

@@ -20,7 +20,7 @@ def add_model(world: World, model: WorldModel, *, name: str = "", pose: Pose | N
         pose: its pose in the world; its own pose when None.
 
     Raises:
-        ResourceError: the name exists already; suggests an unused one.
+        ResourceError: the name exists already; suggests an unused name.
     """
     called = name or model.name
     taken = set(_names(world))

@@ -1,4 +1,4 @@
-"""Frames of a world or a model: each is given relative to another (SDF 1.7 and later) and resolved to one pose."""
+"""Frame graph of a world or model: frames are relative to other frames (SDF 1.7 and later) and resolved to poses."""
 
 from __future__ import annotations
 
@@ -31,12 +31,12 @@ class _Frame:
 class Scope:
     """The frames of one model, or of the world.
 
-    A frame may be given in any other of its scope, or in ``nested::frame`` of a model in it
+    A frame may be relative to any other frame of its scope, or to ``nested::frame`` of a nested model
     (http://sdformat.org/tutorials?tut=pose_frame_semantics).
 
     Args:
         root: the frame of the scope itself: ``__model__`` or ``world``.
-        owner: its name in messages.
+        owner: name of the model or world in messages.
     """
 
     def __init__(self, root: str, owner: str) -> None:
@@ -61,13 +61,13 @@ class Scope:
         """Add a frame.
 
         Args:
-            name: its name.
+            name: name of the frame.
             kind: kind of the frame.
-            raw: its pose.
-            default: the frame the pose is relative to by default, and that it is attached to.
-            placement: the frame inside `nested` that the pose is of.
+            raw: pose of the frame.
+            default: the frame that the pose is relative to by default, and that the new frame is attached to.
+            placement: the frame inside `nested` that the pose places.
             nested: the frames of a model.
-            strict: names are unique among all kinds (SDF 1.7), not only among their own.
+            strict: names are unique among all kinds (SDF 1.7), not only among frames of the same kind.
 
         Raises:
             DescriptionError: the name exists already or is reserved.
@@ -91,10 +91,10 @@ class Scope:
         """Add the frames of a model that becomes part of this one (``<include merge="true">``, SDF 1.9).
 
         Args:
-            name: of the model.
-            inner: its frames.
-            raw: its pose.
-            placement: the frame inside it that the pose is of.
+            name: name of the model.
+            inner: frames of the model.
+            raw: pose of the model.
+            placement: the frame inside the model that the pose places.
 
         Raises:
             DescriptionError: a name exists already.
@@ -147,12 +147,12 @@ class Scope:
         return found
 
     def place(self, raw: RawPose, default: str, target: str) -> Pose:
-        """Return a pose as seen from the frame `target`; as written where it is given in just that.
+        """Return a pose relative to the frame `target`; unchanged if it is relative to `target` already.
 
         Args:
             raw: the pose.
-            default: the frame it is relative to by default.
-            target: the frame to express it in.
+            default: the frame that the pose is relative to by default.
+            target: the frame to express the pose in.
 
         Raises:
             DescriptionError: unknown frame.
@@ -163,10 +163,10 @@ class Scope:
         return between(self.pose(target, raw.position), compose(self.pose(base, raw.position), raw.pose))
 
     def link_of(self, name: str, position: Position) -> str:
-        """Return the link that a frame is fixed to, ``nested::link`` for one inside a model; the world for itself.
+        """Return the link that a frame is attached to, ``nested::link`` in a nested model; ``world`` for the world.
 
         Raises:
-            DescriptionError: unknown frame, or no link.
+            DescriptionError: unknown frame, or a frame that is not attached to a link.
         """
         seen: list[str] = []
         while True:

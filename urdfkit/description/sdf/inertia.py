@@ -21,7 +21,7 @@ def solid(geometry: WorldGeometry, density: float) -> Solid | None:
 
     Args:
         geometry: the shape.
-        density: [kg/m³].
+        density: density [kg/m³].
     """
     if isinstance(geometry, Ellipsoid):
         a, b, c = geometry.radii
@@ -34,10 +34,10 @@ def solid(geometry: WorldGeometry, density: float) -> Solid | None:
 
 
 def together(parts: Iterable[tuple[Pose, Solid]]) -> WorldInertial:
-    """Return the mass properties of a body of several solids about its centre of mass, in the axes of the body.
+    """Return the mass properties of a body of several solids about its centre of mass, along the axes of the body.
 
     Args:
-        parts: pose of each solid in the body, its mass and moments.
+        parts: pose of each solid in the body, and its mass and moments.
     """
     mass, center, tensor = combined([(pose, own, moments) for pose, (own, moments) in parts])
     return WorldInertial(

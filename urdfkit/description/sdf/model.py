@@ -1,4 +1,4 @@
-"""Models of a world: links, joints, and models inside models, every pose resolved.
+"""Models of a world: links, joints and nested models, with resolved poses.
 
 Each pose is in a fixed frame, independent of the file: a model's in the world (a nested model's in its parent), a
 link's in its model, a shape's and a light's in its parent, a joint's in its child link.
@@ -19,7 +19,7 @@ from urdfkit.record import field, record
 
 @record
 class WorldInertial:
-    """Mass [kg], pose of the centre of mass and of the axes of the tensor [kg·m²] about it, in the link.
+    """Mass [kg], pose of the inertial frame in the link, and inertia tensor [kg·m²] about the centre of mass.
 
     The defaults are sdformat's (inertial.sdf).
     """
@@ -40,15 +40,15 @@ class WorldLink(Written):
 
     Attributes:
         name: unique in its model.
-        pose: in the model.
-        inertial: mass properties; sdformat's defaults where none are written.
-        collisions: its collision shapes.
-        visuals: its visual shapes.
-        gravity: whether gravity acts on it.
-        self_collide: whether it collides with other links of its model; None where the model decides.
-        kinematic: moves by command only.
+        pose: pose in the model.
+        inertial: mass properties; sdformat's defaults for missing values.
+        collisions: collision shapes.
+        visuals: visual shapes.
+        gravity: whether gravity acts on the link.
+        self_collide: whether the link collides with other links of its model; None for the setting of the model.
+        kinematic: whether the link moves by command only.
         damping: linear [1/s] and angular [1/s] velocity decay.
-        lights: lights that move with it.
+        lights: lights attached to the link.
         kept: sensors and other elements.
         position: source position.
     """
@@ -72,9 +72,9 @@ class WorldMimic:
     """Position = multiplier · (position of `joint` − reference) + offset.
 
     Attributes:
-        joint: of the same model, or ``nested::joint``.
+        joint: name of the other joint, in the same model or ``nested::joint``.
         multiplier: factor of the other joint's position.
-        offset: [rad] or [m].
+        offset: offset [rad] or [m].
         reference: position of the other joint [rad] or [m].
     """
 
@@ -86,19 +86,19 @@ class WorldMimic:
 
 @record
 class WorldAxis:
-    """An axis of a joint; `xyz` is of the joint's frame, not normalised. Unlimited values are infinite.
+    """An axis of a joint. Unlimited values are infinite.
 
     Attributes:
-        xyz: direction.
-        lower: [rad] or [m].
-        upper: [rad] or [m].
-        effort: largest [N·m] or [N].
-        velocity: largest [rad/s] or [m/s].
-        damping: [N·m·s/rad] or [N·s/m].
+        xyz: direction in the joint frame, not normalised.
+        lower: lower limit [rad] or [m].
+        upper: upper limit [rad] or [m].
+        effort: maximum effort [N·m] or [N].
+        velocity: maximum velocity [rad/s] or [m/s].
+        damping: viscous damping [N·m·s/rad] or [N·s/m].
         friction: dry friction [N·m] or [N].
-        spring_stiffness: [N·m/rad] or [N/m].
+        spring_stiffness: stiffness of the spring [N·m/rad] or [N/m].
         spring_reference: rest position of the spring [rad] or [m].
-        mimic: the joint that it follows.
+        mimic: relation to the joint that this axis follows; None without one.
     """
 
     xyz: Vector = (0.0, 0.0, 1.0)
@@ -122,9 +122,9 @@ class WorldJoint(Written):
         type: ``revolute``, ``continuous``, ``prismatic``, ``fixed``, ``ball``, ``universal``, ``revolute2``, ``screw``
             or ``gearbox``.
         parent: a link of the model, ``nested::link``, or ``world``.
-        child: likewise; never ``world`` alone.
-        pose: in the child link.
-        axes: none, one or two of them.
+        child: a link of the model or ``nested::link``; not ``world``.
+        pose: pose in the child link.
+        axes: zero, one or two axes.
         kept: other elements.
         position: source position.
     """
@@ -145,12 +145,12 @@ class WorldModel(Written):
 
     Attributes:
         name: unique among its sibling models.
-        pose: in the world, or in the model it is nested in.
-        static: never moves; also applies to nested models.
-        links: its own.
-        joints: its own.
-        models: nested ones.
-        self_collide: whether its links collide with each other.
+        pose: pose in the world, or in the parent model.
+        static: whether the model never moves; applies to nested models too.
+        links: links, without those of nested models.
+        joints: joints, without those of nested models.
+        models: nested models.
+        self_collide: whether the links collide with each other.
         canonical_link: name of the canonical link; empty for the first link.
         kept: plugins and other elements.
         position: source position.
@@ -169,11 +169,11 @@ class WorldModel(Written):
 
     @cached_property
     def plugins(self) -> tuple[Plugin, ...]:
-        """Its plugins, as a robot has them."""
+        """The plugins of the model, in the form used for robots."""
         return plugins_of(self.kept)
 
     def all_links(self) -> Iterator[tuple[str, Pose, WorldLink]]:
-        """Yield name (``nested::link`` for those of nested models), pose in this model, and link."""
+        """Yield name (``nested::link`` in nested models), pose in this model, and link."""
         for link in self.links:
             yield link.name, link.pose, link
         for model in self.models:
@@ -181,7 +181,7 @@ class WorldModel(Written):
                 yield f"{model.name}::{name}", compose(model.pose, pose), link
 
     def all_joints(self) -> Iterator[tuple[str, WorldJoint]]:
-        """Yield name prefix (empty, or ``nested::``) and joint of each joint, those of nested models included."""
+        """Yield every joint with its name prefix (empty, or ``nested::``), including joints of nested models."""
         for joint in self.joints:
             yield "", joint
         for model in self.models:

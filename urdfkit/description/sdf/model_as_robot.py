@@ -1,6 +1,6 @@
 """Convert models of a world to robots: trees of links and joints with URDF's joint frames.
 
-In SDF a joint has a pose of its own in its child link; in URDF a child link's frame is its joint's. Where the two
+In SDF a joint has a pose in its child link; in URDF the frame of the child link is the joint frame. If the two frames
 differ, a massless link named after the joint with the suffix ``_frame`` is inserted between joint and child link, so
 that every link keeps its frame from the file.
 """
@@ -34,10 +34,10 @@ from urdfkit.errors import SimulationError, did_you_mean
 from urdfkit.record import record
 
 MOVES = ("revolute", "continuous", "prismatic")
-"""The movable joint types of SDF that are simulated."""
+"""The movable SDF joint types that urdfkit simulates."""
 
 ANCHOR = "anchor"
-"""The root link of a tree with a fixed base; its frame is the model's."""
+"""Name of the root link of a tree with a fixed base; its frame is the model frame."""
 
 
 @record(eq=False)
@@ -45,12 +45,12 @@ class Tree:
     """Tree of a model's links, connected by joints.
 
     Attributes:
-        name: of the model, with ``::`` and the name of the first link if the model has several trees.
+        name: name of the model, with ``::`` and the name of the first link if the model has several trees.
         prefix: ``nested::`` for a tree inside a nested model; omitted from names in `robot`.
-        robot: its links without shapes, its joints and plugins; in a tree of a nested model names are those inside it.
+        robot: links without shapes, joints and plugins; names are relative to `prefix`.
         root: pose of the root link in the model.
-        bolted: whether its base is fixed to the world.
-        links: name in `robot` → link as written, with its shapes.
+        bolted: whether the base is fixed to the world.
+        links: name in `robot` → link in the file, with its shapes.
         poses: name in `robot` → pose in the model with every joint at zero.
         self_collide: names in `robot` of the links that collide with the others.
         weightless: names in `robot` of the links without gravity.
@@ -69,14 +69,14 @@ class Tree:
 
 @record(eq=False)
 class Group:
-    """Connected links and joints of a model, as written.
+    """Connected links and joints of a model, in the form of the file.
 
     Attributes:
         name: see `Tree`.
         links: name in the model, pose in the model, and link; the first is the root.
-        joints: prefix of the names in it, and joint.
-        bolted: whether a joint holds it to the world.
-        first: whether the model's canonical link is among them, so that the plugins of the model apply to them.
+        joints: name prefix, and joint.
+        bolted: whether a joint connects the group to the world.
+        first: whether the group contains the canonical link; the plugins of the model apply to this group.
     """
 
     name: str
@@ -87,7 +87,7 @@ class Group:
 
     @property
     def moves(self) -> bool:
-        """Whether one of its joints is movable."""
+        """Whether any joint of the group is movable."""
         return any(joint.type != "fixed" for _, joint in self.joints)
 
 
@@ -135,8 +135,8 @@ def tree_of(model: WorldModel, group: Group) -> Tree:
     """Return a group of links as a robot.
 
     Args:
-        model: of a world.
-        group: of its links.
+        model: a model of a world.
+        group: a group of its links, as `groups_of` returns it.
 
     Raises:
         SimulationError: a joint type is not simulated, or joints form a loop; with the position.
@@ -238,7 +238,7 @@ class _Builder:
         self._add(beyond)
 
     def _mimic(self, prefix: str, joint: WorldJoint, axis: WorldAxis, element: Element) -> Mimic | None:
-        """Return the mimic relation of a joint in URDF's form."""
+        """Return the mimic relation of a joint in the form of URDF."""
         if axis.mimic is None:
             return None
         joints = {before + other.name: other for before, other in self._group.joints}
@@ -268,7 +268,7 @@ class _Builder:
 
 
 def inertial_of(link: WorldLink) -> Inertial:
-    """Return the mass properties of a link in URDF's form."""
+    """Return the mass properties of a link in the form of URDF."""
     body, element = link.inertial, _element("inertial", link.position)
     tensor = Inertia(body.ixx, body.ixy, body.ixz, body.iyy, body.iyz, body.izz, element)
     return Inertial(body.pose, body.mass, tensor, element)
@@ -318,13 +318,13 @@ def _axis_of(model: WorldModel, joint: WorldJoint) -> WorldAxis:
 
 
 def _ends(prefix: str, joint: WorldJoint) -> tuple[str, str]:
-    """Return the names in the model of a joint's links, parent first; or ``world``."""
+    """Return the names of parent and child link in the model; the parent may be ``world``."""
     parent = joint.parent if joint.parent == "world" else prefix + joint.parent
     return parent, prefix + joint.child
 
 
 def _common_prefix(names: Sequence[str]) -> str:
-    """Return the ``nested::`` that all names start with; empty without a common one."""
+    """Return the common prefix ``nested::`` of all names; empty without one."""
     prefix = ""
     while True:
         first, separator, _ = names[0][len(prefix) :].partition("::")

@@ -54,7 +54,7 @@ STANDS_IN = {
     "wooden_case_wo_top": "crate",
     "wooden_crate": "crate",
 }
-"""Name of a model in Gazebo's collection → the bundled model of similar size and use."""
+"""Name of a model in Gazebo's collection → bundled model of similar size and purpose."""
 
 ALIKE = frozenset(
     {
@@ -72,7 +72,7 @@ ALIKE = frozenset(
         "table",
     }
 )
-"""Bundled models with the name of a model in Gazebo's collection, of similar size and use but other shape."""
+"""Bundled models named after a model in Gazebo's collection, of similar size and purpose but different shape."""
 
 
 def model_names() -> list[str]:
@@ -98,7 +98,7 @@ def world_file(name: str) -> Path | None:
 
 
 def replacement_of(name: str) -> tuple[str, Path] | None:
-    """Return the name and file of the bundled replacement of a Gazebo model; None if there is none."""
+    """Return the name and file of the bundled replacement of a Gazebo model; None for other models."""
     plain = name.lower().replace(" ", "_").replace("-", "_")
     ours = plain if model_file(plain) else STANDS_IN.get(plain, "")
     path = model_file(ours)

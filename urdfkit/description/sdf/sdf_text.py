@@ -1,4 +1,4 @@
-"""Markup: write SDF line by line, with numbers that read back equal."""
+"""Markup: write SDF line by line, with numbers that survive a round trip."""
 
 from __future__ import annotations
 
@@ -15,12 +15,12 @@ _ILLEGAL = re.compile("[\x00-\x08\x0b\x0c\x0e-\x1f\ud800-\udfff\ufffe\uffff]")
 
 
 def figure(value: float) -> str:
-    """Return the shortest text of a number that reads back equal."""
+    """Return the shortest text of a number that parses to the same value."""
     return str(int(value)) if value == int(value) and abs(value) < 1e15 else repr(value)
 
 
 class Markup:
-    """Lines of XML, indented by two blanks."""
+    """Lines of XML, indented by two spaces."""
 
     def __init__(self) -> None:
         self._lines = ['<?xml version="1.0"?>']
@@ -30,7 +30,7 @@ class Markup:
         """Return the document.
 
         Raises:
-            DescriptionError: it has a character that XML does not allow.
+            DescriptionError: the document has a character that XML does not allow.
         """
         whole = "\n".join(self._lines) + "\n"
         if (found := _ILLEGAL.search(whole)) is not None:

@@ -35,7 +35,7 @@ class Written:
 
 @record
 class Plane:
-    """An infinite plane through the origin of its frame; `size` [m] is the visible part. `normal` is of length 1."""
+    """An infinite plane through the origin of its frame; `size` [m] is the visible part, `normal` a unit vector."""
 
     normal: Vector = (0.0, 0.0, 1.0)
     size: tuple[float, float] = (1.0, 1.0)
@@ -43,14 +43,14 @@ class Plane:
 
 @record
 class Ellipsoid:
-    """`radii` along x, y and z [m]."""
+    """An ellipsoid with `radii` along x, y and z [m]."""
 
     radii: Vector
 
 
 @record
 class Cone:
-    """Apex up along z, the origin half way up; `radius` of the base and full `length` [m] (SDF 1.11)."""
+    """A cone with its apex along +z and its origin at half height; base `radius` and `length` [m] (SDF 1.11)."""
 
     radius: float
     length: float
@@ -78,18 +78,18 @@ class Surface:
 
     Attributes:
         mu: Coulomb friction coefficient along `fdir1`.
-        mu2: across it.
+        mu2: Coulomb friction coefficient perpendicular to `fdir1`.
         fdir1: first friction direction in the collision's frame; zero if missing.
         slip1: slip along `fdir1` [m/(s·N)].
-        slip2: across it.
+        slip2: slip perpendicular to `fdir1` [m/(s·N)].
         kp: contact stiffness [N/m].
         kd: contact damping [N·s/m].
-        min_depth: penetration before a contact pushes back [m].
+        min_depth: penetration below which a contact exerts no correction [m].
         max_vel: maximum correction velocity of a penetration [m/s].
         restitution: coefficient of restitution.
-        bounce_threshold: minimum impact velocity that bounces [m/s].
+        bounce_threshold: minimum impact velocity for restitution [m/s].
         collide_bitmask: two shapes collide if their bits overlap.
-        collide_without_contact: only sensors detect the contacts.
+        collide_without_contact: whether contacts are detected by sensors only, without contact forces.
     """
 
     mu: float = 1.0
@@ -112,12 +112,12 @@ class WorldShape(Written):
     """A collision or a visual of a link.
 
     Attributes:
-        name: unique in its link among its kind.
-        geometry: its geometry.
-        pose: in the link.
-        surface: of a collision; ignored for a visual.
-        rgba: diffuse colour of a visual, each 0..1; None where not written.
-        transparency: of a visual: 0 is opaque, 1 is invisible.
+        name: unique among the collisions or visuals of its link.
+        geometry: geometry of the shape.
+        pose: pose in the link.
+        surface: contact parameters of a collision; ignored for a visual.
+        rgba: diffuse colour of a visual, each 0..1; None if missing.
+        transparency: transparency of a visual: 0 is opaque, 1 is invisible.
         material: name of the Gazebo material script, e.g. ``Gazebo/Grey``; empty if missing.
         laser_retro: intensity that a lidar measures.
         file: the mesh on this machine; empty for other shapes and missing meshes.
@@ -145,7 +145,7 @@ class Light(Written):
     Attributes:
         name: unique among its sibling lights.
         type: ``point``, ``directional`` or ``spot``.
-        pose: in the world or the link.
+        pose: pose in the world or the link.
         direction: direction of directional and spot lights, in the light's frame.
         diffuse: colour, each 0..1.
         specular: colour, each 0..1.

@@ -21,8 +21,8 @@ class RawPose:
     """A ``<pose>`` as written, its frame not yet resolved.
 
     Attributes:
-        pose: the identity if it is missing.
-        relative_to: the frame; empty for the default.
+        pose: the pose; the identity if it is missing.
+        relative_to: name of the reference frame; empty for the default.
         position: source position.
     """
 
@@ -32,7 +32,7 @@ class RawPose:
 
 
 def wrong(element: Element, message: str) -> DescriptionError:
-    """Return an error at an element."""
+    """Return an error with the position of an element."""
     return DescriptionError(message, position=element.origin.position)
 
 
@@ -40,7 +40,7 @@ def floats(element: Element, count: int, *, infinite: bool = False) -> tuple[flo
     """Return the numbers that an element's text lists.
 
     Raises:
-        DescriptionError: their number is wrong, or one is not finite.
+        DescriptionError: the count is wrong, or a number is not finite.
     """
     found = numbers(element.text)
     if found is None or len(found) != count or not (infinite or all(map(isfinite, found))):
@@ -88,7 +88,7 @@ def vector(parent: Element | None, tag: str, default: Vector) -> Vector:
 
 
 def color(parent: Element, tag: str, default: Rgba | None) -> Rgba | None:
-    """Return red, green, blue and alpha in a child; alpha may be left out."""
+    """Return red, green, blue and alpha in a child; alpha is optional."""
     child = parent.find(tag)
     if child is None:
         return default

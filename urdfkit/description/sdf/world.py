@@ -1,4 +1,4 @@
-"""The world as written: gravity, models, lights, physics."""
+"""World: gravity, models, lights and physics settings of an SDF file."""
 
 from __future__ import annotations
 
@@ -21,14 +21,14 @@ GRAVITY: Vector = (0.0, 0.0, -9.8)
 
 @record(eq=False)
 class WorldRobot(Written):
-    """A URDF that the world includes.
+    """A robot in a URDF file that the world includes.
 
     Attributes:
-        name: its name in the world.
-        uri: as written.
-        file: the URDF on this machine.
-        pose: of its root link in the world.
-        static: does not move.
+        name: name of the robot in the world.
+        uri: URI in the world file.
+        file: local path of the URDF file.
+        pose: pose of the root link in the world.
+        static: whether the robot never moves.
         kept: plugins and other elements.
         position: source position.
     """
@@ -47,11 +47,11 @@ class Physics:
     """Requested simulation parameters; the defaults are sdformat's (physics.sdf).
 
     Attributes:
-        max_step_size: [s].
-        real_time_factor: requested factor; 0 is unlimited.
+        max_step_size: time step [s].
+        real_time_factor: requested ratio of simulated time to real time; 0 is unlimited.
         real_time_update_rate: steps per second of real time [1/s].
         engine: ``ode``, ``bullet``, ``dart``, ``simbody`` or ``ignored``.
-        name: of the profile.
+        name: name of the physics profile.
         kept: engine-specific settings.
     """
 
@@ -68,9 +68,9 @@ class Ground:
     """A horizontal plane that does not move.
 
     Attributes:
-        name: name of its model, used in contacts.
+        name: name of the model, used in contacts.
         height: z of the surface [m].
-        mu: Coulomb friction coefficient; a contact uses the smaller one of its two surfaces.
+        mu: Coulomb friction coefficient; a contact uses the minimum of its two surfaces.
     """
 
     name: str = "ground_plane"
@@ -83,14 +83,14 @@ class World(Written):
     """World of a simulation.
 
     Attributes:
-        name: e.g. ``empty``.
-        gravity: [m/s²].
-        models: all models, the ground included.
+        name: name of the world, e.g. ``empty``.
+        gravity: gravitational acceleration [m/s²].
+        models: all models, including the ground.
         lights: all lights.
         physics: requested simulation parameters.
-        robots: URDF files it includes.
-        joints: between models (SDF 1.10).
-        magnetic_field: [T].
+        robots: robots in included URDF files.
+        joints: joints between models (SDF 1.10).
+        magnetic_field: magnetic field [T].
         kept: plugins, scene, gui and other elements.
         notes: notes for the user, one line each.
         files: all files that were read, the world first.
@@ -129,7 +129,7 @@ class World(Written):
 
     @cached_property
     def ground(self) -> Ground | None:
-        """The first level plane that does not move; None without a ground."""
+        """The first horizontal static plane; None without one."""
         for model in self.models:
             if model.static and (ground := ground_of(model)) is not None:
                 return ground
@@ -137,7 +137,7 @@ class World(Written):
 
 
 def ground_of(model: WorldModel) -> Ground | None:
-    """Return the first level plane among a model's collisions, facing up, as a ground; None without one."""
+    """Return the first horizontal plane that faces up among a model's collisions; None without one."""
     for _, pose, link in model.all_links():
         for shape in link.collisions:
             if isinstance(shape.geometry, Plane):

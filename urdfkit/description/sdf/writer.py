@@ -1,4 +1,4 @@
-"""to_sdf: write a world as SDF that sdformat accepts and that reads back equal."""
+"""to_sdf: write a world as SDF that sdformat accepts and that loads as an equal world."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ VERSION = "1.9"
 
 
 def to_sdf(world: World) -> str:
-    """Return a world as SDF. `load_world` reads an equal world from it, as long as its meshes are not moved.
+    """Return a world as SDF. `load_world` reads an equal world from it, unless its meshes have been moved.
 
     Raises:
         DescriptionError: a name, or a character in it, cannot be written in SDF.
@@ -47,7 +47,7 @@ def to_sdf(world: World) -> str:
 
 
 def model_to_sdf(model: WorldModel) -> str:
-    """Return a model as an SDF file of its own.
+    """Return a model as a separate SDF file.
 
     Raises:
         DescriptionError: a name, or a character in it, cannot be written in SDF.
@@ -62,7 +62,7 @@ def save_world(world: World, path: str | Path) -> None:
     """Write a world to a file, atomically.
 
     Raises:
-        DescriptionError: it cannot be written in SDF.
+        DescriptionError: the world cannot be written in SDF.
         OSError: the file cannot be written.
     """
     from urdfkit.atomic import write_text
@@ -80,7 +80,7 @@ def _version(models: Sequence[WorldModel], joints: Sequence[WorldJoint]) -> str:
 
 
 def _name(name: str) -> str:
-    if " ".join(name.split()) != name:  # sdformat collapses it in texts, so that joints would not find their links
+    if " ".join(name.split()) != name:  # sdformat collapses white space in texts, so joints would not find their links
         raise DescriptionError(f"the name {name!r} cannot be written in SDF: use single spaces")
     if not name or "::" in name or name == "world" or (name.startswith("__") and name.endswith("__")):
         why = "it is empty" if not name else "`::` separates models" if "::" in name else "it is reserved"

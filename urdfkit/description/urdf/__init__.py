@@ -1,4 +1,4 @@
-"""Read expanded XML as a robot: links, joints, transmissions and ``<gazebo>`` blocks, each with its place.
+"""Read expanded XML as a robot: links, joints, transmissions and ``<gazebo>`` blocks, with source positions.
 
-An `Element` tree goes in; a `Robot` and its problems come out.
+Input: an `Element` tree; output: a `Robot` and its problems.
 """

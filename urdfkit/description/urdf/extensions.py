@@ -16,7 +16,7 @@ from urdfkit.description.xml.element import Element
 
 
 def transmission(reader: Reader, element: Element) -> Transmission:
-    """Read a ``<transmission>``, in its current form (``<type>``) or the old one (``type=…``)."""
+    """Read a ``<transmission>``, in the current form (``<type>``) or the old form (``type=…``)."""
     kind = element.find("type")
     return Transmission(
         element.get("name"),
@@ -33,13 +33,13 @@ def transmission(reader: Reader, element: Element) -> Transmission:
 
 
 def gazebo_block(element: Element) -> GazeboBlock:
-    """Read a ``<gazebo>``; other children stay in its element."""
+    """Read a ``<gazebo>``; children other than plugins and sensors are only in its element."""
     sensors = [SensorTag(e.get("name"), e.get("type"), _plugins(e), e) for e in element.find_all("sensor")]
     return GazeboBlock(element.get("reference"), _plugins(element), tuple(sensors), element)
 
 
 def ros2_control(element: Element) -> Ros2Control:
-    """Read a ``<ros2_control>``; hardware and joints stay in its element."""
+    """Read a ``<ros2_control>``; hardware and joints are only in its element."""
     return Ros2Control(element.get("name"), element.get("type"), element)
 
 

@@ -16,11 +16,11 @@ if TYPE_CHECKING:
 Rotation = tuple[Vector, Vector, Vector]
 """A rotation matrix by rows."""
 Bounds = tuple[Vector, Vector]
-"""The lowest and the highest corner of a box along the axes [m]."""
+"""Minimum and maximum corner of an axis-aligned box [m]."""
 
 IDENTITY = Pose()
 UNROTATED: Rotation = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
-"""Matrix of the identity."""
+"""The identity matrix."""
 
 
 def rotation_of(rpy: Vector) -> Rotation:
@@ -59,13 +59,13 @@ def product(first: Rotation, second: Rotation) -> Rotation:
 
 
 def unit(vector: Vector) -> Vector | None:
-    """Return the vector with length 1, None if it has none."""
+    """Return the vector normalised to length 1; None for the zero vector."""
     length = sqrt(sum(value * value for value in vector))
     return (vector[0] / length, vector[1] / length, vector[2] / length) if length > 1e-12 else None
 
 
 def rpy_of(rotation: Rotation) -> Vector:
-    """Return fixed-axis roll, pitch, yaw [rad]; in gimbal lock the whole rotation is yaw."""
+    """Return fixed-axis roll, pitch, yaw [rad]; in gimbal lock roll is zero."""
     a, b, c = rotation
     flat = hypot(a[0], b[0])
     if flat < 1e-9:
@@ -75,7 +75,7 @@ def rpy_of(rotation: Rotation) -> Vector:
 
 
 def rpy_of_quaternion(x: float, y: float, z: float, w: float) -> Vector:
-    """Return roll, pitch, yaw [rad] of a quaternion that need not be normalised, but is not zero."""
+    """Return roll, pitch, yaw [rad] of a non-zero quaternion, normalised or not."""
     s = 2.0 / (x * x + y * y + z * z + w * w)
     return rpy_of(
         (
@@ -87,7 +87,7 @@ def rpy_of_quaternion(x: float, y: float, z: float, w: float) -> Vector:
 
 
 def compose(outer: Pose, inner: Pose) -> Pose:
-    """Return outer · inner: `inner` is given in a frame with the pose `outer`. Exact where either is the identity."""
+    """Return outer · inner, where `inner` is relative to the frame `outer`; exact if either is the identity."""
     if outer == IDENTITY:
         return inner
     if inner == IDENTITY:
@@ -103,14 +103,14 @@ def compose(outer: Pose, inner: Pose) -> Pose:
 
 
 def inverse(pose: Pose) -> Pose:
-    """Return the pose that composed with `pose` is the identity."""
+    """Return the inverse transform of a pose."""
     back = transpose(rotation_of(pose.rpy))
     x, y, z = rotate(back, pose.xyz)
     return Pose((-x, -y, -z), pose.rpy if pose.rpy == IDENTITY.rpy else rpy_of(back))
 
 
 def between(start: Pose, end: Pose) -> Pose:
-    """Return `end` as seen from `start`, both given in one frame."""
+    """Return `end` relative to `start`; both are relative to the same frame."""
     return compose(inverse(start), end)
 
 
@@ -144,7 +144,7 @@ def volume_of(shape: Geometry) -> float:
 
 
 def box_around(shape: Geometry, pose: Pose) -> Bounds:
-    """Return the box along the axes around a shape at a pose; a mesh is a point."""
+    """Return the axis-aligned bounding box of a shape at a pose; a mesh counts as a point."""
     half: list[float] = []
     for row in rotation_of(pose.rpy):
         if isinstance(shape, Box):
@@ -160,7 +160,7 @@ def box_around(shape: Geometry, pose: Pose) -> Bounds:
 
 
 def box_around_all(boxes: Sequence[Bounds]) -> Bounds:
-    """Return the box around boxes, at least one."""
+    """Return the bounding box of one or more boxes."""
     if len(boxes) == 1:
         return boxes[0]
     a, b, c = (min(low[axis] for low, _ in boxes) for axis in range(3))
@@ -169,7 +169,7 @@ def box_around_all(boxes: Sequence[Bounds]) -> Bounds:
 
 
 def second_moments(shape: Geometry) -> Vector:
-    """Return the mean of x², y² and z² over a solid about its centre [m²] (any textbook)."""
+    """Return the mean of x², y² and z² over a solid about its centre [m²]."""
     if isinstance(shape, Box):
         x, y, z = (size * size / 12.0 for size in shape.size)
         return x, y, z
@@ -180,7 +180,7 @@ def second_moments(shape: Geometry) -> Vector:
         return shape.radius**2 / 4.0, shape.radius**2 / 4.0, shape.length**2 / 12.0
     if isinstance(shape, Capsule):
         r, h = shape.radius, shape.length
-        middle, ends = h, 4.0 / 3.0 * r  # volumes over πr²
+        middle, ends = h, 4.0 / 3.0 * r  # volumes divided by πr²
         across = (middle * r**2 / 4.0 + ends * r**2 / 5.0) / (middle + ends)
         along = (middle * h**2 / 12.0 + ends * (h**2 / 4.0 + 3.0 / 8.0 * h * r + r**2 / 5.0)) / (middle + ends)
         return across, across, along
@@ -188,7 +188,7 @@ def second_moments(shape: Geometry) -> Vector:
 
 
 def principal_moments(shape: Geometry, mass: float) -> Vector:
-    """Return the moments of inertia of a solid of a mass [kg] about its centre [kg·m²]."""
+    """Return the principal moments of inertia of a solid with a mass [kg] about its centre [kg·m²]."""
     x, y, z = second_moments(shape)
     return mass * (y + z), mass * (x + z), mass * (x + y)
 
@@ -197,7 +197,7 @@ def combined(parts: Sequence[tuple[Pose, float, Vector]]) -> tuple[float, Vector
     """Return mass [kg], centre of mass [m] and the inertia tensor about it [kg·m²] of several solids.
 
     Args:
-        parts: pose of each solid, its mass and principal moments; their masses are not all 0.
+        parts: pose, mass and principal moments of each solid; the total mass must not be 0.
     """
     mass, axes = sum(part[1] for part in parts), range(3)
     x, y, z = centre = tuple([sum(pose.xyz[axis] * own for pose, own, _ in parts) / mass for axis in axes])

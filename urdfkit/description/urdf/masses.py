@@ -13,7 +13,7 @@ def massless(robot: Robot, *, floating: bool) -> list[tuple[Link, Joint | None]]
 
     Args:
         robot: one tree of links.
-        floating: whether the root link is free to move; its joint is None then.
+        floating: whether the base is floating; the joint of the root link is then None.
 
     Returns:
         The topmost link of each body without mass or inertia, in document order of the tree. Unknown links

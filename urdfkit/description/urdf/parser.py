@@ -62,7 +62,7 @@ def parse(
         files: the files read, for `Robot.files`.
         packages: for `Robot.packages`.
         arguments: for `Robot.arguments`.
-        known: element → the part read from it before, with its problems; updated.
+        known: element → the part read from it earlier, with its problems; updated by this function.
     """
     reader = Reader(known)
     name = reader.text(root, "name") if root.tag == "robot" else root.get("name")
@@ -226,7 +226,7 @@ def _joint(reader: Reader, element: Element) -> Joint:
 
 
 def _name(reader: Reader, element: Element) -> str:
-    """Return the name of a link or joint, empty when it has none, and name it in later messages."""
+    """Return the name of a link or joint (empty if missing), and set it as the subject of later messages."""
     reader.subject = ""
     name = reader.text(element, "name") or ""
     reader.subject = f"{element.tag} `{name}`" if name else ""

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 
 def cycles(robot: Robot) -> list[list[Joint]]:
-    """Return kinematic loops: each a list of joints that lead from a link back to itself."""
+    """Return the kinematic loops, each as a list of joints."""
     loops: list[list[Joint]] = []
     settled: set[str] = set()
     for joint in robot.joints:
@@ -53,13 +53,13 @@ def tree_order(robot: Robot) -> list[Joint]:
 
 
 def mass(robot: Robot, link: str) -> float:
-    """Return the mass of a link [kg]; zero where none is written."""
+    """Return the mass of a link [kg]; zero if it is missing."""
     inertial = robot.link_by_name[link].inertial if link in robot.link_by_name else None
     return (inertial.mass or 0.0) if inertial is not None else 0.0
 
 
 def repeated(parts: tuple[Named, ...]) -> Iterator[tuple[Named, Named]]:
-    """Yield each link or joint with a duplicate name, and the first of that name; nameless ones are left out."""
+    """Yield each link or joint with a duplicate name, and the first with that name; unnamed parts are skipped."""
     first: dict[str, Named] = {}
     for part in parts:
         if part.name and first.setdefault(part.name, part) is not part:

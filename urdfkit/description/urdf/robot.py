@@ -1,4 +1,4 @@
-"""The robot as written: links, joints and their properties, before any computation.
+"""Robot: links, joints and their properties as in the description, before any computation.
 
 The records are lenient: a value that is missing or could not be read is ``None`` (and listed in
 `Robot.problems`). SI units: [m] [rad] [kg] [kg·m²] [N] [N·m] [m/s] [rad/s].
@@ -144,7 +144,7 @@ class Link:
 
 @record(eq=False)
 class Limit:
-    """`lower`, `upper` [rad or m], `effort` [N·m or N], `velocity` [rad/s or m/s]; None where not written."""
+    """`lower`, `upper` [rad or m], `effort` [N·m or N], `velocity` [rad/s or m/s]; None if missing."""
 
     lower: float | None
     upper: float | None
@@ -155,7 +155,7 @@ class Limit:
 
 @record(eq=False)
 class Dynamics:
-    """`damping` [N·m·s/rad or N·s/m] and dry `friction` [N·m or N]; zero where not written."""
+    """`damping` [N·m·s/rad or N·s/m] and dry `friction` [N·m or N]; zero if missing."""
 
     damping: float
     friction: float
@@ -301,7 +301,7 @@ class Problem:
 
     @property
     def origin(self) -> Origin:
-        """Where the element was written."""
+        """Source position of the element, and the macro calls that produced it."""
         return self.element.origin
 
 

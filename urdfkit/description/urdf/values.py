@@ -25,7 +25,7 @@ LARGEST = 1e30
 
 
 class Reader:
-    """Reads values and notes problems, in document order.
+    """Reads values and records problems, in document order.
 
     Args:
         earlier: element → the part read from it before; None to read every element.
@@ -42,7 +42,7 @@ class Reader:
         """The link or joint being read, for the messages."""
 
     def part(self, read: Callable[[Reader, Element], Any], element: Element) -> Any:
-        """Return the part read from an element; the earlier one if it is known."""
+        """Return the part read from an element; reuses the result of an earlier run if available."""
         if self._earlier is None:
             return read(self, element)
         found = self._earlier.get(element)
@@ -56,19 +56,19 @@ class Reader:
         return found[1]
 
     def note(self, kind: ProblemKind, message: str, element: Element, attribute: str | None = None) -> None:
-        """Note a problem.
+        """Record a problem.
 
         Args:
             kind: category of the problem.
             message: one line for the user.
             element: the element that has the problem.
-            attribute: which of its attributes.
+            attribute: the attribute that has the problem; None for the element as a whole.
         """
         subject = f"{self.subject}: " if self.subject else ""
         self.problems.append(Problem(kind, subject + message, element, attribute))
 
     def text(self, element: Element, attribute: str) -> str | None:
-        """Return a required attribute; note a problem when it is missing."""
+        """Return a required attribute; record a problem if it is missing."""
         value = element.attributes.get(attribute)
         if value is None:
             self.note("missing", f"<{element.tag}> lacks its attribute `{attribute}`", element, attribute)
@@ -80,10 +80,10 @@ class Reader:
         """Return a number, None when it is missing or unusable.
 
         Args:
-            element: where it is.
-            attribute: its name.
-            required: note when it is missing.
-            infinite: infinity is allowed.
+            element: the element that contains the number.
+            attribute: name of the attribute.
+            required: whether to record a problem if the attribute is missing.
+            infinite: whether infinity is allowed.
         """
         text = element.attributes.get(attribute)
         if text is None:
@@ -129,7 +129,7 @@ class Reader:
         return None if values is None else (values[0], values[1], values[2])
 
     def pose(self, parent: Element) -> Pose:
-        """Return the ``<origin>`` of an element; the identity where none is written."""
+        """Return the ``<origin>`` of an element; the identity if it is missing."""
         origin = parent.find("origin")
         if origin is None:
             return Pose()

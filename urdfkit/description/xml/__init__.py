@@ -1,4 +1,4 @@
 """Read XML from untrusted files into elements with their source positions.
 
-Text goes in; `Element`, `Position` and `Span` come out, with the start tags as they are written.
+Input: text; output: `Element`, `Position`, `Span` and the start tags in the source.
 """

@@ -12,10 +12,10 @@ if TYPE_CHECKING:
     from typing import Any
 
 MAX_DEPTH = 200
-"""A description is refused when its elements are nested deeper; people's nest less than 20 deep."""
+"""Maximum nesting depth of the elements of a description; real descriptions have a depth of less than 20."""
 
 STAMP = "urdfkit.origin"
-"""The key under which the elements of a minidom carry their `Stamp` (as DOM user data)."""
+"""Key of the DOM user data that stores the `Stamp` of a minidom element."""
 
 Stamp = tuple[str, int, int, tuple[Expansion, ...]]
 """File, line, column and chain of macro calls: the compact form of an `Origin`."""
@@ -62,6 +62,6 @@ class Element:
 
 
 def stamp_of(node: Any) -> Stamp:
-    """Return the stamp of a minidom element that `stamped_document` made, or of a clone of one."""
+    """Return the stamp of a minidom element of a `stamped_document`, or of a clone of such an element."""
     stamp: Stamp = node.getUserData(STAMP)
     return stamp

@@ -1,4 +1,4 @@
-"""Numbers as urdfdom reads them."""
+"""Parse numbers like urdfdom."""
 
 from __future__ import annotations
 
@@ -6,9 +6,9 @@ import re
 
 
 def number(text: str) -> float | None:
-    """Return `text` as a number, white space around it allowed; None if it is not a number.
+    """Return `text` as a number, ignoring surrounding white space; None if it is not a number.
 
-    Unlike `float`, underscores and digits of other scripts are refused.
+    Unlike `float`, rejects underscores and non-ASCII digits.
     """
     if not text.isascii() or "_" in text:
         return None

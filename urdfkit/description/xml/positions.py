@@ -13,13 +13,13 @@ if TYPE_CHECKING:
 
 
 class _Stamping(ExpatBuilder):
-    """Stamps each element a builder makes.
+    """Stamps each element that a builder creates.
 
     Args:
         file: the name to stamp.
         on_clone: DOM user data handler of the stamps.
         too_deep: called with the parser when elements nest too deep; raises.
-        check: called with the parser, the tag and the values of its attributes for every element, before it is made.
+        check: called before each element is created, with the parser, the tag and the values of the attributes.
     """
 
     def __init__(
@@ -50,7 +50,7 @@ class _Stamping(ExpatBuilder):
             self._too_deep(parser)
 
     def end_element_handler(self, name: str) -> None:
-        """Leave the element."""
+        """Close the element."""
         self._depth -= 1
         super().end_element_handler(name)
 
@@ -65,7 +65,7 @@ class _Stamping(ExpatBuilder):
 
 
 class StampingBuilder(_Stamping, ExpatBuilderNS):
-    """Builds what ``minidom.parseString`` builds."""
+    """Builds the same document as ``minidom.parseString``, with stamps."""
 
 
 class PrefixBlindBuilder(_Stamping):

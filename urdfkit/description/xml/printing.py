@@ -1,4 +1,4 @@
-"""An expanded document as stock xacro prints it."""
+"""Print an expanded document in the format of stock xacro."""
 
 from __future__ import annotations
 
@@ -11,11 +11,11 @@ if TYPE_CHECKING:
 
 
 def printed(document: Any, path: str) -> str:
-    """Return a document as stock xacro prints it, under its banner.
+    """Return a document in the format of stock xacro, including its banner comment.
 
     Args:
         document: a minidom document; the banner is inserted into it.
-        path: of the file, as the user named it.
+        path: path of the file as passed by the user.
     """
     rule = f" {'=' * 83} "
     shown = re.sub(r"-+", "-", path)
@@ -31,7 +31,7 @@ def printed(document: Any, path: str) -> str:
     try:
         return str(document.toprettyxml(indent="  "))
     except AttributeError:
-        # Stock xacro fails like this where <xacro:attribute> left a number.
+        # Stock xacro raises the same error if <xacro:attribute> produced a number.
         for element in document.getElementsByTagName("*"):
             for name, value in element.attributes.items():
                 element.setAttribute(name, str(value))

@@ -1,7 +1,7 @@
 """Read untrusted XML safely, into `Element` or into a minidom whose elements carry their source position.
 
-A file may come from anywhere, so document types that declare entities or name external files are refused (they can
-grow without bound or read other files), and size and nesting are bounded.
+Document types that declare entities or name external files are rejected, because they can expand without bound or read
+other files. File size and nesting depth are bounded.
 """
 
 from __future__ import annotations
@@ -23,19 +23,19 @@ if TYPE_CHECKING:
     from xml.dom import minidom
 
 MAX_BYTES = 64 * 2**20
-"""A description is refused when it is larger [bytes]."""
+"""Maximum size of a description [bytes]."""
 
 MAX_MADE_DEPTH = 400
-"""Expanded elements are refused when they are nested deeper: Python's recursion limit is 1,000."""
+"""Maximum nesting depth of expanded elements; Python's recursion limit is 1,000."""
 
 MAX_VALUE = 100_000
-"""A description is refused when an attribute has more characters; real ones have some hundreds."""
+"""Maximum length of an attribute value [characters]; real descriptions have a few hundred."""
 
 MAX_ATTRIBUTES = 1_000
-"""A description is refused when an element has more attributes; real ones have less than 20."""
+"""Maximum number of attributes of an element; real descriptions have fewer than 20."""
 
 MAX_TAGS = 100_000
-"""A description is refused when it has more tags and comments; a robot of 1,200 links has 30,000."""
+"""Maximum number of tags and comments of a description; a robot with 1,200 links has 30,000."""
 
 _TAG_NAME = r"</?\s*([^\s<>/]*)"
 
@@ -45,11 +45,11 @@ def read_source(path: Path, *, shown_as: str | None = None, texts: Mapping[str, 
 
     Args:
         path: the file.
-        shown_as: its name in messages.
+        shown_as: name of the file in messages.
         texts: absolute path → content to use instead of the file on disk.
 
     Raises:
-        ResourceError: it cannot be read or is too large.
+        ResourceError: the file cannot be read or is too large.
     """
     shown = shown_as or str(path)
     if texts and (text := texts.get(str(absolute(path)))) is not None:
@@ -70,12 +70,12 @@ def shown_path(path: str | Path) -> str:
 
 
 def absolute(path: str | Path) -> Path:
-    """Return a path from the root, without ``..``, symbolic links as they are."""
+    """Return an absolute path without ``..``; symbolic links are not resolved."""
     return Path(os.path.normpath(Path(path).absolute()))
 
 
 def document_of(source: Source) -> Element:
-    """Read a file as it is written, without xacro. Prefixes need not be declared.
+    """Read a file without xacro expansion. Prefixes need not be declared.
 
     Args:
         source: the text.
@@ -116,14 +116,14 @@ def document_of(source: Source) -> Element:
 
 
 def stamped_document(source: Source, on_clone: Any, *, namespaces: bool = True) -> minidom.Document:
-    """Read a file into the minidom that xacro works on.
+    """Read a file into the minidom document that xacro processes.
 
-    It is the same tree as ``minidom.parseString`` makes, but every element carries its `Stamp`.
+    The tree is the same as that of ``minidom.parseString``, except that every element has a `Stamp`.
 
     Args:
         source: the text.
-        on_clone: DOM user data handler: its `handle` is called for every clone of a stamped element.
-        namespaces: refuse prefixes that are not declared, as minidom does.
+        on_clone: DOM user data handler; its `handle` is called for every clone of a stamped element.
+        namespaces: whether to reject undeclared prefixes, like minidom.
 
     Raises:
         XmlError: it is not well-formed, or hostile.
@@ -147,14 +147,14 @@ def stamped_document(source: Source, on_clone: Any, *, namespaces: bool = True) 
 
 
 def element_of(node: Any, depth: int = 0) -> Element:
-    """Turn a stamped minidom element, and all below it, into an `Element`.
+    """Convert a stamped minidom element and its descendants to an `Element`.
 
     Args:
-        node: an element that `stamped_document` made, or a clone of one.
-        depth: how many elements it is in.
+        node: an element of a `stamped_document`, or a clone of one.
+        depth: nesting depth of the element.
 
     Raises:
-        XmlError: macros have made elements that are nested too deep.
+        XmlError: the expanded elements are nested too deeply.
     """
     if hasattr(node, "finished"):
         (element,) = node.elements()
@@ -169,7 +169,7 @@ def element_of(node: Any, depth: int = 0) -> Element:
             children.append(element_of(child, depth + 1))
         elif kind in (3, 4):
             text += child.data
-    # <xacro:attribute> may leave a number where minidom wants text.
+    # <xacro:attribute> may produce a number where minidom requires text.
     attributes = {name: str(value) for name, value in node.attributes.items()} if node.hasAttributes() else {}
     return Element(node.tagName, attributes, children, text.strip(), Origin(Position(file, line, column), expansions))
 
@@ -178,7 +178,7 @@ def parse_with(parser: Any, source: Source, open_tags: Callable[[], list[tuple[s
     """Parse a text; `open_tags` returns tag and line of the open elements, outermost first.
 
     Raises:
-        XmlError: it is not well-formed, or has too many tags.
+        XmlError: the text is not well-formed, or has too many tags.
     """
     if not source.text.strip():
         raise XmlError("the file is empty", position=Position(source.file, 1, 1))
@@ -236,7 +236,7 @@ def _here(source: Source, parser: Any) -> Position:
 
 
 def too_deep(source: Source, parser: Any) -> NoReturn:
-    """Refuse elements that nest too deep.
+    """Reject elements that are nested too deeply.
 
     Raises:
         XmlError: always.
@@ -245,7 +245,7 @@ def too_deep(source: Source, parser: Any) -> NoReturn:
 
 
 def check_depth(depth: int, position: Position) -> None:
-    """Refuse expanded elements that are nested too deep: later passes recurse level by level.
+    """Reject expanded elements that are nested too deeply, because later passes are recursive.
 
     Raises:
         XmlError: it is.
@@ -256,10 +256,10 @@ def check_depth(depth: int, position: Position) -> None:
 
 
 def refuse_excess(source: Source, parser: Any, tag: str, values: Collection[str]) -> None:
-    """Refuse an element with too many attributes, or too long ones.
+    """Reject an element with too many attributes or too long attribute values.
 
     Raises:
-        XmlError: it has.
+        XmlError: the element exceeds a limit.
     """
     if len(values) > MAX_ATTRIBUTES:
         message = f"<{tag}> has {len(values)} attributes; at most {MAX_ATTRIBUTES} are read"
@@ -271,7 +271,7 @@ def refuse_excess(source: Source, parser: Any, tag: str, values: Collection[str]
 
 
 def refuse_entity(source: Source, parser: Any, name: str) -> NoReturn:
-    """Refuse a document that declares an entity.
+    """Reject a document that declares an entity.
 
     Raises:
         XmlError: always.
@@ -283,7 +283,7 @@ def refuse_entity(source: Source, parser: Any, name: str) -> NoReturn:
 
 
 def check_doctype(source: Source, parser: Any, system: str | None, public: str | None) -> None:
-    """Refuse a document type in another file.
+    """Reject an external document type.
 
     Raises:
         XmlError: it is.

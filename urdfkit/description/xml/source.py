@@ -1,4 +1,4 @@
-"""Source text of a file: positions, spans, and the macro calls an element came from."""
+"""Source text of a file: positions, spans, and the macro calls that produced an element."""
 
 from __future__ import annotations
 
@@ -14,11 +14,11 @@ def content_of(path: Path, most: int = -1) -> bytes:
     """Return the bytes of a file, without waiting for files such as /proc/kmsg that have no data yet.
 
     Args:
-        path: a file, or a pipe, which is waited for.
+        path: a file, or a pipe, whose data is awaited.
         most: maximum number of bytes; no limit when negative.
 
     Raises:
-        OSError: it cannot be read.
+        OSError: the file cannot be read.
     """
     without_waiting = getattr(os, "O_NONBLOCK", 0) if path.is_file() else 0
     with open(path, "rb", opener=lambda name, flags: os.open(name, flags | without_waiting)) as file:
@@ -30,7 +30,7 @@ def content_of(path: Path, most: int = -1) -> bytes:
 
 @record(order=True)
 class Span:
-    """A stretch of one file, from `line`:`column` up to, not including, `end_line`:`end_column`."""
+    """A range of one file, from `line`:`column` to `end_line`:`end_column` (exclusive)."""
 
     file: str
     line: int
@@ -46,7 +46,7 @@ class Span:
 
 @record
 class Expansion:
-    """One macro call that an expanded element went through."""
+    """One macro call that produced an expanded element."""
 
     macro: str
     position: Position
@@ -54,7 +54,7 @@ class Expansion:
 
 @record
 class Origin:
-    """Where an expanded element comes from.
+    """Source position of an expanded element, and the macro calls that produced it.
 
     Attributes:
         position: the start tag in the source file.
@@ -72,7 +72,7 @@ class Source:
 
     Attributes:
         file: the path as shown to the user.
-        text: the decoded content, with its line ends as they are.
+        text: the decoded content, with unchanged line endings.
         flaw: offset in the text and description of the first byte that is not UTF-8; None if all are.
     """
 
@@ -109,7 +109,7 @@ class Source:
 
     @cached_property
     def line_starts(self) -> list[int]:
-        """Offset of the first character of each line; line ends are those of XML, a single carriage return included."""
+        """Offset of the first character of each line; line endings as in XML, including a single carriage return."""
         starts = [0]
         if "\r" in self.text:
             import re
@@ -124,7 +124,7 @@ class Source:
         return starts
 
     def line(self, number: int) -> str:
-        """Return line `number` (from 1) without its line end; empty when there is no such line."""
+        """Return line `number` (from 1) without its line ending; empty if the line does not exist."""
         if not 1 <= number <= len(self.line_starts):
             return ""
         start = self.line_starts[number - 1]
@@ -133,7 +133,7 @@ class Source:
 
     @cached_property
     def line_end(self) -> str:
-        """Line end of the first line, used for inserted lines."""
+        """Line ending of the first line, used for inserted lines."""
         first = self.text[: self.line_starts[1]] if len(self.line_starts) > 1 else "\n"
         return "\r\n" if first.endswith("\r\n") else first[-1]
 
@@ -161,6 +161,6 @@ class Source:
 
 
 class Overlay(str):
-    """A text that replaces the one on disk and is written with the same flaw; see `Source`."""
+    """A text that replaces the file on disk and has the same `flaw`; see `Source`."""
 
     flaw: tuple[int, str] | None = None

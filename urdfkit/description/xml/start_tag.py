@@ -20,11 +20,11 @@ class AttributeText:
     """One attribute as written.
 
     Attributes:
-        name: span of its name.
+        name: span of the name.
         value: span between the quotes.
-        whole: span from the white space before the name to the closing quote; cut it to remove the attribute.
+        whole: span from the white space before the name to the closing quote; delete it to remove the attribute.
         quote: ``"`` or ``'``.
-        raw: the value as written, entities unresolved.
+        raw: source text of the value, entities unresolved.
     """
 
     name: Span
@@ -41,9 +41,9 @@ class StartTag:
     Attributes:
         span: from ``<`` to after ``>``.
         name: span of the tag's name.
-        attributes: by name, in order.
-        end_of_attributes: where another attribute (with a blank before it) can be inserted.
-        is_empty: whether it ends in ``/>``.
+        attributes: name → attribute, in order.
+        end_of_attributes: position at which another attribute (after a space) can be inserted.
+        is_empty: whether the tag ends with ``/>``.
     """
 
     span: Span

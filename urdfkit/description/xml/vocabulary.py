@@ -24,7 +24,7 @@ SDF_TAGS = frozenset(
     projector polyline plane heightmap ellipsoid cone empty audio_source battery gripper actor animation trajectory
     """.split()
 )
-"""The elements of SDF that ``<gazebo>`` may hold."""
+"""SDF elements that ``<gazebo>`` may contain."""
 
 TAGS = URDF_TAGS | SDF_TAGS
-"""Both."""
+"""Elements of URDF and SDF."""

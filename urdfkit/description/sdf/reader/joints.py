@@ -30,10 +30,10 @@ def read_joint(context: Context, element: Element, scope: Scope) -> WorldJoint:
     Args:
         context: the file.
         element: the joint.
-        scope: the frames around it.
+        scope: the frames of the model that contains the joint.
 
     Raises:
-        DescriptionError: it cannot be read, or a link it names is unknown.
+        DescriptionError: the joint cannot be read, or its parent or child link is unknown.
     """
     note_unknown_elements(context, element)
     name, kind = name_of(element), element.get("type") or ""
@@ -110,7 +110,7 @@ def _direction(context: Context, element: Element, scope: Scope, child: str, pos
     if not any(xyz):
         raise wrong(written or element, "the axis of a joint is zero")
     base = "" if written is None else written.get("expressed_in") or ""
-    # SDF 1.4 means the model's axes; 1.5 and 1.6 with <use_parent_model_frame> (1_4.convert, 1_6.convert).
+    # In the model frame in SDF 1.4, and in 1.5 and 1.6 with <use_parent_model_frame> (1_4.convert, 1_6.convert).
     if context.version < (1, 7) and boolean(element, "use_parent_model_frame", context.version < (1, 5)):
         base = scope.root
     if not base:

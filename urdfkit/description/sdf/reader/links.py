@@ -25,7 +25,7 @@ def read_link(context: Context, element: Element, scope: Scope) -> WorldLink:
     Args:
         context: the file.
         element: the link.
-        scope: the frames of its model, the link's own among them.
+        scope: the frames of its model, including the frame of the link.
 
     Raises:
         DescriptionError: it cannot be read.
@@ -86,7 +86,7 @@ def _inertial(context: Context, link: Element, scope: Scope, collisions: tuple[W
 
 
 def _automatic(link: Element, inertial: Element, collisions: tuple[WorldShape, ...]) -> WorldInertial:
-    """Return mass properties from the collisions: with its own density, the link's, or that of water (SDF 1.11)."""
+    """Return mass properties from the collisions, with the density of collision, link or water (SDF 1.11)."""
     common = scalar(inertial, "density", WATER)
     densities = {name_of(each): scalar(each, "density", common) for each in link.find_all("collision")}
     parts: list[tuple[Pose, Solid]] = []

@@ -41,17 +41,17 @@ _NOT_SIMULATED = {
 
 
 def load_world(world: str | Path, *, package_path: Iterable[str | Path] = ()) -> World:
-    """Return the world of a name or file.
+    """Load a world by name or from a file.
 
     Args:
-        world: the name of a bundled world, or a ``.world`` or ``.sdf`` file. A file with a model alone is a world of
-            that model only.
+        world: the name of a bundled world, or a ``.world`` or ``.sdf`` file. A file with only a model becomes a world
+            with that model.
         package_path: folders to search for models and packages first.
 
     Raises:
         ResourceError: the world, or a model it includes, does not exist.
         XmlError: a file is not well-formed XML, or hostile.
-        DescriptionError: it cannot be read or simulated; with the position.
+        DescriptionError: the world cannot be read or simulated; with the position.
     """
     path = world_file(str(world)) or Path(world)
     names = world_names()
@@ -89,7 +89,7 @@ def load_world(world: str | Path, *, package_path: Iterable[str | Path] = ()) ->
 def load_model(
     model: str | Path, *, name: str = "", pose: Pose | None = None, package_path: Iterable[str | Path] = ()
 ) -> WorldModel:
-    """Return a model to be put into a world.
+    """Load a model to add to a world.
 
     Args:
         model: the name of a bundled model, ``model://name``, or an ``.sdf`` file.
@@ -100,7 +100,7 @@ def load_model(
     Raises:
         ResourceError: unknown model.
         XmlError: a file is not well-formed XML, or hostile.
-        DescriptionError: it cannot be read, or is not a model.
+        DescriptionError: the file cannot be read, or is not a model.
     """
     path = model_file(str(model)) or Path(model)
     if str(model).startswith("model://") or (path.suffix != ".sdf" and "/" not in str(model)):
@@ -167,7 +167,7 @@ def _world(context: Context, element: Element) -> World:
         state.note_unknown_models([each.name for each in models])
         models, lights = [state.model(each) for each in models], [state.light(each) for each in lights]
     physics = _physics_element(element)
-    gravity = vector(physics, "gravity", GRAVITY)  # its place in SDF 1.5 and older
+    gravity = vector(physics, "gravity", GRAVITY)  # location in SDF 1.5 and older
     default = World("")
     return World(
         element.get("name") or context.path.stem,
@@ -223,7 +223,7 @@ def _physics(context: Context, element: Element) -> Physics:
 
 
 def _require_masses(model: WorldModel, *, static: bool) -> None:
-    """Refuse moving links without mass or with an invalid inertia."""
+    """Reject moving links without mass or with an invalid inertia."""
     static = static or model.static
     if not (model.static or model.links or model.models):  # like sdformat
         raise DescriptionError(
@@ -246,7 +246,7 @@ def _require_masses(model: WorldModel, *, static: bool) -> None:
 
 
 def _is_positive_definite(ixx: float, ixy: float, ixz: float, iyy: float, iyz: float, izz: float) -> bool:
-    """Whether a tensor is positive definite, by Sylvester's criterion."""
+    """Return whether a tensor is positive definite, by Sylvester's criterion."""
     minor = ixx * iyy - ixy * ixy
     whole = ixx * (iyy * izz - iyz * iyz) - ixy * (ixy * izz - iyz * ixz) + ixz * (ixy * iyz - iyy * ixz)
     return ixx > 0 and minor > 0 and whole > 0

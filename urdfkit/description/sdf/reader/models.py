@@ -1,4 +1,4 @@
-"""Models of SDF: links, joints, frames and models inside models, and included files."""
+"""Models of SDF: links, joints, frames, nested models and included files."""
 
 from __future__ import annotations
 
@@ -24,8 +24,8 @@ class ReadEntity:
 
     Attributes:
         entity: the model, robot or light.
-        raw: its pose as written.
-        placement: the frame inside it that the pose is of.
+        raw: unresolved pose.
+        placement: the frame inside the model that the pose places.
         scope: the frames of a model.
     """
 
@@ -38,7 +38,7 @@ class ReadEntity:
         """Add the frame of a model to the frames of its parent; lights have none.
 
         Raises:
-            DescriptionError: its name exists already.
+            DescriptionError: the name exists already.
         """
         if not isinstance(self.entity, Light):
             name = self.entity.name
@@ -111,7 +111,7 @@ def add_frame(scope: Scope, element: Element, *, strict: bool) -> None:
     """Add the frame of a link, joint or ``<frame>``; other elements have none.
 
     Raises:
-        DescriptionError: its name is missing or exists already.
+        DescriptionError: the name is missing or exists already.
     """
     if element.tag == "link":
         scope.add(name_of(element), "link", raw_pose(element), strict=strict)

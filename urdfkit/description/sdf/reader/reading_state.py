@@ -22,13 +22,13 @@ class Context:
     """State of the reader: the current file and its version of SDF.
 
     Args:
-        packages: finds ``model://`` and ``package://``.
-        path: the file.
+        packages: resolver of ``model://`` and ``package://``.
+        path: the current file.
 
     Attributes:
         notes: notes for the user, shared by all files of a world.
         files: the files read, in order.
-        version: of SDF, in this file.
+        version: SDF version of the current file.
     """
 
     def __init__(self, packages: Packages, path: Path) -> None:

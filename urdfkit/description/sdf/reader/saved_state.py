@@ -14,7 +14,7 @@ from urdfkit.description.xml.element import Element
 from urdfkit.errors import did_you_mean
 
 _ROUNDED = 1e-4
-"""A saved pose closer than this to the written one is a rounded copy of it: [m] and entries of the rotation."""
+"""Maximum difference of a saved pose that counts as a rounded copy: [m], and entries of the rotation matrix."""
 
 
 class SavedState:
@@ -95,7 +95,7 @@ def _scaled(link: WorldLink, scale: Vector) -> WorldLink:
 
 
 def scaled(geometry: WorldGeometry, scale: Vector) -> WorldGeometry:
-    """Return a shape that is `scale` times as large along x, y and z; round ones use the larger factor."""
+    """Return a shape scaled by `scale` along x, y and z; round shapes use the larger factor."""
     x, y, z = scale
     if isinstance(geometry, Box):
         return Box((geometry.size[0] * x, geometry.size[1] * y, geometry.size[2] * z))
@@ -116,7 +116,7 @@ def _link(link: WorldLink, saved: Element | None, model: Pose) -> WorldLink:
 
 
 def _unless_near(pose: Pose, saved: Element) -> Pose | None:
-    """Return the saved pose; None if it is missing or equal to the written one."""
+    """Return the saved pose; None if it is missing or equal to the pose of the model."""
     if saved.find("pose") is None:
         return None
     found = raw_pose(saved).pose

@@ -20,7 +20,7 @@ _REFUSED = {
     "image": "build it from boxes",
 }
 LARGEST = 1e6
-"""Larger values count as mistakes; at this size double precision resolves 0.1 nm [m]."""
+"""Largest accepted length [m]; double precision resolves 0.1 nm at this size."""
 _READ = {
     "auto_inertia_params",
     "density",
@@ -40,14 +40,14 @@ def read_shape(context: Context, element: Element, pose: Pose) -> WorldShape | N
     Args:
         context: the file.
         element: the shape.
-        pose: in its link.
+        pose: pose of the shape in its link.
 
     Returns:
-        The shape; None where its geometry is ``<empty/>``, or for a visual with a missing mesh (with a note). A
-        collision with a missing mesh (with a note) has no file.
+        The shape; None if its geometry is ``<empty/>``, or for a visual with a missing mesh (with a note). A collision
+        with a missing mesh (with a note) has no file.
 
     Raises:
-        DescriptionError: it cannot be read, or is of an unsupported kind.
+        DescriptionError: the shape cannot be read, or its kind is not supported.
     """
     note_unknown_elements(context, element)
     name = name_of(element)
@@ -108,7 +108,7 @@ def _lengths(solid: WorldGeometry) -> tuple[float, ...]:
 def _box(element: Element) -> Box:
     size = element.find("size")
     if size is None:
-        return Box((1.0, 1.0, 1.0))  # sdformat's default (box_shape.sdf), like those below
+        return Box((1.0, 1.0, 1.0))  # sdformat's default (box_shape.sdf), like the sizes below
     x, y, z = floats(size, 3)
     if min(x, y, z) <= 0:
         raise wrong(size, f"<size> is `{size.text}`; every edge must be longer than zero")

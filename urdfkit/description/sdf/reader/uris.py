@@ -20,8 +20,8 @@ def find_file(context: Context, uri: Element) -> Path:
     """Return the file of a mesh URI.
 
     Args:
-        context: the file it is written in; plain paths are relative to it.
-        uri: the element that contains it.
+        context: the file that contains the URI; plain paths are relative to it.
+        uri: the element that contains the URI.
 
     Raises:
         ResourceError: the file does not exist, or is on the network.
@@ -30,7 +30,7 @@ def find_file(context: Context, uri: Element) -> Path:
     scheme, _, rest = uri.text.partition("://")
     name, _, inside = rest.partition("/")
     if scheme == "model":
-        # The name of a model is its folder's: its own files need no search.
+        # A model has the name of its folder, so its own files need no search.
         for folder in context.path.parents:
             if folder.name == name and (folder / inside).is_file():
                 return folder / inside
@@ -47,7 +47,7 @@ def find_model(context: Context, uri: Element) -> Path:
     then bundled models; a similar bundled model is used with a note.
 
     Raises:
-        ResourceError: unknown model; names the nearest.
+        ResourceError: unknown model; names the most similar model.
     """
     _refuse_remote(uri)
     text = uri.text.strip()

@@ -33,7 +33,7 @@ _SETS = {tag: frozenset(allowed.split()) for tag, allowed in _ALLOWED.items()}
 
 
 def note_unknown_elements(context: Context, element: Element) -> None:
-    """Add a note for each child unknown to SDF; sdformat ignores these too, and elements with a prefix silently."""
+    """Add a note for each child unknown to SDF, which sdformat ignores too; elements with a prefix get no note."""
     allowed = _SETS["axis" if element.tag == "axis2" else element.tag]
     for child in element.children:
         if child.tag not in allowed and ":" not in child.tag:

@@ -1,4 +1,4 @@
-"""Plugins of worlds: the ones whose function the simulator has built in, and notes about unknown ones."""
+"""Plugins of worlds: plugins whose function is built into the simulator, and notes about unknown plugins."""
 
 from __future__ import annotations
 
