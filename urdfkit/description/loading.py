@@ -42,16 +42,16 @@ def load(
 
     Args:
         robot: a ``.urdf`` or ``.xacro`` file, a package folder or the name of a bundled robot. A loaded robot is
-            returned unchanged, or loaded again if `arguments` or `package_path` are given.
+            returned unchanged, or loaded again if `arguments` or `package_path` is set.
         arguments: xacro arguments.
         package_path: folders to search for packages first.
 
     Raises:
         UsageError: `robot` is something else.
         ResourceError: no such file, folder or bundled robot.
-        XmlError: it, or a file it includes, is not well-formed or is hostile.
+        XmlError: a file is not well-formed, declares entities, or exceeds a limit.
         XacroError: xacro could not expand it.
-        ModelError: it is not a robot, or not one tree, or a value cannot be used.
+        ModelError: the file is not a robot, the links are not a single tree, or a value is invalid.
     """
     package_path = tuple(package_path)
     if isinstance(robot, Robot) and not arguments and not package_path:
@@ -87,7 +87,7 @@ def expand(
     Raises:
         UsageError: `robot` is neither a path, a name nor a robot that was loaded from a file.
         ResourceError: no such file, folder or bundled robot.
-        XmlError: it, or a file it includes, is not well-formed or is hostile.
+        XmlError: a file is not well-formed, declares entities, or exceeds a limit.
         XacroError: xacro could not expand it.
     """
     model = model_argument(robot, arguments=arguments, package_path=package_path)
@@ -159,7 +159,7 @@ def check_is_robot(root: Element) -> None:
         root: the document element.
 
     Raises:
-        ModelError: it is another element; the message names it.
+        ModelError: the document element is another one; the message contains its name.
     """
     if root.tag == "robot":
         return

@@ -36,7 +36,7 @@ class Rule:
 
     Attributes:
         code: e.g. ``I503``.
-        name: reads as "allow <name>", e.g. ``inertia-triangle-inequality``.
+        name: the defect, so that "allow <name>" is meaningful, e.g. ``inertia-triangle-inequality``.
         severity: default severity of its findings.
         fix: ``safe`` if ``--fix`` fixes its findings, ``unsafe`` if ``--unsafe-fixes`` is needed, else ``none``.
         not_for: targets that the rule does not apply to.

@@ -184,8 +184,8 @@ def read_settings(path: Path, *, separator: str = "/") -> Settings:
         separator: separator of the parts of a name: ``/`` in ROS 1, ``.`` in ROS 2.
 
     Raises:
-        ResourceError: it cannot be read.
-        DescriptionError: it is not YAML, or not parameters; with the position.
+        ResourceError: the file cannot be read.
+        DescriptionError: the text is not YAML or does not contain parameters; with the position.
     """
     return parse_settings(Source.read(path, shown_as=shown_path(path)), separator=separator)
 
@@ -194,7 +194,7 @@ def parse_settings(source: Source, *, separator: str = "/") -> Settings:
     """Read the YAML text of parameters; see `read_settings`.
 
     Raises:
-        DescriptionError: it is not YAML, or not parameters; with the position.
+        DescriptionError: the text is not YAML or does not contain parameters; with the position.
     """
     import yaml
 

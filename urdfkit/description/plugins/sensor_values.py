@@ -26,7 +26,7 @@ NUMBERS = frozenset(
         *("horizontal_fov", "width", "height", "near", "far", "mean", "stddev"),
     )
 )
-"""Elements of a ``<sensor>`` outside plugins that hold a number (sdformat: sensor.sdf, noise.sdf …)."""
+"""Elements of a ``<sensor>`` outside plugins that contain a number (sdformat: sensor.sdf, noise.sdf …)."""
 
 _MAX_ANGLE = 6.3
 """Slightly more than a full turn [rad], because descriptions often contain the rounded value 6.2832."""

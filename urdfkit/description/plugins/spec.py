@@ -19,12 +19,12 @@ class Parameter:
     """One XML child that a plugin reads.
 
     Attributes:
-        meaning: its name in the simulator, the same across generations, e.g. ``wheel_separation``.
-        tag: its tag in this generation.
-        default: the value if it is missing, as text; None for a required parameter.
+        meaning: name in the simulator, the same in all generations, e.g. ``wheel_separation``.
+        tag: XML tag in this generation.
+        default: default value as text; None for a required parameter.
         unit: SI unit in brackets, or empty.
-        names: the kind of entity the value names; empty if it is not a name.
-        repeats: may be given more than once.
+        names: kind of the entity named by the value; None if the value is not a name.
+        repeats: whether the parameter may occur several times.
         separator: separator of several values in one text, e.g. ``,``; empty if the text is one value.
     """
 

@@ -16,8 +16,8 @@ def add_model(world: World, model: WorldModel, *, name: str = "", pose: Pose | N
     Args:
         world: the original world.
         model: the model to add.
-        name: its name in the world; its own name when empty.
-        pose: its pose in the world; its own pose when None.
+        name: name in the world; the name of `model` when empty.
+        pose: pose in the world; the pose of `model` when None.
 
     Raises:
         ResourceError: the name exists already; suggests an unused name.
@@ -35,7 +35,7 @@ def remove_model(world: World, name: str) -> World:
     """Return a world without one of its models, robots or lights.
 
     Raises:
-        ResourceError: no entity has that name; names the nearest.
+        ResourceError: no entity has that name; names the most similar entity.
     """
     names = [*_names(world), *(light.name for light in world.lights)]
     if name not in names:
@@ -57,10 +57,10 @@ def move_model(world: World, name: str, pose: Pose) -> World:
     Args:
         world: the original world.
         name: name of the model.
-        pose: its new pose.
+        pose: new pose in the world.
 
     Raises:
-        ResourceError: no entity has that name; names the nearest.
+        ResourceError: no entity has that name; names the most similar entity.
     """
     if name not in _names(world):
         raise _unknown(world, name, _names(world))

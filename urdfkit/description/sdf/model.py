@@ -49,7 +49,7 @@ class WorldLink(Written):
         kinematic: whether the link moves by command only.
         damping: linear [1/s] and angular [1/s] velocity decay.
         lights: lights attached to the link.
-        kept: sensors and other elements.
+        kept: sensors and other elements, preserved unchanged.
         position: source position.
     """
 
@@ -125,7 +125,7 @@ class WorldJoint(Written):
         child: a link of the model or ``nested::link``; not ``world``.
         pose: pose in the child link.
         axes: zero, one or two axes.
-        kept: other elements.
+        kept: other elements, preserved unchanged.
         position: source position.
     """
 
@@ -152,7 +152,7 @@ class WorldModel(Written):
         models: nested models.
         self_collide: whether the links collide with each other.
         canonical_link: name of the canonical link; empty for the first link.
-        kept: plugins and other elements.
+        kept: plugins and other elements, preserved unchanged.
         position: source position.
     """
 

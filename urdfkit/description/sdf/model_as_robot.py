@@ -351,7 +351,7 @@ def _blocks(model: WorldModel, group: Group, prefix: str) -> list[GazeboBlock]:
 
 
 def all_kept(model: WorldModel) -> list[Kept]:
-    """Return the kept elements of a model and of its nested models."""
+    """Return the preserved elements of a model and of its nested models."""
     return [*model.kept, *(kept for nested in model.models for kept in all_kept(nested))]
 
 

@@ -83,7 +83,7 @@ class Markup:
         self.numbers("pose", (*pose.xyz, *pose.rpy), (0.0,) * 6)
 
     def keep(self, kept: Sequence[Kept]) -> None:
-        """Write kept elements unchanged."""
+        """Write preserved elements unchanged."""
         for each in kept:
             self._element(each.element)
 

@@ -61,10 +61,10 @@ WorldGeometry = Box | Cylinder | Sphere | Capsule | Cone | Ellipsoid | Plane | M
 
 @record(eq=False)
 class Kept(Written):
-    """An element kept unchanged: a plugin, a sensor, or an unsupported setting.
+    """An element preserved without interpretation: a plugin, a sensor, or an unsupported setting.
 
     Attributes:
-        text: its XML on one line.
+        text: XML of the element on one line.
         element: the parsed element.
     """
 
@@ -121,7 +121,7 @@ class WorldShape(Written):
         material: name of the Gazebo material script, e.g. ``Gazebo/Grey``; empty if missing.
         laser_retro: intensity that a lidar measures.
         file: the mesh on this machine; empty for other shapes and missing meshes.
-        kept: other elements.
+        kept: other elements, preserved unchanged.
         position: source position.
     """
 
@@ -153,7 +153,7 @@ class Light(Written):
         spot: inner and outer angle [rad], falloff.
         cast_shadows: whether it casts shadows.
         intensity: factor on the colours.
-        kept: other elements.
+        kept: other elements, preserved unchanged.
         position: source position.
     """
 
@@ -172,7 +172,7 @@ class Light(Written):
 
 
 def plugins_of(kept: tuple[Kept, ...]) -> tuple[Plugin, ...]:
-    """Return the plugins among kept elements."""
+    """Return the plugins among preserved elements."""
     elements = [each.element for each in kept if each.element.tag == "plugin"]
     return tuple([Plugin(e.get("name"), e.get("filename"), e) for e in elements])
 

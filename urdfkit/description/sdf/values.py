@@ -18,7 +18,7 @@ _BOOLEANS = {"true": True, "1": True, "false": False, "0": False}
 
 @record
 class RawPose:
-    """A ``<pose>`` as written, its frame not yet resolved.
+    """An unresolved ``<pose>``.
 
     Attributes:
         pose: the pose; the identity if it is missing.
@@ -67,7 +67,7 @@ def positive(parent: Element, tag: str) -> float:
     """Return the number greater than zero in a required child.
 
     Raises:
-        DescriptionError: it is missing, or not greater than zero.
+        DescriptionError: the child is missing, or its number is not greater than zero.
     """
     child = parent.find(tag)
     if child is None:
@@ -101,7 +101,7 @@ def boolean(parent: Element | None, tag: str, default: bool) -> bool:
     """Return the boolean in a child; a default if it is missing.
 
     Raises:
-        DescriptionError: it is neither true nor false.
+        DescriptionError: the text is neither true nor false.
     """
     child = None if parent is None else parent.find(tag)
     if child is None:
@@ -122,7 +122,7 @@ def name_of(element: Element) -> str:
     """Return the name of an element.
 
     Raises:
-        DescriptionError: it has no name.
+        DescriptionError: the element has no name.
     """
     name = element.get("name")
     if not name:
@@ -137,7 +137,7 @@ def raw_pose(parent: Element) -> RawPose:
     a quaternion (SDF 1.9).
 
     Raises:
-        DescriptionError: it cannot be used.
+        DescriptionError: the pose is invalid.
     """
     child = parent.find("pose")
     if child is None:

@@ -29,7 +29,7 @@ class WorldRobot(Written):
         file: local path of the URDF file.
         pose: pose of the root link in the world.
         static: whether the robot never moves.
-        kept: plugins and other elements.
+        kept: plugins and other elements, preserved unchanged.
         position: source position.
     """
 
@@ -91,7 +91,7 @@ class World(Written):
         robots: robots in included URDF files.
         joints: joints between models (SDF 1.10).
         magnetic_field: magnetic field [T].
-        kept: plugins, scene, gui and other elements.
+        kept: plugins, scene, gui and other elements, preserved unchanged.
         notes: notes for the user, one line each.
         files: all files that were read, the world first.
         unknown_plugins: positions of the plugins that a note reports as unknown.

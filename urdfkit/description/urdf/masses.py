@@ -17,7 +17,7 @@ def massless(robot: Robot, *, floating: bool) -> list[tuple[Link, Joint | None]]
 
     Returns:
         The topmost link of each body without mass or inertia, in document order of the tree. Unknown links
-        that joints name are left out.
+        that joints name are skipped.
     """
     body_of: dict[str, str] = {}
     tops: dict[str, Joint | None] = {}

@@ -58,7 +58,7 @@ def parse(
     """Read a robot.
 
     Args:
-        root: the ``<robot>`` element after expansion. Any other element gives a robot without links.
+        root: the ``<robot>`` element after expansion. Any other element results in a robot without links.
         files: the files read, for `Robot.files`.
         packages: for `Robot.packages`.
         arguments: for `Robot.arguments`.

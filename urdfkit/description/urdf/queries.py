@@ -67,7 +67,7 @@ def repeated(parts: tuple[Named, ...]) -> Iterator[tuple[Named, Named]]:
 
 
 def dangling(robot: Robot, end: Literal["parent", "child"]) -> Iterator[tuple[Joint, str, Element]]:
-    """Yield each joint whose parent or child link is unknown, with the name and the element that holds it."""
+    """Yield each joint whose parent or child link is unknown, with the name and the element that contains it."""
     for joint in robot.joints:
         name = joint.parent if end == "parent" else joint.child
         if name is not None and name not in robot.link_by_name:

@@ -68,7 +68,7 @@ class Capsule:
 
 @record
 class Mesh:
-    """A mesh by URI as written (``package://…``, ``file://…``, relative path)."""
+    """A mesh, by its URI in the description (``package://…``, ``file://…``, relative path)."""
 
     uri: str
     scale: Vector = (1.0, 1.0, 1.0)
@@ -194,7 +194,7 @@ class Calibration:
 
 @record(eq=False)
 class Joint:
-    """Connects `child` to `parent`. `type` is as written, None when missing; `axis` is as written, not normalised."""
+    """A joint that connects `child` to `parent`. `type` is None if missing; `axis` is not normalised."""
 
     name: str
     type: str | None
@@ -291,7 +291,7 @@ class Problem:
         kind: category of the problem.
         message: one line for the user.
         element: the element that has the problem.
-        attribute: its attribute; None for the element as a whole or its text.
+        attribute: the affected attribute; None for the element as a whole or its text.
     """
 
     kind: ProblemKind
@@ -307,7 +307,7 @@ class Problem:
 
 @record(eq=False)
 class Robot:
-    """A robot as written; may be broken (see `problems`, `roots`, `cycles`).
+    """A robot as in its description; may be invalid (see `problems`, `roots`, `cycles`).
 
     `links` and `joints` keep document order and duplicates. `files` are all files that were read, the entry first;
     `packages` resolves the URIs of its meshes; `arguments` are the xacro arguments. `load` sets all three.

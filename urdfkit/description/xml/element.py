@@ -26,9 +26,9 @@ class Element:
     """An XML element after expansion.
 
     Attributes:
-        tag: the qualified name as written, e.g. ``link`` or ``xacro:macro``.
+        tag: qualified name, e.g. ``link`` or ``xacro:macro``.
         attributes: name → value after expansion, in document order.
-        children: child elements in document order (comments and processing instructions left out).
+        children: child elements in document order (without comments and processing instructions).
         text: the character data directly inside, concatenated and stripped.
         origin: source position of the start tag, and the macro calls that produced the element.
     """

@@ -1,4 +1,4 @@
-"""Read untrusted XML safely, into `Element` or into a minidom whose elements carry their source position.
+"""Read untrusted XML safely, into `Element` or into a minidom document with source positions.
 
 Document types that declare entities or name external files are rejected, because they can expand without bound or read
 other files. File size and nesting depth are bounded.
@@ -81,7 +81,7 @@ def document_of(source: Source) -> Element:
         source: the text.
 
     Raises:
-        XmlError: it is not well-formed, or hostile.
+        XmlError: the file is not well-formed, declares entities, or exceeds a limit.
     """
     file = source.file
     starts: list[tuple[str, dict[str, str], Origin]] = []
@@ -126,7 +126,7 @@ def stamped_document(source: Source, on_clone: Any, *, namespaces: bool = True) 
         namespaces: whether to reject undeclared prefixes, like minidom.
 
     Raises:
-        XmlError: it is not well-formed, or hostile.
+        XmlError: the file is not well-formed, declares entities, or exceeds a limit.
     """
     from urdfkit.description.xml.positions import PrefixBlindBuilder, StampingBuilder
 
@@ -248,7 +248,7 @@ def check_depth(depth: int, position: Position) -> None:
     """Reject expanded elements that are nested too deeply, because later passes are recursive.
 
     Raises:
-        XmlError: it is.
+        XmlError: `depth` reaches `MAX_MADE_DEPTH`.
     """
     if depth >= MAX_MADE_DEPTH:
         message = f"with this, macros and blocks nest elements deeper than {MAX_MADE_DEPTH}"
@@ -286,7 +286,7 @@ def check_doctype(source: Source, parser: Any, system: str | None, public: str |
     """Reject an external document type.
 
     Raises:
-        XmlError: it is.
+        XmlError: the document type is external.
     """
     if system or public:
         raise XmlError(

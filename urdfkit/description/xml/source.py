@@ -58,7 +58,7 @@ class Origin:
 
     Attributes:
         position: the start tag in the source file.
-        expansions: the macro calls that produced it, innermost first (the call nearest to the element);
+        expansions: the macro calls that produced it, innermost first (the call that directly produced the element);
             empty for elements written outside macros.
     """
 

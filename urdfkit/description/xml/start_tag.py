@@ -17,7 +17,7 @@ _MARKUP = re.compile(
 
 @record
 class AttributeText:
-    """One attribute as written.
+    """Source text of one attribute.
 
     Attributes:
         name: span of the name.
@@ -36,7 +36,7 @@ class AttributeText:
 
 @record
 class StartTag:
-    """A start tag as written.
+    """Source text of a start tag.
 
     Attributes:
         span: from ``<`` to after ``>``.

@@ -29,7 +29,7 @@ def is_in_broken_file(model: Model, tag: str, name: str) -> bool:
     Args:
         model: the linted model.
         tag: ``macro`` or ``material``.
-        name: its name.
+        name: name of the macro or material.
     """
     files = {fault.position.file for fault in model.expanded.faults if fault.kind == "xml"}
     pattern = rf"<(?:xacro:)?{tag}\s[^<>]*?\bname\s*=\s*[\"'](?:xacro:)?{re.escape(name)}[\"']"

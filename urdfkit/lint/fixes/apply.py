@@ -117,7 +117,7 @@ def fix(
 def editable_folders(paths: Iterable[Path]) -> list[Path]:
     """Return the folders whose files fixes may change, for the paths a user named.
 
-    A folder stands for itself, a file for its package, or for its folder if it is not in a package.
+    For a folder, the folder itself; for a file, its package, or its folder if it is not in a package.
     """
     folders = []
     for path in paths:

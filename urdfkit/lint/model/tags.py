@@ -28,7 +28,7 @@ _ATTRIBUTE = r"([^\s=/\"'<>]+)\s*=\s*(?:\"([^\"]*)\"|'([^']*)')"
 
 
 class Attribute:
-    """An attribute as written; offsets into the text, `start` at its name, `value_end` before the closing quote."""
+    """Source text of an attribute; `start` is the offset of its name, `value_end` that of the closing quote."""
 
     __slots__ = ("end", "name", "start", "value", "value_end", "value_start")
 
@@ -38,7 +38,7 @@ class Attribute:
 
 
 class Tag:
-    """An element as written.
+    """Source text of an element.
 
     Attributes:
         name: the name with its prefix.
@@ -59,7 +59,7 @@ class Tag:
 
     @property
     def attributes(self) -> dict[str, Attribute]:
-        """The attributes by name, values as written (entities and expressions untouched)."""
+        """Name → attribute; values are source text, with unresolved entities and expressions."""
         found: dict[str, Attribute] = {}
         for at in re.compile(_ATTRIBUTE).finditer(self._text, self.start + 1 + len(self.name), self.end):
             group = 2 if at[2] is not None else 3

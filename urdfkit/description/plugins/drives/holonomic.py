@@ -47,4 +47,4 @@ ODOMETRY_PUBLISHER_GZ = PluginSpec(
     ),
     source="gz-sim main, src/systems/odometry_publisher/OdometryPublisher.cc",
 )
-"""Odometry from the world, for robots whose drive publishes none."""
+"""Odometry from the world, for robots with a drive that publishes no odometry."""

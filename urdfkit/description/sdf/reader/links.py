@@ -28,7 +28,7 @@ def read_link(context: Context, element: Element, scope: Scope) -> WorldLink:
         scope: the frames of its model, including the frame of the link.
 
     Raises:
-        DescriptionError: it cannot be read.
+        DescriptionError: the link cannot be read.
     """
     note_unknown_elements(context, element)
     name = name_of(element)
@@ -112,10 +112,10 @@ def read_light(context: Context, element: Element, pose: Pose) -> Light:
     Args:
         context: the file.
         element: the light.
-        pose: its pose in its parent.
+        pose: pose of the light in its parent.
 
     Raises:
-        DescriptionError: it cannot be read.
+        DescriptionError: the light cannot be read.
     """
     note_unknown_elements(context, element)
     name, kind = name_of(element), element.get("type") or "point"

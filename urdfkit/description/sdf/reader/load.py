@@ -50,7 +50,7 @@ def load_world(world: str | Path, *, package_path: Iterable[str | Path] = ()) ->
 
     Raises:
         ResourceError: the world, or a model it includes, does not exist.
-        XmlError: a file is not well-formed XML, or hostile.
+        XmlError: a file is not well-formed, declares entities, or exceeds a limit.
         DescriptionError: the world cannot be read or simulated; with the position.
     """
     path = world_file(str(world)) or Path(world)
@@ -93,13 +93,13 @@ def load_model(
 
     Args:
         model: the name of a bundled model, ``model://name``, or an ``.sdf`` file.
-        name: its name in the world; its own name when empty.
-        pose: its pose in the world; its own pose when None.
+        name: name in the world; the name in the file when empty.
+        pose: pose in the world; the pose in the file when None.
         package_path: folders to search for models and packages first.
 
     Raises:
         ResourceError: unknown model.
-        XmlError: a file is not well-formed XML, or hostile.
+        XmlError: a file is not well-formed, declares entities, or exceeds a limit.
         DescriptionError: the file cannot be read, or is not a model.
     """
     path = model_file(str(model)) or Path(model)

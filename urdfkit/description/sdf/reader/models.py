@@ -60,7 +60,7 @@ def read_model(context: Context, element: Element) -> ReadEntity:
 
     Raises:
         ResourceError: an included model or a mesh does not exist.
-        DescriptionError: it cannot be read.
+        DescriptionError: the model cannot be read.
     """
     note_unknown_elements(context, element)
     name = name_of(element)
@@ -138,7 +138,7 @@ def read_include(context: Context, element: Element) -> ReadEntity | None:
 
     Raises:
         ResourceError: unknown model.
-        DescriptionError: it cannot be read.
+        DescriptionError: the included file cannot be read.
     """
     from urdfkit.description.sdf.reader.uris import find_model
 

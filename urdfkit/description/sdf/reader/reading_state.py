@@ -44,9 +44,9 @@ class Context:
         """Read this file and return its root; sets `version`.
 
         Raises:
-            ResourceError: it cannot be read.
-            XmlError: it is not well-formed, or hostile.
-            DescriptionError: it is not SDF of a supported version.
+            ResourceError: the file cannot be read.
+            XmlError: the file is not well-formed, declares entities, or exceeds a limit.
+            DescriptionError: the file is not SDF of a supported version.
         """
         root = self._documents.get(self.path)
         if root is None:

@@ -21,7 +21,7 @@ class SavedState:
     """The state of a world: saved poses of models, links and lights.
 
     Gazebo classic saves the world poses of all models and links, nested ones included (gazebo, LinkState.cc).
-    Velocities are ignored. A saved scale applies to the sizes as written, as in Gazebo.
+    Velocities are ignored. A saved scale applies to the sizes in the model, as in Gazebo.
 
     Args:
         context: the file.

@@ -42,7 +42,7 @@ NEEDLESS = frozenset(
 
 
 def note_unknown_plugins(context: Context, world: World) -> tuple[Position, ...]:
-    """Add a note for each unknown plugin of a world and its entities, with the nearest known name.
+    """Add a note for each unknown plugin of a world and its entities, with the most similar known name.
 
     Returns:
         Their positions.
