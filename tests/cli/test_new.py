@@ -258,7 +258,7 @@ def test_end_of_input_writes_nothing(place, monkeypatch):
             ["robot", "scout", "--sensor", "lidar", "--base-length", "0.2"],
             "the base has no room for the sensors: --base-length",
         ),
-        (["robot", "scout", "--gripper"], "--`gripper` requires --arm 3 or 4 or 5 or 6 or 7"),
+        (["robot", "scout", "--gripper"], "--gripper requires --arm 3 or 4 or 5 or 6 or 7"),
         (["robot", "scout", "--wheel-raduis", "1"], "did you mean `--wheel-radius`?"),
         (["robot", "scout", "--wheel-radius", "5in"], r"--wheel-radius `5in` is not a number \(in m, cm, mm\)"),
         (["robot", "scout", "--mass", "400"], "denser than any material: --mass"),
@@ -343,7 +343,7 @@ def test_options_come_before_the_file(place):
         ('name = "ox"\nmass = -2\n', r"a\.toml: --mass -2 kg is out of range"),
         ('nmae = "x"\n', r"a\.toml: no question `nmae`; did you mean `name`"),
         ("mass = true\n", r"a\.toml: `mass` must be a text, a number or a list of texts"),
-        ('template = "world"\n', r"is for `urdfkit new world`, not for `urdfkit new robot`"),
+        ('template = "world"\n', r"is a recipe for `urdfkit new world`, not for `urdfkit new robot`"),
         ("mass = 3\n", "name of the robot is missing"),
     ],
 )
@@ -368,7 +368,7 @@ def test_the_checker_finds_what_the_linter_does(place):
     template.render(answers, place)
     path = place / "scout_description/urdf/inertia.xacro"
     path.write_text(path.read_text().replace('ixx="${mass*(y*y + z*z)/12}"', 'ixx="${mass*100}"'))
-    assert [fault.said[:4] for fault in findings(place) if fault.is_error] == ["X119"]
+    assert [fault.message[:4] for fault in findings(place) if fault.is_error] == ["X119"]
 
 
 @pytest.mark.slow

@@ -211,18 +211,27 @@ def test_a_template_of_ones_own(place, own, capsys):
     assert main(["new", "--update"]) == 2
     assert "the template ../template of this template does not exist: use --template DIR" in capsys.readouterr().err
     assert main(["new", "--update", "--template", "../moved"]) == 2
-    both = "is for `urdfkit new robot --template ../template`, not for `urdfkit new robot --template ../moved`"
+    both = "is a recipe for `urdfkit new robot --template ../template`, not for `urdfkit new robot --template ../moved`"
     assert both in capsys.readouterr().err
 
 
 def test_a_recipe_of_a_user_template_has_the_command_to_repeat_it(place, own, capsys):
     assert main(["new", "robot", "box", "--template", "../template", "--colour", "blue", "--yes"]) == 0
     recipe = place / "box/urdfkit-new.toml"
-    command = recipe.read_text().splitlines()[0].removeprefix("# Again: urdfkit ").partition(" FILE")[0].split()
+    command = (
+        recipe.read_text()
+        .splitlines()[0]
+        .removeprefix("# To write the same files again: urdfkit ")
+        .partition(" FILE")[0]
+        .split()
+    )
     assert main([*command, str(recipe), "--into", "again", "--yes"]) == 0
     assert (place / "again/box/COLOUR").read_text() == "blue"
     assert main(["new", "robot", "--from", str(recipe), "--yes"]) == 2
-    assert "is for `urdfkit new robot --template ../template`, not for `urdfkit new robot`" in capsys.readouterr().err
+    assert (
+        "is a recipe for `urdfkit new robot --template ../template`, not for `urdfkit new robot`"
+        in capsys.readouterr().err
+    )
 
 
 def test_help_is_of_the_template(place, own, capsys):
@@ -356,12 +365,15 @@ def test_extensions_for_the_other_gazebo_are_reported(place, capsys):
     assert main(["new", "sensor", "camera", "--into", "scout_description", "-q"]) == 0
     capsys.readouterr()
     assert main(["new", "robot", "--update", "--mass", "6", "--yes", "-q"]) == 0
-    assert "stays" not in capsys.readouterr().err
+    assert "was kept" not in capsys.readouterr().err
     assert main(["new", "robot", "--update", "--ros", "noetic", "--yes", "-q"]) == 0
     said = capsys.readouterr().err
-    assert "urdfkit: scout_description/urdf/camera_sensor.xacro stays, and its sensor publishes nothing in Gaz" in said
-    assert "urdfkit: scout_gazebo/config/bridge.yaml stays, and nothing reads it" in said
-    assert said.count("stays") == 2
+    assert (
+        "urdfkit: scout_description/urdf/camera_sensor.xacro was kept, but its sensor has no plugin for Gazebo Classic"
+        in said
+    )
+    assert "urdfkit: scout_gazebo/config/bridge.yaml was kept, but it configures a bridge, which Gazebo Classic" in said
+    assert said.count("was kept") == 2
     (place / "scout_gazebo/config/bridge.yaml").unlink()
     assert main(["new", "sensor", "camera", "--into", "scout_description", "--name", "other", "-q"]) == 0
     assert "libgazebo_ros_camera.so" in (place / "scout_description/urdf/camera_sensor.xacro").read_text()

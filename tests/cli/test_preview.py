@@ -124,7 +124,7 @@ def test_who_does_not_know_may_ask(terminal):
     asking = terminal("new", "robot", "rover", "--no-preview")
     asking.until("ROS distribution")
     asking.type("?")
-    asking.until("noetic is ROS 1, the others ROS 2")
+    asking.until("noetic is ROS 1, the others are ROS 2")
     asking.until("ROS distribution")
     asking.type("quit")
     asking.until("--ros `quit` is not available.*; press Ctrl-C to exit without writing")

@@ -60,7 +60,7 @@ def wheels(filename: str, parameters: str = "", *, name: str = "drive") -> str:
 
 
 REFUSED = {
-    "massless": (arm(box()), ":9:3: link `arm` has no <inertial>, but joint `elbow` moves it: write <inertial>"),
+    "massless": (arm(box()), ":9:3: link `arm` has no <inertial>, but joint `elbow` moves it: add <inertial>"),
     "no mass": (arm(body("0")), ":9:3: link `arm` has no mass or no moment of inertia, but joint `elbow` moves it"),
     "no inertia": (arm(body(ixx="0", iyy="0", izz="0")), ":9:3: link `arm` has no mass or no moment of inertia"),
     "negative mass": (arm(body("-1")), ":9:30: link `arm` has a mass of -1 kg; it must be positive"),
@@ -255,7 +255,7 @@ OPTIONS = {
     ("--seed", "0.5"): "argument --seed: `0.5` is not a seed; it must be a whole number, zero or more",
     ("--gravity", "0,0"): "argument --gravity: `0,0` has 2 values, expected 3: GX,GY,GZ",
     ("--gravity", "0,0,nan"): "argument --gravity: `nan` is not a finite number",
-    ("--gravity", "0,0,-1e300"): "gravity of -1e+300 m/s² makes no sense; the Earth's is 0,0,-9.81",
+    ("--gravity", "0,0,-1e300"): "gravity is -1e+300 m/s²; it must be at most 10000 m/s² (Earth: 0,0,-9.81)",
     ("--spawn", "0,0"): "argument --spawn: `0,0` has 2 values, expected X,Y,Z,YAW or X,Y,Z,ROLL,PITCH,YAW",
     ("--spawn", "0,0,up,0"): "argument --spawn: `up` is not a number",
     ("--initial-twist", "1,0,0"): "argument --initial-twist: `1,0,0` has 3 values, expected 6: VX,VY,VZ,WX,WY,WZ",

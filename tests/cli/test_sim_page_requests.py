@@ -78,7 +78,7 @@ class Page:
         assert key in self.wanted
         self.publish_latched(type, **values)
 
-    def stream(self, key: str, type: str, **values: Any) -> None:
+    def send_chunk(self, key: str, type: str, **values: Any) -> None:
         json.dumps(values, allow_nan=False)
         self.streamed.append(values)
 

@@ -159,7 +159,7 @@ def test_what_is_published_moves_the_robot(ride, topic, until) -> None:
         (["echo", ODOM, "-n", "0"], "`0` is not a whole number of at least 1"),
         (["echo", ODOM, "--field", "pose.pos"], "no field `pos` in pose; did you mean `pose`?"),
         (["echo", ODOM, "--field", "pose.covariance[36]"], "no entry 36 in pose.covariance: it has 36 entries"),
-        (["list", "--url", "http://127.0.0.1:1/?token=x"], "http://127.0.0.1:1: no simulation answers"),
+        (["list", "--url", "http://127.0.0.1:1/?token=x"], "http://127.0.0.1:1: cannot connect: Connection refused"),
         (["lst"], "did you mean `list`?"),
     ],
 )
