@@ -72,7 +72,7 @@ def run(arguments: argparse.Namespace) -> int:
         UrdfkitError: the import failed; nothing was written.
     """
     from urdfkit.app.termination import ended_by_signals
-    from urdfkit.cli.git_identity import identity
+    from urdfkit.cli.new.git_identity import identity
     from urdfkit.resources import templates_dir
     from urdfkit.scaffold import load_template
     from urdfkit.scaffold.wrap.urdf_packages import wrap

@@ -15,8 +15,8 @@ from importlib import import_module
 from pathlib import Path
 
 from urdfkit.app.termination import ended_by_signals
-from urdfkit.cli.git_identity import identity
 from urdfkit.cli.new import update
+from urdfkit.cli.new.git_identity import identity
 from urdfkit.cli.new.template_options import KindParser, add_update, chosen
 from urdfkit.cli.new.update import add_picture, findings
 from urdfkit.cli.new.written_packages import misplaced, report_written

@@ -206,7 +206,7 @@ def _render(
     *,
     namespace: str,
 ) -> None:
-    from urdfkit.cli.git_identity import identity
+    from urdfkit.cli.new.git_identity import identity
     from urdfkit.resources import templates_dir
     from urdfkit.scaffold import computed, load_template
     from urdfkit.scaffold.additions.controller_parameters import move_to_root_namespace, parameters

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 
 from urdfkit.description.xacro.evaluation.elements import Elements
+from urdfkit.description.xacro.evaluation.expressions.symbols import Scope
 from urdfkit.description.xacro.evaluation.failures import (
     Failure,
     macro_arguments,
@@ -13,7 +14,6 @@ from urdfkit.description.xacro.evaluation.failures import (
     undefined_property,
 )
 from urdfkit.description.xacro.evaluation.parameters import Parameter, parameters
-from urdfkit.description.xacro.evaluation.symbols import Scope
 from urdfkit.description.xacro.evaluation.texts import visible
 from urdfkit.description.xacro.evaluation.tree import Tag
 from urdfkit.description.xacro.expressions.excess import MAX_MACRO_CALLS

@@ -12,13 +12,13 @@ from pathlib import Path
 from types import MappingProxyType
 
 from urdfkit.description.xacro.evaluation.calls import Calls
+from urdfkit.description.xacro.evaluation.expressions.symbols import Namespace, Scope
 from urdfkit.description.xacro.evaluation.failures import (
     Failure,
     error_of,
     short,
     undefined_block,
 )
-from urdfkit.description.xacro.evaluation.symbols import Namespace, Scope
 from urdfkit.description.xacro.evaluation.tree import COMMENT, TEXT, Tag, element_of
 from urdfkit.description.xacro.expanded import Expanded
 

@@ -7,9 +7,9 @@ import re
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 
+from urdfkit.description.xacro.evaluation.expressions.functions import Functions
+from urdfkit.description.xacro.evaluation.expressions.symbols import Scope
 from urdfkit.description.xacro.evaluation.failures import Failure, recursive_include
-from urdfkit.description.xacro.evaluation.functions import Functions
-from urdfkit.description.xacro.evaluation.symbols import Scope
 from urdfkit.description.xacro.evaluation.texts import Texts, unreadable
 from urdfkit.description.xacro.evaluation.tree import Tag, read_tree
 from urdfkit.description.xacro.expressions.excess import MAX_INCLUDES, MAX_YAML, TooLarge, check_length

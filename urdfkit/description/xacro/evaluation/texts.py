@@ -6,11 +6,11 @@ import re
 from collections.abc import Callable, Mapping
 
 from urdfkit.description.packages.resolver import near_path
-from urdfkit.description.xacro.evaluation.budget import Budget
 from urdfkit.description.xacro.evaluation.commands import Commands
-from urdfkit.description.xacro.evaluation.expressions import Expressions
+from urdfkit.description.xacro.evaluation.expressions.budget import Budget
+from urdfkit.description.xacro.evaluation.expressions.interpreter import Expressions
+from urdfkit.description.xacro.evaluation.expressions.symbols import Scope
 from urdfkit.description.xacro.evaluation.failures import Failure, Place, circular_property, short, undefined_property
-from urdfkit.description.xacro.evaluation.symbols import Scope
 from urdfkit.description.xacro.expressions.excess import (
     MAX_CHARACTERS,
     MAX_EXPRESSION,

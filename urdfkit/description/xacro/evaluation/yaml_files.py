@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 
-from urdfkit.description.xacro.evaluation.values import wrapped
+from urdfkit.description.xacro.evaluation.expressions.values import wrapped
 from urdfkit.description.xacro.expressions.excess import MAX_ELEMENTS, TooLarge
 
 TYPE_CHECKING = False

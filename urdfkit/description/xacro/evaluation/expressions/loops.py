@@ -5,8 +5,8 @@ from __future__ import annotations
 import ast
 from collections.abc import Callable, Iterator
 
-from urdfkit.description.xacro.evaluation.budget import Budget
-from urdfkit.description.xacro.evaluation.values import Function
+from urdfkit.description.xacro.evaluation.expressions.budget import Budget
+from urdfkit.description.xacro.evaluation.expressions.values import Function
 from urdfkit.description.xacro.expressions.excess import MAX_CALLS_DEEP, TooLarge
 
 TYPE_CHECKING = False

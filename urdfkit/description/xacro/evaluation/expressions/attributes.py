@@ -8,9 +8,9 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 
-from urdfkit.description.xacro.evaluation.budget import Budget
-from urdfkit.description.xacro.evaluation.formats import formatted
-from urdfkit.description.xacro.evaluation.values import Function, Type, YamlDict, YamlList
+from urdfkit.description.xacro.evaluation.expressions.budget import Budget
+from urdfkit.description.xacro.evaluation.expressions.formats import formatted
+from urdfkit.description.xacro.evaluation.expressions.values import Function, Type, YamlDict, YamlList
 from urdfkit.description.xacro.expressions.excess import TooLarge
 from urdfkit.description.xacro.expressions.value_size import CONTAINERS, check_characters, items_of, steps_of
 

@@ -10,12 +10,12 @@ import ast
 import operator
 from collections.abc import Callable
 
-from urdfkit.description.xacro.evaluation.attributes import Attributes
-from urdfkit.description.xacro.evaluation.budget import SIZED, Budget
-from urdfkit.description.xacro.evaluation.formats import shown
-from urdfkit.description.xacro.evaluation.loops import Frame, Loops, checked_name
-from urdfkit.description.xacro.evaluation.symbols import Namespace
-from urdfkit.description.xacro.evaluation.values import Function
+from urdfkit.description.xacro.evaluation.expressions.attributes import Attributes
+from urdfkit.description.xacro.evaluation.expressions.budget import SIZED, Budget
+from urdfkit.description.xacro.evaluation.expressions.formats import shown
+from urdfkit.description.xacro.evaluation.expressions.loops import Frame, Loops, checked_name
+from urdfkit.description.xacro.evaluation.expressions.symbols import Namespace
+from urdfkit.description.xacro.evaluation.expressions.values import Function
 from urdfkit.description.xacro.expressions.excess import MAX_DEPTH, MAX_EXPRESSION, TooLarge
 
 TYPE_CHECKING = False

@@ -7,9 +7,9 @@ import math
 import re
 from collections.abc import Callable
 
-from urdfkit.description.xacro.evaluation.budget import Budget
-from urdfkit.description.xacro.evaluation.symbols import Namespace
-from urdfkit.description.xacro.evaluation.values import Function, Type, YamlDict
+from urdfkit.description.xacro.evaluation.expressions.budget import Budget
+from urdfkit.description.xacro.evaluation.expressions.symbols import Namespace
+from urdfkit.description.xacro.evaluation.expressions.values import Function, Type, YamlDict
 from urdfkit.description.xacro.expressions.excess import MAX_BITS, TooLarge, excess
 
 TYPE_CHECKING = False

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from string import Formatter
 
-from urdfkit.description.xacro.evaluation.budget import Budget
+from urdfkit.description.xacro.evaluation.expressions.budget import Budget
 from urdfkit.description.xacro.expressions.excess import TooLarge
 from urdfkit.description.xacro.expressions.value_size import check_characters, check_widths, steps_of
 
