@@ -22,6 +22,9 @@ settings.load_profile("ci" if os.environ.get("CI") else "developer")
 
 
 def pytest_configure(config: pytest.Config) -> None:
+    # pytest-xdist and some shells export the size of the terminal. Output would be wrapped for it.
+    for name in ("COLUMNS", "LINES"):
+        os.environ.pop(name, None)
     for group in system_packages.GROUPS:
         config.addinivalue_line("markers", f"{group}: needs the packages of this group in tests/system_packages.txt")
 
