@@ -150,7 +150,7 @@ def test_long_lists_are_cut(here):
 
 
 def test_left_out_with_none(here):
-    with pytest.raises(ResourceError, match=r"no ROBOT given and no robot description .*simpleton"):
+    with pytest.raises(ResourceError, match=r"no robot is named, and there is no robot description .*simpleton"):
         find_model([])
 
 
@@ -159,7 +159,7 @@ def test_home_is_not_searched_from_below(here, monkeypatch):
     write(here / "home/package.xml", "")
     (here / "home/work").mkdir()
     monkeypatch.chdir(here / "home/work")
-    with pytest.raises(ResourceError, match="no ROBOT given"):
+    with pytest.raises(ResourceError, match="no robot is named"):
         find_model([])
 
 

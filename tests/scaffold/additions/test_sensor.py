@@ -301,7 +301,7 @@ def test_what_cannot_be_is_refused_and_nothing_changed(place, capsys, options, s
 
 def test_where_there_is_no_robot_it_says_which_option(place, capsys):
     assert main(["new", "sensor", "lidar"]) == 2
-    assert capsys.readouterr().err.startswith("urdfkit: no --into given and no robot description")
+    assert capsys.readouterr().err.startswith("urdfkit: no robot is named, and there is no robot description")
 
 
 def test_the_same_name_twice_is_refused(place, capsys):

@@ -63,10 +63,7 @@ def description(arguments: argparse.Namespace) -> tuple[ModelArgument, Robot, st
         completions = [name for name in siblings if name.startswith(into) and name.endswith("_description")]
         near = did_you_mean(into, siblings) or (f"; did you mean `{completions[0]}`?" if completions else "")
         raise ResourceError(f"--into {into}: no such file or folder{near}")
-    try:
-        model = find_model([*([into] if into is not None else []), *arguments.arg], package_path=arguments.package_path)
-    except ResourceError as error:
-        raise ResourceError(str(error).replace("no ROBOT given", "no --into given")) from error
+    model = find_model([*([into] if into is not None else []), *arguments.arg], package_path=arguments.package_path)
     robot = load(model.path, arguments=model.arguments, package_path=model.package_path)
     return model, robot, _generation(model.path, robot, arguments.sim)
 

@@ -51,7 +51,7 @@ def holds(text: str, names: Mapping[str, float]) -> bool:
     """
     node = _parsed(text)
     if not isinstance(node, ast.Compare) or len(node.ops) != 1 or type(node.ops[0]) not in _COMPARISONS:
-        raise ResourceError(f"template: `{text}` is not a comparison of two values")
+        raise ResourceError(f"`{text}` is not a comparison of two values")
     left, right = (_value(side, names, text) for side in (node.left, node.comparators[0]))
     slack = _TOLERANCE * max(abs(left), abs(right))
     kind = type(node.ops[0])
@@ -72,7 +72,7 @@ def names_in(text: str, *, comparison: bool = False) -> set[str]:
     try:
         (holds if comparison else value_of)(text, dict.fromkeys(names, math.nan))
     except ZeroDivisionError:
-        raise ResourceError(f"template: `{text}` divides by zero") from None
+        raise ResourceError(f"`{text}` divides by zero") from None
     return names
 
 
@@ -80,7 +80,7 @@ def _parsed(text: str) -> ast.expr:
     try:
         return ast.parse(text.strip(), mode="eval").body
     except SyntaxError as error:
-        raise ResourceError(f"template: `{text}` is not an expression: {error.msg}") from error
+        raise ResourceError(f"`{text}` is not an expression: {error.msg}") from error
 
 
 def _value(node: ast.expr, names: Mapping[str, float], text: str) -> float:
@@ -95,4 +95,4 @@ def _value(node: ast.expr, names: Mapping[str, float], text: str) -> float:
             return _BINARY[type(op)](_value(left, names, text), _value(right, names, text))
         case ast.Call(func=ast.Name(id=name), args=arguments, keywords=[]) if name in _FUNCTIONS and arguments:
             return _FUNCTIONS[name](*(_value(argument, names, text) for argument in arguments))
-    raise ResourceError(f"template: cannot compute `{ast.unparse(node)}` in `{text}`")
+    raise ResourceError(f"cannot compute `{ast.unparse(node)}` in `{text}`")

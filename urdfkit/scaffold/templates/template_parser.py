@@ -173,7 +173,7 @@ class _TemplateReader:
         try:
             names = names_in(value.removeprefix("=").strip(), comparison=comparison)
         except ResourceError as error:
-            self._error(kind, index, key, str(error).removeprefix("template: "))
+            self._error(kind, index, key, error.message)
         for name in sorted(names - set(self._values) if named else ()):
             self._error(kind, index, key, f"no earlier question `{name}`{did_you_mean(name, self._values)}")
 
