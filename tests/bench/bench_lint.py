@@ -6,7 +6,6 @@ links; check_urdf is in Debian's liburdfdom-tools.
 
 from __future__ import annotations
 
-import importlib.util
 import os
 import resource
 import shutil
@@ -18,7 +17,9 @@ import time
 from pathlib import Path
 
 HERE = Path(__file__).parent
+sys.path.insert(0, str(HERE.parents[1]))
 
+from tests.bench.bench_lsp import robot  # noqa: E402
 
 SIZES = (4, 10, 20, 50, 100, 200, 400, 600, 900, 1200)
 """Links of the ten chains that ``--sizes`` measures."""
@@ -35,15 +36,10 @@ def main() -> int:
         file = words[0] if words else str(HERE / "ten_links.urdf.xacro")
         compared(file, int(words[1]) if len(words) > 1 else 40, check_urdf)
         return 0
-    found = importlib.util.spec_from_file_location("bench_lsp", HERE / "bench_lsp.py")
-    assert found is not None
-    assert found.loader is not None
-    bench = importlib.util.module_from_spec(found)
-    found.loader.exec_module(bench)
     with tempfile.TemporaryDirectory() as folder:
         for links in SIZES:
             path = Path(folder) / f"chain_{links}.urdf.xacro"
-            path.write_text(bench.robot(links, "1.0", form="macro"))
+            path.write_text(robot(links, "1.0", form="macro"))
             print(f"{links} links")
             compared(str(path), int(words[0]) if words else 10, check_urdf)
     return 0

@@ -5,15 +5,14 @@
 
 from __future__ import annotations
 
-import importlib.util
 import resource
 import subprocess
 import sys
-from pathlib import Path
 
 import pytest
 
-BENCH = Path(__file__).parents[1] / "bench" / "fuzz_lint.py"
+from tests.bench import fuzz_lint as bench
+
 XACRO = 'xmlns:xacro="http://www.ros.org/wiki/xacro"'
 MANY = " ".join(f'a{n}=""' for n in range(20_000))
 ENTITIES = '<!ENTITY a0 "ha">' + "".join('<!ENTITY a{} "{}">'.format(n, f"&a{n - 1};" * 10) for n in range(1, 10))
@@ -103,25 +102,15 @@ def test_hostile_files_are_refused_in_a_line(name, tmp_path):
     assert max(map(len, done.stdout.splitlines())) < 500
 
 
-@pytest.fixture(scope="module")
-def bench():
-    found = importlib.util.spec_from_file_location("fuzz_lint", BENCH)
-    assert found is not None
-    assert found.loader is not None
-    module = importlib.util.module_from_spec(found)
-    found.loader.exec_module(module)
-    return module
-
-
 @pytest.mark.slow
 @pytest.mark.parametrize("first", range(0, 200, 50))
-def test_broken_files_bring_no_traceback(bench, first):
+def test_broken_files_bring_no_traceback(first):
     counts, failures, _ = bench.work((first, first + 50, ""))
     assert failures == []
     assert counts.total() == 50
 
 
-def test_a_fault_of_ours_and_a_hang_are_noticed(bench, monkeypatch, tmp_path):
+def test_a_fault_of_ours_and_a_hang_are_noticed(monkeypatch, tmp_path):
     path = tmp_path / "r.urdf"
     path.write_text("<robot name='r'/>")
     assert bench.judged(path) == "found"

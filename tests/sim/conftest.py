@@ -3,9 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from importlib.util import module_from_spec, spec_from_file_location
 from pathlib import Path
-from types import ModuleType
 from typing import Any
 
 import pytest
@@ -89,14 +87,3 @@ def make(write_rover: Callable[..., Path]) -> Callable[..., Any]:
         return Simulator(write_rover(drives + extra), **options)
 
     return build
-
-
-@pytest.fixture(scope="session")
-def arm_package() -> ModuleType:
-    """Return what writes packages of a two-joint arm and its controllers."""
-    spec = spec_from_file_location("arm_package", Path(__file__).with_name("arm_package.py"))
-    assert spec is not None
-    assert spec.loader is not None
-    module = module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module

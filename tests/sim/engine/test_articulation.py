@@ -2,20 +2,13 @@
 
 from __future__ import annotations
 
-from importlib.util import module_from_spec, spec_from_file_location
-from pathlib import Path
-
 import numpy as np
 import pytest
 
+from tests.sim.engine.worlds import SMOOTH, ball, rover, start
 from urdfkit.errors import SimulationError
 from urdfkit.scene import scene_of
 from urdfkit.sim.engine.bodies import Member
-
-SPEC = spec_from_file_location("worlds", Path(__file__).with_name("worlds.py"))
-worlds = module_from_spec(SPEC)
-SPEC.loader.exec_module(worlds)
-SMOOTH, ball, rover, start = worlds.SMOOTH, worlds.ball, worlds.rover, worlds.start
 
 
 def test_the_ground_is_nothing_to_be_taken_back_for(engine_of):

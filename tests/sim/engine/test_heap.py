@@ -3,19 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from importlib.util import module_from_spec, spec_from_file_location
-from pathlib import Path
 
 import numpy as np
 import pytest
 
+from tests.sim.engine.worlds import ball, cube, rover, slab
 from urdfkit.sim.engine.arrays import GUESSES
 from urdfkit.sim.engine.constraints.contact_rows import FASTEST_RECOVERY
-
-SPEC = spec_from_file_location("worlds", Path(__file__).with_name("worlds.py"))
-worlds = module_from_spec(SPEC)
-SPEC.loader.exec_module(worlds)
-cube, ball, slab, rover = worlds.cube, worlds.ball, worlds.slab, worlds.rover
 
 G = 9.81
 X = 3.0

@@ -2,19 +2,12 @@
 
 from __future__ import annotations
 
-from importlib.util import module_from_spec, spec_from_file_location
-from pathlib import Path
-
 import numpy as np
 import pytest
 
 from tests.reference_engine import ENGINES
+from tests.sim.engine.worlds import ball, can, cube, pill, rover, slab
 from urdfkit.sim.engine.arrays import GUESSES
-
-SPEC = spec_from_file_location("worlds", Path(__file__).with_name("worlds.py"))
-worlds = module_from_spec(SPEC)
-SPEC.loader.exec_module(worlds)
-cube, ball, can, pill, slab, rover = worlds.cube, worlds.ball, worlds.can, worlds.pill, worlds.slab, worlds.rover
 
 G = 9.81
 X = 3.0

@@ -2,23 +2,17 @@
 
 from __future__ import annotations
 
-from importlib.util import module_from_spec, spec_from_file_location
 from itertools import combinations
-from pathlib import Path
 
 import numpy as np
 import pytest
 
+from tests.sim.engine.worlds import piece, rover, rovers, slab
 from urdfkit.description.urdf.robot import Box, Capsule, Cylinder, Mesh, Sphere
 from urdfkit.scene import Shape
 from urdfkit.scene.meshes.loader import TriMesh
 from urdfkit.sim.engine.arrays import FOUND_PAIRS, FOUND_ROWS
 from urdfkit.sim.engine.bodies import Body, Piece
-
-SPEC = spec_from_file_location("worlds", (Path(__file__).parents[1] / "worlds.py"))
-worlds = module_from_spec(SPEC)
-SPEC.loader.exec_module(worlds)
-piece, rover, rovers, slab = (worlds.piece, worlds.rover, worlds.rovers, worlds.slab)
 
 
 def turned(rng):

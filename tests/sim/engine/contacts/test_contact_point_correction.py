@@ -2,19 +2,12 @@
 
 from __future__ import annotations
 
-from importlib.util import module_from_spec, spec_from_file_location
-from pathlib import Path
-
 import numpy as np
 import pinocchio as pin
 import pytest
 
 from tests.reference_engine import ENGINES
-
-SPEC = spec_from_file_location("worlds", (Path(__file__).parents[1] / "worlds.py"))
-worlds = module_from_spec(SPEC)
-SPEC.loader.exec_module(worlds)
-ball, cube = worlds.ball, worlds.cube
+from tests.sim.engine.worlds import ball, cube
 
 INERTIA = '<inertial><mass value="{m}"/><inertia ixx="{i}" iyy="{i}" izz="{k}" ixy="0" ixz="0" iyz="0"/></inertial>'
 BOX = '<collision><geometry><box size="{size}"/></geometry></collision>'

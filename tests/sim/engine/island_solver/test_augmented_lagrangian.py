@@ -3,20 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from importlib.util import module_from_spec, spec_from_file_location
-from pathlib import Path
 
 import numpy as np
 import pytest
 
+from tests.sim.engine.worlds import cube, rover, slab
 from urdfkit.sim import Simulator
 from urdfkit.sim.engine.arrays import GUESSES
 from urdfkit.sim.engine.island_solver.augmented_lagrangian import BALANCE, HARDNESS, HEAP_ROUNDS, MORE_ROUNDS
-
-SPEC = spec_from_file_location("worlds", (Path(__file__).parents[1] / "worlds.py"))
-worlds = module_from_spec(SPEC)
-SPEC.loader.exec_module(worlds)
-cube, slab, rover = worlds.cube, worlds.slab, worlds.rover
 
 X = 3.0
 """Where things are, away from the robot [m]."""

@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from importlib.util import module_from_spec, spec_from_file_location
-from pathlib import Path
 
 import numpy as np
 import pytest
 
+from tests.sim.engine.worlds import ball, can, cube, rover, slab
 from urdfkit.description import load
 from urdfkit.errors import SimulationError
 from urdfkit.kinematics import Kinematics
@@ -18,11 +17,6 @@ from urdfkit.sim.engine.arrays import FOUND_CONTACTS, FOUND_ROWS, GUESSES, alloc
 from urdfkit.sim.engine.island_solver.block_matrix import MOST_TREES
 from urdfkit.sim.engine.island_solver.gauss_seidel import SWEEPS
 from urdfkit.sim.engine.layout.world_arrays import MOST_DENSE
-
-SPEC = spec_from_file_location("worlds", (Path(__file__).parents[1] / "worlds.py"))
-worlds = module_from_spec(SPEC)
-SPEC.loader.exec_module(worlds)
-cube, slab, rover = worlds.cube, worlds.slab, worlds.rover
 
 X = 3.0
 """Where things are, away from the robot [m]."""
@@ -109,8 +103,8 @@ def test_a_heap_of_boxes_sleeps_within_six_seconds(engine_of, count, half, seed)
 def test_a_heap_of_boxes_balls_and_cans_sleeps_within_six_seconds(engine_of, seed):
     makers = (
         box,
-        lambda name, at: worlds.ball(name, at, radius=0.06),
-        lambda name, at: worlds.can(name, at, radius=0.06, length=0.12),
+        lambda name, at: ball(name, at, radius=0.06),
+        lambda name, at: can(name, at, radius=0.06, length=0.12),
     )
     engine = rover(engine_of, bodies=tray(60, 0.4, seed=seed, top=4.0, makers=makers))
     assert all_asleep(engine, 6.0)

@@ -2,16 +2,10 @@
 
 from __future__ import annotations
 
-from importlib.util import module_from_spec, spec_from_file_location
-from pathlib import Path
-
 import numpy as np
 import pytest
 
-SPEC = spec_from_file_location("worlds", Path(__file__).parents[1] / "worlds.py")
-worlds = module_from_spec(SPEC)
-SPEC.loader.exec_module(worlds)
-ball, cube, rover, slab = worlds.ball, worlds.cube, worlds.rover, worlds.slab
+from tests.sim.engine.worlds import ball, cube, rover, slab
 
 BALL = (2.0, 1.0, 0.1)
 """Where the ball touches the ground and the box beside it."""

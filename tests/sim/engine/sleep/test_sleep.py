@@ -3,26 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from importlib.util import module_from_spec, spec_from_file_location
-from pathlib import Path
 
 import numpy as np
 import pytest
 
+from tests.sim.engine.worlds import ball, can, cube, rover, rovers, slab, start
 from urdfkit.sim.engine.arrays import FOUND_CONTACTS, FOUND_ROWS
-
-SPEC = spec_from_file_location("worlds", (Path(__file__).parents[1] / "worlds.py"))
-worlds = module_from_spec(SPEC)
-SPEC.loader.exec_module(worlds)
-ball, can, cube, rover, rovers, slab, start = (
-    worlds.ball,
-    worlds.can,
-    worlds.cube,
-    worlds.rover,
-    worlds.rovers,
-    worlds.slab,
-    worlds.start,
-)
 
 G = 9.81
 

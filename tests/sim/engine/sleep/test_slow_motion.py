@@ -3,16 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from importlib.util import module_from_spec, spec_from_file_location
-from pathlib import Path
 
 import numpy as np
 import pytest
 
-SPEC = spec_from_file_location("worlds", Path(__file__).parents[1] / "worlds.py")
-worlds = module_from_spec(SPEC)
-SPEC.loader.exec_module(worlds)
-ball, can, cube, rover, slab = worlds.ball, worlds.can, worlds.cube, worlds.rover, worlds.slab
+from tests.sim.engine.worlds import ball, can, cube, rover, slab
 
 G = 9.81
 X = 3.0

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from pathlib import Path
-from types import ModuleType
 from typing import Any
 
 import numpy as np
 import pytest
 
+from tests.sim import arm_package
 from urdfkit.errors import SimulationError, UrdfkitError
 from urdfkit.messages import FLOATS, JOINT_STATE, TRAJECTORY, TRAJECTORY_STATE, from_fields
 from urdfkit.sim import Simulator, Spawn
@@ -52,7 +52,7 @@ def command(kind: str) -> str:
 
 
 @pytest.fixture
-def make(tmp_path: Path, arm_package: ModuleType) -> Make:
+def make(tmp_path: Path) -> Make:
     def build(yaml: str, flavour: tuple[str, str, str] = GZ, commands: str = command("position"), more: str = "",
               initial: str = "", arm: dict[str, Any] | None = None, **options: Any) -> Any:  # fmt: skip
         config = arm_package.package(tmp_path, "arm_bringup") / "config"
@@ -270,7 +270,7 @@ def test_hardware_of_another_is_noted(make: Make) -> None:
     assert any("hardware `mock_components/GenericSystem` is not the simulator's" in note for note in notes)
 
 
-def test_a_block_that_no_plugin_runs_is_noted(tmp_path: Path, arm_package: ModuleType) -> None:
+def test_a_block_that_no_plugin_runs_is_noted(tmp_path: Path) -> None:
     notes: list[str] = []
     block = BLOCK.format(filename="", name="", hardware=GZ[2], commands="", more="", initial="", path="")
     Simulator(arm_package.write_arm(tmp_path, block[: block.index("<gazebo>")]), note=notes.append)

@@ -7,11 +7,11 @@ from collections.abc import Callable
 from importlib import import_module
 from pathlib import Path
 from pkgutil import iter_modules
-from types import ModuleType
 from typing import Any
 
 import pytest
 
+from tests.sim import arm_package
 from urdfkit.errors import SimulationError, UrdfkitError
 from urdfkit.messages import FLOAT, FLOATS, JOINT_CONTROLLER_STATE, JOINT_STATE, TRAJECTORY, from_fields
 from urdfkit.sim import Simulator, Spawn
@@ -29,7 +29,7 @@ Make = Callable[..., Any]
 
 
 @pytest.fixture
-def make(tmp_path: Path, arm_package: ModuleType) -> Make:
+def make(tmp_path: Path) -> Make:
     def build(yaml: str, interfaces: tuple[str, str] = ("Effort", "Effort"), spawned: tuple[str, ...] = (),
               arm: dict[str, Any] | None = None, **options: Any) -> Any:  # fmt: skip
         arm_package.write_control(tmp_path, yaml, *spawned)
@@ -542,13 +542,13 @@ def test_named_files_take_the_place_of_what_launch_files_load(make: Make, tmp_pa
     assert [status.name for status in simulator.controllers.list()] == ["only"]
 
 
-def test_without_launch_file_the_config_folder_is_read(tmp_path: Path, arm_package: ModuleType) -> None:
+def test_without_launch_file_the_config_folder_is_read(tmp_path: Path) -> None:
     arm_package.write_control(tmp_path, POSITIONS, launch=False)
     simulator = Simulator(arm_package.write_arm(tmp_path, arm_package.transmissions()), note=lambda _: None)
     assert [status.state for status in simulator.controllers.list()] == ["running"] * 3
 
 
-def test_without_any_file_it_says_so(tmp_path: Path, arm_package: ModuleType) -> None:
+def test_without_any_file_it_says_so(tmp_path: Path) -> None:
     notes: list[str] = []
     simulator = Simulator(arm_package.write_arm(tmp_path, arm_package.transmissions()), note=notes.append)
     assert simulator.controllers.list() == ()
@@ -583,7 +583,7 @@ def test_wrong_parameters_are_refused_at_their_place(make: Make, yaml: str, plac
     assert "\n" not in str(caught.value)
 
 
-def test_a_transmission_without_interface_is_refused_at_its_place(tmp_path: Path, arm_package: ModuleType) -> None:
+def test_a_transmission_without_interface_is_refused_at_its_place(tmp_path: Path) -> None:
     text = arm_package.transmissions().replace(
         "<hardwareInterface>hardware_interface/EffortJointInterface</hardwareInterface>", ""
     )

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from pathlib import Path
-from types import ModuleType
 from typing import Any
 
 import pytest
 
+from tests.sim import arm_package
 from urdfkit.errors import UrdfkitError
 from urdfkit.messages import TRAJECTORY, from_fields
 from urdfkit.messages.control import GOAL_ID, GOAL_STATUSES
@@ -26,7 +26,7 @@ Make = Callable[..., Any]
 
 
 @pytest.fixture
-def make(tmp_path: Path, arm_package: ModuleType) -> Make:
+def make(tmp_path: Path) -> Make:
     def build(law: str, interface: str = "Position", more: str = "", **options: Any) -> Any:
         arm_package.write_control(tmp_path, f"arm:\n  t: {law.replace('MORE', more)}\n")
         arm = options.pop("arm", {})

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from pathlib import Path
-from types import ModuleType
 from typing import Any
 
 import pytest
 
+from tests.sim import arm_package
 from urdfkit.app.simulation.features.joint_sliders import ControllerSliders
 from urdfkit.errors import UrdfkitError
 from urdfkit.messages import from_fields
@@ -34,7 +34,7 @@ grip:
 class Rig:
     """An arm whose elbow is the gripper, and what it says."""
 
-    def __init__(self, folder: Path, arm_package: ModuleType, more: str, **options: Any) -> None:
+    def __init__(self, folder: Path, more: str, **options: Any) -> None:
         config = arm_package.package(folder, "arm_bringup") / "config"
         config.mkdir(exist_ok=True)
         (config / "arm.yaml").write_text(YAML.replace("MORE", more))
@@ -61,8 +61,8 @@ class Rig:
 
 
 @pytest.fixture
-def rig(tmp_path: Path, arm_package: ModuleType) -> Callable[..., Rig]:
-    return lambda more="joint: elbow", **options: Rig(tmp_path, arm_package, more, **options)
+def rig(tmp_path: Path) -> Callable[..., Rig]:
+    return lambda more="joint: elbow", **options: Rig(tmp_path, more, **options)
 
 
 def test_it_goes_there_and_says_so(rig: Callable[..., Rig]) -> None:
