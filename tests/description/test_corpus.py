@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import shutil
-from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -12,11 +11,10 @@ import pytest
 import xacro
 from xacro import substitution_args
 
+from tests.description.xacro.origins import misplaced
 from urdfkit.description import load
 from urdfkit.description.packages.resolver import Packages
 from urdfkit.description.xacro.expand import expand, expand_leniently
-from urdfkit.description.xacro.expanded import Expanded
-from urdfkit.description.xml.source import Position
 from urdfkit.errors import UrdfkitError
 
 SHARED = Path(__file__).parents[2].parent / "shared"
@@ -57,23 +55,6 @@ def installed(tmp_path: Path) -> Path:
         for child in (source / "description").iterdir():
             (share / child.name).symlink_to(child)
     return tmp_path / "share"
-
-
-def misplaced(expanded: Expanded) -> Iterator[str]:
-    """Yield the elements whose origin is not a start tag of their name (`xacro:element` chooses names)."""
-    assert expanded.root is not None
-    for element in expanded.root.walk():
-        position = element.origin.position
-        if not written_at(expanded, position, (f"<{element.tag}", "<xacro:element")):
-            yield f"{position} <{element.tag}>"
-        for call in element.origin.expansions:
-            if not written_at(expanded, call.position, (f"<xacro:{call.macro}", "<xacro:call")):
-                yield f"{call.position} in the chain of <{element.tag}>"
-
-
-def written_at(expanded: Expanded, position: Position, beginnings: tuple[str, ...]) -> bool:
-    source = expanded.sources[position.file]
-    return source.text.startswith(beginnings, source.offset(position.line, position.column))
 
 
 @pytest.mark.slow

@@ -282,6 +282,6 @@ def _loop_links(loop: list[Joint]) -> list[str]:
 
 
 def _error(message: str, element: Element) -> ModelError:
-    from urdfkit.description.xacro.diagnosis import chain_words
+    from urdfkit.description.xacro.evaluation.failures import chain_words
 
     return ModelError(message + chain_words(element.origin.expansions), position=element.origin.position)

@@ -1,14 +1,7 @@
-"""Expand a xacro file, traced: every expanded element knows its file, line, column and chain of macro calls.
+"""Expand a xacro file: every expanded element has its file, line, column and chain of macro calls.
 
-This is stock xacro; nothing of its language is written anew. The files are parsed by a builder that stamps each
-element with its place (minidom keeps the stamp as user data and hands it to clones), and a macro call renews the
-stamps of the body it clones. `stock_xacro` sets xacro's module globals for one expansion and puts them back.
-
-Files come from strangers. xacro evaluates ``${…}`` and ``$(eval …)`` as Python, and its own precautions can be got
-round (nested functions hide their names from its check; ``$(eval …)`` sees every builtin). Here the check covers
-nested code, frames and ``vars``, and ``$(eval …)`` gets harmless builtins only; see `evaluation`. What stays possible,
-as it is part of the language: reading YAML files anywhere (``load_yaml``), reading environment variables, including
-XML files anywhere. What would take for ever or fill the memory (``${9**9**9}``) is refused; see `expressions.limits`.
+`expand` uses the evaluator in `evaluation`, which stops at the first error. `expand_leniently` still traces the xacro
+package: its module globals are set for one expansion and restored (`stock_xacro`), and faults are recorded.
 """
 
 from __future__ import annotations
@@ -18,7 +11,7 @@ from pathlib import Path
 
 from urdfkit.description.packages.resolver import Packages
 from urdfkit.description.xacro.expanded import Expanded
-from urdfkit.description.xacro.stock_xacro import recovered, xacro_for
+from urdfkit.description.xacro.stock_xacro import recovered
 from urdfkit.description.xml.reader import absolute, document_of, read_source, shown_path
 from urdfkit.errors import ResourceError, XmlError
 
@@ -51,18 +44,9 @@ def expand(
     packages = packages if packages is not None else Packages(near=path)
     if not (is_xacro(path) if run_xacro is None else run_xacro):
         return _read_plain(path, packages)
-    from urdfkit.description.xacro.diagnosis import error_of
-    from urdfkit.description.xacro.expansion import Run
+    from urdfkit.description.xacro.evaluation.evaluator import Evaluator
 
-    run = Run(str(path), arguments or {}, packages)
-    with xacro_for(run):
-        try:
-            run.expand()
-        except XmlError:
-            raise
-        except Exception as error:
-            raise error_of(error, run) from None
-    return run.outcome()
+    return Evaluator(str(path), arguments or {}, packages).expand()
 
 
 def expand_leniently(

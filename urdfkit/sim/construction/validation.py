@@ -9,7 +9,7 @@ from typing import Protocol
 import numpy as np
 
 from urdfkit.description.urdf.robot import Collision, Joint, Link, Mesh, Robot
-from urdfkit.description.xacro.diagnosis import chain_words
+from urdfkit.description.xacro.evaluation.failures import chain_words
 from urdfkit.description.xml.element import Element
 from urdfkit.errors import SimulationError
 

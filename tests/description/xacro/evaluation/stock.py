@@ -54,7 +54,7 @@ def by_urdfkit(path: str | Path, arguments: Mapping[str, str], packages: Package
     try:
         expanded = Evaluator(str(path), arguments, packages).expand()
         text = expanded.xml
-    except (UrdfkitError, ValueError) as error:  # ValueError: a comment with `--` cannot be printed
+    except UrdfkitError as error:
         return Result(None, [], [], str(error))
     warned = [warning.message.split("\n")[0] for warning in expanded.warnings if warning.level == "warning"]
     return Result(text, [str(file) for file in expanded.files], [f"warning: {line}" for line in warned])

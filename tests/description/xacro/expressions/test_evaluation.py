@@ -28,7 +28,7 @@ Write = Callable[[str, str], Path]
         "${eval('1')}",
         "$(eval open)",
         "$(eval __builtins__)",
-        "$(eval [x.gi_frame for x in []])",
+        "$(eval [g.gi_frame for g in [(x for x in [])]])",
         "$(eval getattr)",
         "$(eval compile)",
         "$(eval vars)",

@@ -118,7 +118,7 @@ def error_of(failure: Failure, sources: Iterable[Source]) -> XacroError:
         later = _definition(sources, fault.kind.removeprefix("undefined-"), fault.name)
         if later is not None:
             message = f"{message.split('; did you mean')[0]} yet: its definition follows at {later}"
-    chain = "" if fault.kind == "recursion" else _chain_words(fault.expansions)
+    chain = "" if fault.kind == "recursion" else chain_words(fault.expansions)
     return XacroError(message + chain, position=fault.position)
 
 
@@ -134,7 +134,8 @@ def _definition(sources: Iterable[Source], tag: str, name: str) -> Position | No
     return None
 
 
-def _chain_words(expansions: tuple[Expansion, ...]) -> str:
+def chain_words(expansions: tuple[Expansion, ...]) -> str:
+    """Return the chain of macro calls as text, innermost first."""
     if not expansions:
         return ""
     shown = [f"`{expansion.macro}` called at {expansion.position}" for expansion in expansions[:3]]

@@ -7,6 +7,7 @@ from collections.abc import Callable
 from xml.dom import minidom
 
 from urdfkit.description.xacro.evaluation.tree import CDATA, COMMENT, DOCTYPE, INSTRUCTION, TEXT, Node, Tag
+from urdfkit.errors import XacroError
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -21,7 +22,7 @@ def printed(document: Tag, path: str) -> str:
         path: of the file, as the user named it.
 
     Raises:
-        ValueError: a comment contains ``--``, or a CDATA section ``]]>``.
+        XacroError: a comment contains ``--``, or a CDATA section ``]]>``.
     """
     rule = f" {'=' * 83} "
     shown = re.sub(r"-+", "-", path)
@@ -45,11 +46,11 @@ def _print(node: Node, indent: str, write: Callable[[str], Any]) -> None:
         write(f"{indent}{_escaped(node.data)}\n")
     elif node.kind == COMMENT:
         if "--" in node.data:
-            raise ValueError("'--' is not allowed in a comment node")
+            raise _error(node, "a comment of this element contains `--`, which XML does not allow")
         write(f"{indent}<!--{node.data}-->\n")
     elif node.kind == CDATA:
         if "]]>" in node.data:
-            raise ValueError("']]>' not allowed in a CDATA section")
+            raise _error(node, "the CDATA section of this element contains `]]>`, which ends it")
         write(f"<![CDATA[{node.data}]]>")
     elif node.kind == INSTRUCTION:
         write(f"{indent}<?{node.data}?>\n")
@@ -73,6 +74,10 @@ def _print_element(tag: Tag, indent: str, write: Callable[[str], Any]) -> None:
             if child.kind != TEXT or (child.data and not child.data.isspace()):
                 _print(child, indent + "  ", write)
         write(f"{indent}</{tag.tag}>\n")
+
+
+def _error(node: Node, message: str) -> XacroError:
+    return XacroError(message, position=node.parent.position if node.parent is not None else None)
 
 
 _TO_ESCAPE = re.compile(r'[&<>"\r\n\t]').search
