@@ -1,5 +1,6 @@
 from __future__ import annotations
 
+import importlib.metadata
 import shutil
 import subprocess
 import sys
@@ -94,3 +95,59 @@ def test_the_program_prints_everything_before_it_leaves(model: Path) -> None:
     missing = subprocess.run([*command[:-1], "none.xacro"], capture_output=True, text=True, check=False)
     assert (missing.returncode, missing.stdout) == (2, "")
     assert missing.stderr.count("\n") == 1
+
+
+@pytest.mark.parametrize(
+    ("body", "status", "lines"),
+    [
+        ('<link name="${1/3}"/>', 0, ["robot.urdf.xacro: equal to the output of xacro 2.1.1 (15 lines)"]),
+        (
+            '<link name="${(lambda: 1)}"/>',  # the xacro package prints the address in memory
+            1,
+            [
+                "robot.urdf.xacro: differs from the output of xacro 2.1.1 in line 14, column 42",
+                '  xacro:     <link name="&lt;function &lt;lambda&gt; at 0x',
+                '  urdfkit:   <link name="&lt;function &lt;lambda&gt;&gt;"/>',
+            ],
+        ),
+        (
+            '<link name="a"><xacro:attribute name="n" value="${1 + 1}"/></link>',
+            1,
+            [
+                "robot.urdf.xacro: xacro 2.1.1 fails, urdfkit expands the file",
+                "  xacro: AttributeError: 'int' object has no attribute 'replace'",
+            ],
+        ),
+        (
+            r"""<link name="${str.format('\x7b0.real\x7d', 1)}"/>""",
+            1,
+            [
+                "robot.urdf.xacro: urdfkit fails, xacro 2.1.1 expands the file",
+                r"  urdfkit: robot.urdf.xacro:6:1: cannot evaluate `${str.format('\x7b0.real\x7d', 1)}`: the format",
+            ],
+        ),
+        ('<link name="${oops}"/>', 2, []),
+    ],
+)
+def test_compares_with_the_xacro_package(
+    model: Path, capsys: pytest.CaptureFixture[str], body: str, status: int, lines: list[str]
+) -> None:
+    model.write_text(MODEL.replace("</robot>", f"{body}</robot>"))
+    version = importlib.metadata.version("xacro")
+    assert main(["expand", str(model), "--compare", "prefix:=left_"]) == status
+    captured = capsys.readouterr()
+    printed = captured.out.splitlines()
+    assert len(printed) == len(lines)
+    for line, beginning in zip(printed, lines, strict=True):
+        assert line.startswith(beginning.replace("2.1.1", version))
+    if not lines:
+        first, second = captured.err.splitlines()
+        assert first.startswith(f"xacro {version} fails too: NameError: name 'oops' is not defined")
+        assert second == "urdfkit: robot.urdf.xacro:6:1: property `oops` is not defined"
+    assert Path("robot.urdf").exists() is False
+
+
+def test_a_comparison_writes_no_file(model: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["expand", str(model), "--compare", "-o", "out.urdf"]) == 2
+    assert "not allowed with argument" in capsys.readouterr().err
+    assert not Path("out.urdf").exists()

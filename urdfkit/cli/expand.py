@@ -8,10 +8,11 @@ from pathlib import Path
 
 from urdfkit.cli.parser import add_model
 from urdfkit.cli.unused_arguments import unused
-from urdfkit.errors import ResourceError, UsageError
+from urdfkit.errors import ResourceError, UrdfkitError, UsageError, XacroError
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
+    from urdfkit.description.packages.resolver import Packages
     from urdfkit.description.xacro.expanded import Expanded
 
 
@@ -20,10 +21,16 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.epilog = (
         "examples:\n"
         "  urdfkit expand simpleton > simpleton.urdf\n"
-        "  urdfkit expand urdf/arm.urdf.xacro -o arm.urdf prefix:=left_"
+        "  urdfkit expand urdf/arm.urdf.xacro -o arm.urdf prefix:=left_\n"
+        "  urdfkit expand urdf/arm.urdf.xacro --compare\n\n"
+        "exit status of --compare: 0 equal, 1 different, 2 not compared"
     )
     add_model(parser)
-    parser.add_argument("-o", "--output", type=Path, metavar="FILE", help="write to FILE, all or nothing")
+    output = parser.add_mutually_exclusive_group()
+    output.add_argument("-o", "--output", type=Path, metavar="FILE", help="write to FILE, all or nothing")
+    output.add_argument(
+        "--compare", action="store_true", help="print the first difference from the output of the xacro package"
+    )
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -35,9 +42,10 @@ def run(arguments: argparse.Namespace) -> int:
     model = find_model(arguments.model, package_path=arguments.package_path)
     # A path is passed as typed, because the banner shows it, as in stock xacro.
     typed = next((word for word in arguments.model if ":=" not in word and Path(word).is_file()), str(model.path))
-    expanded = expand(
-        typed, arguments=model.arguments, packages=Packages(model.package_path, model.path), run_xacro=True
-    )
+    packages = Packages(model.package_path, model.path)
+    if arguments.compare:
+        return _compare(typed, model.arguments, packages)
+    expanded = expand(typed, arguments=model.arguments, packages=packages, run_xacro=True)
     if not arguments.quiet:
         _show_notes(expanded, model.arguments)
     if arguments.output is None:
@@ -45,6 +53,41 @@ def run(arguments: argparse.Namespace) -> int:
     else:
         _write(expanded, arguments.output)
     return 0
+
+
+def _compare(path: str, arguments: dict[str, str], packages: Packages) -> int:
+    """Print the first difference from the output of the xacro package.
+
+    Raises:
+        UrdfkitError: neither can expand the file.
+    """
+    from urdfkit.description.xacro.evaluation.comparison import first_difference, text_of_xacro, version
+    from urdfkit.description.xacro.expand import expand
+
+    stock = f"xacro {version()}"
+    try:
+        wanted = text_of_xacro(path, arguments, packages)
+    except XacroError as failure:
+        try:
+            _ = expand(path, arguments=arguments, packages=packages, run_xacro=True).xml
+        except UrdfkitError:
+            print(f"{stock} fails too: {failure}", file=sys.stderr)
+            raise
+        print(f"{path}: {stock} fails, urdfkit expands the file\n  xacro: {failure}")
+        return 1
+    try:
+        text = expand(path, arguments=arguments, packages=packages, run_xacro=True).xml
+    except UrdfkitError as error:
+        print(f"{path}: urdfkit fails, {stock} expands the file\n  urdfkit: {error}")
+        return 1
+    difference = first_difference(wanted, text)
+    if difference is None:
+        print(f"{path}: equal to the output of {stock} ({text.count(chr(10))} lines)")
+        return 0
+    print(f"{path}: differs from the output of {stock} in line {difference.line}, column {difference.column}")
+    for name, line in (("xacro", difference.first), ("urdfkit", difference.second)):
+        print(f"  {name + ':':8} {'(no further line)' if line is None else line}")
+    return 1
 
 
 def _show_notes(expanded: Expanded, arguments: dict[str, str]) -> None:

@@ -6,7 +6,6 @@ from collections.abc import Callable
 from string import Formatter
 
 from urdfkit.description.xacro.evaluation.expressions.budget import Budget
-from urdfkit.description.xacro.expressions.excess import TooLarge
 from urdfkit.description.xacro.expressions.value_size import check_characters, check_widths, steps_of
 
 TYPE_CHECKING = False
@@ -26,7 +25,8 @@ def formatted(budget: Budget, text: str, values: tuple[Any, ...], named: dict[st
         named: arguments by name.
 
     Raises:
-        TooLarge: a field names an attribute or item, or the result is too long.
+        ValueError: a field names an attribute or item.
+        TooLarge: the result is too long.
     """
     return _formatted(budget, text, values, named, _Numbers(), 2)
 
@@ -64,7 +64,7 @@ def _formatted(
         parts.append(literal)
         if name is not None:
             if "." in name or "[" in name:
-                raise TooLarge(f"the format field `{{{name}}}` reads an attribute or item, which is not supported")
+                raise ValueError(f"the format field `{{{name}}}` reads an attribute or item, which is not supported")
             value = named[name] if name and not name.isdigit() else values[numbers.position(name)]
             inner = _formatted(budget, specification, values, named, numbers, depth - 1) if specification else ""
             parts.append(shown(budget, value, conversion, inner))
