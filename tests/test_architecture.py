@@ -173,7 +173,7 @@ OF_LIBRARIES = {
         *("_make_finalizer", "_reload_init", "_reset_overloads"),
     },
     "scene/meshes/mesh_appearance.py": {"_cache"},
-    "view/server/websocket.py": {"_abort", "_receive_frame"},
+    "view/server/page_socket.py": {"_abort", "_receive_frame"},
 }
 """Private attributes of argparse, numba, trimesh and tornado, which have no public equivalent."""
 

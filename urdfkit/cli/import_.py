@@ -75,7 +75,7 @@ def run(arguments: argparse.Namespace) -> int:
     from urdfkit.cli.new.git_identity import identity
     from urdfkit.resources import templates_dir
     from urdfkit.scaffold import load_template
-    from urdfkit.scaffold.wrap.urdf_packages import wrap
+    from urdfkit.scaffold.wrap.package_creation import wrap
 
     file = _file(arguments.file)
     template = load_template(templates_dir() / "package")

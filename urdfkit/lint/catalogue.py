@@ -22,7 +22,7 @@ def rules() -> tuple[type[Rule], ...]:
     Raises:
         ResourceError: a third-party rule cannot be imported.
     """
-    from urdfkit.registry import load
+    from urdfkit.entry_points import load
 
     return tuple(sorted((*RULES, *load("urdfkit.rules")), key=lambda rule: rule.code))
 

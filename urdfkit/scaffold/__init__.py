@@ -7,7 +7,7 @@ from urdfkit.scaffold.templates.computed_answers import computed
 from urdfkit.scaffold.templates.names import check_package_name, sanitised
 from urdfkit.scaffold.templates.placeholders import fill
 from urdfkit.scaffold.templates.questions import Question, applies
-from urdfkit.scaffold.templates.recipe import read_made, read_recipe
+from urdfkit.scaffold.templates.recipe_file import read_made, read_recipe
 from urdfkit.scaffold.templates.template import Template
 from urdfkit.scaffold.templates.template_parser import load_template
 from urdfkit.scaffold.templates.template_sources import named_template, template_at, template_names

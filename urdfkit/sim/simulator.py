@@ -21,7 +21,7 @@ from urdfkit.sim.construction.initial_overlap import note_overlaps
 from urdfkit.sim.construction.loading import require_valid_arguments, world_with_gravity
 from urdfkit.sim.construction.spawn import Spawn
 from urdfkit.sim.plugins.base import Drive
-from urdfkit.sim.plugins.publishers import Clock
+from urdfkit.sim.plugins.builtin_publishers import Clock
 from urdfkit.sim.plugins.ros_distro import Distro
 from urdfkit.sim.plugins.setup import Setup
 from urdfkit.sim.scene_view import Surroundings

@@ -257,7 +257,7 @@ def test_what_is_for_the_worse_leaves_other_findings_of_its_rule_their_fixes(wri
 
 
 def test_what_names_the_names_that_a_fix_took_away_is_caused_by_it(write, monkeypatch):
-    from urdfkit.lint.edits import new_value
+    from urdfkit.lint.fix_builders import new_value
     from urdfkit.lint.rules.names.link_joint_same_name import LinkJointSameName
 
     original = LinkJointSameName.at

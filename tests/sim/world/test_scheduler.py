@@ -12,7 +12,7 @@ from urdfkit.messages import FLOAT, TWIST, from_fields, twist
 from urdfkit.sim import Simulator
 from urdfkit.sim.state.pid import Gains
 from urdfkit.sim.state.ticks import NEVER
-from urdfkit.sim.world.live_parameters import Tuning
+from urdfkit.sim.world.live_tuning import Tuning
 
 WHEN = 137
 """A step at which nothing falls due by itself."""

@@ -32,7 +32,7 @@ from urdfkit.scaffold import (
 from urdfkit.scaffold.update.simulator_leftovers import left_behind
 
 if TYPE_CHECKING:
-    from urdfkit.scaffold.templates.recipe import Made
+    from urdfkit.scaffold.templates.recipe_file import Made
 
 _WORDS = {
     "add": "new",

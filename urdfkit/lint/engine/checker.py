@@ -247,7 +247,7 @@ def every_code() -> tuple[str, ...]:
 
 
 def _third_party() -> tuple[type[Rule], ...]:
-    from urdfkit.registry import load
+    from urdfkit.entry_points import load
 
     return tuple(load("urdfkit.rules"))
 

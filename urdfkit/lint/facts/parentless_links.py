@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from urdfkit.lint.edits import meant, nearest
+from urdfkit.lint.fix_builders import meant, nearest
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:

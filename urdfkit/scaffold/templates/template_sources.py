@@ -6,7 +6,7 @@ from pathlib import Path
 from types import ModuleType
 
 from urdfkit.errors import ResourceError, did_you_mean
-from urdfkit.registry import EntryPoint, entry_points
+from urdfkit.entry_points import EntryPoint, entry_points
 from urdfkit.resources import templates_dir
 from urdfkit.scaffold.templates.template_parser import NAME, load_template
 from urdfkit.scaffold.templates.template import Template

@@ -11,7 +11,7 @@ from pathlib import Path
 from urdfkit.atomic import move_into_place, staging
 from urdfkit.errors import ResourceError
 from urdfkit.scaffold.templates.placeholders import fill, path_inside
-from urdfkit.scaffold.templates.recipe import digest, recipe_text
+from urdfkit.scaffold.templates.recipe_file import digest, recipe_text
 from urdfkit.scaffold.templates.template import Template
 from urdfkit.scaffold.update.staged_packages import Checker
 

@@ -18,7 +18,7 @@ from typing import Literal
 
 from urdfkit.atomic import staging, undisturbed
 from urdfkit.errors import ResourceError, UsageError
-from urdfkit.scaffold.templates.recipe import Made, digest
+from urdfkit.scaffold.templates.recipe_file import Made, digest
 from urdfkit.scaffold.templates.template import Template
 from urdfkit.scaffold.update.file_references import needed
 from urdfkit.scaffold.update.rendering import Finisher, finished, render, write_recipe

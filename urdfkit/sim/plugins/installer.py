@@ -7,7 +7,7 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from urdfkit import registry
+from urdfkit import entry_points
 from urdfkit.description.plugins import PluginSpec, match
 from urdfkit.description.plugins.lookup import stem
 from urdfkit.description.plugins.sensors.table import BARE
@@ -16,10 +16,10 @@ from urdfkit.description.sdf.reader.world_plugins import NEEDLESS
 from urdfkit.description.urdf.robot import Plugin, Robot, SensorTag
 from urdfkit.errors import SimulationError, UsageError
 from urdfkit.sim.plugins.base import Controller, Drive, Sensor
+from urdfkit.sim.plugins.builtin_publishers import JointStates, all_joint_states, joint_states
 from urdfkit.sim.plugins.controllers import CONTROLLERS
 from urdfkit.sim.plugins.controllers.joints.joint_state_broadcaster import JointStatePublisher
 from urdfkit.sim.plugins.drives import DRIVES
-from urdfkit.sim.plugins.publishers import JointStates, all_joint_states, joint_states
 from urdfkit.sim.plugins.sensors import SENSORS
 from urdfkit.sim.plugins.setup import Setup
 from urdfkit.sim.plugins.unknown_tags import SharedTopics, misspelt, not_read, unsupported_sensor
@@ -99,9 +99,9 @@ def install(robot: Robot, setup: Setup, *, seed: int) -> Installed:
     for warning in misspelt(robot):
         setup.note(warning)
     classes = (
-        *DRIVES, *registry.load("urdfkit.drives"),
-        *SENSORS, *registry.load("urdfkit.sensors"),
-        *CONTROLLERS, *registry.load("urdfkit.controllers"),
+        *DRIVES, *entry_points.load("urdfkit.drives"),
+        *SENSORS, *entry_points.load("urdfkit.sensors"),
+        *CONTROLLERS, *entry_points.load("urdfkit.controllers"),
     )  # fmt: skip
     for number, (plugin, sensor, link) in enumerate(_plugins(robot)):
         own = replace(setup, random=np.random.default_rng([seed, number]), sensor=sensor, link=link)

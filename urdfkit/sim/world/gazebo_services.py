@@ -23,7 +23,7 @@ from urdfkit.messages.simulation import (
     WRENCH,
     WRENCH_ENTITY,
 )
-from urdfkit.sim.plugins.publishers import Publication
+from urdfkit.sim.plugins.builtin_publishers import Publication
 from urdfkit.sim.state.poses import pose_from
 from urdfkit.sim.state.quaternion import product, rotate
 from urdfkit.sim.world.spawn_requests import SpawnRequest, spawn_request, spawn_request_of_text

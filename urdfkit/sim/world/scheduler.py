@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from urdfkit.sim.state.ticks import NEVER
 
 if TYPE_CHECKING:
-    from urdfkit.sim.plugins.publishers import Publication
+    from urdfkit.sim.plugins.builtin_publishers import Publication
     from urdfkit.sim.state.robot_state import State
     from urdfkit.sim.world.world_builder import WorldBuilder
 

@@ -19,11 +19,11 @@ from urdfkit.sim.construction.spawn import Spawn
 from urdfkit.sim.construction.surface_parameters import surfaces_of
 from urdfkit.sim.engine import Engine, Ground, Member, Surface
 from urdfkit.sim.engine.articulation import Articulation
+from urdfkit.sim.plugins.builtin_publishers import Transforms, publish_fixed
 from urdfkit.sim.plugins.controllers.controller_switching import Controllers
 from urdfkit.sim.plugins.installer import Installed, install
 from urdfkit.sim.plugins.namespaced_bus import OwnBus
 from urdfkit.sim.plugins.periodic import Periodic, Publisher, Timed
-from urdfkit.sim.plugins.publishers import Transforms, publish_fixed
 from urdfkit.sim.plugins.setup import Setup
 from urdfkit.sim.state.joint_commands import Motors, Servos
 from urdfkit.sim.state.robot_state import State

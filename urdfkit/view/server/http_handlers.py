@@ -14,7 +14,7 @@ from urdfkit.errors import MissingDependencyError
 from urdfkit.view.protocol import websocket_messages
 from urdfkit.view.server.access_control import headers
 from urdfkit.view.server.authenticated_handler import NO_COOKIE, AuthenticatedHandler
-from urdfkit.view.server.websocket import PageSocket
+from urdfkit.view.server.page_socket import PageSocket
 
 if TYPE_CHECKING:
     from urdfkit.view.server.page_server import PageServer

@@ -386,7 +386,7 @@ def test_joints_that_do_not_pair_up(write_rover: Callable[..., Path]) -> None:
 
 
 def test_a_drive_from_another_package(write_rover: Callable[..., Path], monkeypatch: pytest.MonkeyPatch) -> None:
-    from urdfkit import registry
+    from urdfkit import entry_points
     from urdfkit.description.plugins import Parameter, PluginSpec
 
     made: list[Any] = []
@@ -405,7 +405,7 @@ def test_a_drive_from_another_package(write_rover: Callable[..., Path], monkeypa
 
         def reset(self) -> None: ...
 
-    monkeypatch.setattr(registry, "load", lambda group: [Spinner] if group == "urdfkit.drives" else [])
+    monkeypatch.setattr(entry_points, "load", lambda group: [Spinner] if group == "urdfkit.drives" else [])
     path = write_rover('<gazebo><plugin name="s" filename="libspinner.so"/></gazebo>')
     simulator = Simulator(path, fixed_base=True, spawn=Spawn(z=1.0))
     simulator.run(0.1)

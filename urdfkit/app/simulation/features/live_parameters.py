@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 from urdfkit.app.simulation.features.feature import Done, Feature, Takes
 from urdfkit.sim.construction.loading import MAX_GRAVITY
 from urdfkit.sim.state.pid import Gains
-from urdfkit.sim.world.live_parameters import LEAST_MASS, Tuning
+from urdfkit.sim.world.live_tuning import LEAST_MASS, Tuning
 from urdfkit.view.protocol.page_requests import Request, Schema, number, numbers, text
 
 if TYPE_CHECKING:

@@ -87,7 +87,7 @@ def settings(source: Source) -> Iterator[ControllerSettings]:
 
 def misspelt(source: Source) -> Iterator[tuple[Node, str, ControllerSettings]]:
     """Yield the misspelt parameters of controllers: key, suggested name, settings of the controller."""
-    from urdfkit.lint.edits import nearest
+    from urdfkit.lint.fix_builders import nearest
 
     for one in settings(source):
         known = _OF_TYPES.get(one.kind)

@@ -55,7 +55,7 @@ def misspelt_parts(element: Element, where: str) -> Iterator[tuple[Element, Elem
         element: a transmission, a block of ros2_control, or a part of one.
         where: path of element names.
     """
-    from urdfkit.lint.edits import nearest
+    from urdfkit.lint.fix_builders import nearest
 
     known = _PARTS.get(where)
     if known is None:
@@ -81,21 +81,21 @@ def written(robot: Robot) -> Iterator[tuple[str, Element, Transmission]]:
 
 def is_misspelt(name: str) -> bool:
     """Return whether a hardware interface, without its package, is misspelt."""
-    from urdfkit.lint.edits import nearest
+    from urdfkit.lint.fix_builders import nearest
 
     return name not in INTERFACES and nearest(name, INTERFACES, cutoff=0.85) is not None
 
 
 def meant_interface(name: str) -> str | None:
     """Return the standard ros2_control interface that a misspelt name stands for; None for a valid name."""
-    from urdfkit.lint.edits import nearest
+    from urdfkit.lint.fix_builders import nearest
 
     return nearest(name, STANDARD, cutoff=0.85) if name not in STANDARD else None
 
 
 def meant_joints(robot: Robot) -> set[str]:
     """Return the joints most similar to the undefined joint names in the robot's ``<ros2_control>``."""
-    from urdfkit.lint.edits import meant
+    from urdfkit.lint.fix_builders import meant
 
     known = robot.joint_by_name
     named = (part.get("name") or "" for block in robot.ros2_control for part in block.element.find_all("joint"))

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from urdfkit.description.urdf.geometry import rotate, rotation_of
 from urdfkit.description.urdf.robot import Cylinder, Sphere
-from urdfkit.lint.edits import nearest, new_text
 from urdfkit.lint.facts.gazebo.plugins import is_foreign, plugins, spec_of
+from urdfkit.lint.fix_builders import nearest, new_text
 from urdfkit.lint.model.placement import Frame, shapes_of
 from urdfkit.record import record
 

@@ -85,7 +85,7 @@ def meant_library(stem: str) -> str | None:
 
 def meant_class(name: str, candidates: Iterable[str]) -> str | None:
     """Return the class that a misspelt name stands for; None if the name may be a different class."""
-    from urdfkit.lint.edits import nearest
+    from urdfkit.lint.fix_builders import nearest
 
     return nearest(name, candidates, cutoff=0.9) if "::" in name else None
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from urdfkit.description.urdf.geometry import combined, principal_moments, rotated_tensor, rotation_of, volume_of
-from urdfkit.lint.edits import new_values
+from urdfkit.lint.fix_builders import new_values
 from urdfkit.lint.model.placement import Extent
 
 TYPE_CHECKING = False

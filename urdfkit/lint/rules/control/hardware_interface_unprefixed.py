@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from urdfkit.lint.edits import new_text
 from urdfkit.lint.facts.control.hardware_interfaces import INTERFACES, PACKAGE, written
+from urdfkit.lint.fix_builders import new_text
 from urdfkit.lint.rule import NOT_GAZEBO, RobotRule
 
 TYPE_CHECKING = False

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from urdfkit.lint.edits import nearest, new_text
 from urdfkit.lint.facts.gazebo.plugins import plugins, simulated_hardware
+from urdfkit.lint.fix_builders import nearest, new_text
 from urdfkit.lint.project.target import WITHOUT_CLASSIC
 from urdfkit.lint.rule import NOT_GAZEBO, RobotRule
 

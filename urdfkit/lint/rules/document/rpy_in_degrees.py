@@ -5,7 +5,7 @@ from __future__ import annotations
 from math import degrees, pi, radians
 
 from urdfkit.description.xml.numbers import numbers
-from urdfkit.lint.edits import new_value
+from urdfkit.lint.fix_builders import new_value
 from urdfkit.lint.rule import RobotRule
 
 TYPE_CHECKING = False

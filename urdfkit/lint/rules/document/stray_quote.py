@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 
-from urdfkit.lint.edits import new_text, new_value
+from urdfkit.lint.fix_builders import new_text, new_value
 from urdfkit.lint.rule import RobotRule
 
 TYPE_CHECKING = False

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from urdfkit.lint.edits import nearest, new_tag
+from urdfkit.lint.fix_builders import nearest, new_tag
 from urdfkit.lint.model.xacro_prefix import URDF_ATTRIBUTES, URDF_CHILDREN, misspelt_in_robot
 from urdfkit.lint.rule import RobotRule
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from urdfkit.description.xml.numbers import numbers
-from urdfkit.lint.edits import without_element
+from urdfkit.lint.fix_builders import without_element
 from urdfkit.lint.rule import NOT_GAZEBO, RobotRule
 
 TYPE_CHECKING = False

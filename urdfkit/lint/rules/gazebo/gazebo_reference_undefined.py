@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from urdfkit.lint.edits import meant, new_value
+from urdfkit.lint.fix_builders import meant, new_value
 from urdfkit.lint.model.masked_names import unless_masked
 from urdfkit.lint.rule import NOT_GAZEBO, RobotRule
 

@@ -89,7 +89,7 @@ class PluginJointUndefined(RobotRule):
     def _check(self, model: Model, plugin: Plugin, parameter: Parameter) -> Iterator[Finding]:
         from urdfkit.description.plugins import values
         from urdfkit.errors import did_you_mean
-        from urdfkit.lint.edits import meant, new_text
+        from urdfkit.lint.fix_builders import meant, new_text
 
         joints = model.as_written.joint_by_name
         named = [(text, element) for text, element in values(plugin, parameter) if text]

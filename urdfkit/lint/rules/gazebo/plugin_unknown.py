@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from urdfkit.lint.edits import new_value
 from urdfkit.lint.facts.gazebo.plugins import plugins
+from urdfkit.lint.fix_builders import new_value
 from urdfkit.lint.rule import NOT_GAZEBO, RobotRule
 
 TYPE_CHECKING = False

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from urdfkit.lint.edits import meant, new_text
 from urdfkit.lint.facts.gazebo.plugins import is_frame, references
+from urdfkit.lint.fix_builders import meant, new_text
 from urdfkit.lint.model.masked_names import unless_masked
 from urdfkit.lint.rule import NOT_GAZEBO, RobotRule
 

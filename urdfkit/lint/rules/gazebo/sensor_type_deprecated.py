@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from urdfkit.lint.edits import new_value
+from urdfkit.lint.fix_builders import new_value
 from urdfkit.lint.rule import RobotRule
 
 TYPE_CHECKING = False

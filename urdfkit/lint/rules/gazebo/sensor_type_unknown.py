@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from urdfkit.lint.edits import nearest, new_value
+from urdfkit.lint.fix_builders import nearest, new_value
 from urdfkit.lint.rule import NOT_GAZEBO, RobotRule
 
 TYPE_CHECKING = False

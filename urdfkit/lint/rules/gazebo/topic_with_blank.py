@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import re
 
-from urdfkit.lint.edits import new_text
 from urdfkit.lint.facts.gazebo.plugins import references
+from urdfkit.lint.fix_builders import new_text
 from urdfkit.lint.rule import NOT_GAZEBO, RobotRule
 
 TYPE_CHECKING = False

@@ -6,7 +6,7 @@ import re
 
 from urdfkit.description.urdf.robot import Mesh
 from urdfkit.description.xml.numbers import numbers
-from urdfkit.lint.edits import new_value
+from urdfkit.lint.fix_builders import new_value
 from urdfkit.lint.rule import RobotRule
 
 TYPE_CHECKING = False

@@ -6,8 +6,8 @@ from math import dist, sqrt
 
 from urdfkit.description.urdf.geometry import box_around
 from urdfkit.description.urdf.robot import Mesh
-from urdfkit.lint.edits import more_attributes, new_value
 from urdfkit.lint.facts.inertia.principal_moments import principal_moments
+from urdfkit.lint.fix_builders import more_attributes, new_value
 from urdfkit.lint.model.mesh_files import meshes
 from urdfkit.lint.model.placement import shapes_of
 from urdfkit.lint.rule import RobotRule

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from urdfkit.description.urdf.geometry import rotation_of, unit
 from urdfkit.description.urdf.robot import Cylinder, Sphere
-from urdfkit.lint.edits import new_value
+from urdfkit.lint.fix_builders import new_value
 from urdfkit.lint.rule import RobotRule
 
 TYPE_CHECKING = False

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from urdfkit.lint.edits import new_value
 from urdfkit.lint.facts.inertia.inertia_tensor import tensor_of
+from urdfkit.lint.fix_builders import new_value
 from urdfkit.lint.rule import RobotRule
 
 TYPE_CHECKING = False

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from urdfkit.lint.edits import new_values
 from urdfkit.lint.facts.inertia.inertia_tensor import COMPONENTS
 from urdfkit.lint.facts.inertia.principal_moments import reordered
+from urdfkit.lint.fix_builders import new_values
 from urdfkit.lint.rule import RobotRule
 
 TYPE_CHECKING = False

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from urdfkit.lint.edits import more_children
+from urdfkit.lint.fix_builders import more_children
 from urdfkit.lint.rule import RobotRule
 
 TYPE_CHECKING = False

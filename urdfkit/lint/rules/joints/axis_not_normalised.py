@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from urdfkit.description.urdf.geometry import unit
-from urdfkit.lint.edits import new_value
+from urdfkit.lint.fix_builders import new_value
 from urdfkit.lint.rule import RobotRule
 
 TYPE_CHECKING = False

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from urdfkit.lint.edits import without_element
+from urdfkit.lint.fix_builders import without_element
 from urdfkit.lint.rule import RobotRule
 
 TYPE_CHECKING = False

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from math import pi
 
-from urdfkit.lint.edits import without_attribute
 from urdfkit.lint.finding import Fix
+from urdfkit.lint.fix_builders import without_attribute
 from urdfkit.lint.rule import RobotRule
 
 TYPE_CHECKING = False

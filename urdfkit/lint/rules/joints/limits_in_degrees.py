@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from math import pi, radians
 
-from urdfkit.lint.edits import new_value
 from urdfkit.lint.finding import Edit, Fix
+from urdfkit.lint.fix_builders import new_value
 from urdfkit.lint.rule import RobotRule
 
 TYPE_CHECKING = False

@@ -59,9 +59,9 @@ class BridgeMisspelt(RobotRule):
         sources = [source for source in model.related_files.values() if any(word in source.text for word in _BRIDGES)]
         if not sources:
             return
-        from urdfkit.lint.edits import nearest
         from urdfkit.lint.facts.control.ros_gz_bridges import KEYS, in_launch, in_yaml
         from urdfkit.lint.facts.control.yaml_tree import span_of
+        from urdfkit.lint.fix_builders import nearest
 
         bridges: list[tuple[Source, Bridged]] = []
         for source in sources:
@@ -89,8 +89,8 @@ class BridgeMisspelt(RobotRule):
 
 def _type_defect(bridge: Bridged) -> tuple[Named, str] | None:
     """Return an invalid type with its message; None if both types are valid."""
-    from urdfkit.lint.edits import nearest
     from urdfkit.lint.facts.control.ros_gz_bridges import pairs
+    from urdfkit.lint.fix_builders import nearest
 
     compatible_types = pairs()
     known_gazebo_types = {name for names in compatible_types.values() for name in names}
@@ -120,8 +120,8 @@ def _type_defect(bridge: Bridged) -> tuple[Named, str] | None:
 
 def _direction_defect(bridge: Bridged) -> tuple[Named, str] | None:
     """Return an unknown direction with its message; None if it is valid."""
-    from urdfkit.lint.edits import nearest
     from urdfkit.lint.facts.control.ros_gz_bridges import DIRECTIONS
+    from urdfkit.lint.fix_builders import nearest
 
     if bridge.direction is None or bridge.direction.name in DIRECTIONS:
         return None
@@ -133,9 +133,9 @@ def _direction_defect(bridge: Bridged) -> tuple[Named, str] | None:
 
 def _topic_defects(bridges: list[tuple[Source, Bridged]], model: Model) -> Iterator[tuple[Source, Named, str]]:
     """Yield misspelt topics and wrong directions with their messages."""
-    from urdfkit.lint.edits import nearest
     from urdfkit.lint.facts.gazebo.plugins import references
     from urdfkit.lint.facts.gazebo.sensor_topics import published
+    from urdfkit.lint.fix_builders import nearest
 
     if model.is_incomplete:
         return

@@ -57,8 +57,8 @@ class ControllerJointUndefined(RobotRule):
 
     def check(self, model: Model) -> Iterator[Finding]:
         """Yield a finding for each controller joint that no description in these packages can define."""
-        from urdfkit.lint.edits import nearest
         from urdfkit.lint.facts.control.controller_joints import joints
+        from urdfkit.lint.fix_builders import nearest
 
         joints_by_name = model.robot.joint_by_name
         if not joints_by_name:

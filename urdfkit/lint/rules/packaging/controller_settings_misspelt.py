@@ -86,8 +86,8 @@ class ControllerSettingsMisspelt(RobotRule):
                 yield self._at(source, tab.start(), tab[0], "YAML is indented with a tab", help="indent with spaces")
 
     def _keys(self, source: Source, text: str) -> Iterator[Finding]:
-        from urdfkit.lint.edits import nearest
         from urdfkit.lint.facts.control.controller_joints import controllers
+        from urdfkit.lint.fix_builders import nearest
 
         keys = [(key[2], key.start(2), len(key[1])) for key in re.finditer(_KEY, text)]
         for name, start in ((key[1], key.start(1)) for key in re.finditer(_GROUP, text)):
@@ -124,8 +124,8 @@ class ControllerSettingsMisspelt(RobotRule):
 
 def _suggested_type(name: str) -> str | None:
     """Return the suggestion for a misspelt controller type; None if the type is valid or may be user-defined."""
-    from urdfkit.lint.edits import nearest
     from urdfkit.lint.facts.control.controller_joints import TYPES
+    from urdfkit.lint.fix_builders import nearest
 
     if name in TYPES:
         return None

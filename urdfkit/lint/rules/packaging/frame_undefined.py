@@ -58,8 +58,8 @@ class FrameUndefined(RobotRule):
 
     def check(self, model: Model) -> Iterator[Finding]:
         """Yield a finding for each named link that no description in these packages can define."""
-        from urdfkit.lint.edits import meant
         from urdfkit.lint.facts.control.launch_files import uncommented
+        from urdfkit.lint.fix_builders import meant
 
         links_by_name = model.robot.link_by_name
         if not links_by_name:

@@ -87,8 +87,8 @@ class HardwareInterfaceLacking(RobotRule):
     def _unknown_sensor(
         self, source: Source, controller: DeclaredController, hardware: dict[str, dict[bool, list[str]]]
     ) -> Iterator[Finding]:
-        from urdfkit.lint.edits import nearest
         from urdfkit.lint.facts.control.yaml_tree import span_of
+        from urdfkit.lint.fix_builders import nearest
 
         sensor = controller.settings.find("sensor_name") if controller.settings is not None else None
         if sensor is None or not sensor.text or controller.kind.text not in _BROADCASTERS or sensor.text in hardware:

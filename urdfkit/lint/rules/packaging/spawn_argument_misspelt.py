@@ -80,7 +80,7 @@ class SpawnArgumentMisspelt(RobotRule):
 
 def _invalid_arguments(node: Started) -> Iterator[tuple[int, str, str]]:
     """Yield the offset, text and message of each invalid argument."""
-    from urdfkit.lint.edits import nearest
+    from urdfkit.lint.fix_builders import nearest
 
     options, previous = _OPTIONS[node.program], ""
     for word in node.arguments:
@@ -101,7 +101,7 @@ def _invalid_arguments(node: Started) -> Iterator[tuple[int, str, str]]:
 
 
 def _nearest_option(option: str, options: tuple[str, ...]) -> str | None:
-    from urdfkit.lint.edits import nearest
+    from urdfkit.lint.fix_builders import nearest
 
     return (
         nearest(option, [candidate for candidate in options if len(candidate) > 1], cutoff=0.7)

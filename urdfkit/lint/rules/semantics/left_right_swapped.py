@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from urdfkit.lint.edits import new_text
 from urdfkit.lint.facts.gazebo.drive_wheels import TwoSided, drives
 from urdfkit.lint.finding import Edit, Fix
+from urdfkit.lint.fix_builders import new_text
 from urdfkit.lint.rule import NOT_GAZEBO, RobotRule
 
 TYPE_CHECKING = False

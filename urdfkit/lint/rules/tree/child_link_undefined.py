@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from urdfkit.description.urdf.queries import dangling
-from urdfkit.lint.edits import new_value
 from urdfkit.lint.facts.parentless_links import meant_child
+from urdfkit.lint.fix_builders import new_value
 from urdfkit.lint.model.masked_names import unless_masked
 from urdfkit.lint.rule import RobotRule
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from urdfkit.lint.edits import nearest
 from urdfkit.lint.finding import Edit, Fix
+from urdfkit.lint.fix_builders import nearest
 from urdfkit.lint.rule import FaultRule
 
 TYPE_CHECKING = False

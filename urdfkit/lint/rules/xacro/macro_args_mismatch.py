@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from urdfkit.lint.edits import nearest
+from urdfkit.lint.fix_builders import nearest
 from urdfkit.lint.rule import FaultRule
 
 TYPE_CHECKING = False

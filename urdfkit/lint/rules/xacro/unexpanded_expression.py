@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from urdfkit.lint.edits import new_text, new_value
 from urdfkit.lint.facts.escaped_expressions import correct_escapes, is_unexpanded
 from urdfkit.lint.finding import Edit, Fix
+from urdfkit.lint.fix_builders import new_text, new_value
 from urdfkit.lint.rule import RobotRule
 
 TYPE_CHECKING = False

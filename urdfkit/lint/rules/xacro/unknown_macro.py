@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import os
 
-from urdfkit.lint.edits import nearest
 from urdfkit.lint.facts.root_cause import is_in_broken_file
 from urdfkit.lint.finding import Edit, Finding, Fix
+from urdfkit.lint.fix_builders import nearest
 from urdfkit.lint.rule import FaultRule
 
 TYPE_CHECKING = False

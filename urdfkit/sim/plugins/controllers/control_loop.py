@@ -14,10 +14,10 @@ if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
 
     from urdfkit.description.control import Settings
+    from urdfkit.sim.plugins.builtin_publishers import Publication
     from urdfkit.sim.plugins.controllers.command_output import Output
     from urdfkit.sim.plugins.controllers.controller import Hardware, Law
     from urdfkit.sim.plugins.controllers.joint_handle import Follower
-    from urdfkit.sim.plugins.publishers import Publication
     from urdfkit.sim.state.joint_commands import Motors
     from urdfkit.sim.state.robot_state import State
 

@@ -9,8 +9,8 @@ from math import inf
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from urdfkit.errors import DescriptionError, did_you_mean
+from urdfkit.sim.plugins.builtin_publishers import Publication
 from urdfkit.sim.plugins.controllers.command_output import Output
-from urdfkit.sim.plugins.publishers import Publication
 from urdfkit.sim.state.ticks import NEVER
 
 if TYPE_CHECKING:

@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING
 from urdfkit.errors import SimulationError, did_you_mean
 
 if TYPE_CHECKING:
+    from urdfkit.sim.plugins.builtin_publishers import Publication
     from urdfkit.sim.plugins.controllers.control_loop import ControllerStatus, ControlLoop
     from urdfkit.sim.plugins.odometry import Pose
-    from urdfkit.sim.plugins.publishers import Publication
     from urdfkit.sim.state.robot_state import State
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from urdfkit.description.xml.element import Element
-from urdfkit.lint import edits
+from urdfkit.lint import fix_builders
 from urdfkit.lint.engine.checker import model_of
 from urdfkit.lint.finding import Fix
 from urdfkit.lint.project.options import Options
@@ -50,28 +50,32 @@ def found(write):
 @pytest.mark.parametrize(
     ("edit", "before", "after"),
     [
-        (lambda m, e: edits.new_value(m, e("origin"), "xyz", "4", "safe", ""), "'1 2 3'", "'4'"),
-        (lambda m, e: edits.new_name(m, e("origin"), "rpy", "rot", "safe", ""), 'rpy="0 0 ${w}"', 'rot="0 0 ${w}"'),
-        (lambda m, e: edits.new_tag(m, e("box"), "ball", "safe", ""), "<box size", "<ball size"),
-        (lambda m, e: edits.new_text(m, e("rate"), "7", "safe", ""), "<rate> 5 <", "<rate>7<"),
+        (lambda m, e: fix_builders.new_value(m, e("origin"), "xyz", "4", "safe", ""), "'1 2 3'", "'4'"),
         (
-            lambda m, e: edits.without_attribute(m, e("origin"), "rpy", "safe", ""),
+            lambda m, e: fix_builders.new_name(m, e("origin"), "rpy", "rot", "safe", ""),
+            'rpy="0 0 ${w}"',
+            'rot="0 0 ${w}"',
+        ),
+        (lambda m, e: fix_builders.new_tag(m, e("box"), "ball", "safe", ""), "<box size", "<ball size"),
+        (lambda m, e: fix_builders.new_text(m, e("rate"), "7", "safe", ""), "<rate> 5 <", "<rate>7<"),
+        (
+            lambda m, e: fix_builders.without_attribute(m, e("origin"), "rpy", "safe", ""),
             "'1 2 3'\n              rpy=\"0 0 ${w}\" />",
             "'1 2 3' />",
         ),
         (
-            lambda m, e: edits.without_element(m, e("origin"), "safe", ""),
+            lambda m, e: fix_builders.without_element(m, e("origin"), "safe", ""),
             "      <origin xyz='1 2 3'\n              rpy=\"0 0 ${w}\" />\n",
             "",
         ),
-        (lambda m, e: edits.without_element(m, e("rate"), "safe", ""), "<rate> 5 </rate>", ""),
+        (lambda m, e: fix_builders.without_element(m, e("rate"), "safe", ""), "<rate> 5 </rate>", ""),
         (
-            lambda m, e: edits.more_attributes(m, e("link"), 'x="1"', "safe", ""),
+            lambda m, e: fix_builders.more_attributes(m, e("link"), 'x="1"', "safe", ""),
             '<link name="a">',
             '<link name="a" x="1">',
         ),
         (
-            lambda m, e: edits.more_children(m, e("visual"), "<b/>", "safe", ""),
+            lambda m, e: fix_builders.more_children(m, e("visual"), "<b/>", "safe", ""),
             "</geometry>\n",
             "</geometry>\n      <b/>\n",
         ),
@@ -87,15 +91,15 @@ def test_an_edit_changes_its_span_and_nothing_else(found, edit, before, after):
 
 def test_what_is_computed_or_escaped_is_left_alone(found):
     model, element = found
-    assert edits.new_value(model, element("origin"), "rpy", "0 0 0", "safe", "") is None
-    assert edits.new_values(model, element("origin"), {"xyz": "1 1 1", "rpy": "0 0 0"}, "safe", "") is None
-    assert edits.new_text(model, element("out"), "c", "safe", "") is None
-    assert edits.new_value(model, element("origin"), "xyz", "1 2 3", "safe", "") is None
-    assert edits.more_children(model, element("box"), "<b/>", "safe", "") is None
+    assert fix_builders.new_value(model, element("origin"), "rpy", "0 0 0", "safe", "") is None
+    assert fix_builders.new_values(model, element("origin"), {"xyz": "1 1 1", "rpy": "0 0 0"}, "safe", "") is None
+    assert fix_builders.new_text(model, element("out"), "c", "safe", "") is None
+    assert fix_builders.new_value(model, element("origin"), "xyz", "1 2 3", "safe", "") is None
+    assert fix_builders.more_children(model, element("box"), "<b/>", "safe", "") is None
 
 
 def test_the_nearest_name():
-    assert edits.nearest("Left_Wheel", ["left_wheel", "right_wheel"]) == "left_wheel"
-    assert edits.nearest("gripper", ["left_wheel", "right_wheel"]) is None
-    assert edits.meant("lef_wheel", ["left_wheel"]) == ("left_wheel", "; did you mean `left_wheel`?")
-    assert edits.meant("stick_link", ["imu_link"]) == (None, "")
+    assert fix_builders.nearest("Left_Wheel", ["left_wheel", "right_wheel"]) == "left_wheel"
+    assert fix_builders.nearest("gripper", ["left_wheel", "right_wheel"]) is None
+    assert fix_builders.meant("lef_wheel", ["left_wheel"]) == ("left_wheel", "; did you mean `left_wheel`?")
+    assert fix_builders.meant("stick_link", ["imu_link"]) == (None, "")

@@ -3,7 +3,7 @@
 import pytest
 from websocket import ABNF
 
-from urdfkit.view.server.websocket import framed
+from urdfkit.view.server.page_socket import framed
 
 
 @pytest.mark.parametrize("size", [0, 1, 125, 126, 127, 65_535, 65_536, 70_000])

@@ -9,7 +9,7 @@ from urdfkit.description import load
 from urdfkit.errors import SimulationError
 from urdfkit.sim import Simulator
 from urdfkit.sim.state.pid import Gains
-from urdfkit.sim.world.live_parameters import Tuning
+from urdfkit.sim.world.live_tuning import Tuning
 from urdfkit.sim.world.slip_velocity import slips
 
 BOX = """<robot name="box"><link name="body">

@@ -7,8 +7,8 @@ import sys
 
 import pytest
 
+from urdfkit.entry_points import EntryPoint, entry_points, load
 from urdfkit.errors import ResourceError
-from urdfkit.registry import EntryPoint, entry_points, load
 
 
 @pytest.mark.parametrize("group", ["console_scripts", "pytest11", "no.such.group"])
