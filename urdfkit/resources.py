@@ -187,7 +187,8 @@ def _find_here(start: Path) -> Path:
         if entries := models_in(folder):
             return _the_one(entries, "the current folder" if folder == start else str(folder))
     raise ResourceError(
-        f"no robot is named, and there is no robot description in or above {start}; bundled robots: {', '.join(robot_names())}"
+        f"no robot is named, and there is no robot description in or above {start}; "
+        f"bundled robots: {', '.join(robot_names())}"
     )
 
 
