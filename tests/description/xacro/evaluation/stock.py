@@ -65,7 +65,7 @@ def difference(path: str | Path, arguments: Mapping[str, str], packages: Package
     stock = by_stock_xacro(path, arguments, packages)
     ours = by_urdfkit(path, arguments, packages)
     if (stock.text is None) != (ours.text is None):
-        if stock.error.endswith("object has no attribute 'replace'"):
+        if stock.error.startswith("AttributeError: ") and stock.error.endswith("'replace'"):
             return "", stock  # <xacro:attribute> with a value that is not a text: stock xacro cannot print it
         missing = stock.error.rpartition("No such file or directory: ")[2].strip("'")
         if packages.relocate(missing) is not None:
