@@ -23,8 +23,8 @@ DATA = yaml.safe_load(Path(__file__).with_name("language_cases.yaml").read_text(
 
 def content(xml: str, *, whole: bool) -> str:
     """Return the document below the banner, or the content of its root, without white space next to tags."""
-    text = re.sub(r"\s+", " ", xml.rpartition(" -->\n<r")[2])
-    text = re.sub(r" ?(<[^<>]*>) ?", r"\1", f"<r{text}")
+    text = re.sub(r"\s+", " ", xml.split(" -->\n", 4)[4])
+    text = re.sub(r" ?(<[^<>]*>) ?", r"\1", text)
     return text if whole else text.removeprefix("<r>").removesuffix("</r>").removeprefix("<r/>")
 
 

@@ -192,7 +192,7 @@ class Evaluator(Calls):
             macros.set(space, inner_macros, is_lazy=False)
             scope.set(space, inner_scope, is_lazy=False)
         self.at = (node, None)
-        is_optional = self._boolean(optional, None)
+        is_optional = self._boolean(optional, optional)
         if next(node.tags(), None) is not None:
             self.warn("Child elements of a <xacro:include> tag are ignored")
         included: list[Tag] = []

@@ -22,6 +22,13 @@ Place = tuple["Tag | None", "str | None"]
 _MAX_COMPARED = 2_000
 DIRECTIVES = ("arg", "attribute", "call", "element", "if", "include", "insert_block", "macro", "property", "unless")
 
+_ELSEWHERE = {
+    **{"true": "True", "false": "False", "unicode": "str", "long": "int", "xrange": "python.range"},
+    **{name: f"python.{name}" for name in ("abs", "all", "any", "enumerate", "filter", "set", "sum", "tuple", "zip")},
+    **{name: f"xacro.{name}" for name in ("arg", "tokenize")},
+}
+"""Names of Python, also of Python 2, and functions of xacro, by the name that expressions of xacro 2.1 use."""
+
 
 class Failure(Exception):  # noqa: N818 - a fault of the file, reported as such
     """Something in a file cannot be expanded.
@@ -58,7 +65,9 @@ class Failure(Exception):  # noqa: N818 - a fault of the file, reported as such
 def undefined_property(name: str, candidates: Iterable[str]) -> Failure:
     """Return the failure for a property that is not defined."""
     names = tuple(candidates)
-    hint = did_you_mean(name, (*_near(name, names), "pi", "tau", "radians", "degrees", "sin", "cos", "tan", "sqrt"))
+    constants = ("pi", "tau", "radians", "degrees", "sin", "cos", "tan", "sqrt")
+    meant = _ELSEWHERE.get(name)
+    hint = f"; did you mean `{meant}`?" if meant else did_you_mean(name, (*_near(name, names), *constants))
     return Failure("undefined-property", f"property `{name}` is not defined{hint}", name=name, candidates=names)
 
 
