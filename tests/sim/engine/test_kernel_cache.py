@@ -13,8 +13,8 @@ import pytest
 import urdfkit.sim.engine
 from urdfkit.sim.engine import warmup
 from urdfkit.sim.engine.arrays import At
-from urdfkit.sim.engine.compilation import field
 from urdfkit.sim.engine.kernel_cache import KERNEL_MODULES, WORLD_FOLDERS, load_compiled, sources_digest, world_digest
+from urdfkit.sim.engine.kernel_world import world
 
 FOLDER = Path(urdfkit.sim.engine.__file__).parent
 
@@ -24,7 +24,7 @@ def tiny(floats, integers):
 
 
 def second_mass(floats, integers):
-    return field(floats, integers, At.mass)[1]
+    return world(floats, integers).mass[1]
 
 
 def test_a_second_warmup_has_nothing_to_compile():
@@ -97,7 +97,7 @@ def test_a_cache_that_cannot_be_written_is_no_failure(tmp_path):
     assert done.stderr == ""
 
 
-def test_field_reads_the_block_it_is_told():
+def test_a_field_begins_where_the_sizes_say():
     import numpy as np
 
     integers = np.zeros(200, dtype=np.int64)

@@ -11,8 +11,7 @@ from llvmlite import ir
 from numba.core import types
 from numba.core.datamodel import models
 from numba.core.typing.templates import AbstractTemplate, infer_global, signature
-from numba.extending import intrinsic, lower_builtin, register_model
-from numba.np.arrayobj import make_array
+from numba.extending import lower_builtin, register_model
 
 Function = TypeVar("Function", bound=Callable[..., Any])
 
@@ -103,21 +102,3 @@ def _read(context: Any, builder: Any, sig: Any, args: Any) -> Any:
 def _write(context: Any, builder: Any, sig: Any, args: Any) -> Any:
     of_kind(builder, builder.store(args[2], builder.gep(args[0], [args[1]])), sig.args[0].dtype)
     return context.get_dummy_value()
-
-
-def _field(typing: Any, block: Any, integers: Any, at: Any) -> Any:
-    """Return the part of a block that holds one field."""
-
-    def codegen(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
-        whole = make_array(signature.args[0])(context, builder, arguments[0])
-        starts = make_array(signature.args[1])(context, builder, arguments[1])
-        start = builder.load(builder.gep(starts.data, [arguments[2]]))
-        # Fields do not move, so the compiler need not read the start again after every store.
-        start.set_metadata("invariant.load", builder.module.add_metadata([]))
-        return builder.gep(whole.data, [start])
-
-    return Field(block.dtype)(block, integers, types.int64), codegen
-
-
-field: Any = intrinsic(_field)
-"""Return the part of a block that holds one field: ``field(block, integers, at)``."""

@@ -20,6 +20,7 @@ KERNEL_MODULES = (
     "contacts/ground_contacts",
     "dynamics/integration",
     "dynamics/mass_matrix",
+    "kernel_world",
     "math/elementary_functions",
     "math/linear_systems",
     "math/simd",

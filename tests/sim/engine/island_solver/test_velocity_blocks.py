@@ -8,11 +8,12 @@ import pytest
 from urdfkit.sim.engine.arrays import allocate
 from urdfkit.sim.engine.island_solver.velocity_blocks import hold
 from urdfkit.sim.engine.kernel_cache import load_compiled, world_digest
+from urdfkit.sim.engine.kernel_world import world
 from urdfkit.sim.engine.solver.row_states import AT_LOW, HOLDS, SLIDES
 
 
 def held(floats, integers, root, rows):
-    return hold(floats, integers, root, rows)
+    return hold(world(floats, integers), root, rows)
 
 
 @pytest.fixture(scope="module")

@@ -5,20 +5,21 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from urdfkit.sim.engine.compilation import compiled, field
+from urdfkit.sim.engine.compilation import compiled
+from urdfkit.sim.engine.kernel_world import world
 from urdfkit.sim.engine.math.simd import LANES, load6, load16, padded, store
 
 
 @compiled
 def mix(floats, integers):
-    x = field(floats, integers, 0)
+    x = world(floats, integers).floats
     store(x, 1, load6(x, 1) + x[0] * load6(x, 7) - load6(x, 13))
     return x[0]
 
 
 @compiled
 def mix_sixteen(floats, integers):
-    x = field(floats, integers, 0)
+    x = world(floats, integers).floats
     store(x, 1, load16(x, 1) + x[0] * load16(x, 17) - load16(x, 33))
     return padded(0), padded(1), padded(LANES), padded(LANES + 1)
 

@@ -9,8 +9,8 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from urdfkit.sim.engine.arrays import At
-from urdfkit.sim.engine.compilation import field, inlined
+from urdfkit.sim.engine.compilation import inlined
+from urdfkit.sim.engine.kernel_world import KernelWorld
 
 RECOVERY = 0.2
 """Part of a penetration, or of another violation, that is corrected in a step."""
@@ -26,97 +26,70 @@ def recovery_speed(gap: float, dt: float) -> float:
 
 @inlined
 def open_row(
-    floats: Any, integers: Any, row: int, clear: int, width: int, tree: int, b: float, lo: float, hi: float, at: int
+    w: KernelWorld, row: int, clear: int, width: int, tree: int, b: float, lo: float, hi: float, at: int
 ) -> None:
     """Give a row its tree (-1: there is but one), bias, bounds and slot; clear it, and more in all, if need be."""
-    Y = field(floats, integers, At.Y)
-    bias = field(floats, integers, At.row_bias)
-    low = field(floats, integers, At.low)
-    high = field(floats, integers, At.high)
-    mu = field(floats, integers, At.mu)
-    slot = field(integers, integers, At.slot)
-    row_a = field(integers, integers, At.row_a)
-    row_b = field(integers, integers, At.row_b)
     for d in range(row * width, (row + clear) * width):
-        Y[d] = 0.0
-    bias[row], low[row], high[row], mu[row], slot[row] = b, lo, hi, 0.0, at
+        w.Y[d] = 0.0
+    w.row_bias[row], w.low[row], w.high[row], w.mu[row], w.slot[row] = b, lo, hi, 0.0, at
     if tree >= 0:
-        row_a[row], row_b[row] = tree, -1
+        w.row_a[row], w.row_b[row] = tree, -1
 
 
 @inlined
-def joint_rows(floats: Any, integers: Any, rows: int, tree: int, dofs: int, width: int, dt: float, alone: bool) -> int:
+def joint_rows(w: KernelWorld, rows: int, tree: int, dofs: int, width: int, dt: float, alone: bool) -> int:
     """Write the rows of a tree's mimic joints, motors, dry friction and limits after the first `rows`.
 
     Returns:
         How many rows there are.
     """
-    tree_dof = field(integers, integers, At.tree_dof)
-    tree_mimic = field(integers, integers, At.tree_mimic)
-    mimic_dof = field(integers, integers, At.mimic_dof)
-    mimic_master = field(integers, integers, At.mimic_master)
-    mimic_factor = field(floats, integers, At.mimic_factor)
-    mimic_offset = field(floats, integers, At.mimic_offset)
-    dof_s = field(integers, integers, At.dof_s)
-    s = field(floats, integers, At.s)
-    v = field(floats, integers, At.v_start)
-    friction = field(floats, integers, At.friction)
-    lower = field(floats, integers, At.lower)
-    upper = field(floats, integers, At.upper)
-    motor_velocity = field(floats, integers, At.motor_velocity)
-    motor_effort = field(floats, integers, At.motor_effort)
-    pressed = field(integers, integers, At.pressed)
-    Y = field(floats, integers, At.Y)
-    first, beyond, row_tree = tree_dof[tree], tree_dof[tree + 1], tree
+    first, beyond, row_tree = w.tree_dof[tree], w.tree_dof[tree + 1], tree
     if alone:
         first, beyond, row_tree = 0, dofs, -1
-    for k in range(tree_mimic[tree], tree_mimic[tree + 1]):
-        d, m, factor = mimic_dof[k], mimic_master[k], mimic_factor[k]
-        target = mimic_offset[k] + (factor * s[dof_s[m]] if m >= 0 else 0.0)
-        b = min(FASTEST_JOINT, max(-FASTEST_JOINT, RECOVERY * (s[dof_s[d]] - target) / dt))
+    for k in range(w.tree_mimic[tree], w.tree_mimic[tree + 1]):
+        d, m, factor = w.mimic_dof[k], w.mimic_master[k], w.mimic_factor[k]
+        target = w.mimic_offset[k] + (factor * w.s[w.dof_s[m]] if m >= 0 else 0.0)
+        b = min(FASTEST_JOINT, max(-FASTEST_JOINT, RECOVERY * (w.s[w.dof_s[d]] - target) / dt))
         at = 2 * dofs + k
-        open_row(floats, integers, rows, 1, width, row_tree, b, -math.inf, math.inf, at)
-        Y[rows * width + d - first] = 1.0
+        open_row(w, rows, 1, width, row_tree, b, -math.inf, math.inf, at)
+        w.Y[rows * width + d - first] = 1.0
         if m >= 0:
-            Y[rows * width + m - first] = -factor
+            w.Y[rows * width + m - first] = -factor
         rows += 1
     for d in range(first, beyond):
-        effort, rub = motor_effort[d], friction[d]
-        if effort > 0.0 and (rub == 0.0 or (effort > rub and motor_velocity[d] != 0.0)):
+        effort, rub = w.motor_effort[d], w.friction[d]
+        if effort > 0.0 and (rub == 0.0 or (effort > rub and w.motor_velocity[d] != 0.0)):
             hold = effort
-            b = -motor_velocity[d]
+            b = -w.motor_velocity[d]
         elif rub > 0.0:
             # If a motor holds the joint, or is too weak to move it, motor and friction act as one row.
-            hold = rub + effort if motor_velocity[d] == 0.0 else rub
+            hold = rub + effort if w.motor_velocity[d] == 0.0 else rub
             b = 0.0
         else:
             continue
-        open_row(floats, integers, rows, 1, width, row_tree, b, -hold * dt, hold * dt, d)
-        Y[rows * width + d - first] = 1.0
+        open_row(w, rows, 1, width, row_tree, b, -hold * dt, hold * dt, d)
+        w.Y[rows * width + d - first] = 1.0
         rows += 1
     for d in range(first, beyond):
-        if lower[d] == -math.inf and upper[d] == math.inf:
+        if w.lower[d] == -math.inf and w.upper[d] == math.inf:
             continue
-        position = s[dof_s[d]]
-        near = 2.0 * dt * abs(v[d]) + 1e-3
-        gap, sign = position - lower[d], 1.0
-        if pressed[d] > 0 or (pressed[d] == 0 and not (gap < near and gap <= upper[d] - position)):
-            gap, sign = upper[d] - position, -1.0
-        if gap < near or pressed[d] != 0:
+        position = w.s[w.dof_s[d]]
+        near = 2.0 * dt * abs(w.v_start[d]) + 1e-3
+        gap, sign = position - w.lower[d], 1.0
+        if w.pressed[d] > 0 or (w.pressed[d] == 0 and not (gap < near and gap <= w.upper[d] - position)):
+            gap, sign = w.upper[d] - position, -1.0
+        if gap < near or w.pressed[d] != 0:
             b = recovery_speed(gap, dt)
-            open_row(floats, integers, rows, 1, width, row_tree, b, 0.0, math.inf, dofs + d)
-            Y[rows * width + d - first] = sign
+            open_row(w, rows, 1, width, row_tree, b, 0.0, math.inf, dofs + d)
+            w.Y[rows * width + d - first] = sign
             rows += 1
     return rows
 
 
 @inlined
-def friction_with_motor(floats: Any, integers: Any, d: int, v: Any) -> float:
+def friction_with_motor(w: KernelWorld, d: int, v: Any) -> float:
     """Return the effort [N·m] in addition to the row that `joint_rows` writes for a dof with motor and friction."""
-    friction = field(floats, integers, At.friction)
-    motor_velocity = field(floats, integers, At.motor_velocity)
-    motor_effort = field(floats, integers, At.motor_effort)
-    effort, rub, target = motor_effort[d], friction[d], motor_velocity[d]
+    effort, rub, target = w.motor_effort[d], w.friction[d], w.motor_velocity[d]
     if effort == 0.0 or rub == 0.0 or target == 0.0:
         return 0.0
     if effort > rub:

@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-from typing import Any
-
-from urdfkit.sim.engine.arrays import At
-from urdfkit.sim.engine.compilation import field, inlined
+from urdfkit.sim.engine.compilation import inlined
+from urdfkit.sim.engine.kernel_world import KernelWorld
 
 PASSING = 1e-9
 """How far beyond a limit a joint has passed it [rad or m]."""
@@ -14,33 +12,30 @@ WHIRLING = 0.05
 
 
 @inlined
-def passes_limits(floats: Any, integers: Any, first: int, beyond: int, dt: float) -> bool:
+def passes_limits(w: KernelWorld, first: int, beyond: int, dt: float) -> bool:
     """Mark the dofs that the step would take past a limit it seemed far from; return whether there are any.
 
     Each is marked once in a step, then `joint_rows` opens its row.
     """
-    dof_s = field(integers, integers, At.dof_s)
-    s = field(floats, integers, At.s)
-    v = field(floats, integers, At.v)
-    lower = field(floats, integers, At.lower)
-    upper = field(floats, integers, At.upper)
-    pressed = field(integers, integers, At.pressed)
     found = False
     for d in range(first, beyond):
-        position = s[dof_s[d]]
+        position = w.s[w.dof_s[d]]
         # In the middle of the next step, half of which is gone with this velocity.
-        end = position + dt * v[d]
-        if pressed[d] == 0 and lower[d] <= position <= upper[d] and not lower[d] - PASSING <= end <= upper[d] + PASSING:
-            pressed[d] = -1 if end < lower[d] else 1
+        end = position + dt * w.v[d]
+        if (
+            w.pressed[d] == 0
+            and w.lower[d] <= position <= w.upper[d]
+            and not w.lower[d] - PASSING <= end <= w.upper[d] + PASSING
+        ):
+            w.pressed[d] = -1 if end < w.lower[d] else 1
             found = True
     return found
 
 
 @inlined
-def whirls(floats: Any, integers: Any, first: int, beyond: int, dt: float) -> bool:
+def whirls(w: KernelWorld, first: int, beyond: int, dt: float) -> bool:
     """Return whether a joint moves so far in a step that velocity-dependent forces must be evaluated twice."""
-    v = field(floats, integers, At.v_start)
     for d in range(first, beyond):  # noqa: SIM110
-        if dt * abs(v[d]) > WHIRLING:
+        if dt * abs(w.v_start[d]) > WHIRLING:
             return True
     return False

@@ -8,10 +8,10 @@ from __future__ import annotations
 
 from typing import Any
 
-from urdfkit.sim.engine.arrays import At
 from urdfkit.sim.engine.collision.support_points import CAPSULE, CYLINDER, SPHERE, WHEEL
-from urdfkit.sim.engine.compilation import compiled, field, inlined
+from urdfkit.sim.engine.compilation import compiled, inlined
 from urdfkit.sim.engine.contacts.ground_contacts import REACH
+from urdfkit.sim.engine.kernel_world import KernelWorld
 from urdfkit.sim.engine.math.spatial_algebra import (
     add,
     compose,
@@ -28,11 +28,10 @@ NOWHERE = 1e300
 
 
 @inlined
-def reach_of(floats: Any, integers: Any, k: int, axes: Any) -> Any:
+def reach_of(w: KernelWorld, k: int, axes: Any) -> Any:
     """Return how far a shape reaches along the axes of the world from the middle of its box, turned as `axes`."""
-    shape_half = field(floats, integers, At.shape_half)
-    kind = field(integers, integers, At.shape_kind)[k]
-    x, y, z = load_vector(shape_half, k)
+    kind = w.shape_kind[k]
+    x, y, z = load_vector(w.shape_half, k)
     if kind == SPHERE:
         return (x, x, x)
     if kind == CAPSULE:
@@ -52,73 +51,50 @@ def reach_of(floats: Any, integers: Any, k: int, axes: Any) -> Any:
 
 
 @compiled
-def update_bounds(floats: Any, integers: Any, tree: int, dt: float) -> None:
+def update_bounds(w: KernelWorld, tree: int, dt: float) -> None:
     """Compute the boxes that contain the shapes of a tree during a step, and the box around all of them."""
-    tree_shape = field(integers, integers, At.tree_shape)
-    shape_body = field(integers, integers, At.shape_body)
-    shape_p = field(floats, integers, At.shape_p)
-    shape_R = field(floats, integers, At.shape_R)
-    shape_middle = field(floats, integers, At.shape_middle)
-    shape_radius = field(floats, integers, At.shape_radius)
-    P = field(floats, integers, At.P)
-    R = field(floats, integers, At.R)
-    r = field(floats, integers, At.r)
-    twist = field(floats, integers, At.twist)
-    shape_at = field(floats, integers, At.shape_at)
-    shape_reach = field(floats, integers, At.shape_reach)
-    tree_low = field(floats, integers, At.tree_low)
-    tree_high = field(floats, integers, At.tree_high)
     low, high = (NOWHERE, NOWHERE, NOWHERE), (-NOWHERE, -NOWHERE, -NOWHERE)
-    for k in range(tree_shape[tree], tree_shape[tree + 1]):
-        body = shape_body[k]
-        body_R = load_rotation(R, body)
-        axes = compose(body_R, load_rotation(shape_R, k))
-        centre = add(load_vector(r, body), rotate(body_R, load_vector(shape_p, k)))
-        velocity = load_spatial(twist, body)
+    for k in range(w.tree_shape[tree], w.tree_shape[tree + 1]):
+        body = w.shape_body[k]
+        body_R = load_rotation(w.R, body)
+        axes = compose(body_R, load_rotation(w.shape_R, k))
+        centre = add(load_vector(w.r, body), rotate(body_R, load_vector(w.shape_p, k)))
+        velocity = load_spatial(w.twist, body)
         speed = add(velocity[0], cross(velocity[1], centre))
         turn = abs(velocity[1][0]) + abs(velocity[1][1]) + abs(velocity[1][2])
-        more = shape_radius[k] * 2.0 * dt * turn + dt * dt * REACH
-        reach = reach_of(floats, integers, k, axes)
+        more = w.shape_radius[k] * 2.0 * dt * turn + dt * dt * REACH
+        reach = reach_of(w, k, axes)
         reach = (
             reach[0] + more + 2.0 * dt * abs(speed[0]),
             reach[1] + more + 2.0 * dt * abs(speed[1]),
             reach[2] + more + 2.0 * dt * abs(speed[2]),
         )
-        at = add(add(centre, rotate(axes, load_vector(shape_middle, k))), load_vector(P, tree))
-        store_vector(shape_at, k, at)
-        store_vector(shape_reach, k, reach)
+        at = add(add(centre, rotate(axes, load_vector(w.shape_middle, k))), load_vector(w.P, tree))
+        store_vector(w.shape_at, k, at)
+        store_vector(w.shape_reach, k, reach)
         low = (min(low[0], at[0] - reach[0]), min(low[1], at[1] - reach[1]), min(low[2], at[2] - reach[2]))
         high = (max(high[0], at[0] + reach[0]), max(high[1], at[1] + reach[1]), max(high[2], at[2] + reach[2]))
-    store_vector(tree_low, tree, low)
-    store_vector(tree_high, tree, high)
+    store_vector(w.tree_low, tree, low)
+    store_vector(w.tree_high, tree, high)
 
 
 @inlined
-def overlap(floats: Any, integers: Any, a: int, b: int) -> bool:
+def overlap(w: KernelWorld, a: int, b: int) -> bool:
     """Return whether the boxes of two shapes overlap."""
-    shape_at = field(floats, integers, At.shape_at)
-    shape_reach = field(floats, integers, At.shape_reach)
     for k in range(3):
-        if abs(shape_at[3 * a + k] - shape_at[3 * b + k]) > shape_reach[3 * a + k] + shape_reach[3 * b + k]:
+        if abs(w.shape_at[3 * a + k] - w.shape_at[3 * b + k]) > w.shape_reach[3 * a + k] + w.shape_reach[3 * b + k]:
             return False
     return True
 
 
 @inlined
-def trees_that_meet(floats: Any, integers: Any, trees: int, room: int) -> int:
+def trees_that_meet(w: KernelWorld, trees: int, room: int) -> int:
     """List for each tree the later ones whose box meets its own; return how many in all, -1 if there is no room.
 
     The boxes are swept along x. The order in which they begin is kept from step to step, so that sorting it again costs
     little.
     """
-    asleep = field(integers, integers, At.asleep)
-    order = field(integers, integers, At.tree_order)
-    first = field(integers, integers, At.tree_meet)
-    meet_a = field(integers, integers, At.meet_a)
-    meet_b = field(integers, integers, At.meet_b)
-    meet_tree = field(integers, integers, At.meet_tree)
-    low = field(floats, integers, At.tree_low)
-    high = field(floats, integers, At.tree_high)
+    order, first, low, high = w.tree_order, w.tree_meet, w.tree_low, w.tree_high
     for k in range(1, trees):
         tree = order[k]
         start = low[3 * tree]
@@ -137,7 +113,7 @@ def trees_that_meet(floats: Any, integers: Any, trees: int, room: int) -> int:
             j = order[n]
             if low[3 * j] > end:
                 break
-            if asleep[i] != 0 and asleep[j] != 0:
+            if w.asleep[i] != 0 and w.asleep[j] != 0:
                 continue
             if (
                 low[3 * i + 1] > high[3 * j + 1]
@@ -148,111 +124,94 @@ def trees_that_meet(floats: Any, integers: Any, trees: int, room: int) -> int:
                 continue
             if count >= room:
                 return -1
-            meet_a[count], meet_b[count] = min(i, j), max(i, j)
+            w.meet_a[count], w.meet_b[count] = min(i, j), max(i, j)
             first[min(i, j) + 1] += 1
             count += 1
     for k in range(trees):
         first[k + 1] += first[k]
     # In order by counting; within one tree by moving the few there are.
     for k in range(count):
-        i, j = meet_a[k], meet_b[k]
+        i, j = w.meet_a[k], w.meet_b[k]
         at = first[i]
         first[i] += 1
-        meet_tree[at] = j
+        w.meet_tree[at] = j
     for k in range(trees, 0, -1):
         first[k] = first[k - 1]
     first[0] = 0
     for i in range(trees):
         for k in range(first[i] + 1, first[i + 1]):
-            tree = meet_tree[k]
+            tree = w.meet_tree[k]
             j = k - 1
-            while j >= first[i] and meet_tree[j] > tree:
-                meet_tree[j + 1] = meet_tree[j]
+            while j >= first[i] and w.meet_tree[j] > tree:
+                w.meet_tree[j + 1] = w.meet_tree[j]
                 j -= 1
-            meet_tree[j + 1] = tree
+            w.meet_tree[j + 1] = tree
     return count
 
 
 @inlined
-def static_shapes_near(floats: Any, integers: Any, tree: int, first: int, shapes: int) -> int:
+def static_shapes_near(w: KernelWorld, tree: int, first: int, shapes: int) -> int:
     """List the static shapes that overlap the box of a tree; return their number."""
-    shape_at = field(floats, integers, At.shape_at)
-    shape_reach = field(floats, integers, At.shape_reach)
-    low = field(floats, integers, At.tree_low)
-    high = field(floats, integers, At.tree_high)
-    still_near = field(integers, integers, At.still_near)
     count = 0
     for b in range(first, shapes):
         for k in range(3):
-            at, far = shape_at[3 * b + k], shape_reach[3 * b + k]
-            if low[3 * tree + k] > at + far or high[3 * tree + k] < at - far:
+            at, far = w.shape_at[3 * b + k], w.shape_reach[3 * b + k]
+            if w.tree_low[3 * tree + k] > at + far or w.tree_high[3 * tree + k] < at - far:
                 break
         else:
-            still_near[count] = b
+            w.still_near[count] = b
             count += 1
     return count
 
 
 @compiled
-def find_pairs(floats: Any, integers: Any, trees: int, shapes: int, room: int) -> int:
+def find_pairs(w: KernelWorld, trees: int, shapes: int, room: int) -> int:
     """List the pairs of shapes whose boxes overlap and mark their trees; return how many, -1 if there is no room."""
-    tree_shape = field(integers, integers, At.tree_shape)
-    tree_meets = field(integers, integers, At.tree_meets)
-    tree_meet = field(integers, integers, At.tree_meet)
-    meet_tree = field(integers, integers, At.meet_tree)
-    still_near = field(integers, integers, At.still_near)
-    asleep = field(integers, integers, At.asleep)
-    shape_body = field(integers, integers, At.shape_body)
-    shape_owner = field(integers, integers, At.shape_owner)
-    meets = field(integers, integers, At.shape_meets)
-    parent = field(integers, integers, At.parent)
-    near = field(integers, integers, At.near)
-    pair_a = field(integers, integers, At.pair_a)
-    pair_b = field(integers, integers, At.pair_b)
-    if trees_that_meet(floats, integers, trees, room) < 0:
+    meets = w.shape_meets
+    if trees_that_meet(w, trees, room) < 0:
         return -1
     count = 0
     for i in range(trees):
-        first, beyond = tree_shape[i], tree_shape[i + 1]
-        alone = tree_meets[i] == 0
-        around = static_shapes_near(floats, integers, i, tree_shape[trees], shapes) if asleep[i] == 0 else 0
-        if (alone or asleep[i] != 0) and around == 0 and tree_meet[i] == tree_meet[i + 1]:
+        first, beyond = w.tree_shape[i], w.tree_shape[i + 1]
+        alone = w.tree_meets[i] == 0
+        around = static_shapes_near(w, i, w.tree_shape[trees], shapes) if w.asleep[i] == 0 else 0
+        if (alone or w.asleep[i] != 0) and around == 0 and w.tree_meet[i] == w.tree_meet[i + 1]:
             continue
         for a in range(first, beyond):
-            owner, one = shape_owner[a], shape_body[a]
-            if not alone and asleep[i] == 0:
+            owner, one = w.shape_owner[a], w.shape_body[a]
+            if not alone and w.asleep[i] == 0:
                 for b in range(a + 1, beyond):
-                    other = shape_body[b]
-                    if one == other or parent[one] == other or parent[other] == one:
+                    other = w.shape_body[b]
+                    if one == other or w.parent[one] == other or w.parent[other] == one:
                         continue
                     if meets[a] == 0 and meets[b] == 0:
                         continue
-                    if overlap(floats, integers, a, b):
+                    if overlap(w, a, b):
                         if count >= room:
                             return -1
-                        pair_a[count], pair_b[count] = a, b
-                        near[i] = 1
+                        w.pair_a[count], w.pair_b[count] = a, b
+                        w.near[i] = 1
                         count += 1
-            for k in range(tree_meet[i], tree_meet[i + 1]):
-                j = meet_tree[k]
-                for b in range(tree_shape[j], tree_shape[j + 1]):
-                    if owner == shape_owner[b] and meets[a] == 0 and meets[b] == 0:
+            for k in range(w.tree_meet[i], w.tree_meet[i + 1]):
+                j = w.meet_tree[k]
+                for b in range(w.tree_shape[j], w.tree_shape[j + 1]):
+                    if owner == w.shape_owner[b] and meets[a] == 0 and meets[b] == 0:
                         continue
-                    if overlap(floats, integers, a, b):
+                    if overlap(w, a, b):
                         if count >= room:
                             return -1
-                        pair_a[count], pair_b[count] = a, b
-                        near[i] = near[j] = 1
+                        w.pair_a[count], w.pair_b[count] = a, b
+                        w.near[i] = w.near[j] = 1
                         count += 1
             for k in range(around):
-                b = still_near[k]
+                b = w.still_near[k]
                 # A body that is fixed to the world does not collide with the bodies on its joints.
-                if owner == shape_owner[b] and ((meets[a] == 0 and meets[b] == 0) or parent[one] < 0):
+                if owner == w.shape_owner[b] and ((meets[a] == 0 and meets[b] == 0) or w.parent[one] < 0):
                     continue
-                if overlap(floats, integers, a, b):
+                if overlap(w, a, b):
                     if count >= room:
                         return -1
-                    pair_a[count], pair_b[count] = a, b
-                    near[i] = 1
+                    w.pair_a[count], w.pair_b[count] = a, b
+                    w.near[i] = 1
                     count += 1
     return count

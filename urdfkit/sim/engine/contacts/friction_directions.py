@@ -9,8 +9,8 @@ from __future__ import annotations
 
 from typing import Any
 
-from urdfkit.sim.engine.arrays import At
-from urdfkit.sim.engine.compilation import field, inlined
+from urdfkit.sim.engine.compilation import inlined
+from urdfkit.sim.engine.kernel_world import KernelWorld
 from urdfkit.sim.engine.math.spatial_algebra import (
     cross,
     dot,
@@ -26,34 +26,25 @@ from urdfkit.sim.engine.math.spatial_algebra import (
 
 @inlined
 def orient_friction(
-    floats: Any, integers: Any, contacts: int, first_slot: int, first_pair_slot: int, memory: Any, dt: float
+    w: KernelWorld, contacts: int, first_slot: int, first_pair_slot: int, memory: Any, dt: float
 ) -> None:
     """Set the frames of contacts with two coefficients; rotate the stored friction of other contacts with their bodies.
 
     When a robot drives a curve, slip rotates with it, so the rotated impulse is the better warm start. Frames along a
     direction of a body rotate with the body.
     """
-    shape_mu2 = field(floats, integers, At.shape_mu2)
-    floor_mu2 = field(floats, integers, At.floor_mu2)
-    contact_body = field(integers, integers, At.contact_body)
-    contact_shape = field(integers, integers, At.contact_shape)
-    contact_against = field(integers, integers, At.contact_against)
-    contact_feature = field(integers, integers, At.contact_feature)
-    contact_frame = field(floats, integers, At.contact_frame)
-    contact_mu = field(floats, integers, At.contact_mu)
-    twist = field(floats, integers, At.twist)
     for k in range(contacts):
-        shape, against = contact_shape[k], contact_against[k]
-        mu2 = floor_mu2[shape] if against < 0 else min(shape_mu2[shape], shape_mu2[against])
-        if mu2 != contact_mu[k]:
-            set_frame(floats, integers, k, mu2)
+        shape, against = w.contact_shape[k], w.contact_against[k]
+        mu2 = w.floor_mu2[shape] if against < 0 else min(w.shape_mu2[shape], w.shape_mu2[against])
+        if mu2 != w.contact_mu[k]:
+            set_frame(w, k, mu2)
             continue
-        at = first_slot + 3 * contact_feature[k] if against < 0 else first_pair_slot + 3 * k
+        at = first_slot + 3 * w.contact_feature[k] if against < 0 else first_pair_slot + 3 * k
         first, second = memory[at + 1], memory[at + 2]
         if first == 0.0 and second == 0.0:
             continue
-        spin = load_spatial(twist, contact_body[k])[1]
-        half = 0.5 * dt * dot(spin, load_vector(contact_frame, 3 * k + 2))
+        spin = load_spatial(w.twist, w.contact_body[k])[1]
+        half = 0.5 * dt * dot(spin, load_vector(w.contact_frame, 3 * k + 2))
         # Cayley's rotation: it keeps the length, and its angle is right to third order.
         share = 2.0 / (1.0 + half * half)
         cosine, sine = share - 1.0, half * share
@@ -61,35 +52,27 @@ def orient_friction(
 
 
 @inlined
-def set_frame(floats: Any, integers: Any, k: int, mu2: float) -> None:
+def set_frame(w: KernelWorld, k: int, mu2: float) -> None:
     """Write the tangents of a contact with two coefficients: along its shapes' direction and across, mu1 and mu2 long.
 
     Of two directions that of the shape with the smaller mu1 counts, as in Gazebo Classic (ODEPhysics::Collide). Without
     one, or where it is normal to the contact, the tangents stay along the world's axes.
     """
-    shape_mu = field(floats, integers, At.shape_mu)
-    shape_along = field(floats, integers, At.shape_along)
-    along_body = field(integers, integers, At.along_body)
-    contact_shape = field(integers, integers, At.contact_shape)
-    contact_against = field(integers, integers, At.contact_against)
-    contact_frame = field(floats, integers, At.contact_frame)
-    contact_mu = field(floats, integers, At.contact_mu)
-    R = field(floats, integers, At.R)
-    shape, other = contact_shape[k], contact_against[k]
-    along = load_vector(shape_along, shape)
+    shape, other = w.contact_shape[k], w.contact_against[k]
+    along = load_vector(w.shape_along, shape)
     if other >= 0:
-        second = load_vector(shape_along, other)
+        second = load_vector(w.shape_along, other)
         none = dot(along, along) == 0.0
-        if dot(second, second) > 0.0 and (none or shape_mu[other] < shape_mu[shape]):
+        if dot(second, second) > 0.0 and (none or w.shape_mu[other] < w.shape_mu[shape]):
             shape, along = other, second
-    if along_body[shape] >= 0:
-        along = rotate(load_rotation(R, along_body[shape]), along)
-    normal = load_vector(contact_frame, 3 * k + 2)
-    first = load_vector(contact_frame, 3 * k)
+    if w.along_body[shape] >= 0:
+        along = rotate(load_rotation(w.R, w.along_body[shape]), along)
+    normal = load_vector(w.contact_frame, 3 * k + 2)
+    first = load_vector(w.contact_frame, 3 * k)
     flat = sub(along, scale(dot(along, normal), normal))
     size = dot(flat, flat) ** 0.5
     if size > 1e-6:
         first = scale(1.0 / size, flat)
-    store_vector(contact_frame, 3 * k, scale(contact_mu[k], first))
-    store_vector(contact_frame, 3 * k + 1, scale(mu2, cross(normal, first)))
-    contact_mu[k] = 1.0
+    store_vector(w.contact_frame, 3 * k, scale(w.contact_mu[k], first))
+    store_vector(w.contact_frame, 3 * k + 1, scale(mu2, cross(normal, first)))
+    w.contact_mu[k] = 1.0

@@ -9,8 +9,8 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from urdfkit.sim.engine.arrays import At
-from urdfkit.sim.engine.compilation import compiled, field, inlined
+from urdfkit.sim.engine.compilation import compiled, inlined
+from urdfkit.sim.engine.kernel_world import KernelWorld
 from urdfkit.sim.engine.math.elementary_functions import sine_cosine
 from urdfkit.sim.engine.math.spatial_algebra import (
     add,
@@ -49,30 +49,24 @@ REACH = 100.0
 
 
 @inlined
-def near_plane(floats: Any, integers: Any, first: int, beyond: int, floor: float, dt: float) -> bool:
+def near_plane(w: KernelWorld, first: int, beyond: int, floor: float, dt: float) -> bool:
     """Return whether any of some shapes can reach the plane within a step."""
     for k in range(first, beyond):  # noqa: SIM110
-        if reaches(floats, integers, k, floor, dt):
+        if reaches(w, k, floor, dt):
             return True
     return False
 
 
 @inlined
-def reaches(floats: Any, integers: Any, k: int, floor: float, dt: float) -> bool:
+def reaches(w: KernelWorld, k: int, floor: float, dt: float) -> bool:
     """Return whether a shape, taken for a ball, can reach the plane within a step."""
-    shape_body = field(integers, integers, At.shape_body)
-    shape_p = field(floats, integers, At.shape_p)
-    shape_radius = field(floats, integers, At.shape_radius)
-    R = field(floats, integers, At.R)
-    r = field(floats, integers, At.r)
-    twist = field(floats, integers, At.twist)
-    body = shape_body[k]
-    centre = add(load_vector(r, body), rotate(load_rotation(R, body), load_vector(shape_p, k)))
-    velocity = load_spatial(twist, body)
+    body = w.shape_body[k]
+    centre = add(load_vector(w.r, body), rotate(load_rotation(w.R, body), load_vector(w.shape_p, k)))
+    velocity = load_spatial(w.twist, body)
     # No point of it moves faster down than this.
     rate = abs(velocity[0][2] + cross(velocity[1], centre)[2])
-    rate += shape_radius[k] * (abs(velocity[1][0]) + abs(velocity[1][1]))
-    return bool(centre[2] - shape_radius[k] - floor <= 2.0 * dt * rate + dt * dt * REACH)
+    rate += w.shape_radius[k] * (abs(velocity[1][0]) + abs(velocity[1][1]))
+    return bool(centre[2] - w.shape_radius[k] - floor <= 2.0 * dt * rate + dt * dt * REACH)
 
 
 @inlined
@@ -84,133 +78,88 @@ def can_close(gap: float, point: Any, velocity: Any, dt: float) -> bool:
 
 @compiled
 def find_extremes(
-    floats: Any, integers: Any, first: int, beyond: int, axes: Any, centre: Any, floor: float, dt: float, velocity: Any
+    w: KernelWorld, first: int, beyond: int, axes: Any, centre: Any, floor: float, dt: float, velocity: Any
 ) -> None:
     """Find, of the vertices of a hull that can touch, the lowest and those furthest out in each direction."""
-    vertices = field(floats, integers, At.vertices)
-    extreme = field(floats, integers, At.extreme)
-    extreme_vertex = field(integers, integers, At.extreme_vertex)
     for j in range(DIRECTIONS + 1):
-        extreme[j], extreme_vertex[j] = -math.inf, -1
+        w.extreme[j], w.extreme_vertex[j] = -math.inf, -1
     for k in range(first, beyond):
-        offset = rotate(axes, load_vector(vertices, k))
+        offset = rotate(axes, load_vector(w.vertices, k))
         point = add(centre, offset)
         if can_close(point[2] - floor, point, velocity, dt):
             for j in range(DIRECTIONS):
                 # Off the axes, along which edges of parts tend to lie.
                 sine, cosine = sine_cosine(2.0 * math.pi * j / DIRECTIONS + 0.2)
                 reach = cosine * offset[0] + sine * offset[1]
-                if reach > extreme[j]:
-                    extreme[j], extreme_vertex[j] = reach, k - first
-            if -offset[2] > extreme[DIRECTIONS]:
-                extreme[DIRECTIONS], extreme_vertex[DIRECTIONS] = -offset[2], k - first
+                if reach > w.extreme[j]:
+                    w.extreme[j], w.extreme_vertex[j] = reach, k - first
+            if -offset[2] > w.extreme[DIRECTIONS]:
+                w.extreme[DIRECTIONS], w.extreme_vertex[DIRECTIONS] = -offset[2], k - first
     for j in range(DIRECTIONS):
         # Most often one of the others is as low.
-        if extreme_vertex[j] >= 0:
-            offset = rotate(axes, load_vector(vertices, first + extreme_vertex[j]))
-            if -offset[2] > extreme[DIRECTIONS] - LOWEST:
-                extreme_vertex[DIRECTIONS] = -1
+        if w.extreme_vertex[j] >= 0:
+            offset = rotate(axes, load_vector(w.vertices, first + w.extreme_vertex[j]))
+            if -offset[2] > w.extreme[DIRECTIONS] - LOWEST:
+                w.extreme_vertex[DIRECTIONS] = -1
 
 
 @inlined
-def has_feature(floats: Any, integers: Any, count: int, feature: int) -> bool:
+def has_feature(w: KernelWorld, count: int, feature: int) -> bool:
     """Return whether a contact of this feature has been noted."""
-    contact_feature = field(integers, integers, At.contact_feature)
     for k in range(count):  # noqa: SIM110
-        if contact_feature[k] == feature:
+        if w.contact_feature[k] == feature:
             return True
     return False
 
 
 @inlined
 def add_contact(
-    floats: Any,
-    integers: Any,
-    count: int,
-    most: int,
-    body: int,
-    feature: int,
-    point: Any,
-    floor: float,
-    mu: float,
-    dt: float,
+    w: KernelWorld, count: int, most: int, body: int, feature: int, point: Any, floor: float, mu: float, dt: float
 ) -> int:
     """Note a contact at `point` if it can close within a step; return how many there are."""
-    twist = field(floats, integers, At.twist)
-    contact_body = field(integers, integers, At.contact_body)
-    contact_other = field(integers, integers, At.contact_other)
-    contact_against = field(integers, integers, At.contact_against)
-    contact_feature = field(integers, integers, At.contact_feature)
-    contact_point = field(floats, integers, At.contact_point)
-    contact_frame = field(floats, integers, At.contact_frame)
-    contact_gap = field(floats, integers, At.contact_gap)
-    contact_mu = field(floats, integers, At.contact_mu)
     gap = point[2] - floor
     # This order matters: if `count` is tested first, LLVM's code for a step of a wheeled robot is a third slower.
-    if not can_close(gap, point, load_spatial(twist, body), dt) or count >= most:
+    if not can_close(gap, point, load_spatial(w.twist, body), dt) or count >= most:
         return count
-    contact_body[count] = body
-    contact_other[count] = contact_against[count] = -1
-    contact_feature[count] = feature
-    contact_gap[count] = gap
-    contact_mu[count] = mu
-    store_vector(contact_point, count, point)
+    w.contact_body[count] = body
+    w.contact_other[count] = w.contact_against[count] = -1
+    w.contact_feature[count] = feature
+    w.contact_gap[count] = gap
+    w.contact_mu[count] = mu
+    store_vector(w.contact_point, count, point)
     # Two tangents, then the normal, row by row.
-    store_rotation(contact_frame, count, (1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0))
+    store_rotation(w.contact_frame, count, (1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0))
     return count + 1
 
 
 @inlined
-def collide_with_plane(
-    floats: Any, integers: Any, count: int, first: int, beyond: int, most: int, floor: float, dt: float
-) -> int:
+def collide_with_plane(w: KernelWorld, count: int, first: int, beyond: int, most: int, floor: float, dt: float) -> int:
     """Find the contacts of some shapes with the plane z = `floor` (of the same point as `r`).
 
     Returns:
         How many contacts there are now, after `count`.
     """
-    shape_kind = field(integers, integers, At.shape_kind)
-    shape_body = field(integers, integers, At.shape_body)
-    shape_feature = field(integers, integers, At.shape_feature)
-    shape_vertex = field(integers, integers, At.shape_vertex)
-    shape_R = field(floats, integers, At.shape_R)
-    shape_p = field(floats, integers, At.shape_p)
-    shape_size = field(floats, integers, At.shape_size)
-    shape_mu = field(floats, integers, At.floor_mu)
-    vertices = field(floats, integers, At.vertices)
-    extreme_vertex = field(integers, integers, At.extreme_vertex)
-    R = field(floats, integers, At.R)
-    r = field(floats, integers, At.r)
-    twist = field(floats, integers, At.twist)
-    contact_shape = field(integers, integers, At.contact_shape)
+    shape_mu = w.floor_mu
     for k in range(first, beyond):
-        if not reaches(floats, integers, k, floor, dt):
+        if not reaches(w, k, floor, dt):
             continue
-        body = shape_body[k]
-        body_R = load_rotation(R, body)
-        centre = add(load_vector(r, body), rotate(body_R, load_vector(shape_p, k)))
-        mu, feature, kind = shape_mu[k], shape_feature[k], shape_kind[k]
-        size = load_vector(shape_size, k)
+        body = w.shape_body[k]
+        body_R = load_rotation(w.R, body)
+        centre = add(load_vector(w.r, body), rotate(body_R, load_vector(w.shape_p, k)))
+        mu, feature, kind = shape_mu[k], w.shape_feature[k], w.shape_kind[k]
+        size = load_vector(w.shape_size, k)
         found = 0
         if kind == SPHERE:
             found = 1
         else:
-            axes = compose(body_R, load_rotation(shape_R, k))
+            axes = compose(body_R, load_rotation(w.shape_R, k))
             if kind == BOX:
                 found = 4
             elif kind == CAPSULE:
                 found = 2
             elif kind == HULL:
                 find_extremes(
-                    floats,
-                    integers,
-                    shape_vertex[k],
-                    shape_vertex[k + 1],
-                    axes,
-                    centre,
-                    floor,
-                    dt,
-                    load_spatial(twist, body),
+                    w, w.shape_vertex[k], w.shape_vertex[k + 1], axes, centre, floor, dt, load_spatial(w.twist, body)
                 )
                 found = DIRECTIONS + 1
             else:
@@ -227,18 +176,18 @@ def collide_with_plane(
                 point = add(centre, (end * axes[2], end * axes[5], end * axes[8] - size[0]))
             elif kind == HULL:
                 # Two directions may find the same vertex.
-                part = extreme_vertex[j]
-                if part < 0 or has_feature(floats, integers, count, feature + part):
+                part = w.extreme_vertex[j]
+                if part < 0 or has_feature(w, count, feature + part):
                     continue
-                point = add(centre, rotate(axes, load_vector(vertices, shape_vertex[k] + part)))
+                point = add(centre, rotate(axes, load_vector(w.vertices, w.shape_vertex[k] + part)))
             else:
                 valid, offset = cylinder_point(j, kind == WHEEL, axes, size[0], size[1])
                 if not valid:
                     continue
                 point = add(centre, offset)
-            found_now = add_contact(floats, integers, count, most, body, feature + part, point, floor, mu, dt)
+            found_now = add_contact(w, count, most, body, feature + part, point, floor, mu, dt)
             if found_now > count:
-                contact_shape[count] = k
+                w.contact_shape[count] = k
             count = found_now
     return count
 

@@ -5,9 +5,9 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from urdfkit.sim.engine.arrays import At
-from urdfkit.sim.engine.compilation import field, inlined
+from urdfkit.sim.engine.compilation import inlined
 from urdfkit.sim.engine.dynamics.mass_matrix import FREE, PLANAR
+from urdfkit.sim.engine.kernel_world import KernelWorld
 from urdfkit.sim.engine.math.elementary_functions import sine_cosine
 from urdfkit.sim.engine.math.spatial_algebra import SMALL, little_turn, rotate, scale, turn_of
 
@@ -36,27 +36,24 @@ def turned_by(x: float, y: float, z: float, w: float, turn: Any) -> Any:
 
 
 @inlined
-def move(floats: Any, integers: Any, first: int, beyond: int, s: Any, v: Any, dt: float) -> None:
+def move(w: KernelWorld, first: int, beyond: int, s: Any, v: Any, dt: float) -> None:
     """Integrate the coordinates `s` of some bodies for `dt` with the velocities `v`.
 
     A free body moves straight while it rotates: its linear velocity is constant in the axes of its parent, so the
     components in the body's own axes, in `v`, rotate in the opposite direction.
     """
-    kind = field(integers, integers, At.kind)
-    first_s = field(integers, integers, At.first_s)
-    first_v = field(integers, integers, At.first_v)
     for i in range(first, beyond):
-        at, d = first_s[i], first_v[i]
-        if kind[i] == FREE:
-            x, y, z, w = s[at + 3], s[at + 4], s[at + 5], s[at + 6]
-            linear = rotate(turn_of(x, y, z, w), (v[d], v[d + 1], v[d + 2]))
+        at, d = w.first_s[i], w.first_v[i]
+        if w.kind[i] == FREE:
+            x, y, z, scalar = s[at + 3], s[at + 4], s[at + 5], s[at + 6]
+            linear = rotate(turn_of(x, y, z, scalar), (v[d], v[d + 1], v[d + 2]))
             s[at] += dt * linear[0]
             s[at + 1] += dt * linear[1]
             s[at + 2] += dt * linear[2]
-            x, y, z, w = turned_by(x, y, z, w, scale(dt, (v[d + 3], v[d + 4], v[d + 5])))
-            s[at + 3], s[at + 4], s[at + 5], s[at + 6] = x, y, z, w
-            v[d], v[d + 1], v[d + 2] = rotate(turn_of(-x, -y, -z, w), linear)
-        elif kind[i] == PLANAR:
+            x, y, z, scalar = turned_by(x, y, z, scalar, scale(dt, (v[d + 3], v[d + 4], v[d + 5])))
+            s[at + 3], s[at + 4], s[at + 5], s[at + 6] = x, y, z, scalar
+            v[d], v[d + 1], v[d + 2] = rotate(turn_of(-x, -y, -z, scalar), linear)
+        elif w.kind[i] == PLANAR:
             # The same in the plane.
             sine, cosine = sine_cosine(s[at + 2])
             along, across = cosine * v[d] - sine * v[d + 1], sine * v[d] + cosine * v[d + 1]

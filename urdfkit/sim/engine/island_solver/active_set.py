@@ -12,13 +12,13 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from urdfkit.sim.engine.arrays import At
-from urdfkit.sim.engine.compilation import compiled, field, inlined
+from urdfkit.sim.engine.compilation import compiled, inlined
 from urdfkit.sim.engine.island_solver.active_set_revision import revise, start_over
 from urdfkit.sim.engine.island_solver.block_assembly import assemble
 from urdfkit.sim.engine.island_solver.block_matrix import eliminate
 from urdfkit.sim.engine.island_solver.block_products import push_contact, push_row, row_speeds, take_momentum
 from urdfkit.sim.engine.island_solver.coulomb_direction import STIFFNESS, follow, substitute_all
+from urdfkit.sim.engine.kernel_world import KernelWorld
 from urdfkit.sim.engine.solver.row_states import HOLDS, SLIDES
 
 NOT_MET, MET, CONTRADICT = range(3)
@@ -36,94 +36,78 @@ CONTRARY = 5e-3
 
 
 @inlined
-def push_all(floats: Any, integers: Any, rows: int, rest: Any) -> None:
+def push_all(w: KernelWorld, rows: int, rest: Any) -> None:
     """Add to `rest` what all rows exert at the velocities that they are off by."""
-    stiffness = field(floats, integers, At.g)
-    off = field(floats, integers, At.y)
-    mu = field(floats, integers, At.mu)
-    near = field(floats, integers, At.near_x)
-    x = field(floats, integers, At.x)
-    state = field(integers, integers, At.state)
+    stiffness, off = w.g, w.y
     k = 0
     while k < rows:
-        if mu[k] > 0.0:
-            if state[k] == SLIDES:
-                a, b = near[k + 1], near[k + 2]
-                c, across = x[k] - stiffness[k] * off[k], near[k] * (a * off[k + 2] - b * off[k + 1])
-                first, second = b * across - mu[k] * c * a, -a * across - mu[k] * c * b
-                push_contact(floats, integers, k, c, first, second, rest)
-            elif state[k] == HOLDS:
-                c, first = x[k] - stiffness[k] * off[k], x[k + 1] - stiffness[k + 1] * off[k + 1]
-                second = x[k + 2] - stiffness[k + 2] * off[k + 2]
-                push_contact(floats, integers, k, c, first, second, rest)
+        if w.mu[k] > 0.0:
+            if w.state[k] == SLIDES:
+                a, b = w.near_x[k + 1], w.near_x[k + 2]
+                c, across = w.x[k] - stiffness[k] * off[k], w.near_x[k] * (a * off[k + 2] - b * off[k + 1])
+                first, second = b * across - w.mu[k] * c * a, -a * across - w.mu[k] * c * b
+                push_contact(w, k, c, first, second, rest)
+            elif w.state[k] == HOLDS:
+                c, first = w.x[k] - stiffness[k] * off[k], w.x[k + 1] - stiffness[k + 1] * off[k + 1]
+                second = w.x[k + 2] - stiffness[k + 2] * off[k + 2]
+                push_contact(w, k, c, first, second, rest)
             k += 3
             continue
-        c = x[k]
-        if state[k] == HOLDS:
+        c = w.x[k]
+        if w.state[k] == HOLDS:
             c -= stiffness[k] * off[k]
         if c != 0.0:
-            push_row(floats, integers, k, c, rest)
+            push_row(w, k, c, rest)
         k += 1
 
 
 @inlined
-def turn(floats: Any, integers: Any, k: int) -> float:
+def turn(w: KernelWorld, k: int) -> float:
     """Turn friction against the slip; return the velocity by which that, or the normal, is not where it should be."""
-    stiffness = field(floats, integers, At.g)
-    velocity = field(floats, integers, At.y)
-    mu = field(floats, integers, At.mu)
-    near = field(floats, integers, At.near_x)
-    x = field(floats, integers, At.x)
-    w, first, second = velocity[k], velocity[k + 1], velocity[k + 2]
+    stiffness, velocity, near = w.g, w.y, w.near_x
+    normal, first, second = velocity[k], velocity[k + 1], velocity[k + 2]
     a, b = near[k + 1], near[k + 2]
-    c = x[k] - stiffness[k] * w
+    c = w.x[k] - stiffness[k] * normal
     forward, across = a * first + b * second, a * second - b * first
     turned = near[k] * across
     off = abs(turned)
     if forward > 0.0:
         size = math.sqrt(first * first + second * second)
-        off = mu[k] * abs(c) * (1.0 - forward / size) + abs(mu[k] * c * across / size - turned)
+        off = w.mu[k] * abs(c) * (1.0 - forward / size) + abs(w.mu[k] * c * across / size - turned)
         a, b = first / size, second / size
     near[k + 1], near[k + 2] = a, b
-    x[k], x[k + 1], x[k + 2] = c, -mu[k] * c * a, -mu[k] * c * b
-    return float(max(abs(w), off * STIFFNESS / stiffness[k]))
+    w.x[k], w.x[k + 1], w.x[k + 2] = c, -w.mu[k] * c * a, -w.mu[k] * c * b
+    return float(max(abs(normal), off * STIFFNESS / stiffness[k]))
 
 
 @compiled
-def correct(floats: Any, integers: Any, root: int, rows: int, n: int, sliding: int, tiny: float) -> int:
+def correct(w: KernelWorld, root: int, rows: int, n: int, sliding: int, tiny: float) -> int:
     """Find velocities and impulses of the rows that hold or slide; return whether all are where they should be.
 
     Before and after, y is the velocity of each row that should be none.
     """
-    stiffness = field(floats, integers, At.g)
-    g = field(floats, integers, At.slip)
-    off = field(floats, integers, At.y)
-    mu = field(floats, integers, At.mu)
-    x = field(floats, integers, At.x)
-    speed = field(floats, integers, At.block_v)
-    rest = field(floats, integers, At.block_f)
-    state = field(integers, integers, At.state)
+    stiffness, off, speed, rest = w.g, w.y, w.block_v, w.block_f
     for _ in range(ROUNDS if sliding == 0 else SLIDING_ROUNDS):
         for d in range(n):
             rest[d] = 0.0
-        take_momentum(floats, integers, root, speed, rest)
-        push_all(floats, integers, rows, rest)
-        if not substitute_all(floats, integers, n, sliding, rest):
+        take_momentum(w, root, speed, rest)
+        push_all(w, rows, rest)
+        if not substitute_all(w, n, sliding, rest):
             return NOT_MET
         moved = worst = 0.0
         for d in range(n):
             speed[d] += rest[d]
             moved = max(moved, abs(rest[d]))
-        row_speeds(floats, integers, rows, speed, off, 0)
+        row_speeds(w, rows, speed, off, 0)
         for k in range(rows):
-            off[k] += g[k]
-            if state[k] == HOLDS:
-                x[k] -= stiffness[k] * off[k]
+            off[k] += w.slip[k]
+            if w.state[k] == HOLDS:
+                w.x[k] -= stiffness[k] * off[k]
                 worst = max(worst, abs(off[k]))
         if sliding > 0:
             for k in range(rows):
-                if state[k] == SLIDES and mu[k] > 0.0:
-                    worst = max(worst, turn(floats, integers, k))
+                if w.state[k] == SLIDES and w.mu[k] > 0.0:
+                    worst = max(worst, turn(w, k))
         if worst <= tiny:
             return MET
         if moved <= tiny:
@@ -132,64 +116,58 @@ def correct(floats: Any, integers: Any, root: int, rows: int, n: int, sliding: i
 
 
 @inlined
-def ease(floats: Any, integers: Any, rows: int, tiny: float) -> bool:
+def ease(w: KernelWorld, rows: int, tiny: float) -> bool:
     """Let rows that hold take back less of what they are off, or close less of a gap, so that none contradicts another.
 
     Returns:
         Whether that is enough. It is not where motors or friction are among them: these have to give in instead.
     """
-    high = field(floats, integers, At.high)
-    bias = field(floats, integers, At.row_bias)
-    g = field(floats, integers, At.slip)
-    off = field(floats, integers, At.y)
-    state = field(integers, integers, At.state)
+    off = w.y
     for k in range(rows):
-        if state[k] == HOLDS:
+        if w.state[k] == HOLDS:
             error = abs(off[k])
-            if error > tiny and (high[k] < math.inf or error > abs(bias[k])):
+            if error > tiny and (w.high[k] < math.inf or error > abs(w.row_bias[k])):
                 return False
     for k in range(rows):
-        if state[k] == HOLDS:
-            g[k] -= off[k]
+        if w.state[k] == HOLDS:
+            w.slip[k] -= off[k]
     return True
 
 
 @compiled
-def try_states(floats: Any, integers: Any, root: int, rows: int, n: int, tiny: float, most: float) -> int:
+def try_states(w: KernelWorld, root: int, rows: int, n: int, tiny: float, most: float) -> int:
     """Find what rows do, beginning with what ``state`` says; return how many sets were tried, 0 if in vain.
 
     Impulses beyond `most` come of rows that contradict each other: what they say about the rest means nothing.
     """
-    state = field(integers, integers, At.state)
-    x = field(floats, integers, At.x)
     one_before = two_before = -1
     changed = True
     for tried in range(REVISIONS):
         if changed:
-            start_over(floats, integers, rows, n)
-        assemble(floats, integers, root, rows, n, False)
-        if not eliminate(floats, integers, n):
+            start_over(w, rows, n)
+        assemble(w, root, rows, n, False)
+        if not eliminate(w, n):
             return 0
-        sliding = follow(floats, integers, rows, n)
-        there = correct(floats, integers, root, rows, n, sliding, tiny)
+        sliding = follow(w, rows, n)
+        there = correct(w, root, rows, n, sliding, tiny)
         if there == CONTRADICT:
             # As of a table on four feet: they are met as nearly as can be, and no impulses grow of what is left.
             there = NOT_MET
-            if ease(floats, integers, rows, tiny):
-                start_over(floats, integers, rows, n)
-                there = correct(floats, integers, root, rows, n, sliding, tiny)
+            if ease(w, rows, tiny):
+                start_over(w, rows, n)
+                there = correct(w, root, rows, n, sliding, tiny)
         if there == NOT_MET:
             largest = 0.0
             for k in range(rows):
-                largest = max(largest, abs(x[k]))
+                largest = max(largest, abs(w.x[k]))
             if not largest <= most:
                 return 0
-        changed = revise(floats, integers, rows, tiny, LEAST * most)
+        changed = revise(w, rows, tiny, LEAST * most)
         if changed:
             # Where what rows do comes round again, it will for ever.
             now = 0
             for k in range(rows):
-                now = 5 * now + state[k] + 1
+                now = 5 * now + w.state[k] + 1
             if now in (one_before, two_before):
                 return 0
             one_before, two_before = now, one_before

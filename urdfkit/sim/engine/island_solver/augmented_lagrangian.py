@@ -11,14 +11,13 @@ leaves of them what it could not take back. Without that impulses would grow, of
 from __future__ import annotations
 
 import math
-from typing import Any
 
-from urdfkit.sim.engine.arrays import At
-from urdfkit.sim.engine.compilation import compiled, field
+from urdfkit.sim.engine.compilation import compiled
 from urdfkit.sim.engine.island_solver.active_set import try_states
 from urdfkit.sim.engine.island_solver.block_products import row_speed
 from urdfkit.sim.engine.island_solver.convex_newton import descend, leave_wedged, set_out, take_over
 from urdfkit.sim.engine.island_solver.coulomb_direction import slide, stiffen
+from urdfkit.sim.engine.kernel_world import KernelWorld
 from urdfkit.sim.engine.solver.row_states import SLIDES
 
 HARDNESS = (1e-3, 1e-3, 1e-3, 1e-2, 1e-2, 1e-2, 1e-2, 1e-2, 1e-2, 1e-2)
@@ -53,59 +52,50 @@ MEMORY = 0.99
 
 
 @compiled
-def try_from_here(floats: Any, integers: Any, root: int, rows: int, n: int, tiny: float, most: float) -> bool:
+def try_from_here(w: KernelWorld, root: int, rows: int, n: int, tiny: float, most: float) -> bool:
     """Try what rows do in the result of a round; return whether the law is met, and leave the result if it is not."""
-    speed = field(floats, integers, At.block_v)
-    kept = field(floats, integers, At.sum_v)
-    g = field(floats, integers, At.slip)
-    before = field(floats, integers, At.before)
-    mu = field(floats, integers, At.mu)
-    x = field(floats, integers, At.x)
-    near = field(floats, integers, At.near_x)
-    state = field(integers, integers, At.state)
-    stiffen(floats, integers, rows)
+    speed, kept = w.block_v, w.sum_v
+    stiffen(w, rows)
     for d in range(n):
         kept[d] = speed[d]
     for k in range(rows):
-        before[k] = x[k]
-        if state[k] == SLIDES and mu[k] > 0.0:
-            first = row_speed(floats, integers, k + 1, speed) + g[k + 1]
-            second = row_speed(floats, integers, k + 2, speed) + g[k + 2]
-            slide(floats, integers, k, near[k + 1], near[k + 2], math.sqrt(first * first + second * second), x[k])
-    if try_states(floats, integers, root, rows, n, tiny, most) > 0:
+        w.before[k] = w.x[k]
+        if w.state[k] == SLIDES and w.mu[k] > 0.0:
+            first = row_speed(w, k + 1, speed) + w.slip[k + 1]
+            second = row_speed(w, k + 2, speed) + w.slip[k + 2]
+            slide(w, k, w.near_x[k + 1], w.near_x[k + 2], math.sqrt(first * first + second * second), w.x[k])
+    if try_states(w, root, rows, n, tiny, most) > 0:
         return True
     for d in range(n):
         speed[d] = kept[d]
     for k in range(rows):
-        x[k] = before[k]
+        w.x[k] = w.before[k]
     return False
 
 
 @compiled
-def go_round(floats: Any, integers: Any, root: int, rows: int, n: int, tiny: float, most: float) -> int:
+def go_round(w: KernelWorld, root: int, rows: int, n: int, tiny: float, most: float) -> int:
     """Go on from the velocities of now and the impulses ``before``, until the law is met or no better met.
 
     Returns:
         How many rounds it took, one more than the most where velocities only come near the law; 0 for a heap where
         they do not: rows are no longer what they were, then.
     """
-    x = field(floats, integers, At.x)
-    before = field(floats, integers, At.before)
     for k in range(rows):
-        x[k] = MEMORY * before[k]
+        w.x[k] = MEMORY * w.before[k]
     off, least, stuck = math.inf, math.inf, 0
     heap = rows > HEAP
     for done in range(HEAP_ROUNDS if heap else MORE_ROUNDS):
-        if done == TRIED_AFTER and try_from_here(floats, integers, root, rows, n, tiny, most):
+        if done == TRIED_AFTER and try_from_here(w, root, rows, n, tiny, most):
             return done
         row = min(done, len(HARDNESS) - 1)
-        set_out(floats, integers, rows, HARDNESS[row], done > 0)
-        descend(floats, integers, root, rows, n, BALANCE[row])
+        set_out(w, rows, HARDNESS[row], done > 0)
+        descend(w, root, rows, n, BALANCE[row])
         was = off
-        off = take_over(floats, integers, rows)
+        off = take_over(w, rows)
         if off <= max(tiny, SOLVED) or GAIN * was < off <= NEAR:
             return done + 1
-        leave_wedged(floats, integers, rows)
+        leave_wedged(w, rows)
         if done + 1 < len(HARDNESS):
             least = off
             continue

@@ -5,8 +5,9 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from urdfkit.sim.engine.arrays import WIDTH, At
-from urdfkit.sim.engine.compilation import compiled, field, inlined
+from urdfkit.sim.engine.arrays import WIDTH
+from urdfkit.sim.engine.compilation import compiled, inlined
+from urdfkit.sim.engine.kernel_world import KernelWorld
 from urdfkit.sim.engine.math.simd import load6, store
 from urdfkit.sim.engine.solver.row_states import HOLDS, SLIDES
 
@@ -22,20 +23,19 @@ def add_three(K: Any, n: int, i: int, j: int, Y: Any, at: int, to: int, width: i
 
 
 @inlined
-def add_contact(floats: Any, integers: Any, k: int, n: int, d: Any) -> None:
+def add_contact(w: KernelWorld, k: int, n: int, d: Any) -> None:
     """Add what the three rows of a contact add to K where both its trees, or its only one, have six dofs."""
-    width = integers[WIDTH]
-    Y = field(floats, integers, At.Y)
-    K = field(floats, integers, At.B)
-    i, at = field(integers, integers, At.at_a)[k], k * width
-    add_three(K, n, i, i, Y, at, at, width, d)
-    if field(integers, integers, At.of_b)[k] == 6:
-        j = field(integers, integers, At.at_b)[k]
-        add_three(K, n, j, j, Y, at + 6, at + 6, width, d)
+    width = w.sizes[WIDTH]
+    K = w.B
+    i, at = w.at_a[k], k * width
+    add_three(K, n, i, i, w.Y, at, at, width, d)
+    if w.of_b[k] == 6:
+        j = w.at_b[k]
+        add_three(K, n, j, j, w.Y, at + 6, at + 6, width, d)
         if i < j:
-            add_three(K, n, i, j, Y, at, at + 6, width, d)
+            add_three(K, n, i, j, w.Y, at, at + 6, width, d)
         else:
-            add_three(K, n, j, i, Y, at + 6, at, width, d)
+            add_three(K, n, j, i, w.Y, at + 6, at, width, d)
 
 
 @inlined
@@ -55,12 +55,12 @@ def add_block(K: Any, n: int, i: int, j: int, ni: int, nj: int, Y: Any, at: int,
 
 
 @inlined
-def add_row(floats: Any, integers: Any, k: int, n: int, Y: Any, at: int, d: float) -> None:
+def add_row(w: KernelWorld, k: int, n: int, Y: Any, at: int, d: float) -> None:
     """Add d·aᵀ·a to K, a written at a place of Y, of the trees of row k."""
-    K = field(floats, integers, At.B)
-    i, ni = field(integers, integers, At.at_a)[k], field(integers, integers, At.of_a)[k]
+    K = w.B
+    i, ni = w.at_a[k], w.of_a[k]
     add_block(K, n, i, i, ni, ni, Y, at, at, d)
-    j, nj = field(integers, integers, At.at_b)[k], field(integers, integers, At.of_b)[k]
+    j, nj = w.at_b[k], w.of_b[k]
     if nj > 0:
         add_block(K, n, j, j, nj, nj, Y, at + ni, at + ni, d)
         if i < j:
@@ -70,65 +70,50 @@ def add_row(floats: Any, integers: Any, k: int, n: int, Y: Any, at: int, d: floa
 
 
 @compiled
-def assemble(floats: Any, integers: Any, root: int, rows: int, n: int, coned: bool) -> None:
+def assemble(w: KernelWorld, root: int, rows: int, n: int, coned: bool) -> None:
     """Write M, of each tree from its factor, and add what rows do to it: the upper triangle of K in B.
 
     Where a contact slides, the row along its cone, if `coned`, or else that of its normal, and the one across its slip.
     """
-    width = integers[WIDTH]
-    tree_dof = field(integers, integers, At.tree_dof)
-    island_next = field(integers, integers, At.island_next)
-    dof_row = field(integers, integers, At.dof_row)
-    tree_block = field(integers, integers, At.tree_block)
-    block_first = field(integers, integers, At.block_first)
-    of_a = field(integers, integers, At.of_a)
-    of_b = field(integers, integers, At.of_b)
-    state = field(integers, integers, At.state)
-    mu = field(floats, integers, At.mu)
-    near = field(floats, integers, At.near_x)
-    made = field(floats, integers, At.A)
-    Y = field(floats, integers, At.Y)
-    K = field(floats, integers, At.B)
-    L = field(floats, integers, At.L)
-    inverse_diagonal = field(floats, integers, At.inverse_diagonal)
-    stiffness = field(floats, integers, At.g)
+    width = w.sizes[WIDTH]
+    near, made, K, stiffness = w.near_x, w.A, w.B, w.g
     for k in range(n * n):
         K[k] = 0.0
     tree = root
     while tree >= 0:
-        first, size = tree_dof[tree], tree_dof[tree + 1] - tree_dof[tree]
-        at = block_first[tree_block[tree]]
+        first, size = w.tree_dof[tree], w.tree_dof[tree + 1] - w.tree_dof[tree]
+        at = w.block_first[w.tree_block[tree]]
         for k in range(size):
-            row = dof_row[first + k] + first
-            diagonal = L[row + k] * inverse_diagonal[first + k]
+            row = w.dof_row[first + k] + first
+            diagonal = w.L[row + k] * w.inverse_diagonal[first + k]
             for i in range(k):
-                c = L[row + i]
+                c = w.L[row + i]
                 for j in range(i, k):
-                    K[(at + i) * n + at + j] += c * L[row + j]
+                    K[(at + i) * n + at + j] += c * w.L[row + j]
                 K[(at + i) * n + at + k] += c * diagonal
-            K[(at + k) * n + at + k] += L[row + k]
-        tree = island_next[tree]
+            K[(at + k) * n + at + k] += w.L[row + k]
+        tree = w.island_next[tree]
     k = 0
     while k < rows:
-        if state[k] == SLIDES:
+        if w.state[k] == SLIDES:
             # Two rows that its slip makes of three: see `coulomb_direction` and `convex_newton`.
             a, b = near[k + 1], near[k + 2]
-            c, share = (mu[k], 1.0 / math.sqrt(1.0 + mu[k] * mu[k])) if coned else (0.0, 1.0)
+            c, share = (w.mu[k], 1.0 / math.sqrt(1.0 + w.mu[k] * w.mu[k])) if coned else (0.0, 1.0)
             at = k * width
             for d in range(width):
-                first, second = Y[at + width + d], Y[at + 2 * width + d]
-                made[d] = share * (Y[at + d] - c * (a * first + b * second))
+                first, second = w.Y[at + width + d], w.Y[at + 2 * width + d]
+                made[d] = share * (w.Y[at + d] - c * (a * first + b * second))
                 made[width + d] = a * second - b * first
-            add_row(floats, integers, k, n, made, 0, stiffness[k])
+            add_row(w, k, n, made, 0, stiffness[k])
             if near[k] > 0.0:
-                add_row(floats, integers, k, n, made, width, near[k])
+                add_row(w, k, n, made, width, near[k])
             k += 3
             continue
-        if mu[k] > 0.0 and of_a[k] == 6 and (of_b[k] == 6 or of_b[k] == 0):
-            if state[k] == HOLDS:
-                add_contact(floats, integers, k, n, (stiffness[k], stiffness[k + 1], stiffness[k + 2]))
+        if w.mu[k] > 0.0 and w.of_a[k] == 6 and (w.of_b[k] == 6 or w.of_b[k] == 0):
+            if w.state[k] == HOLDS:
+                add_contact(w, k, n, (stiffness[k], stiffness[k + 1], stiffness[k + 2]))
             k += 3
             continue
-        if state[k] == HOLDS:
-            add_row(floats, integers, k, n, Y, k * width, stiffness[k])
+        if w.state[k] == HOLDS:
+            add_row(w, k, n, w.Y, k * width, stiffness[k])
         k += 1

@@ -9,9 +9,9 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from urdfkit.sim.engine.arrays import At
-from urdfkit.sim.engine.compilation import compiled, field, inlined
+from urdfkit.sim.engine.compilation import compiled, inlined
 from urdfkit.sim.engine.island_solver.block_products import load_six, times_six
+from urdfkit.sim.engine.kernel_world import KernelWorld
 from urdfkit.sim.engine.math.simd import load6, store
 
 MOST_TREES = 62
@@ -29,7 +29,7 @@ def bits(mask: int) -> int:
 
 
 @compiled
-def arrange(floats: Any, integers: Any, root: int, rows: int) -> int:
+def arrange(w: KernelWorld, root: int, rows: int) -> int:
     """Order the trees of an island for elimination; return how many dofs they have, 0 if there are too many trees.
 
     Afterwards ``block_tree`` lists the trees in order, ``tree_block`` their places in it, ``block_first`` where their
@@ -37,30 +37,19 @@ def arrange(floats: Any, integers: Any, root: int, rows: int) -> int:
     ``at_b`` tell where the dofs of its trees start, ``of_a`` and ``of_b`` how many these are: none where there is but
     one tree.
     """
-    tree_dof = field(integers, integers, At.tree_dof)
-    island_next = field(integers, integers, At.island_next)
-    row_a = field(integers, integers, At.row_a)
-    row_b = field(integers, integers, At.row_b)
-    at_a = field(integers, integers, At.at_a)
-    at_b = field(integers, integers, At.at_b)
-    of_a = field(integers, integers, At.of_a)
-    of_b = field(integers, integers, At.of_b)
-    block_tree = field(integers, integers, At.block_tree)
-    tree_block = field(integers, integers, At.tree_block)
-    block_first = field(integers, integers, At.block_first)
-    block_after = field(integers, integers, At.block_after)
+    block_after = w.block_after
     count = 0
     tree = root
     while tree >= 0:
         if count == MOST_TREES:
             return 0
-        block_tree[count], tree_block[tree], block_after[count] = tree, count, 0
+        w.block_tree[count], w.tree_block[tree], block_after[count] = tree, count, 0
         count += 1
-        tree = island_next[tree]
+        tree = w.island_next[tree]
     one = 1
     for k in range(rows):
-        if row_b[k] >= 0:
-            a, b = tree_block[row_a[k]], tree_block[row_b[k]]
+        if w.row_b[k] >= 0:
+            a, b = w.tree_block[w.row_a[k]], w.tree_block[w.row_b[k]]
             block_after[a] |= one << b
             block_after[b] |= one << a
     # Of those left, the one with the fewest neighbours goes next, and its neighbours become each other's.
@@ -73,7 +62,7 @@ def arrange(floats: Any, integers: Any, root: int, rows: int) -> int:
                 best, fewest = j, degree
         if best != k:
             # They exchange places, and so do their bits.
-            block_tree[k], block_tree[best] = block_tree[best], block_tree[k]
+            w.block_tree[k], w.block_tree[best] = w.block_tree[best], w.block_tree[k]
             block_after[k], block_after[best] = block_after[best], block_after[k]
             for j in range(count):
                 mask = block_after[j]
@@ -83,17 +72,17 @@ def arrange(floats: Any, integers: Any, root: int, rows: int) -> int:
         for j in range(k + 1, count):
             if (mask >> j) & one:
                 block_after[j] = (block_after[j] | mask) & ~((one << j) | (one << k))
-        tree = block_tree[k]
-        tree_block[tree] = k
-        block_first[k] = first
-        first += tree_dof[tree + 1] - tree_dof[tree]
-    block_first[count] = first
+        tree = w.block_tree[k]
+        w.tree_block[tree] = k
+        w.block_first[k] = first
+        first += w.tree_dof[tree + 1] - w.tree_dof[tree]
+    w.block_first[count] = first
     for k in range(rows):
-        a, b = row_a[k], row_b[k]
-        at_a[k], of_a[k] = block_first[tree_block[a]], tree_dof[a + 1] - tree_dof[a]
-        at_b[k] = of_b[k] = 0
+        a, b = w.row_a[k], w.row_b[k]
+        w.at_a[k], w.of_a[k] = w.block_first[w.tree_block[a]], w.tree_dof[a + 1] - w.tree_dof[a]
+        w.at_b[k] = w.of_b[k] = 0
         if b >= 0:
-            at_b[k], of_b[k] = block_first[tree_block[b]], tree_dof[b + 1] - tree_dof[b]
+            w.at_b[k], w.of_b[k] = w.block_first[w.tree_block[b]], w.tree_dof[b + 1] - w.tree_dof[b]
     return first
 
 
@@ -107,15 +96,13 @@ def take_six(K: Any, n: int, i: int, first: int, start: int) -> None:
 
 
 @compiled
-def eliminate(floats: Any, integers: Any, n: int) -> bool:
+def eliminate(w: KernelWorld, n: int) -> bool:
     """Factor K = UᵀU in B block by block, its diagonal inverted; return whether it was positive."""
-    block_first = field(integers, integers, At.block_first)
-    block_after = field(integers, integers, At.block_after)
-    K = field(floats, integers, At.B)
+    block_first, K = w.block_first, w.B
     one = 1
     k = 0
     while block_first[k] < n:
-        first, beyond, mask = block_first[k], block_first[k + 1], block_after[k]
+        first, beyond, mask = block_first[k], block_first[k + 1], w.block_after[k]
         for d in range(first, beyond):
             pivot = K[d * n + d]
             if not pivot > 0.0:
@@ -213,15 +200,13 @@ def take_product(K: Any, at: int, start: int, n: int, x: Any, d: int) -> None:
 
 
 @compiled
-def substitute(floats: Any, integers: Any, n: int, x: Any) -> None:
+def substitute(w: KernelWorld, n: int, x: Any) -> None:
     """Turn x into K⁻¹·x."""
-    block_first = field(integers, integers, At.block_first)
-    block_after = field(integers, integers, At.block_after)
-    K = field(floats, integers, At.B)
+    block_first, K = w.block_first, w.B
     one = 1
     k = 0
     while block_first[k] < n:
-        first, beyond, mask = block_first[k], block_first[k + 1], block_after[k]
+        first, beyond, mask = block_first[k], block_first[k + 1], w.block_after[k]
         sixes = beyond - first == 6
         if sixes:
             a, c, e, f, g, h = forward_six(K, n, first, x)
@@ -251,7 +236,7 @@ def substitute(floats: Any, integers: Any, n: int, x: Any) -> None:
         k += 1
     while k > 0:
         k -= 1
-        first, beyond, mask = block_first[k], block_first[k + 1], block_after[k]
+        first, beyond, mask = block_first[k], block_first[k + 1], w.block_after[k]
         sixes = beyond - first == 6
         b = k
         while mask >> (b + 1) != 0:

@@ -8,8 +8,9 @@ from __future__ import annotations
 
 from typing import Any
 
-from urdfkit.sim.engine.arrays import WIDTH, At
-from urdfkit.sim.engine.compilation import compiled, field, inlined
+from urdfkit.sim.engine.arrays import WIDTH
+from urdfkit.sim.engine.compilation import compiled, inlined
+from urdfkit.sim.engine.kernel_world import KernelWorld
 from urdfkit.sim.engine.math.simd import load6, store
 
 
@@ -27,60 +28,52 @@ def times_six(Y: Any, at: int, x: Any) -> float:
 
 
 @inlined
-def row_speed(floats: Any, integers: Any, k: int, x: Any) -> float:
+def row_speed(w: KernelWorld, k: int, x: Any) -> float:
     """Return J·x of a row, x in the order of the blocks."""
-    Y = field(floats, integers, At.Y)
-    at = k * integers[WIDTH]
-    first, size = field(integers, integers, At.at_a)[k], field(integers, integers, At.of_a)[k]
+    at = k * w.sizes[WIDTH]
+    first, size = w.at_a[k], w.of_a[k]
     total = 0.0
     for d in range(size):
-        total += Y[at + d] * x[first + d]
+        total += w.Y[at + d] * x[first + d]
     at += size
-    first, size = field(integers, integers, At.at_b)[k], field(integers, integers, At.of_b)[k]
+    first, size = w.at_b[k], w.of_b[k]
     for d in range(size):
-        total += Y[at + d] * x[first + d]
+        total += w.Y[at + d] * x[first + d]
     return total
 
 
 @compiled
-def row_speeds(floats: Any, integers: Any, rows: int, x: Any, into: Any, start: int) -> None:
+def row_speeds(w: KernelWorld, rows: int, x: Any, into: Any, start: int) -> None:
     """Write J·x of all rows, x in the order of the blocks, from `start` on."""
-    width = integers[WIDTH]
-    at_a = field(integers, integers, At.at_a)
-    at_b = field(integers, integers, At.at_b)
-    of_a = field(integers, integers, At.of_a)
-    of_b = field(integers, integers, At.of_b)
-    mu = field(floats, integers, At.mu)
-    Y = field(floats, integers, At.Y)
+    width = w.sizes[WIDTH]
     k = 0
     while k < rows:
-        if mu[k] > 0.0 and of_a[k] == 6 and (of_b[k] == 6 or of_b[k] == 0):
-            at, own = k * width, load_six(x, at_a[k])
-            first, second = times_six(Y, at, own), times_six(Y, at + width, own)
-            third = times_six(Y, at + 2 * width, own)
-            if of_b[k] == 6:
-                at, own = at + 6, load_six(x, at_b[k])
-                first, second = first + times_six(Y, at, own), second + times_six(Y, at + width, own)
-                third += times_six(Y, at + 2 * width, own)
+        if w.mu[k] > 0.0 and w.of_a[k] == 6 and (w.of_b[k] == 6 or w.of_b[k] == 0):
+            at, own = k * width, load_six(x, w.at_a[k])
+            first, second = times_six(w.Y, at, own), times_six(w.Y, at + width, own)
+            third = times_six(w.Y, at + 2 * width, own)
+            if w.of_b[k] == 6:
+                at, own = at + 6, load_six(x, w.at_b[k])
+                first, second = first + times_six(w.Y, at, own), second + times_six(w.Y, at + width, own)
+                third += times_six(w.Y, at + 2 * width, own)
             into[start + k], into[start + k + 1], into[start + k + 2] = first, second, third
             k += 3
             continue
-        into[start + k] = row_speed(floats, integers, k, x)
+        into[start + k] = row_speed(w, k, x)
         k += 1
 
 
 @inlined
-def push_row(floats: Any, integers: Any, k: int, c: float, x: Any) -> None:
+def push_row(w: KernelWorld, k: int, c: float, x: Any) -> None:
     """Add c·Jᵀ of a row to x, in the order of the blocks."""
-    Y = field(floats, integers, At.Y)
-    at = k * integers[WIDTH]
-    first, size = field(integers, integers, At.at_a)[k], field(integers, integers, At.of_a)[k]
+    at = k * w.sizes[WIDTH]
+    first, size = w.at_a[k], w.of_a[k]
     for d in range(size):
-        x[first + d] += c * Y[at + d]
+        x[first + d] += c * w.Y[at + d]
     at += size
-    first, size = field(integers, integers, At.at_b)[k], field(integers, integers, At.of_b)[k]
+    first, size = w.at_b[k], w.of_b[k]
     for d in range(size):
-        x[first + d] += c * Y[at + d]
+        x[first + d] += c * w.Y[at + d]
 
 
 @inlined
@@ -90,42 +83,34 @@ def push_six(Y: Any, at: int, width: int, a: float, b: float, c: float, x: Any, 
 
 
 @compiled
-def push_contact(floats: Any, integers: Any, k: int, a: float, b: float, c: float, x: Any) -> None:
+def push_contact(w: KernelWorld, k: int, a: float, b: float, c: float, x: Any) -> None:
     """Add what the three rows of a contact exert to x, in the order of the blocks."""
-    width = integers[WIDTH]
-    of_a, of_b = field(integers, integers, At.of_a)[k], field(integers, integers, At.of_b)[k]
-    Y = field(floats, integers, At.Y)
+    width = w.sizes[WIDTH]
+    of_a, of_b = w.of_a[k], w.of_b[k]
     if of_a == 6 and (of_b == 6 or of_b == 0):
-        push_six(Y, k * width, width, a, b, c, x, field(integers, integers, At.at_a)[k])
+        push_six(w.Y, k * width, width, a, b, c, x, w.at_a[k])
         if of_b == 6:
-            push_six(Y, k * width + 6, width, a, b, c, x, field(integers, integers, At.at_b)[k])
+            push_six(w.Y, k * width + 6, width, a, b, c, x, w.at_b[k])
         return
-    push_row(floats, integers, k, a, x)
-    push_row(floats, integers, k + 1, b, x)
-    push_row(floats, integers, k + 2, c, x)
+    push_row(w, k, a, x)
+    push_row(w, k + 1, b, x)
+    push_row(w, k + 2, c, x)
 
 
 @inlined
-def take_momentum(floats: Any, integers: Any, root: int, x: Any, into: Any) -> None:
+def take_momentum(w: KernelWorld, root: int, x: Any, into: Any) -> None:
     """Take M·x off `into`, both in the order of the blocks."""
-    tree_dof = field(integers, integers, At.tree_dof)
-    tree_block = field(integers, integers, At.tree_block)
-    island_next = field(integers, integers, At.island_next)
-    block_first = field(integers, integers, At.block_first)
-    dof_row = field(integers, integers, At.dof_row)
-    L = field(floats, integers, At.L)
-    inverse_diagonal = field(floats, integers, At.inverse_diagonal)
     tree = root
     while tree >= 0:
-        first, size = tree_dof[tree], tree_dof[tree + 1] - tree_dof[tree]
-        at = block_first[tree_block[tree]]
+        first, size = w.tree_dof[tree], w.tree_dof[tree + 1] - w.tree_dof[tree]
+        at = w.block_first[w.tree_block[tree]]
         for k in range(size):
-            row = dof_row[first + k] + first
-            diagonal = L[row + k] * inverse_diagonal[first + k]
+            row = w.dof_row[first + k] + first
+            diagonal = w.L[row + k] * w.inverse_diagonal[first + k]
             total = diagonal * x[at + k]
             for j in range(k):
-                total += L[row + j] * x[at + j]
+                total += w.L[row + j] * x[at + j]
             for j in range(k):
-                into[at + j] -= L[row + j] * total
+                into[at + j] -= w.L[row + j] * total
             into[at + k] -= diagonal * total
-        tree = island_next[tree]
+        tree = w.island_next[tree]

@@ -23,11 +23,12 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from urdfkit.sim.engine.arrays import WIDTH, At
-from urdfkit.sim.engine.compilation import compiled, field, inlined
+from urdfkit.sim.engine.arrays import WIDTH
+from urdfkit.sim.engine.compilation import compiled, inlined
 from urdfkit.sim.engine.island_solver.block_assembly import assemble
 from urdfkit.sim.engine.island_solver.block_matrix import eliminate, substitute
 from urdfkit.sim.engine.island_solver.block_products import push_contact, push_row, row_speed, row_speeds, take_momentum
+from urdfkit.sim.engine.kernel_world import KernelWorld
 from urdfkit.sim.engine.solver.row_states import AT_HIGH, AT_LOW, HOLDS, SLIDES
 
 STEPS = 30
@@ -51,122 +52,103 @@ def onto_cone(mu: float, normal: float, first: float, second: float) -> Any:
 
 
 @inlined
-def classify(floats: Any, integers: Any, rows: int, rest: Any) -> float:
+def classify(w: KernelWorld, rows: int, rest: Any) -> float:
     """Find what rows do at the velocities of now, add what they exert to `rest`, and return the largest impulse.
 
     Their impulses are kept in ``velocity``.
     """
-    low = field(floats, integers, At.low)
-    high = field(floats, integers, At.high)
-    mu = field(floats, integers, At.mu)
-    x = field(floats, integers, At.x)
-    w = field(floats, integers, At.y)
-    stiffness = field(floats, integers, At.g)
-    exerted = field(floats, integers, At.velocity)
-    near = field(floats, integers, At.near_x)
-    state = field(integers, integers, At.state)
+    speeds, stiffness, exerted = w.y, w.g, w.velocity
     largest = 0.0
     k = 0
     while k < rows:
         D = stiffness[k]
-        z = x[k] - D * w[k]
-        if mu[k] > 0.0:
-            first, second = x[k + 1] - D * w[k + 1], x[k + 2] - D * w[k + 2]
-            p, a, b = onto_cone(mu[k], z, first, second)
+        z = w.x[k] - D * speeds[k]
+        if w.mu[k] > 0.0:
+            first, second = w.x[k + 1] - D * speeds[k + 1], w.x[k + 2] - D * speeds[k + 2]
+            p, a, b = onto_cone(w.mu[k], z, first, second)
             size = math.sqrt(first * first + second * second)
-            state[k] = HOLDS if size <= mu[k] * z else (AT_LOW if p <= 0.0 else SLIDES)
-            state[k + 1] = state[k + 2] = state[k]
-            if state[k] == SLIDES:
-                near[k], near[k + 1], near[k + 2] = D * mu[k] * p / size, -first / size, -second / size
+            w.state[k] = HOLDS if size <= w.mu[k] * z else (AT_LOW if p <= 0.0 else SLIDES)
+            w.state[k + 1] = w.state[k + 2] = w.state[k]
+            if w.state[k] == SLIDES:
+                w.near_x[k], w.near_x[k + 1], w.near_x[k + 2] = D * w.mu[k] * p / size, -first / size, -second / size
             exerted[k], exerted[k + 1], exerted[k + 2] = p, a, b
             if p > 0.0:
-                push_contact(floats, integers, k, p, a, b, rest)
+                push_contact(w, k, p, a, b, rest)
                 largest = max(largest, p)
             k += 3
             continue
-        state[k] = AT_LOW if z <= low[k] else (AT_HIGH if z >= high[k] else HOLDS)
-        p = min(high[k], max(low[k], z))
+        w.state[k] = AT_LOW if z <= w.low[k] else (AT_HIGH if z >= w.high[k] else HOLDS)
+        p = min(w.high[k], max(w.low[k], z))
         exerted[k] = p
         if p != 0.0:
-            push_row(floats, integers, k, p, rest)
+            push_row(w, k, p, rest)
             largest = max(largest, abs(p))
         k += 1
     return largest
 
 
 @compiled
-def slope(floats: Any, integers: Any, rows: int, share: float, ahead: int) -> float:
+def slope(w: KernelWorld, rows: int, share: float, ahead: int) -> float:
     """Return how much power rows have along a step, of which a share has been taken; its rows' speeds are in A."""
-    low = field(floats, integers, At.low)
-    high = field(floats, integers, At.high)
-    mu = field(floats, integers, At.mu)
-    x = field(floats, integers, At.x)
-    w = field(floats, integers, At.y)
-    stiffness = field(floats, integers, At.g)
-    A = field(floats, integers, At.A)
+    speeds, stiffness, A = w.y, w.g, w.A
     power = 0.0
     k = 0
     while k < rows:
         D = stiffness[k]
-        z = x[k] - D * (w[k] + share * A[ahead + k])
-        if mu[k] > 0.0:
-            first = x[k + 1] - D * (w[k + 1] + share * A[ahead + k + 1])
-            second = x[k + 2] - D * (w[k + 2] + share * A[ahead + k + 2])
-            p, a, b = onto_cone(mu[k], z, first, second)
+        z = w.x[k] - D * (speeds[k] + share * A[ahead + k])
+        if w.mu[k] > 0.0:
+            first = w.x[k + 1] - D * (speeds[k + 1] + share * A[ahead + k + 1])
+            second = w.x[k + 2] - D * (speeds[k + 2] + share * A[ahead + k + 2])
+            p, a, b = onto_cone(w.mu[k], z, first, second)
             power += p * A[ahead + k] + a * A[ahead + k + 1] + b * A[ahead + k + 2]
             k += 3
             continue
-        power += min(high[k], max(low[k], z)) * A[ahead + k]
+        power += min(w.high[k], max(w.low[k], z)) * A[ahead + k]
         k += 1
     return float(power)
 
 
 @compiled
-def descend(floats: Any, integers: Any, root: int, rows: int, n: int, balance: float) -> int:
+def descend(w: KernelWorld, root: int, rows: int, n: int, balance: float) -> int:
     """Go to the minimum of a round, until but this part of the impulses is out of balance; return the steps taken.
 
     Of each row y is the velocity, with the correction; what it exerts there is the impulse.
     """
-    w = field(floats, integers, At.y)
-    A = field(floats, integers, At.A)
-    speed = field(floats, integers, At.block_v)
-    rest = field(floats, integers, At.block_f)
-    exerted = field(floats, integers, At.velocity)
-    inertia = field(floats, integers, At.sum_v)
-    momentum = field(floats, integers, At.sum_s)
-    ahead = 2 * integers[WIDTH]
+    speeds, speed, rest, exerted, inertia = w.y, w.block_v, w.block_f, w.velocity, w.sum_v
+    momentum = w.sum_s
+    ahead = 2 * w.sizes[WIDTH]
     for d in range(n):
         momentum[d] = 0.0
-    take_momentum(floats, integers, root, speed, momentum)
+    take_momentum(w, root, speed, momentum)
     for taken in range(STEPS):
         for d in range(n):
             rest[d] = momentum[d]
-        largest = classify(floats, integers, rows, rest)
+        largest = classify(w, rows, rest)
         off = 0.0
         for d in range(n):
             off = max(off, abs(rest[d]))
         if off <= balance * largest:
             return taken
-        assemble(floats, integers, root, rows, n, True)
-        if not eliminate(floats, integers, n):
+        assemble(w, root, rows, n, True)
+        if not eliminate(w, n):
             return taken
-        substitute(floats, integers, n, rest)
+        substitute(w, n, rest)
         # The function's slope along the step is a + b·share less the power of the rows.
         for d in range(n):
             inertia[d] = 0.0
-        take_momentum(floats, integers, root, rest, inertia)
+        take_momentum(w, root, rest, inertia)
         a = b = 0.0
         for d in range(n):
             a -= inertia[d] * speed[d]
             b -= inertia[d] * rest[d]
-        row_speeds(floats, integers, rows, rest, A, ahead)
+        row_speeds(w, rows, rest, w.A, ahead)
         start = a
         for k in range(rows):
-            start -= exerted[k] * A[ahead + k]
+            start -= exerted[k] * w.A[ahead + k]
         if not start < 0.0:
             return taken
         share = 1.0
-        here = a + b - slope(floats, integers, rows, 1.0, ahead)
+        here = a + b - slope(w, rows, 1.0, ahead)
         if here > 0.0:
             # Between a place before the minimum and one beyond it (regula falsi, Illinois).
             low, at_low, high, at_high = 0.0, start, 1.0, here
@@ -174,7 +156,7 @@ def descend(floats: Any, integers: Any, root: int, rows: int, n: int, balance: f
                 if abs(here) <= -0.05 * start:
                     break
                 share = (low * at_high - high * at_low) / (at_high - at_low)
-                here = a + b * share - slope(floats, integers, rows, share, ahead)
+                here = a + b * share - slope(w, rows, share, ahead)
                 if here > 0.0:
                     high, at_high = share, here
                     at_low *= 0.5
@@ -185,34 +167,28 @@ def descend(floats: Any, integers: Any, root: int, rows: int, n: int, balance: f
             speed[d] += share * rest[d]
             momentum[d] += share * inertia[d]
         for k in range(rows):
-            w[k] += share * A[ahead + k]
+            speeds[k] += share * w.A[ahead + k]
     return STEPS
 
 
 @inlined
-def take_over(floats: Any, integers: Any, rows: int) -> float:
+def take_over(w: KernelWorld, rows: int) -> float:
     """Make the impulses of a round those so far; return by how much velocities, or the correction, are off."""
-    low = field(floats, integers, At.low)
-    high = field(floats, integers, At.high)
-    mu = field(floats, integers, At.mu)
-    x = field(floats, integers, At.x)
-    w = field(floats, integers, At.y)
-    stiffness = field(floats, integers, At.g)
-    s = field(floats, integers, At.before)
+    x, speeds, stiffness, s = w.x, w.y, w.g, w.before
     off = 0.0
     k = 0
     while k < rows:
         D = stiffness[k]
-        z = x[k] - D * w[k]
-        if mu[k] > 0.0:
-            p, a, b = onto_cone(mu[k], z, x[k + 1] - D * w[k + 1], x[k + 2] - D * w[k + 2])
+        z = x[k] - D * speeds[k]
+        if w.mu[k] > 0.0:
+            p, a, b = onto_cone(w.mu[k], z, x[k + 1] - D * speeds[k + 1], x[k + 2] - D * speeds[k + 2])
             off = max(off, max(abs(p - x[k]), max(abs(a - x[k + 1]), abs(b - x[k + 2]))) / D)
             x[k], x[k + 1], x[k + 2] = p, a, b
-            slip = mu[k] * math.sqrt(w[k + 1] * w[k + 1] + w[k + 2] * w[k + 2])
+            slip = w.mu[k] * math.sqrt(speeds[k + 1] * speeds[k + 1] + speeds[k + 2] * speeds[k + 2])
             off = max(off, abs(slip - s[k]))
             k += 3
             continue
-        p = min(high[k], max(low[k], z))
+        p = min(w.high[k], max(w.low[k], z))
         off = max(off, abs(p - x[k]) / D)
         x[k] = p
         k += 1
@@ -220,54 +196,44 @@ def take_over(floats: Any, integers: Any, rows: int) -> float:
 
 
 @inlined
-def set_out(floats: Any, integers: Any, rows: int, hardness: float, corrected: bool) -> None:
+def set_out(w: KernelWorld, rows: int, hardness: float, corrected: bool) -> None:
     """Give rows one stiffness for each contact, and their velocities at the velocities of now, corrected or not."""
-    mu = field(floats, integers, At.mu)
-    g = field(floats, integers, At.slip)
-    w = field(floats, integers, At.y)
-    s = field(floats, integers, At.before)
-    felt = field(floats, integers, At.felt)
-    stiffness = field(floats, integers, At.g)
-    speed = field(floats, integers, At.block_v)
-    row_speeds(floats, integers, rows, speed, w, 0)
+    speeds, s, stiffness, speed = w.y, w.before, w.g, w.block_v
+    row_speeds(w, rows, speed, speeds, 0)
     for k in range(rows):
-        w[k] += g[k]
+        speeds[k] += w.slip[k]
         s[k] = 0.0
     k = 0
     while k < rows:
-        if mu[k] > 0.0:
-            least = felt[k]
+        if w.mu[k] > 0.0:
+            least = w.felt[k]
             for j in range(k + 1, k + 3):
                 # A tangent along which nothing can move has none.
-                if felt[j] > 0.0:
-                    least = min(least, felt[j])
+                if w.felt[j] > 0.0:
+                    least = min(least, w.felt[j])
             stiffness[k] = stiffness[k + 1] = stiffness[k + 2] = hardness * least
             if corrected:
-                s[k] = mu[k] * math.sqrt(w[k + 1] * w[k + 1] + w[k + 2] * w[k + 2])
-                w[k] += s[k]
+                s[k] = w.mu[k] * math.sqrt(speeds[k + 1] * speeds[k + 1] + speeds[k + 2] * speeds[k + 2])
+                speeds[k] += s[k]
             k += 3
         else:
-            stiffness[k] = hardness * felt[k]
+            stiffness[k] = hardness * w.felt[k]
             k += 1
 
 
 @compiled
-def leave_wedged(floats: Any, integers: Any, rows: int) -> None:
+def leave_wedged(w: KernelWorld, rows: int) -> None:
     """Take back of penetrations, and of what joints are off, only what the velocities of now allow."""
-    low = field(floats, integers, At.low)
-    high = field(floats, integers, At.high)
-    bias = field(floats, integers, At.row_bias)
-    g = field(floats, integers, At.slip)
-    speed = field(floats, integers, At.block_v)
+    bias, speed = w.row_bias, w.block_v
     for k in range(rows):
-        if high[k] < math.inf:
+        if w.high[k] < math.inf:
             continue
-        w = g[k] + row_speed(floats, integers, k, speed)
-        if bias[k] < 0.0 and w < 0.0:
-            taken = min(-w, -bias[k])
-        elif low[k] == -math.inf and bias[k] > 0.0 and w > 0.0:
-            taken = -min(w, bias[k])
+        off = w.slip[k] + row_speed(w, k, speed)
+        if bias[k] < 0.0 and off < 0.0:
+            taken = min(-off, -bias[k])
+        elif w.low[k] == -math.inf and bias[k] > 0.0 and off > 0.0:
+            taken = -min(off, bias[k])
         else:
             continue
-        g[k] += taken
+        w.slip[k] += taken
         bias[k] += taken

@@ -14,10 +14,11 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from urdfkit.sim.engine.arrays import WIDTH, At
-from urdfkit.sim.engine.compilation import compiled, field, inlined
+from urdfkit.sim.engine.arrays import WIDTH
+from urdfkit.sim.engine.compilation import compiled, inlined
 from urdfkit.sim.engine.island_solver.block_matrix import substitute
 from urdfkit.sim.engine.island_solver.block_products import push_contact, row_speed
+from urdfkit.sim.engine.kernel_world import KernelWorld
 from urdfkit.sim.engine.math.linear_systems import eliminate_and_solve
 from urdfkit.sim.engine.solver.row_states import HOLDS, SLIDES
 
@@ -26,128 +27,102 @@ STIFFNESS = 1e6
 
 
 @compiled
-def feel(floats: Any, integers: Any, root: int, rows: int) -> None:
+def feel(w: KernelWorld, root: int, rows: int) -> None:
     """Find, from what every row feels of the masses, the stiffness of one that holds, in ``felt``."""
-    width = integers[WIDTH]
-    tree_dof = field(integers, integers, At.tree_dof)
-    tree_block = field(integers, integers, At.tree_block)
-    island_next = field(integers, integers, At.island_next)
-    block_first = field(integers, integers, At.block_first)
-    dof_row = field(integers, integers, At.dof_row)
-    at_a = field(integers, integers, At.at_a)
-    at_b = field(integers, integers, At.at_b)
-    of_a = field(integers, integers, At.of_a)
-    of_b = field(integers, integers, At.of_b)
-    Y = field(floats, integers, At.Y)
-    M = field(floats, integers, At.M)
-    lightness = field(floats, integers, At.block_f)
-    felt = field(floats, integers, At.felt)
+    width = w.sizes[WIDTH]
+    lightness = w.block_f
     tree = root
     while tree >= 0:
-        first, at = tree_dof[tree], block_first[tree_block[tree]]
-        for d in range(first, tree_dof[tree + 1]):
-            lightness[at + d - first] = 1.0 / M[dof_row[d] + d]
-        tree = island_next[tree]
+        first, at = w.tree_dof[tree], w.block_first[w.tree_block[tree]]
+        for d in range(first, w.tree_dof[tree + 1]):
+            lightness[at + d - first] = 1.0 / w.M[w.dof_row[d] + d]
+        tree = w.island_next[tree]
     for k in range(rows):
-        total, at, first = 0.0, k * width, at_a[k]
-        for d in range(of_a[k]):
-            total += Y[at + d] * Y[at + d] * lightness[first + d]
-        at, first = at + of_a[k], at_b[k]
-        for d in range(of_b[k]):
-            total += Y[at + d] * Y[at + d] * lightness[first + d]
-        felt[k] = STIFFNESS / total if total > 0.0 else 0.0
+        total, at, first = 0.0, k * width, w.at_a[k]
+        for d in range(w.of_a[k]):
+            total += w.Y[at + d] * w.Y[at + d] * lightness[first + d]
+        at, first = at + w.of_a[k], w.at_b[k]
+        for d in range(w.of_b[k]):
+            total += w.Y[at + d] * w.Y[at + d] * lightness[first + d]
+        w.felt[k] = STIFFNESS / total if total > 0.0 else 0.0
 
 
 @inlined
-def stiffen(floats: Any, integers: Any, rows: int) -> None:
+def stiffen(w: KernelWorld, rows: int) -> None:
     """Give every row the stiffness of one that holds."""
-    felt = field(floats, integers, At.felt)
-    stiffness = field(floats, integers, At.g)
+    stiffness = w.g
     for k in range(rows):
-        stiffness[k] = felt[k]
+        stiffness[k] = w.felt[k]
 
 
 @inlined
-def slide(floats: Any, integers: Any, k: int, first: float, second: float, speed: float, impulse: float) -> None:
+def slide(w: KernelWorld, k: int, first: float, second: float, speed: float, impulse: float) -> None:
     """Take a contact for sliding along a unit vector at a speed [m/s], with an impulse along its normal [N·s]."""
-    mu = field(floats, integers, At.mu)
-    stiffness = field(floats, integers, At.g)
-    near = field(floats, integers, At.near_x)
-    state = field(integers, integers, At.state)
-    state[k] = state[k + 1] = state[k + 2] = SLIDES
-    most, friction = min(stiffness[k + 1], stiffness[k + 2]), mu[k] * max(0.0, impulse)
-    near[k] = friction / speed if friction < most * speed else most
-    near[k + 1], near[k + 2] = first, second
+    stiffness = w.g
+    w.state[k] = w.state[k + 1] = w.state[k + 2] = SLIDES
+    most, friction = min(stiffness[k + 1], stiffness[k + 2]), w.mu[k] * max(0.0, impulse)
+    w.near_x[k] = friction / speed if friction < most * speed else most
+    w.near_x[k + 1], w.near_x[k + 2] = first, second
 
 
 @inlined
-def strike(floats: Any, integers: Any, k: int, normal: float, first: float, second: float, felt: float) -> None:
+def strike(w: KernelWorld, k: int, normal: float, first: float, second: float, felt: float) -> None:
     """Guess, from the velocities with which an open contact closes, whether it slides then.
 
     What a row of it feels of the masses is about `felt` [1/kg].
     """
-    mu = field(floats, integers, At.mu)
-    state = field(integers, integers, At.state)
     speed = math.sqrt(first * first + second * second)
-    left = speed + mu[k] * normal
-    state[k] = state[k + 1] = state[k + 2] = HOLDS
+    left = speed + w.mu[k] * normal
+    w.state[k] = w.state[k + 1] = w.state[k + 2] = HOLDS
     if left > 0.0:
-        slide(floats, integers, k, first / speed, second / speed, left, -normal / felt if felt > 0.0 else 0.0)
+        slide(w, k, first / speed, second / speed, left, -normal / felt if felt > 0.0 else 0.0)
 
 
 @compiled
-def follow(floats: Any, integers: Any, rows: int, n: int) -> int:
+def follow(w: KernelWorld, rows: int, n: int) -> int:
     """Solve for what friction along the slips does; return how many contacts slide.
 
     Afterwards A has room for a matrix of the contacts that slide, that matrix, and the solutions.
     """
-    index = field(integers, integers, At.index)
-    state = field(integers, integers, At.state)
-    mu = field(floats, integers, At.mu)
-    near = field(floats, integers, At.near_x)
-    stiffness = field(floats, integers, At.g)
-    A = field(floats, integers, At.A)
-    column = field(floats, integers, At.block_f)
+    stiffness, column = w.g, w.block_f
     sliding = 0
     for k in range(rows):
-        if state[k] == SLIDES and mu[k] > 0.0:
-            index[sliding] = k
+        if w.state[k] == SLIDES and w.mu[k] > 0.0:
+            w.index[sliding] = k
             sliding += 1
     at = 2 * sliding * sliding
     for j in range(sliding):
-        k = index[j]
+        k = w.index[j]
         for d in range(n):
             column[d] = 0.0
-        c = -mu[k] * stiffness[k]
-        push_contact(floats, integers, k, 0.0, c * near[k + 1], c * near[k + 2], column)
-        substitute(floats, integers, n, column)
+        c = -w.mu[k] * stiffness[k]
+        push_contact(w, k, 0.0, c * w.near_x[k + 1], c * w.near_x[k + 2], column)
+        substitute(w, n, column)
         for d in range(n):
-            A[at + d] = column[d]
+            w.A[at + d] = column[d]
         at += n
         for i in range(sliding):
-            A[(sliding + i) * sliding + j] = row_speed(floats, integers, index[i], column)
-        A[(sliding + j) * sliding + j] += 1.0
+            w.A[(sliding + i) * sliding + j] = row_speed(w, w.index[i], column)
+        w.A[(sliding + j) * sliding + j] += 1.0
     return sliding
 
 
 @compiled
-def substitute_all(floats: Any, integers: Any, n: int, sliding: int, x: Any) -> bool:
+def substitute_all(w: KernelWorld, n: int, sliding: int, x: Any) -> bool:
     """Turn x into K⁻¹·x, K with what friction along the slips does; return whether there is such a solution."""
-    substitute(floats, integers, n, x)
+    substitute(w, n, x)
     if sliding == 0:
         return True
-    index = field(integers, integers, At.index)
-    A = field(floats, integers, At.A)
-    share = field(floats, integers, At.velocity)
+    share = w.velocity
     for i in range(sliding):
-        share[i] = row_speed(floats, integers, index[i], x)
+        share[i] = row_speed(w, w.index[i], x)
     for i in range(sliding * sliding):
-        A[i] = A[sliding * sliding + i]
-    if not eliminate_and_solve(sliding, A, share):
+        w.A[i] = w.A[sliding * sliding + i]
+    if not eliminate_and_solve(sliding, w.A, share):
         return False
     at = 2 * sliding * sliding
     for j in range(sliding):
         for d in range(n):
-            x[d] -= A[at + d] * share[j]
+            x[d] -= w.A[at + d] * share[j]
         at += n
     return True

@@ -21,10 +21,11 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from urdfkit.sim.engine.arrays import WIDTH, At
-from urdfkit.sim.engine.compilation import compiled, field, inlined
+from urdfkit.sim.engine.arrays import WIDTH
+from urdfkit.sim.engine.compilation import compiled, inlined
 from urdfkit.sim.engine.dynamics.mass_matrix import solve_transposed
 from urdfkit.sim.engine.island_solver.conjugate_gradient import KEPT, go_further, note
+from urdfkit.sim.engine.kernel_world import KernelWorld
 
 SWEEPS = 60
 """Most sweeps of a step, each way counted."""
@@ -37,61 +38,47 @@ FLAT = 1e-9
 
 
 @inlined
-def speed_of(floats: Any, integers: Any, k: int) -> float:
+def speed_of(w: KernelWorld, k: int) -> float:
     """Return what the impulses so far make of a whitened row's velocity [m/s or rad/s]."""
-    tree_dof = field(integers, integers, At.tree_dof)
-    row_a = field(integers, integers, At.row_a)
-    row_b = field(integers, integers, At.row_b)
-    Y = field(floats, integers, At.Y)
-    u = field(floats, integers, At.u)
-    total = field(floats, integers, At.g)[k]
-    at, tree = k * integers[WIDTH], row_a[k]
-    first, size = tree_dof[tree], tree_dof[tree + 1] - tree_dof[tree]
+    total = w.g[k]
+    at, tree = k * w.sizes[WIDTH], w.row_a[k]
+    first, size = w.tree_dof[tree], w.tree_dof[tree + 1] - w.tree_dof[tree]
     for d in range(size):
-        total += Y[at + d] * u[first + d]
-    tree = row_b[k]
+        total += w.Y[at + d] * w.u[first + d]
+    tree = w.row_b[k]
     if tree >= 0:
         at += size
-        first = tree_dof[tree]
-        for d in range(tree_dof[tree + 1] - first):
-            total += Y[at + d] * u[first + d]
+        first = w.tree_dof[tree]
+        for d in range(w.tree_dof[tree + 1] - first):
+            total += w.Y[at + d] * w.u[first + d]
     return float(total)
 
 
 @inlined
-def give(floats: Any, integers: Any, k: int, c: float) -> None:
+def give(w: KernelWorld, k: int, c: float) -> None:
     """Let the trees of a whitened row have an impulse along it."""
-    tree_dof = field(integers, integers, At.tree_dof)
-    row_a = field(integers, integers, At.row_a)
-    row_b = field(integers, integers, At.row_b)
-    Y = field(floats, integers, At.Y)
-    u = field(floats, integers, At.u)
-    at, tree = k * integers[WIDTH], row_a[k]
-    first, size = tree_dof[tree], tree_dof[tree + 1] - tree_dof[tree]
+    at, tree = k * w.sizes[WIDTH], w.row_a[k]
+    first, size = w.tree_dof[tree], w.tree_dof[tree + 1] - w.tree_dof[tree]
     for d in range(size):
-        u[first + d] += c * Y[at + d]
-    tree = row_b[k]
+        w.u[first + d] += c * w.Y[at + d]
+    tree = w.row_b[k]
     if tree >= 0:
         at += size
-        first = tree_dof[tree]
-        for d in range(tree_dof[tree + 1] - first):
-            u[first + d] += c * Y[at + d]
+        first = w.tree_dof[tree]
+        for d in range(w.tree_dof[tree + 1] - first):
+            w.u[first + d] += c * w.Y[at + d]
 
 
 @inlined
-def felt(floats: Any, integers: Any, i: int, j: int) -> float:
+def felt(w: KernelWorld, i: int, j: int) -> float:
     """Return the product of two whitened rows of the same trees."""
-    tree_dof = field(integers, integers, At.tree_dof)
-    row_a = field(integers, integers, At.row_a)
-    row_b = field(integers, integers, At.row_b)
-    Y = field(floats, integers, At.Y)
-    a, b, width = row_a[i], row_b[i], integers[WIDTH]
-    size = tree_dof[a + 1] - tree_dof[a]
+    a, b, width = w.row_a[i], w.row_b[i], w.sizes[WIDTH]
+    size = w.tree_dof[a + 1] - w.tree_dof[a]
     if b >= 0:
-        size += tree_dof[b + 1] - tree_dof[b]
+        size += w.tree_dof[b + 1] - w.tree_dof[b]
     total = 0.0
     for d in range(size):
-        total += Y[i * width + d] * Y[j * width + d]
+        total += w.Y[i * width + d] * w.Y[j * width + d]
     return total
 
 
@@ -114,77 +101,66 @@ def keep_inverse(A: Any, at: int, a: float, b: float, c: float, d: float, e: flo
 
 
 @compiled
-def prepare(floats: Any, integers: Any, rows: int) -> None:
+def prepare(w: KernelWorld, rows: int) -> None:
     """Turn rows J into Y = J·L⁻¹, and find what contacts and rows feel of the masses: in A, `KEPT` for each row."""
-    width = integers[WIDTH]
-    tree_dof = field(integers, integers, At.tree_dof)
-    row_a = field(integers, integers, At.row_a)
-    row_b = field(integers, integers, At.row_b)
-    v = field(floats, integers, At.v_start)
-    Y = field(floats, integers, At.Y)
-    A = field(floats, integers, At.A)
-    g = field(floats, integers, At.g)
-    bias = field(floats, integers, At.row_bias)
-    mu = field(floats, integers, At.mu)
+    width = w.sizes[WIDTH]
     for k in range(rows):
-        free = bias[k]
+        free = w.row_bias[k]
         at = k * width
         for side in range(2):
-            tree = row_a[k] if side == 0 else row_b[k]
+            tree = w.row_a[k] if side == 0 else w.row_b[k]
             if tree < 0:
                 continue
-            first, beyond = tree_dof[tree], tree_dof[tree + 1]
+            first, beyond = w.tree_dof[tree], w.tree_dof[tree + 1]
             for d in range(first, beyond):
-                free += Y[at - first + d] * v[d]
-            solve_transposed(floats, integers, first, beyond, Y, at - first)
+                free += w.Y[at - first + d] * w.v_start[d]
+            solve_transposed(w, first, beyond, w.Y, at - first)
             at += beyond - first
-        g[k] = free
+        w.g[k] = free
     k = 0
     while k < rows:
-        own, at = felt(floats, integers, k, k), KEPT * k // 3
-        if mu[k] > 0.0:
-            ss, tt = felt(floats, integers, k + 1, k + 1), felt(floats, integers, k + 2, k + 2)
-            ns, nt = felt(floats, integers, k, k + 1), felt(floats, integers, k, k + 2)
-            keep_inverse(A, at, own, ss, tt, ns, nt, felt(floats, integers, k + 1, k + 2))
+        own, at = felt(w, k, k), KEPT * k // 3
+        if w.mu[k] > 0.0:
+            ss, tt = felt(w, k + 1, k + 1), felt(w, k + 2, k + 2)
+            ns, nt = felt(w, k, k + 1), felt(w, k, k + 2)
+            keep_inverse(w.A, at, own, ss, tt, ns, nt, felt(w, k + 1, k + 2))
             k += 3
             continue
-        A[3 * k] = 1.0 / own if own > 0.0 else 0.0
+        w.A[3 * k] = 1.0 / own if own > 0.0 else 0.0
         k += 1
 
 
 @inlined
-def put_right(floats: Any, integers: Any, k: int) -> float:
+def put_right(w: KernelWorld, k: int) -> float:
     """Give a contact the impulse that puts it right where all others stay; return by how much velocities change."""
-    mu = field(floats, integers, At.mu)
-    x = field(floats, integers, At.x)
-    A = field(floats, integers, At.A)
+    x, A = w.x, w.A
     at = 3 * k
     n, a, b = x[k], x[k + 1], x[k + 2]
-    w = speed_of(floats, integers, k)
-    if n == 0.0 and w >= 0.0:
+    off = speed_of(w, k)
+    if n == 0.0 and off >= 0.0:
         return 0.0
-    s, t = speed_of(floats, integers, k + 1), speed_of(floats, integers, k + 2)
+    s, t = speed_of(w, k + 1), speed_of(w, k + 2)
     if A[at + 8] > 0.0:
-        p = n - A[at] * w - A[at + 3] * s - A[at + 4] * t
-        q = a - A[at + 3] * w - A[at + 1] * s - A[at + 5] * t
-        r = b - A[at + 4] * w - A[at + 5] * s - A[at + 2] * t
-        if q * q + r * r <= mu[k] * mu[k] * p * p and p > 0.0:
+        p = n - A[at] * off - A[at + 3] * s - A[at + 4] * t
+        q = a - A[at + 3] * off - A[at + 1] * s - A[at + 5] * t
+        r = b - A[at + 4] * off - A[at + 5] * s - A[at + 2] * t
+        if q * q + r * r <= w.mu[k] * w.mu[k] * p * p and p > 0.0:
             x[k], x[k + 1], x[k + 2] = p, q, r
-            give(floats, integers, k, p - n)
-            give(floats, integers, k + 1, q - a)
-            give(floats, integers, k + 2, r - b)
-            return float(max(abs(w), max(abs(s), abs(t))))
-    p = max(0.0, n - A[at + 6] * w)
-    give(floats, integers, k, p - n)
+            give(w, k, p - n)
+            give(w, k + 1, q - a)
+            give(w, k + 2, r - b)
+            return float(max(abs(off), max(abs(s), abs(t))))
+    p = max(0.0, n - A[at + 6] * off)
+    give(w, k, p - n)
     q = r = 0.0
     if p > 0.0:
-        q = a - A[at + 7] * speed_of(floats, integers, k + 1)
-        r = b - A[at + 7] * speed_of(floats, integers, k + 2)
-        size, most = math.sqrt(q * q + r * r), mu[k] * p
+        q = a - A[at + 7] * speed_of(w, k + 1)
+        r = b - A[at + 7] * speed_of(w, k + 2)
+        size, most = math.sqrt(q * q + r * r), w.mu[k] * p
         if size > most:
             q, r = q * most / size, r * most / size
-    give(floats, integers, k + 1, q - a)
-    give(floats, integers, k + 2, r - b)
+    give(w, k + 1, q - a)
+    give(w, k + 2, r - b)
     x[k], x[k + 1], x[k + 2] = p, q, r
     moved = abs(p - n) / A[at + 6]
     if A[at + 7] > 0.0:
@@ -193,71 +169,61 @@ def put_right(floats: Any, integers: Any, k: int) -> float:
 
 
 @inlined
-def leave_unmet(floats: Any, integers: Any, rows: int) -> None:
+def leave_unmet(w: KernelWorld, rows: int) -> None:
     """Take back of penetrations only what the velocities of now allow."""
-    low = field(floats, integers, At.low)
-    high = field(floats, integers, At.high)
-    bias = field(floats, integers, At.row_bias)
-    g = field(floats, integers, At.g)
     for k in range(rows):
-        if low[k] == 0.0 and high[k] == math.inf and bias[k] < 0.0:
-            w = speed_of(floats, integers, k)
-            if w < 0.0:
-                taken = min(-w, -bias[k])
-                g[k] += taken
-                bias[k] += taken
+        if w.low[k] == 0.0 and w.high[k] == math.inf and w.row_bias[k] < 0.0:
+            off = speed_of(w, k)
+            if off < 0.0:
+                taken = min(-off, -w.row_bias[k])
+                w.g[k] += taken
+                w.row_bias[k] += taken
 
 
 @inlined
-def work_of(floats: Any, integers: Any, rows: int) -> Any:
+def work_of(w: KernelWorld, rows: int) -> Any:
     """Return the power that impulses meet before them, x·g, and the energy that they bring by themselves, x·A·x/2."""
-    x = field(floats, integers, At.x)
-    y = field(floats, integers, At.y)
     met = brought = 0.0
     for k in range(rows):
-        met += x[k] * y[k]
-        brought += 0.5 * x[k] * (speed_of(floats, integers, k) - y[k])
+        met += w.x[k] * w.y[k]
+        brought += 0.5 * w.x[k] * (speed_of(w, k) - w.y[k])
     return met, brought
 
 
 @inlined
-def put_row_right(floats: Any, integers: Any, k: int) -> float:
+def put_row_right(w: KernelWorld, k: int) -> float:
     """Give a row that is no contact's with friction the impulse that puts it right; return by how much it changes."""
-    x = field(floats, integers, At.x)
-    low = field(floats, integers, At.low)
-    high = field(floats, integers, At.high)
-    inverse = field(floats, integers, At.A)[KEPT * k // 3]
+    inverse = w.A[KEPT * k // 3]
     if inverse <= 0.0:
         return 0.0
-    old = x[k]
-    x[k] = min(high[k], max(low[k], old - inverse * speed_of(floats, integers, k)))
-    give(floats, integers, k, x[k] - old)
-    return float(abs(x[k] - old) / inverse)
+    old = w.x[k]
+    w.x[k] = min(w.high[k], max(w.low[k], old - inverse * speed_of(w, k)))
+    give(w, k, w.x[k] - old)
+    return float(abs(w.x[k] - old) / inverse)
 
 
 @compiled
-def sweep_both_ways(floats: Any, integers: Any, rows: int) -> float:
+def sweep_both_ways(w: KernelWorld, rows: int) -> float:
     """Put all contacts and rows right in their order, then in reverse; return by how much velocities change."""
-    mu = field(floats, integers, At.mu)
     moved = 0.0
     for back in range(2):
         k = 0 if back == 0 else rows - 1
         while 0 <= k < rows:
             # Going back, the last row of a contact comes first.
-            if back == 1 and k >= 2 and mu[k - 2] > 0.0:
+            if back == 1 and k >= 2 and w.mu[k - 2] > 0.0:
                 k -= 2
             size = 1
-            if mu[k] > 0.0:
-                moved = max(moved, put_right(floats, integers, k))
+            if w.mu[k] > 0.0:
+                moved = max(moved, put_right(w, k))
                 size = 3
             else:
-                moved = max(moved, put_row_right(floats, integers, k))
+                moved = max(moved, put_row_right(w, k))
             k = k + size if back == 0 else k - 1
     return moved
 
 
 @compiled
-def sweep(floats: Any, integers: Any, root: int, rows: int) -> int:
+def sweep(w: KernelWorld, root: int, rows: int) -> int:
     """Find the impulses x of an island as nearly as some sweeps do, and add to u what they do.
 
     Of the rows Y is J, and becomes whitened; of the trees u is what `smooth_motion` left there.
@@ -265,34 +231,31 @@ def sweep(floats: Any, integers: Any, root: int, rows: int) -> int:
     Returns:
         How many sweeps it took; one more than the most where more would have changed something.
     """
-    x = field(floats, integers, At.x)
-    y = field(floats, integers, At.y)
-    before = field(floats, integers, At.before)
-    prepare(floats, integers, rows)
+    prepare(w, rows)
     for k in range(rows):
-        y[k] = speed_of(floats, integers, k)
+        w.y[k] = speed_of(w, k)
     for k in range(rows):
-        x[k] = before[k]
-        give(floats, integers, k, x[k])
+        w.x[k] = w.before[k]
+        give(w, k, w.x[k])
     done = 0
     moved = math.inf
     size = 0.0
     while True:
-        note(floats, integers, root, rows)
-        moved = sweep_both_ways(floats, integers, rows)
+        note(w, root, rows)
+        moved = sweep_both_ways(w, rows)
         done += 2
         if done % LEAVE_EVERY == 0:
-            leave_unmet(floats, integers, rows)
+            leave_unmet(w, rows)
             size = 0.0
         if moved <= STILL or done >= SWEEPS:
             break
         if done % LEAVE_EVERY != 0:
-            size = go_further(floats, integers, root, rows, size)
-    met, brought = work_of(floats, integers, rows)
+            size = go_further(w, root, rows, size)
+    met, brought = work_of(w, rows)
     if met + brought > 0.0:
         # Impulses never bring energy: they are all made smaller, and stay in their cones.
         share = max(0.0, -met / brought)
         for k in range(rows):
-            give(floats, integers, k, (share - 1.0) * x[k])
-            x[k] *= share
+            give(w, k, (share - 1.0) * w.x[k])
+            w.x[k] *= share
     return done if moved <= STILL else SWEEPS + 1

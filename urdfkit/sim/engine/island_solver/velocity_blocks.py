@@ -13,10 +13,8 @@ a robot that is jammed. Where that leads nowhere either, `augmented_lagrangian` 
 from __future__ import annotations
 
 import math
-from typing import Any
 
-from urdfkit.sim.engine.arrays import At
-from urdfkit.sim.engine.compilation import compiled, field, inlined
+from urdfkit.sim.engine.compilation import compiled, inlined
 from urdfkit.sim.engine.dynamics.mass_matrix import solve_forward
 from urdfkit.sim.engine.island_solver.active_set import try_states
 from urdfkit.sim.engine.island_solver.active_set_revision import first_hold
@@ -24,6 +22,7 @@ from urdfkit.sim.engine.island_solver.augmented_lagrangian import go_round
 from urdfkit.sim.engine.island_solver.block_matrix import arrange
 from urdfkit.sim.engine.island_solver.block_products import row_speeds
 from urdfkit.sim.engine.island_solver.coulomb_direction import STIFFNESS, feel, stiffen
+from urdfkit.sim.engine.kernel_world import KernelWorld
 
 WILD = 30.0
 """Ratio of impulses that mean nothing to the largest of the last step, or that stops what moves."""
@@ -32,41 +31,35 @@ LEAST = 2e-5
 
 
 @inlined
-def leave(floats: Any, integers: Any, rows: int) -> bool:
+def leave(w: KernelWorld, rows: int) -> bool:
     """Leave what little is to be taken back of penetrations, or closed of gaps, where a load is; return if any is.
 
     What holds is then met where nothing moves, and contradicts nothing. What is left of each is kept in ``ahead``.
     """
-    high = field(floats, integers, At.high)
-    mu = field(floats, integers, At.mu)
-    before = field(floats, integers, At.before)
-    bias = field(floats, integers, At.row_bias)
-    g = field(floats, integers, At.slip)
-    left = field(floats, integers, At.ahead)
+    bias, left = w.row_bias, w.ahead
     found = False
     for k in range(rows):
         left[k] = 0.0
     k = 0
     while k < rows:
-        if high[k] == math.inf and before[k] != 0.0 and abs(bias[k]) <= LEAST:
+        if w.high[k] == math.inf and w.before[k] != 0.0 and abs(bias[k]) <= LEAST:
             left[k] = bias[k]
-            g[k] -= bias[k]
+            w.slip[k] -= bias[k]
             found = found or bias[k] != 0.0
-        k += 3 if mu[k] > 0.0 else 1
+        k += 3 if w.mu[k] > 0.0 else 1
     return found
 
 
 @inlined
-def take_up(floats: Any, integers: Any, rows: int) -> None:
+def take_up(w: KernelWorld, rows: int) -> None:
     """Take back again what `leave` left."""
-    g = field(floats, integers, At.slip)
-    left = field(floats, integers, At.ahead)
+    left = w.ahead
     for k in range(rows):
-        g[k] += left[k]
+        w.slip[k] += left[k]
 
 
 @compiled
-def hold(floats: Any, integers: Any, root: int, rows: int) -> int:
+def hold(w: KernelWorld, root: int, rows: int) -> int:
     """Find the velocities of an island, and the impulses x of its rows.
 
     Of the rows Y is J, of the trees u what `smooth_motion` left there. If it succeeds, u becomes the change of
@@ -75,67 +68,56 @@ def hold(floats: Any, integers: Any, root: int, rows: int) -> int:
     Returns:
         How many sets of rows were tried, or negative how many rounds it took; 0 where it did not succeed.
     """
-    tree_dof = field(integers, integers, At.tree_dof)
-    tree_block = field(integers, integers, At.tree_block)
-    island_next = field(integers, integers, At.island_next)
-    block_first = field(integers, integers, At.block_first)
-    u = field(floats, integers, At.u)
-    v = field(floats, integers, At.v_start)
-    bias = field(floats, integers, At.row_bias)
-    g = field(floats, integers, At.slip)
-    speed = field(floats, integers, At.block_v)
-    kept = field(floats, integers, At.v_ahead)
-    before = field(floats, integers, At.before)
-    stiffness = field(floats, integers, At.g)
-    n = arrange(floats, integers, root, rows)
+    g, speed, kept, stiffness = w.slip, w.block_v, w.v_ahead, w.g
+    n = arrange(w, root, rows)
     if n == 0:
         return 0
     tree = root
     while tree >= 0:
-        first, beyond = tree_dof[tree], tree_dof[tree + 1]
+        first, beyond = w.tree_dof[tree], w.tree_dof[tree + 1]
         for d in range(first, beyond):
-            kept[d] = u[d]
-        solve_forward(floats, integers, first, beyond)
-        at = block_first[tree_block[tree]]
+            kept[d] = w.u[d]
+        solve_forward(w, first, beyond)
+        at = w.block_first[w.tree_block[tree]]
         for d in range(first, beyond):
-            speed[at + d - first] = v[d] + u[d]
-        tree = island_next[tree]
-    row_speeds(floats, integers, rows, speed, g, 0)
+            speed[at + d - first] = w.v_start[d] + w.u[d]
+        tree = w.island_next[tree]
+    row_speeds(w, rows, speed, g, 0)
     largest = 0.0
     for k in range(rows):
-        g[k] += bias[k]
+        g[k] += w.row_bias[k]
         largest = max(largest, abs(g[k]))
-    feel(floats, integers, root, rows)
-    stiffen(floats, integers, rows)
-    first_hold(floats, integers, rows)
+    feel(w, root, rows)
+    stiffen(w, rows)
+    first_hold(w, rows)
     # As `solve` has it.
     tiny = 1e-11 * largest + 1e-14
     most = 0.0
     for k in range(rows):
-        most = max(most, max(abs(before[k]), abs(g[k]) * stiffness[k] / STIFFNESS))
+        most = max(most, max(abs(w.before[k]), abs(g[k]) * stiffness[k] / STIFFNESS))
     most *= WILD
-    done = try_states(floats, integers, root, rows, n, tiny, most)
+    done = try_states(w, root, rows, n, tiny, most)
     # Between trees, biases are more than penetrations: see `correct_contact_point`.
-    if done == 0 and island_next[root] < 0 and leave(floats, integers, rows):
-        first_hold(floats, integers, rows)
-        again = try_states(floats, integers, root, rows, n, tiny, most)
+    if done == 0 and w.island_next[root] < 0 and leave(w, rows):
+        first_hold(w, rows)
+        again = try_states(w, root, rows, n, tiny, most)
         done = 1 + again if again > 0 else 0
-        take_up(floats, integers, rows)
+        take_up(w, rows)
     if done == 0:
         # At the velocities of the last step, that is, at rest where it was.
         tree = root
         while tree >= 0:
-            first = tree_dof[tree]
-            at = block_first[tree_block[tree]]
-            for d in range(first, tree_dof[tree + 1]):
-                speed[at + d - first] = -u[d]
-            tree = island_next[tree]
-        done = -go_round(floats, integers, root, rows, n, tiny, most)
+            first = w.tree_dof[tree]
+            at = w.block_first[w.tree_block[tree]]
+            for d in range(first, w.tree_dof[tree + 1]):
+                speed[at + d - first] = -w.u[d]
+            tree = w.island_next[tree]
+        done = -go_round(w, root, rows, n, tiny, most)
     tree = root
     while tree >= 0:
-        first = tree_dof[tree]
-        at = block_first[tree_block[tree]]
-        for d in range(first, tree_dof[tree + 1]):
-            u[d] = u[d] + speed[at + d - first] if done != 0 else kept[d]
-        tree = island_next[tree]
+        first = w.tree_dof[tree]
+        at = w.block_first[w.tree_block[tree]]
+        for d in range(first, w.tree_dof[tree + 1]):
+            w.u[d] = w.u[d] + speed[at + d - first] if done != 0 else kept[d]
+        tree = w.island_next[tree]
     return done

@@ -7,13 +7,12 @@ sleepers are kept from the end of their room on, so that they can be told and fo
 
 from __future__ import annotations
 
-from typing import Any
-
-from urdfkit.sim.engine.arrays import CONTACTS, DT, LAST_PAIRS, OBSERVED, SLEEPING, TREES, At
-from urdfkit.sim.engine.compilation import compiled, field, inlined
+from urdfkit.sim.engine.arrays import CONTACTS, DT, LAST_PAIRS, OBSERVED, SLEEPING, TREES
+from urdfkit.sim.engine.compilation import compiled, inlined
 from urdfkit.sim.engine.contacts.broadphase import update_bounds
 from urdfkit.sim.engine.contacts.warm_start import copy_contact
 from urdfkit.sim.engine.dynamics.mass_matrix import place
+from urdfkit.sim.engine.kernel_world import KernelWorld
 from urdfkit.sim.engine.math.spatial_algebra import ZERO, store_spatial, store_vector
 from urdfkit.sim.engine.sleep.sleep_criteria import (
     ASKED,
@@ -27,107 +26,81 @@ from urdfkit.sim.engine.sleep.slow_motion import DIED_DOWN, observe
 
 
 @compiled
-def let_sleep(floats: Any, integers: Any, contacts: int) -> None:
+def let_sleep(w: KernelWorld, contacts: int) -> None:
     """Let the islands sleep that have been at rest for long enough, or whose motion has died down."""
-    asleep = field(integers, integers, At.asleep)
-    island = field(integers, integers, At.island)
-    island_next = field(integers, integers, At.island_next)
-    island_contact = field(integers, integers, At.island_contact)
-    tree_floats = field(integers, integers, At.tree_floats)
-    still = field(floats, integers, At.still)
-    dt = field(floats, integers, At.numbers)[DT]
-    for root in range(integers[TREES]):
-        if asleep[root] != 0 or island[root] != root:
+    dt = w.numbers[DT]
+    for root in range(w.sizes[TREES]):
+        if w.asleep[root] != 0 or w.island[root] != root:
             continue
         at_rest = died_down = True
         tree = root
         while tree >= 0:
-            update(floats, integers, tree, dt)
+            update(w, tree, dt)
             # What floats and touches nothing is on its way.
-            lies = island_contact[root] >= 0 or tree_floats[tree] == 0
-            rests = still[OBSERVED * tree] >= PATIENCE
+            lies = w.island_contact[root] >= 0 or w.tree_floats[tree] == 0
+            rests = w.still[OBSERVED * tree] >= PATIENCE
             at_rest = at_rest and lies and rests
-            died_down = died_down and lies and is_free_body(integers, tree)
-            died_down = died_down and (rests or still[OBSERVED * tree + DIED_DOWN] != 0.0)
-            tree = island_next[tree]
+            died_down = died_down and lies and is_free_body(w, tree)
+            died_down = died_down and (rests or w.still[OBSERVED * tree + DIED_DOWN] != 0.0)
+            tree = w.island_next[tree]
         if at_rest or died_down:
-            lie_down(floats, integers, root, contacts)
+            lie_down(w, root, contacts)
 
 
 @inlined
-def update(floats: Any, integers: Any, tree: int, dt: float) -> None:
+def update(w: KernelWorld, tree: int, dt: float) -> None:
     """Bring up to date for how long a tree has been at rest, and whether its motion has died down."""
-    still = field(floats, integers, At.still)
     at = OBSERVED * tree
-    if not is_left_alone(floats, integers, tree):
+    if not is_left_alone(w, tree):
         for k in range(OBSERVED):
-            still[at + k] = 0.0
+            w.still[at + k] = 0.0
         return
-    still[at] = still[at] + dt if is_quiet(floats, integers, tree) else 0.0
-    if is_free_body(integers, tree):
-        observe(floats, integers, tree, dt)
+    w.still[at] = w.still[at] + dt if is_quiet(w, tree) else 0.0
+    if is_free_body(w, tree):
+        observe(w, tree, dt)
 
 
 @inlined
-def lie_down(floats: Any, integers: Any, root: int, contacts: int) -> None:
+def lie_down(w: KernelWorld, root: int, contacts: int) -> None:
     """Let an island sleep, if there is room to keep its contacts."""
-    most_contacts = integers[CONTACTS]
-    asleep = field(integers, integers, At.asleep)
-    island_next = field(integers, integers, At.island_next)
-    island_contact = field(integers, integers, At.island_contact)
-    contact_next = field(integers, integers, At.contact_next)
-    contact_against = field(integers, integers, At.contact_against)
-    contact_row = field(integers, integers, At.contact_row)
-    last_at = field(integers, integers, At.last_at)
-    last_feature = field(integers, integers, At.last_feature)
-    counts = field(integers, integers, At.counts)
-    needed, k = 0, island_contact[root]
+    most_contacts = w.sizes[CONTACTS]
+    needed, k = 0, w.island_contact[root]
     while k >= 0:
         needed += 1
-        k = contact_next[k]
-    if contacts + counts[SLEEPING] + needed > most_contacts:
+        k = w.contact_next[k]
+    if contacts + w.counts[SLEEPING] + needed > most_contacts:
         return
-    k = island_contact[root]
+    k = w.island_contact[root]
     while k >= 0:
-        copy_contact(floats, integers, k, most_contacts - 1 - counts[SLEEPING])
-        counts[SLEEPING] += 1
+        copy_contact(w, k, most_contacts - 1 - w.counts[SLEEPING])
+        w.counts[SLEEPING] += 1
         # Of this step's contacts it is no more.
-        contact_row[k] = -1
-        if contact_against[k] >= 0:
-            for j in range(counts[LAST_PAIRS]):
-                if last_at[j] == k:
-                    last_feature[j] = -1
-        k = contact_next[k]
+        w.contact_row[k] = -1
+        if w.contact_against[k] >= 0:
+            for j in range(w.counts[LAST_PAIRS]):
+                if w.last_at[j] == k:
+                    w.last_feature[j] = -1
+        k = w.contact_next[k]
     tree = root
     while tree >= 0:
-        asleep[tree] = root + 1
-        stop(floats, integers, tree)
-        tree = island_next[tree]
+        w.asleep[tree] = root + 1
+        stop(w, tree)
+        tree = w.island_next[tree]
 
 
 @inlined
-def stop(floats: Any, integers: Any, tree: int) -> None:
+def stop(w: KernelWorld, tree: int) -> None:
     """Take the last of a tree's velocity and note where it lies and what is asked of it."""
-    s = field(floats, integers, At.s)
-    v = field(floats, integers, At.v)
-    s_ahead = field(floats, integers, At.s_ahead)
-    P = field(floats, integers, At.P)
-    twist = field(floats, integers, At.twist)
-    asked = field(floats, integers, At.asked)
-    tree_body = field(integers, integers, At.tree_body)
-    tree_dof = field(integers, integers, At.tree_dof)
-    tree_s = field(integers, integers, At.tree_s)
-    tree_floats = field(integers, integers, At.tree_floats)
-    first = tree_s[tree]
-    for k in range(first, tree_s[tree + 1]):
-        s_ahead[k] = s[k]
-    for d in range(tree_dof[tree], tree_dof[tree + 1]):
-        v[d] = 0.0
+    first = w.tree_s[tree]
+    for k in range(first, w.tree_s[tree + 1]):
+        w.s_ahead[k] = w.s[k]
+    for d in range(w.tree_dof[tree], w.tree_dof[tree + 1]):
+        w.v[d] = 0.0
         for k in range(ASKED):
-            asked[ASKED * d + k] = asked_of(floats, integers, d, k)
-    if tree_floats[tree] != 0:
-        store_vector(P, tree, (s[first], s[first + 1], s[first + 2]))
-    place(floats, integers, tree, s, False)
-    for b in range(tree_body[tree], tree_body[tree + 1]):
-        store_spatial(twist, b, (ZERO, ZERO))
-    update_bounds(floats, integers, tree, field(floats, integers, At.numbers)[DT])
+            w.asked[ASKED * d + k] = asked_of(w, d, k)
+    if w.tree_floats[tree] != 0:
+        store_vector(w.P, tree, (w.s[first], w.s[first + 1], w.s[first + 2]))
+    place(w, tree, w.s, False)
+    for b in range(w.tree_body[tree], w.tree_body[tree + 1]):
+        store_spatial(w.twist, b, (ZERO, ZERO))
+    update_bounds(w, tree, w.numbers[DT])

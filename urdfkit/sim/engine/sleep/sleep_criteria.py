@@ -7,10 +7,9 @@ and yet is at rest.
 
 from __future__ import annotations
 
-from typing import Any
-
-from urdfkit.sim.engine.arrays import DT, OBSERVED, At
-from urdfkit.sim.engine.compilation import field, inlined
+from urdfkit.sim.engine.arrays import DT, OBSERVED
+from urdfkit.sim.engine.compilation import inlined
+from urdfkit.sim.engine.kernel_world import KernelWorld
 
 QUIET = 1e-4
 """Speed [m/s, rad/s] below which, on the whole, a dof counts as at rest: MuJoCo's ``sleep_tolerance``."""
@@ -30,65 +29,56 @@ ASKED = 8
 
 
 @inlined
-def asked_of(floats: Any, integers: Any, d: int, k: int) -> float:
+def asked_of(w: KernelWorld, d: int, k: int) -> float:
     """Return the k-th of the targets of a dof."""
     if k == 0:
-        return float(field(floats, integers, At.motor_velocity)[d])
+        return float(w.motor_velocity[d])
     if k == 1:
-        return float(field(floats, integers, At.motor_effort)[d])
+        return float(w.motor_effort[d])
     if k == 2:
-        return float(field(floats, integers, At.applied)[d])
+        return float(w.applied[d])
     if k == 3:
-        return float(field(floats, integers, At.position_target)[d])
+        return float(w.position_target[d])
     if k == 4:
-        return float(field(floats, integers, At.velocity_target)[d])
+        return float(w.velocity_target[d])
     if k == 5:
-        return float(field(floats, integers, At.kp)[d])
+        return float(w.kp[d])
     if k == 6:
-        return float(field(floats, integers, At.kd)[d])
-    return float(field(floats, integers, At.servo_effort)[d])
+        return float(w.kd[d])
+    return float(w.servo_effort[d])
 
 
 @inlined
-def is_free_body(integers: Any, tree: int) -> bool:
+def is_free_body(w: KernelWorld, tree: int) -> bool:
     """Return whether a tree is one body that nothing holds."""
-    tree_body = field(integers, integers, At.tree_body)
-    return bool(tree_body[tree + 1] - tree_body[tree] == 1 and field(integers, integers, At.tree_floats)[tree] != 0)
+    return bool(w.tree_body[tree + 1] - w.tree_body[tree] == 1 and w.tree_floats[tree] != 0)
 
 
 @inlined
-def is_left_alone(floats: Any, integers: Any, tree: int) -> bool:
+def is_left_alone(w: KernelWorld, tree: int) -> bool:
     """Return whether a tree may sleep, and nothing is asked of it that could move it."""
-    if field(integers, integers, At.sleeps)[tree] == 0:
+    if w.sleeps[tree] == 0:
         return False
-    applied = field(floats, integers, At.applied)
-    motor_velocity = field(floats, integers, At.motor_velocity)
-    kp = field(floats, integers, At.kp)
-    kd = field(floats, integers, At.kd)
-    tree_dof = field(integers, integers, At.tree_dof)
-    for d in range(tree_dof[tree], tree_dof[tree + 1]):
-        if applied[d] != 0.0 or motor_velocity[d] != 0.0 or kp[d] != 0.0 or kd[d] != 0.0:
+    for d in range(w.tree_dof[tree], w.tree_dof[tree + 1]):
+        if w.applied[d] != 0.0 or w.motor_velocity[d] != 0.0 or w.kp[d] != 0.0 or w.kd[d] != 0.0:
             return False
     return True
 
 
 @inlined
-def is_quiet(floats: Any, integers: Any, tree: int) -> bool:
+def is_quiet(w: KernelWorld, tree: int) -> bool:
     """Return whether a tree hardly moves.
 
     How far each dof has gone since the tree began to be at rest is kept in ``strayed``.
     """
-    v = field(floats, integers, At.v)
-    tree_dof = field(integers, integers, At.tree_dof)
-    strayed = field(floats, integers, At.strayed)
-    dt = field(floats, integers, At.numbers)[DT]
-    still = field(floats, integers, At.still)[OBSERVED * tree]
-    first, free = tree_dof[tree], is_free_body(integers, tree)
-    for d in range(first, tree_dof[tree + 1]):
-        strayed[d] = (strayed[d] if still > 0.0 else 0.0) + dt * v[d]
-    for d in range(first, tree_dof[tree + 1]):
+    dt = w.numbers[DT]
+    still = w.still[OBSERVED * tree]
+    first, free = w.tree_dof[tree], is_free_body(w, tree)
+    for d in range(first, w.tree_dof[tree + 1]):
+        w.strayed[d] = (w.strayed[d] if still > 0.0 else 0.0) + dt * w.v[d]
+    for d in range(first, w.tree_dof[tree + 1]):
         turns = free and d >= first + 3
         slow = TURNING if turns else QUIET
-        if not abs(v[d]) < (LOUD_TURNING if turns else LOUD) or not abs(strayed[d]) < slow * max(PATIENCE, still):
+        if not abs(w.v[d]) < (LOUD_TURNING if turns else LOUD) or not abs(w.strayed[d]) < slow * max(PATIENCE, still):
             return False
     return True

@@ -20,8 +20,9 @@ from __future__ import annotations
 
 from typing import Any
 
-from urdfkit.sim.engine.arrays import OBSERVED, At
-from urdfkit.sim.engine.compilation import field, inlined
+from urdfkit.sim.engine.arrays import OBSERVED
+from urdfkit.sim.engine.compilation import inlined
+from urdfkit.sim.engine.kernel_world import KernelWorld
 from urdfkit.sim.engine.math.spatial_algebra import ZERO, add, dot, load_vector, scale, store_vector
 from urdfkit.sim.engine.sleep.rolling_resistance import is_round
 from urdfkit.sim.engine.sleep.sleep_criteria import PATIENCE, QUIET
@@ -47,21 +48,16 @@ def point_speed(linear: Any, angular: Any, reach: float) -> float:
 
 
 @inlined
-def observe(floats: Any, integers: Any, tree: int, dt: float) -> None:
+def observe(w: KernelWorld, tree: int, dt: float) -> None:
     """Bring up to date whether the motion of a free body has died down."""
-    still = field(floats, integers, At.still)
-    displaced = field(floats, integers, At.displaced)
-    shape_p = field(floats, integers, At.shape_p)
-    shape_radius = field(floats, integers, At.shape_radius)
-    tree_shape = field(integers, integers, At.tree_shape)
-    v = field(floats, integers, At.v)
-    first, at = field(integers, integers, At.tree_dof)[tree], OBSERVED * tree
-    linear, angular = (v[first], v[first + 1], v[first + 2]), (v[first + 3], v[first + 4], v[first + 5])
+    still = w.still
+    first, at = w.tree_dof[tree], OBSERVED * tree
+    linear, angular = (w.v[first], w.v[first + 1], w.v[first + 2]), (w.v[first + 3], w.v[first + 4], w.v[first + 5])
     reach, rolls = 0.0, False
-    for k in range(tree_shape[tree], tree_shape[tree + 1]):
-        centre = load_vector(shape_p, k)
-        reach = max(reach, shape_radius[k] + dot(centre, centre) ** 0.5)
-        rolls = rolls or is_round(floats, integers, k)
+    for k in range(w.tree_shape[tree], w.tree_shape[tree + 1]):
+        centre = load_vector(w.shape_p, k)
+        reach = max(reach, w.shape_radius[k] + dot(centre, centre) ** 0.5)
+        rolls = rolls or is_round(w, k)
     speed = point_speed(linear, angular, reach)
     if not speed < SLOW:
         still[at + WINDOW] = still[at + DIED_DOWN] = 0.0
@@ -69,14 +65,14 @@ def observe(floats: Any, integers: Any, tree: int, dt: float) -> None:
         return
     if still[at + WINDOW] == 0.0:
         still[at + FASTEST] = 0.0
-        store_vector(displaced, 2 * tree, ZERO)
-        store_vector(displaced, 2 * tree + 1, ZERO)
+        store_vector(w.displaced, 2 * tree, ZERO)
+        store_vector(w.displaced, 2 * tree + 1, ZERO)
     still[at + WINDOW] += dt
     still[at + FASTEST] = max(still[at + FASTEST], speed)
-    moved = add(load_vector(displaced, 2 * tree), scale(dt, linear))
-    turned = add(load_vector(displaced, 2 * tree + 1), scale(dt, angular))
-    store_vector(displaced, 2 * tree, moved)
-    store_vector(displaced, 2 * tree + 1, turned)
+    moved = add(load_vector(w.displaced, 2 * tree), scale(dt, linear))
+    turned = add(load_vector(w.displaced, 2 * tree + 1), scale(dt, angular))
+    store_vector(w.displaced, 2 * tree, moved)
+    store_vector(w.displaced, 2 * tree + 1, turned)
     if still[at + WINDOW] >= PATIENCE:
         grows = still[at + FASTEST] > GROWTH * max(still[at + FASTEST_BEFORE], QUIET)
         creeps = not rolls and point_speed(moved, turned, reach) > CREEP * still[at + WINDOW]

@@ -18,8 +18,8 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from urdfkit.sim.engine.arrays import At
-from urdfkit.sim.engine.compilation import compiled, field, inlined
+from urdfkit.sim.engine.compilation import compiled, inlined
+from urdfkit.sim.engine.kernel_world import KernelWorld
 from urdfkit.sim.engine.math.linear_systems import factor_and_solve
 from urdfkit.sim.engine.math.simd import LANES, load16, padded, store
 from urdfkit.sim.engine.solver.row_states import (
@@ -69,111 +69,96 @@ LARGE = 60
 
 
 @inlined
-def solve_active_set(floats: Any, integers: Any, rows: int, rest: Any, softness: float) -> int:
+def solve_active_set(w: KernelWorld, rows: int, rest: Any, softness: float) -> int:
     """Compute the impulses for the active set in ``state``, with softness relative to the impulses `rest`.
 
     Returns:
         1, or -1 where contacts slide, `EXACTLY` where they do without softness, and 0 if there are no such impulses.
     """
-    A = field(floats, integers, At.A)
-    B = field(floats, integers, At.B)
-    g = field(floats, integers, At.g)
-    low = field(floats, integers, At.low)
-    high = field(floats, integers, At.high)
-    mu = field(floats, integers, At.mu)
-    x = field(floats, integers, At.x)
-    y = field(floats, integers, At.y)
-    state = field(integers, integers, At.state)
-    index = field(integers, integers, At.index)
+    x = w.x
     n = 0
     sliding = pushed = False
     k = 0
     while k < rows:
         x[k] = 0.0
-        if state[k] == HOLDS:
-            index[n] = k
+        if w.state[k] == HOLDS:
+            w.index[n] = k
             n += 1
-        elif mu[k] > 0.0:
+        elif w.mu[k] > 0.0:
             x[k + 1] = x[k + 2] = 0.0
-            if state[k] == SLIDES:
+            if w.state[k] == SLIDES:
                 sliding = True
-                index[n], index[n + 1] = k, k + 1
+                w.index[n], w.index[n + 1] = k, k + 1
                 n += 2
             k += 3
             continue
         else:
-            x[k] = low[k] if state[k] == AT_LOW else high[k]
+            x[k] = w.low[k] if w.state[k] == AT_LOW else w.high[k]
             pushed = True
         k += 1
     if sliding:
-        if softness == SOFTNESS and newton_step(floats, integers, rows, n, rest):
+        if softness == SOFTNESS and newton_step(w, rows, n, rest):
             return EXACTLY
         soft = max(softness, SLIDING_SOFTNESS)
-        return -1 if regularised_newton_step(floats, integers, rows, n, rest, soft) else 0
+        return -1 if regularised_newton_step(w, rows, n, rest, soft) else 0
     width = padded(n + 1)
     for a in range(n):
-        i = index[a]
-        total = -g[i] + softness * A[i * rows + i] * rest[i]
+        i = w.index[a]
+        total = -w.g[i] + softness * w.A[i * rows + i] * rest[i]
         if pushed:
             for j in range(rows):
                 if x[j] != 0.0:
-                    total -= A[i * rows + j] * x[j]
+                    total -= w.A[i * rows + j] * x[j]
         if n == rows:
             for first in range(a & -LANES, width, LANES):
-                store(B, a * width + first, load16(A, a * rows + first))
+                store(w.B, a * width + first, load16(w.A, a * rows + first))
         else:
             for b in range(a, n):
-                B[a * width + b] = A[i * rows + index[b]]
-        B[a * width + a] += softness * A[i * rows + i]
-        B[a * width + n] = total
-    if not factor_and_solve(n, B, y):
+                w.B[a * width + b] = w.A[i * rows + w.index[b]]
+        w.B[a * width + a] += softness * w.A[i * rows + i]
+        w.B[a * width + n] = total
+    if not factor_and_solve(n, w.B, w.y):
         return 0
     for a in range(n):
-        x[index[a]] = y[a]
+        x[w.index[a]] = w.y[a]
     return 1
 
 
 @inlined
-def iterate_active_set(floats: Any, integers: Any, rows: int, rest: Any, softness: float, tiny: float) -> int:
+def iterate_active_set(w: KernelWorld, rows: int, rest: Any, softness: float, tiny: float) -> int:
     """Revise the active set until it is consistent; return the number of iterations."""
-    x = field(floats, integers, At.x)
     for tried in range(ATTEMPTS):
-        found = solve_active_set(floats, integers, rows, rest, softness)
+        found = solve_active_set(w, rows, rest, softness)
         if found == 0:
             break
-        there = found > 0 or rotate_slip_directions(floats, integers, rows, x, tiny)
-        if revise_active_set(floats, integers, rows, x, tiny) and there:
+        there = found > 0 or rotate_slip_directions(w, rows, w.x, tiny)
+        if revise_active_set(w, rows, w.x, tiny) and there:
             return tried
     return ATTEMPTS
 
 
 @inlined
-def gauss_seidel(floats: Any, integers: Any, rows: int, x: Any, sweeps: int, tiny: float) -> float:
+def gauss_seidel(w: KernelWorld, rows: int, x: Any, sweeps: int, tiny: float) -> float:
     """Improve x by projected Gauss-Seidel sweeps with circular friction cones, until it converges.
 
     Returns:
         The greatest change of velocity that the last sweep still made.
     """
-    A = field(floats, integers, At.A)
-    g = field(floats, integers, At.g)
-    low = field(floats, integers, At.low)
-    high = field(floats, integers, At.high)
-    mu = field(floats, integers, At.mu)
     moved = math.inf
     for _ in range(sweeps):
         moved = 0.0
         k = 0
         while k < rows:
-            stiffness = A[k * rows + k]
+            stiffness = w.A[k * rows + k]
             old = x[k]
-            x[k] = min(high[k], max(low[k], old - result(rows, A, g, x, k) / stiffness))
+            x[k] = min(w.high[k], max(w.low[k], old - result(rows, w.A, w.g, x, k) / stiffness))
             moved = max(moved, abs(x[k] - old) * stiffness)
-            if mu[k] > 0.0:
-                stiffness = max(A[(k + 1) * rows + k + 1], A[(k + 2) * rows + k + 2])
+            if w.mu[k] > 0.0:
+                stiffness = max(w.A[(k + 1) * rows + k + 1], w.A[(k + 2) * rows + k + 2])
                 first, second = x[k + 1], x[k + 2]
-                a = first - result(rows, A, g, x, k + 1) / stiffness
-                b = second - result(rows, A, g, x, k + 2) / stiffness
-                size, most = math.sqrt(a * a + b * b), mu[k] * x[k]
+                a = first - result(rows, w.A, w.g, x, k + 1) / stiffness
+                b = second - result(rows, w.A, w.g, x, k + 2) / stiffness
+                size, most = math.sqrt(a * a + b * b), w.mu[k] * x[k]
                 if size > most:
                     a, b = a * most / size, b * most / size
                 x[k + 1], x[k + 2] = a, b
@@ -187,171 +172,151 @@ def gauss_seidel(floats: Any, integers: Any, rows: int, x: Any, sweeps: int, tin
 
 
 @inlined
-def is_implausible(floats: Any, integers: Any, rows: int, x: Any, largest: float) -> bool:
+def is_implausible(w: KernelWorld, rows: int, x: Any, largest: float) -> bool:
     """Return whether impulses make rows far faster than any row was, which inelastic impacts cannot do.
 
     A body that is wedged in too little space gets contradictory rows whose impulses grow with every step, and the
     result when one of them is released is not a solution.
     """
-    A = field(floats, integers, At.A)
-    g = field(floats, integers, At.g)
     for k in range(rows):  # noqa: SIM110
-        if abs(result(rows, A, g, x, k)) > STRAYING * (largest + 0.1):
+        if abs(result(rows, w.A, w.g, x, k)) > STRAYING * (largest + 0.1):
             return True
     return False
 
 
 @inlined
-def gains_energy(floats: Any, integers: Any, rows: int, x: Any) -> bool:
+def gains_energy(w: KernelWorld, rows: int, x: Any) -> bool:
     """Return whether impulses do more work than none: x·(A·x/2 + g) > 0."""
-    A = field(floats, integers, At.A)
-    g = field(floats, integers, At.g)
     work = 0.0
     for k in range(rows):
-        work += 0.5 * x[k] * (result(rows, A, g, x, k) + g[k])
+        work += 0.5 * x[k] * (result(rows, w.A, w.g, x, k) + w.g[k])
     return work > 0.0
 
 
 @compiled
-def proximal_point(floats: Any, integers: Any, rows: int, tiny: float) -> int:
+def proximal_point(w: KernelWorld, rows: int, tiny: float) -> int:
     """Compute the impulses by the proximal point method, if the warm start failed.
 
     Returns:
         How many guesses it took, negative if it took sweeps too; 0 if x only comes near the law.
     """
-    A = field(floats, integers, At.A)
-    x = field(floats, integers, At.x)
-    near = field(floats, integers, At.near_x)
-    before = field(floats, integers, At.before)
+    near = w.near_x
     for k in range(rows):
-        near[k] = before[k]
+        near[k] = w.before[k]
     tried = 0
     sweeps = 0
     moved = math.inf
     if rows > LARGE:
         sweeps = SWEEPS + 1
-        moved = gauss_seidel(floats, integers, rows, near, sweeps, tiny)
+        moved = gauss_seidel(w, rows, near, sweeps, tiny)
     while sweeps <= SWEEPS:
         softness, failed = SOFTEST, 0
-        active_set_from_impulses(floats, integers, rows, near)
+        active_set_from_impulses(w, rows, near)
         while failed < SOFTENINGS:
-            wrong = iterate_active_set(floats, integers, rows, near, softness, tiny)
+            wrong = iterate_active_set(w, rows, near, softness, tiny)
             tried += wrong + 1
             if wrong == ATTEMPTS:
                 failed += 1
                 softness = min(1.0, SOFTENING * softness)
-                active_set_from_impulses(floats, integers, rows, near)
+                active_set_from_impulses(w, rows, near)
                 continue
             off = 0.0
             for k in range(rows):
-                off = max(off, softness * A[k * rows + k] * abs(x[k] - near[k]))
-                near[k] = x[k]
+                off = max(off, softness * w.A[k * rows + k] * abs(w.x[k] - near[k]))
+                near[k] = w.x[k]
             if off < tiny or softness == SLIDING_SOFTNESS:
                 return tried if sweeps == 0 else -tried
             softness = max(SLIDING_SOFTNESS, HARDENING * softness)
         sweeps = max(10, 3 * sweeps)
-        moved = gauss_seidel(floats, integers, rows, near, sweeps, tiny)
-    if gains_energy(floats, integers, rows, near):
+        moved = gauss_seidel(w, rows, near, sweeps, tiny)
+    if gains_energy(w, rows, near):
         # From nothing, sweeps only ever take energy away.
         for k in range(rows):
             near[k] = 0.0
-        moved = gauss_seidel(floats, integers, rows, near, SWEEPS, tiny)
+        moved = gauss_seidel(w, rows, near, SWEEPS, tiny)
     for k in range(rows):
-        x[k] = near[k]
+        w.x[k] = near[k]
     return -max(1, tried) if moved <= NEARLY * tiny else 0
 
 
 @inlined
-def residual_slip(floats: Any, integers: Any, rows: int) -> float:
+def residual_slip(w: KernelWorld, rows: int) -> float:
     """Return how much velocity the softness of sliding guesses lets through [m/s or rad/s], 0 where nothing slides."""
-    A = field(floats, integers, At.A)
-    g = field(floats, integers, At.g)
-    x = field(floats, integers, At.x)
-    mu = field(floats, integers, At.mu)
-    state = field(integers, integers, At.state)
     sliding = False
     off = 0.0
     for k in range(rows):
-        sliding = sliding or state[k] == SLIDES
+        sliding = sliding or w.state[k] == SLIDES
     if sliding:
         for k in range(rows):
-            if state[k] == HOLDS or (state[k] == SLIDES and mu[k] > 0.0):
-                off = max(off, abs(result(rows, A, g, x, k)))
+            if w.state[k] == HOLDS or (w.state[k] == SLIDES and w.mu[k] > 0.0):
+                off = max(off, abs(result(rows, w.A, w.g, w.x, k)))
     return off
 
 
 @inlined
-def distribute_redundant_loads(floats: Any, integers: Any, rows: int, tiny: float) -> None:
+def distribute_redundant_loads(w: KernelWorld, rows: int, tiny: float) -> None:
     """Distribute the load of redundant sliding contacts uniquely, after the proximal point method."""
-    x = field(floats, integers, At.x)
-    near = field(floats, integers, At.near_x)
-    before = field(floats, integers, At.before)
     for k in range(rows):
-        near[k] = x[k]
+        w.near_x[k] = w.x[k]
     for _ in range(POLISHES):
-        if solve_active_set(floats, integers, rows, before, SOFTNESS) != EXACTLY:
+        if solve_active_set(w, rows, w.before, SOFTNESS) != EXACTLY:
             break
-        there = rotate_slip_directions(floats, integers, rows, x, tiny)
-        if revise_active_set(floats, integers, rows, x, tiny) and there:
+        there = rotate_slip_directions(w, rows, w.x, tiny)
+        if revise_active_set(w, rows, w.x, tiny) and there:
             return
     for k in range(rows):
-        x[k] = near[k]
+        w.x[k] = w.near_x[k]
 
 
 @inlined
-def regularise_tangents(floats: Any, integers: Any, rows: int) -> None:
+def regularise_tangents(w: KernelWorld, rows: int) -> None:
     """Regularise tangents along which the bodies cannot move, as at a wheel of a robot with a fixed base.
 
     Their velocity is zero whatever the impulse; the softness keeps A regular and the impulse at zero.
     """
-    A = field(floats, integers, At.A)
-    mu = field(floats, integers, At.mu)
     for k in range(rows):
-        if mu[k] > 0.0:
+        if w.mu[k] > 0.0:
             for j in range(k + 1, k + 3):
-                if A[j * rows + j] < 1e-15 * A[k * rows + k]:
-                    A[j * rows + j] = 1e-9 * A[k * rows + k]
+                if w.A[j * rows + j] < 1e-15 * w.A[k * rows + k]:
+                    w.A[j * rows + j] = 1e-9 * w.A[k * rows + k]
 
 
 @inlined
-def solve(floats: Any, integers: Any, rows: int) -> int:
+def solve(w: KernelWorld, rows: int) -> int:
     """Find the impulses x of all rows from A, g, the bounds, mu and the impulses ``before``, which are spent.
 
     Returns:
         How many guesses it took, negative if it took sweeps too; 0 if x only comes near the law.
     """
-    g = field(floats, integers, At.g)
-    x = field(floats, integers, At.x)
-    near = field(floats, integers, At.near_x)
-    before = field(floats, integers, At.before)
+    near = w.near_x
     largest = 0.0
     for k in range(rows):
-        largest = max(largest, abs(g[k]))
+        largest = max(largest, abs(w.g[k]))
     tiny = 1e-11 * largest + 1e-14
-    regularise_tangents(floats, integers, rows)
-    initial_active_set(floats, integers, rows, tiny)
+    regularise_tangents(w, rows)
+    initial_active_set(w, rows, tiny)
     for k in range(rows):
-        before[k] *= MEMORY
-    rest = before
+        w.before[k] *= MEMORY
+    rest = w.before
     tried = 0
     for _ in range(ROUNDS):
-        wrong = iterate_active_set(floats, integers, rows, rest, SOFTNESS, tiny)
+        wrong = iterate_active_set(w, rows, rest, SOFTNESS, tiny)
         tried += wrong + 1
         if wrong == ATTEMPTS:
-            tried = proximal_point(floats, integers, rows, tiny)
+            tried = proximal_point(w, rows, tiny)
             if tried != 0:
-                distribute_redundant_loads(floats, integers, rows, tiny)
+                distribute_redundant_loads(w, rows, tiny)
             break
-        if residual_slip(floats, integers, rows) <= CONTRADICTION + tiny:
+        if residual_slip(w, rows) <= CONTRADICTION + tiny:
             break
         rest = near
         for k in range(rows):
-            near[k] = x[k]
-    if (tried <= 0 or tried > MANY) and is_implausible(floats, integers, rows, x, largest):
+            near[k] = w.x[k]
+    if (tried <= 0 or tried > MANY) and is_implausible(w, rows, w.x, largest):
         for k in range(rows):
             near[k] = 0.0
-        gauss_seidel(floats, integers, rows, near, SWEEPS, tiny)
+        gauss_seidel(w, rows, near, SWEEPS, tiny)
         for k in range(rows):
-            x[k] = near[k]
+            w.x[k] = near[k]
         return 0
     return tried

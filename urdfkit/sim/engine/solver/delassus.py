@@ -2,29 +2,24 @@
 
 from __future__ import annotations
 
-from typing import Any
-
-from urdfkit.sim.engine.arrays import At
-from urdfkit.sim.engine.compilation import field, inlined
+from urdfkit.sim.engine.compilation import inlined
 from urdfkit.sim.engine.dynamics.mass_matrix import solve_transposed, solve_transposed_rows
+from urdfkit.sim.engine.kernel_world import KernelWorld
 from urdfkit.sim.engine.math.simd import LANES, load16, store
 
 
 @inlined
-def row_product(floats: Any, integers: Any, i: int, j: int, width: int) -> float:
+def row_product(w: KernelWorld, i: int, j: int, width: int) -> float:
     """Return the product of two whitened rows; those of different trees meet nowhere."""
-    tree_dof = field(integers, integers, At.tree_dof)
-    row_a = field(integers, integers, At.row_a)
-    row_b = field(integers, integers, At.row_b)
-    Y = field(floats, integers, At.Y)
+    tree_dof, row_a, Y = w.tree_dof, w.row_a, w.Y
     total = 0.0
-    a, b = row_a[i], row_b[i]
+    a, b = row_a[i], w.row_b[i]
     n = tree_dof[a + 1] - tree_dof[a]
     at, to = i * width, j * width
     if row_a[j] == a:
         for d in range(n):
             total += Y[at + d] * Y[to + d]
-    elif row_b[j] == a:
+    elif w.row_b[j] == a:
         to += tree_dof[row_a[j] + 1] - tree_dof[row_a[j]]
         for d in range(n):
             total += Y[at + d] * Y[to + d]
@@ -35,7 +30,7 @@ def row_product(floats: Any, integers: Any, i: int, j: int, width: int) -> float
         if row_a[j] == b:
             for d in range(m):
                 total += Y[at + d] * Y[to + d]
-        elif row_b[j] == b:
+        elif w.row_b[j] == b:
             to += tree_dof[row_a[j] + 1] - tree_dof[row_a[j]]
             for d in range(m):
                 total += Y[at + d] * Y[to + d]
@@ -49,32 +44,26 @@ def column_of(k: int, dofs: int) -> int:
 
 
 @inlined
-def whiten_columns(floats: Any, integers: Any, rows: int, first: int, beyond: int, width: int) -> None:
+def whiten_columns(w: KernelWorld, rows: int, first: int, beyond: int, width: int) -> None:
     """Do what `build_delassus` does for the rows of a single tree, `LANES` rows at once, see `column_of`.
 
     Entries of ``columns`` after the last row are not used.
     """
-    v = field(floats, integers, At.v_start)
-    u = field(floats, integers, At.u)
-    Y = field(floats, integers, At.Y)
-    columns = field(floats, integers, At.columns)
-    bias = field(floats, integers, At.row_bias)
-    g = field(floats, integers, At.g)
-    A = field(floats, integers, At.A)
+    columns = w.columns
     n = beyond - first
     for k in range(rows):
         at = column_of(k, n)
         for d in range(n):
-            columns[at + d * LANES] = Y[k * width + d]
+            columns[at + d * LANES] = w.Y[k * width + d]
     for start in range(0, rows, LANES):
         at = column_of(start, n)
-        free = load16(bias, start)
+        free = load16(w.row_bias, start)
         for d in range(n):
-            free = free + v[first + d] * load16(columns, at + d * LANES)
-        solve_transposed_rows(floats, integers, first, beyond, columns, at)
+            free = free + w.v_start[first + d] * load16(columns, at + d * LANES)
+        solve_transposed_rows(w, first, beyond, columns, at)
         for d in range(n):
-            free = free + u[first + d] * load16(columns, at + d * LANES)
-        store(g, start, free)
+            free = free + w.u[first + d] * load16(columns, at + d * LANES)
+        store(w.g, start, free)
     for k in range(rows):
         one = column_of(k, n)
         for start in range(0, rows, LANES):
@@ -83,84 +72,69 @@ def whiten_columns(floats: Any, integers: Any, rows: int, first: int, beyond: in
             for d in range(1, n):
                 products = products + columns[one + d * LANES] * load16(columns, at + d * LANES)
             # What this writes beyond the row is the next one's, which comes later.
-            store(A, k * rows + start, products)
+            store(w.A, k * rows + start, products)
 
 
 @inlined
-def build_delassus(floats: Any, integers: Any, rows: int, single: int, width: int, alone: bool) -> None:
+def build_delassus(w: KernelWorld, rows: int, single: int, width: int, alone: bool) -> None:
     """Turn rows J into Y = J·L⁻¹, their biases into velocities g with no impulse, and get A = J·M⁻¹·Jᵀ.
 
     The velocity with no impulse is v + L⁻¹·u. Most islands are a `single` tree, whose number this is; otherwise it is
     -1.
     """
-    tree_dof = field(integers, integers, At.tree_dof)
-    row_a = field(integers, integers, At.row_a)
-    row_b = field(integers, integers, At.row_b)
-    v = field(floats, integers, At.v_start)
-    u = field(floats, integers, At.u)
-    Y = field(floats, integers, At.Y)
-    bias = field(floats, integers, At.row_bias)
-    g = field(floats, integers, At.g)
-    A = field(floats, integers, At.A)
     if single >= 0:
-        first, beyond = tree_dof[single], tree_dof[single + 1]
+        first, beyond = w.tree_dof[single], w.tree_dof[single + 1]
         if alone:
             first, beyond = 0, width
-        whiten_columns(floats, integers, rows, first, beyond, width)
+        whiten_columns(w, rows, first, beyond, width)
         return
     for k in range(rows):
-        free = bias[k]
+        free = w.row_bias[k]
         at = k * width
         for side in range(2):
-            tree = row_a[k] if side == 0 else row_b[k]
+            tree = w.row_a[k] if side == 0 else w.row_b[k]
             if tree < 0:
                 continue
-            first, beyond = tree_dof[tree], tree_dof[tree + 1]
+            first, beyond = w.tree_dof[tree], w.tree_dof[tree + 1]
             start = at - first
             for d in range(first, beyond):
-                free += Y[start + d] * v[d]
-            solve_transposed(floats, integers, first, beyond, Y, start)
+                free += w.Y[start + d] * w.v_start[d]
+            solve_transposed(w, first, beyond, w.Y, start)
             for d in range(first, beyond):
-                free += Y[start + d] * u[d]
+                free += w.Y[start + d] * w.u[d]
             at += beyond - first
-        g[k] = free
+        w.g[k] = free
         for j in range(k + 1):
-            total = row_product(floats, integers, k, j, width)
-            A[k * rows + j] = total
-            A[j * rows + k] = total
+            total = row_product(w, k, j, width)
+            w.A[k * rows + j] = total
+            w.A[j * rows + k] = total
 
 
 @inlined
-def apply_impulses(floats: Any, integers: Any, rows: int, single: int, width: int, alone: bool) -> None:
+def apply_impulses(w: KernelWorld, rows: int, single: int, width: int, alone: bool) -> None:
     """Add the effect of the impulses x to u."""
-    tree_dof = field(integers, integers, At.tree_dof)
-    row_a = field(integers, integers, At.row_a)
-    row_b = field(integers, integers, At.row_b)
-    Y = field(floats, integers, At.Y)
-    x = field(floats, integers, At.x)
-    u = field(floats, integers, At.u)
     if single >= 0:
-        first, beyond = tree_dof[single], tree_dof[single + 1]
+        first, beyond = w.tree_dof[single], w.tree_dof[single + 1]
         if alone:
             first, beyond = 0, width
-        columns, n = field(floats, integers, At.columns), beyond - first
+        columns, n = w.columns, beyond - first
         for start in range(0, rows, LANES):
             many = min(LANES, rows - start)
             for d in range(n):
                 at = column_of(start, n) + d * LANES
-                total = u[first + d]
+                total = w.u[first + d]
                 for k in range(many):
-                    total += columns[at + k] * x[start + k]
-                u[first + d] = total
+                    total += columns[at + k] * w.x[start + k]
+                w.u[first + d] = total
         return
     for k in range(rows):
-        xk = x[k]
+        xk = w.x[k]
         at = k * width
         for side in range(2):
-            tree = row_a[k] if side == 0 else row_b[k]
+            tree = w.row_a[k] if side == 0 else w.row_b[k]
             if tree < 0:
                 continue
-            first, beyond = tree_dof[tree], tree_dof[tree + 1]
+            first, beyond = w.tree_dof[tree], w.tree_dof[tree + 1]
             for d in range(first, beyond):
-                u[d] += Y[at - first + d] * xk
+                w.u[d] += w.Y[at - first + d] * xk
             at += beyond - first

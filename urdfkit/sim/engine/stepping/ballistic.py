@@ -10,137 +10,109 @@ from __future__ import annotations
 
 from typing import Any
 
-from urdfkit.sim.engine.arrays import At
-from urdfkit.sim.engine.compilation import compiled, field, inlined
+from urdfkit.sim.engine.compilation import compiled, inlined
 from urdfkit.sim.engine.constraints.joint_servos import smooth_motion
 from urdfkit.sim.engine.dynamics.integration import move, turned_by
 from urdfkit.sim.engine.dynamics.mass_matrix import FREE, PLANAR, place, solve_forward, terms
+from urdfkit.sim.engine.kernel_world import KernelWorld
 from urdfkit.sim.engine.math.elementary_functions import sine_cosine
 from urdfkit.sim.engine.math.spatial_algebra import add, cross, rotate, scale, turn_of
 
 
 @inlined
-def is_ballistic(floats: Any, integers: Any, first: int, beyond: int, rows: int) -> bool:
+def is_ballistic(w: KernelWorld, first: int, beyond: int, rows: int) -> bool:
     """Return whether no row, effort, friction or damping acts on a tree without contacts and servos."""
-    damping = field(floats, integers, At.damping)
-    applied = field(floats, integers, At.applied)
     if rows > 0:
         return False
     for d in range(first, beyond):  # noqa: SIM110
-        if damping[d] != 0.0 or applied[d] != 0.0:
+        if w.damping[d] != 0.0 or w.applied[d] != 0.0:
             return False
     return True
 
 
 @compiled
-def rk4_step(floats: Any, integers: Any, tree: int, dt: float) -> None:
+def rk4_step(w: KernelWorld, tree: int, dt: float) -> None:
     """Advance a tree by a step.
 
     Half of it, at the velocities of the start, has been gone already; and half, at those of the end, is left to go.
     """
-    tree_body = field(integers, integers, At.tree_body)
-    tree_dof = field(integers, integers, At.tree_dof)
-    tree_s = field(integers, integers, At.tree_s)
-    tree_floats = field(integers, integers, At.tree_floats)
-    base = field(floats, integers, At.base)
-    s = field(floats, integers, At.s)
-    v = field(floats, integers, At.v)
-    v_start = field(floats, integers, At.v_start)
-    s_first = field(floats, integers, At.s_ahead)
-    P = field(floats, integers, At.P)
-    slope_s = field(floats, integers, At.slope_s)
-    slope_v = field(floats, integers, At.slope_v)
-    sum_s = field(floats, integers, At.sum_s)
-    sum_v = field(floats, integers, At.sum_v)
-    first, beyond = tree_dof[tree], tree_dof[tree + 1]
-    move(floats, integers, tree_body[tree], tree_body[tree + 1], s, v, -0.5 * dt)
-    for k in range(tree_s[tree], tree_s[tree + 1]):
-        s_first[k] = s[k]
-    store_velocities(floats, integers, tree)
+    first, beyond = w.tree_dof[tree], w.tree_dof[tree + 1]
+    move(w, w.tree_body[tree], w.tree_body[tree + 1], w.s, w.v, -0.5 * dt)
+    for k in range(w.tree_s[tree], w.tree_s[tree + 1]):
+        w.s_ahead[k] = w.s[k]
+    store_velocities(w, tree)
     for d in range(first, beyond):
-        sum_s[d] = sum_v[d] = slope_s[d] = slope_v[d] = 0.0
+        w.sum_s[d] = w.sum_v[d] = w.slope_s[d] = w.slope_v[d] = 0.0
     for evaluation in range(4):
         ahead = 0.5 * dt
         if evaluation == 0:
             ahead = 0.0
         elif evaluation == 3:
             ahead = dt
-        set_ahead(floats, integers, tree, slope_s, slope_v, ahead)
+        set_ahead(w, tree, w.slope_s, w.slope_v, ahead)
         for k in range(3):
-            P[3 * tree + k] = s[tree_s[tree] + k] if tree_floats[tree] != 0 else base[3 * tree + k]
+            w.P[3 * tree + k] = w.s[w.tree_s[tree] + k] if w.tree_floats[tree] != 0 else w.base[3 * tree + k]
         for d in range(first, beyond):
-            v_start[d] = v[d]
-        place(floats, integers, tree, s, False)
-        terms(floats, integers, tree)
-        smooth_motion(floats, integers, first, beyond, dt)
-        solve_forward(floats, integers, first, beyond)
-        time_derivatives(floats, integers, tree, ahead, dt)
+            w.v_start[d] = w.v[d]
+        place(w, tree, w.s, False)
+        terms(w, tree)
+        smooth_motion(w, first, beyond, dt)
+        solve_forward(w, first, beyond)
+        time_derivatives(w, tree, ahead, dt)
         weight = 1.0 / 6.0 if evaluation in (0, 3) else 1.0 / 3.0
         for d in range(first, beyond):
-            sum_s[d] += weight * slope_s[d]
-            sum_v[d] += weight * slope_v[d]
-    set_ahead(floats, integers, tree, sum_s, sum_v, dt)
-    move(floats, integers, tree_body[tree], tree_body[tree + 1], s, v, -0.5 * dt)
+            w.sum_s[d] += weight * w.slope_s[d]
+            w.sum_v[d] += weight * w.slope_v[d]
+    set_ahead(w, tree, w.sum_s, w.sum_v, dt)
+    move(w, w.tree_body[tree], w.tree_body[tree + 1], w.s, w.v, -0.5 * dt)
 
 
 @inlined
-def store_velocities(floats: Any, integers: Any, tree: int) -> None:
+def store_velocities(w: KernelWorld, tree: int) -> None:
     """Store the velocities in ``v_ahead``, linear ones in the axes of the joint's parent."""
-    tree_body = field(integers, integers, At.tree_body)
-    kind = field(integers, integers, At.kind)
-    first_s = field(integers, integers, At.first_s)
-    first_v = field(integers, integers, At.first_v)
-    s, v = field(floats, integers, At.s), field(floats, integers, At.v)
-    v_first = field(floats, integers, At.v_ahead)
-    for i in range(tree_body[tree], tree_body[tree + 1]):
-        at, d = first_s[i], first_v[i]
-        for k in range(d, first_v[i + 1]):
+    s, v = w.s, w.v
+    v_first = w.v_ahead
+    for i in range(w.tree_body[tree], w.tree_body[tree + 1]):
+        at, d = w.first_s[i], w.first_v[i]
+        for k in range(d, w.first_v[i + 1]):
             v_first[k] = v[k]
-        if kind[i] == FREE:
+        if w.kind[i] == FREE:
             linear = rotate(turn_of(s[at + 3], s[at + 4], s[at + 5], s[at + 6]), (v[d], v[d + 1], v[d + 2]))
             v_first[d], v_first[d + 1], v_first[d + 2] = linear
-        elif kind[i] == PLANAR:
+        elif w.kind[i] == PLANAR:
             sine, cosine = sine_cosine(s[at + 2])
             v_first[d], v_first[d + 1] = cosine * v[d] - sine * v[d + 1], sine * v[d] + cosine * v[d + 1]
 
 
 @compiled
-def set_ahead(floats: Any, integers: Any, tree: int, slope_s: Any, slope_v: Any, ahead: float) -> None:
+def set_ahead(w: KernelWorld, tree: int, slope_s: Any, slope_v: Any, ahead: float) -> None:
     """Set coordinates and velocities to those at the start plus `ahead` times the slopes."""
-    tree_body = field(integers, integers, At.tree_body)
-    kind = field(integers, integers, At.kind)
-    first_s = field(integers, integers, At.first_s)
-    first_v = field(integers, integers, At.first_v)
-    s, v = field(floats, integers, At.s), field(floats, integers, At.v)
-    s_first, v_first = field(floats, integers, At.s_ahead), field(floats, integers, At.v_ahead)
-    for i in range(tree_body[tree], tree_body[tree + 1]):
-        at, d = first_s[i], first_v[i]
-        for k in range(d, first_v[i + 1]):
+    s, v = w.s, w.v
+    s_first, v_first = w.s_ahead, w.v_ahead
+    for i in range(w.tree_body[tree], w.tree_body[tree + 1]):
+        at, d = w.first_s[i], w.first_v[i]
+        for k in range(d, w.first_v[i + 1]):
             v[k] = v_first[k] + ahead * slope_v[k]
-        for k in range(3 if kind[i] >= PLANAR else 1):
+        for k in range(3 if w.kind[i] >= PLANAR else 1):
             s[at + k] = s_first[at + k] + ahead * slope_s[d + k]
-        if kind[i] == FREE:
+        if w.kind[i] == FREE:
             turn = (ahead * slope_s[d + 3], ahead * slope_s[d + 4], ahead * slope_s[d + 5])
-            x, y, z, w = turned_by(s_first[at + 3], s_first[at + 4], s_first[at + 5], s_first[at + 6], turn)
-            s[at + 3], s[at + 4], s[at + 5], s[at + 6] = x, y, z, w
-            v[d], v[d + 1], v[d + 2] = rotate(turn_of(-x, -y, -z, w), (v[d], v[d + 1], v[d + 2]))
-        elif kind[i] == PLANAR:
+            x, y, z, scalar = turned_by(s_first[at + 3], s_first[at + 4], s_first[at + 5], s_first[at + 6], turn)
+            s[at + 3], s[at + 4], s[at + 5], s[at + 6] = x, y, z, scalar
+            v[d], v[d + 1], v[d + 2] = rotate(turn_of(-x, -y, -z, scalar), (v[d], v[d + 1], v[d + 2]))
+        elif w.kind[i] == PLANAR:
             sine, cosine = sine_cosine(s[at + 2])
             v[d], v[d + 1] = cosine * v[d] + sine * v[d + 1], cosine * v[d + 1] - sine * v[d]
 
 
 @inlined
-def time_derivatives(floats: Any, integers: Any, tree: int, ahead: float, dt: float) -> None:
+def time_derivatives(w: KernelWorld, tree: int, ahead: float, dt: float) -> None:
     """Find how coordinates and velocities change, from v and from what they gain in a step, in u."""
-    tree_body = field(integers, integers, At.tree_body)
-    kind = field(integers, integers, At.kind)
-    first_s = field(integers, integers, At.first_s)
-    first_v = field(integers, integers, At.first_v)
-    s, v, u = field(floats, integers, At.s), field(floats, integers, At.v), field(floats, integers, At.u)
-    slope_s, slope_v = field(floats, integers, At.slope_s), field(floats, integers, At.slope_v)
-    for i in range(tree_body[tree], tree_body[tree + 1]):
-        at, d = first_s[i], first_v[i]
-        if kind[i] == FREE:
+    s, v, u = w.s, w.v, w.u
+    slope_s, slope_v = w.slope_s, w.slope_v
+    for i in range(w.tree_body[tree], w.tree_body[tree + 1]):
+        at, d = w.first_s[i], w.first_v[i]
+        if w.kind[i] == FREE:
             R = turn_of(s[at + 3], s[at + 4], s[at + 5], s[at + 6])
             turn = (ahead * slope_s[d + 3], ahead * slope_s[d + 4], ahead * slope_s[d + 5])
             rate = (v[d + 3], v[d + 4], v[d + 5])
@@ -152,9 +124,9 @@ def time_derivatives(floats: Any, integers: Any, tree: int, ahead: float, dt: fl
             for k in range(d + 3, d + 6):
                 slope_v[k] = u[k] / dt
             continue
-        for k in range(d, first_v[i + 1]):
+        for k in range(d, w.first_v[i + 1]):
             slope_s[k], slope_v[k] = v[k], u[k] / dt
-        if kind[i] == PLANAR:
+        if w.kind[i] == PLANAR:
             sine, cosine = sine_cosine(s[at + 2])
             for one in (slope_s, slope_v):
                 one[d], one[d + 1] = cosine * one[d] - sine * one[d + 1], sine * one[d] + cosine * one[d + 1]

@@ -5,12 +5,12 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from urdfkit.sim.engine.arrays import DT, FOUND_CONTACTS, FOUND_PAIRS, FOUND_ROWS, STEPS, TREES, At
-from urdfkit.sim.engine.compilation import field
+from urdfkit.sim.engine.arrays import DT, FOUND_CONTACTS, FOUND_PAIRS, FOUND_ROWS, STEPS, TREES
 from urdfkit.sim.engine.constraints.joint_servos import account
 from urdfkit.sim.engine.contacts.contact_search import find_candidate_pairs, find_contacts
 from urdfkit.sim.engine.contacts.warm_start import store_impulses, store_pair_impulses
 from urdfkit.sim.engine.dynamics.tree_motion import begin_step, evaluate, integrate_tree, predict_poses
+from urdfkit.sim.engine.kernel_world import world
 from urdfkit.sim.engine.sleep.sleep import let_sleep
 from urdfkit.sim.engine.sleep.wake import rouse_disturbed, rouse_touched
 from urdfkit.sim.engine.stepping.islands import build_islands
@@ -27,76 +27,72 @@ def advance(floats: Any, integers: Any, steps: int, only_terms: bool) -> int:
 
     With `only_terms`, compute poses, M and bias of the present state without advancing.
     """
-    trees = integers[TREES]
-    dt = field(floats, integers, At.numbers)[DT]
-    v = field(floats, integers, At.v)
-    tree_dof = field(integers, integers, At.tree_dof)
-    near = field(integers, integers, At.near)
-    asleep = field(integers, integers, At.asleep)
-    island = field(integers, integers, At.island)
-    counts = field(integers, integers, At.counts)
+    w = world(floats, integers)
+    trees = w.sizes[TREES]
+    dt = w.numbers[DT]
+    counts = w.counts
     if only_terms:
         for tree in range(trees):
-            begin_step(floats, integers, tree)
+            begin_step(w, tree)
         return 0
     for done in range(steps):
         for tree in range(trees):
-            if asleep[tree] == 0:
-                store_impulses(floats, integers, tree)
-        store_pair_impulses(floats, integers)
+            if w.asleep[tree] == 0:
+                store_impulses(w, tree)
+        store_pair_impulses(w)
         if done == 0:
-            rouse_disturbed(floats, integers)
+            rouse_disturbed(w)
         awake = 0
         for tree in range(trees):
-            if asleep[tree] == 0:
+            if w.asleep[tree] == 0:
                 awake += 1
-                integrate_tree(floats, integers, tree, 0.5 * dt)
-                begin_step(floats, integers, tree)
+                integrate_tree(w, tree, 0.5 * dt)
+                begin_step(w, tree)
         if awake == 0:
             # Nothing will happen before the next call.
             counts[FOUND_CONTACTS] = counts[FOUND_ROWS] = counts[FOUND_PAIRS] = 0
             counts[STEPS] += steps - done
             return steps
         while True:
-            pairs = find_candidate_pairs(floats, integers)
+            pairs = find_candidate_pairs(w)
             if pairs < 0:
                 return done
             meeting = False
             for tree in range(trees):
-                if near[tree] != 0 and asleep[tree] == 0:
+                if w.near[tree] != 0 and w.asleep[tree] == 0:
                     meeting = True
-                    predict_poses(floats, integers, tree, 0.5 * dt)
+                    predict_poses(w, tree, 0.5 * dt)
             contacts = 0
             if meeting:
-                contacts = find_contacts(floats, integers, pairs)
+                contacts = find_contacts(w, pairs)
                 if contacts < 0:
                     return done
-            if not rouse_touched(floats, integers, contacts):
+            if not rouse_touched(w, contacts):
                 break
             for tree in range(trees):
-                if near[tree] != 0 and asleep[tree] == 0:
-                    evaluate(floats, integers, tree)
-        build_islands(floats, integers, trees, contacts)
+                if w.near[tree] != 0 and w.asleep[tree] == 0:
+                    evaluate(w, tree)
+        build_islands(w, trees, contacts)
         all_rows = 0
         for root in range(trees):
-            if island[root] != root or asleep[root] != 0:
+            if w.island[root] != root or w.asleep[root] != 0:
                 continue
-            rows = solve_island(floats, integers, root)
+            rows = solve_island(w, root)
             if rows < 0:
                 return done
             all_rows += rows
         total = 0.0
         for tree in range(trees):
-            if asleep[tree] != 0:
+            if w.asleep[tree] != 0:
                 continue
-            first, beyond = tree_dof[tree], tree_dof[tree + 1]
-            account(floats, integers, first, beyond, dt)
+            first, beyond = w.tree_dof[tree], w.tree_dof[tree + 1]
+            account(w, first, beyond, dt)
             for d in range(first, beyond):
-                total += v[d]
-            integrate_tree(floats, integers, tree, 0.5 * dt)
+                total += w.v[d]
+            integrate_tree(w, tree, 0.5 * dt)
         counts[FOUND_CONTACTS], counts[FOUND_ROWS], counts[FOUND_PAIRS] = contacts, all_rows, pairs
         if not math.isfinite(total):
             return done
-        let_sleep(floats, integers, contacts)
+        let_sleep(w, contacts)
         counts[STEPS] += 1
     return steps
