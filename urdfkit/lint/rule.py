@@ -6,20 +6,24 @@ checks the expanded robot. All rules yield findings at a position in the source 
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 from urdfkit.description.xml.source import Position
 from urdfkit.lint.finding import Finding
+from urdfkit.lint.model.model import Model as Model
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from collections.abc import Iterator
     from typing import Any, ClassVar, Literal
 
     from urdfkit.description.xacro.faults import Fault
     from urdfkit.description.xml.element import Element
     from urdfkit.description.xml.source import Origin
     from urdfkit.lint.finding import Fix, Severity
-    from urdfkit.lint.model.model import Model
     from urdfkit.lint.model.tags import Document
+
+Findings = Iterator[Finding]
+"""What `Rule.check` returns."""
 
 NOT_GAZEBO = frozenset(("mujoco", "isaac", "drake", "moveit"))
 """Targets that read neither ``<gazebo>`` elements nor controller configuration."""
@@ -96,7 +100,7 @@ class Rule:
 class SourceRule(Rule):
     """A rule on the source text of one file."""
 
-    def check(self, document: Document, model: Model) -> Iterator[Finding]:
+    def check(self, document: Document, model: Model) -> Findings:
         """Yield the findings in one file of the model."""
         raise NotImplementedError
 
@@ -116,7 +120,7 @@ class FaultRule(Rule):
         """Return whether this rule reports the fault."""
         return fault.kind in self.kinds
 
-    def check(self, fault: Fault, model: Model) -> Iterator[Finding]:
+    def check(self, fault: Fault, model: Model) -> Findings:
         """Yield the finding for a fault that the rule reports."""
         if self.may_be_elsewhere and (missing := model.missing_file):
             help = f"it may be defined in {missing}, which was not found"
@@ -128,6 +132,6 @@ class FaultRule(Rule):
 class RobotRule(Rule):
     """A rule on the expanded robot."""
 
-    def check(self, model: Model) -> Iterator[Finding]:
+    def check(self, model: Model) -> Findings:
         """Yield the findings about the robot."""
         raise NotImplementedError

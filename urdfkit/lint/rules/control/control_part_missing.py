@@ -2,17 +2,10 @@
 
 from __future__ import annotations
 
+from urdfkit.description.xml.element import Element
 from urdfkit.description.xml.numbers import number
 from urdfkit.lint.facts.control.hardware_interfaces import is_old, misspelt_parts
-from urdfkit.lint.rule import NOT_GAZEBO, RobotRule
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from urdfkit.description.xml.element import Element
-    from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model.model import Model
+from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
 
 _REDUCTIONS = ("mechanicalReduction", "mechanical_reduction")
 
@@ -71,7 +64,7 @@ class ControlPartMissing(RobotRule):
     severity = "warning"
     not_for = NOT_GAZEBO
 
-    def check(self, model: Model) -> Iterator[Finding]:
+    def check(self, model: Model) -> Findings:
         """Yield a finding for each missing element, one per block, and for each reduction ratio of zero."""
         if model.is_incomplete:
             return
@@ -90,7 +83,7 @@ class ControlPartMissing(RobotRule):
             for transmission_element in element.find_all("transmission"):
                 yield from self._zero_reductions(model, transmission_element)
 
-    def _zero_reductions(self, model: Model, element: Element) -> Iterator[Finding]:
+    def _zero_reductions(self, model: Model, element: Element) -> Findings:
         for part in element.walk():
             if part.tag in _REDUCTIONS and number(part.text) == 0.0:
                 yield self.at(
@@ -100,7 +93,7 @@ class ControlPartMissing(RobotRule):
                     help="write 1 if the joint has no gear",
                 )
 
-    def _missing_child(self, model: Model, element: Element, *tags: str) -> Iterator[Finding]:
+    def _missing_child(self, model: Model, element: Element, *tags: str) -> Findings:
         where = "ros2_control/hardware" if element.tag == "hardware" else element.tag
         if any(True for _ in misspelt_parts(element, where)):
             return

@@ -4,14 +4,7 @@ from __future__ import annotations
 
 from urdfkit.lint.facts.control.hardware_interfaces import INTERFACES, PACKAGE, written
 from urdfkit.lint.fix_builders import new_text
-from urdfkit.lint.rule import NOT_GAZEBO, RobotRule
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model.model import Model
+from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
 
 
 class HardwareInterfaceUnprefixed(RobotRule):
@@ -65,7 +58,7 @@ class HardwareInterfaceUnprefixed(RobotRule):
     fix = "safe"
     not_for = NOT_GAZEBO
 
-    def check(self, model: Model) -> Iterator[Finding]:
+    def check(self, model: Model) -> Findings:
         """Yield a finding for each interface without its package prefix."""
         for text, element, _ in written(model.robot):
             if text in INTERFACES:

@@ -3,14 +3,7 @@
 from __future__ import annotations
 
 from urdfkit.lint.facts.gazebo.plugins import plugins, simulated_hardware
-from urdfkit.lint.rule import NOT_GAZEBO, RobotRule
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model.model import Model
+from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
 
 _PLUGINS = {
     "gz_ros2_control/GazeboSimSystem": ("gz_ros2_control-system", "gz_ros2_control::GazeboSimROS2ControlPlugin"),
@@ -64,7 +57,7 @@ class HardwareWithoutPlugin(RobotRule):
     severity = "warning"
     not_for = NOT_GAZEBO
 
-    def check(self, model: Model) -> Iterator[Finding]:
+    def check(self, model: Model) -> Findings:
         """Yield a finding for the first Gazebo hardware that no plugin loads."""
         if model.is_incomplete or any(
             "ros2_control" in (plugin.filename or "") for plugin, _, _ in plugins(model.robot)

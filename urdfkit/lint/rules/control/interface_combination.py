@@ -3,14 +3,7 @@
 from __future__ import annotations
 
 from urdfkit.lint.facts.control.hardware_interfaces import meant_interface
-from urdfkit.lint.rule import NOT_GAZEBO, RobotRule
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model.model import Model
+from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
 
 
 class InterfaceCombination(RobotRule):
@@ -61,7 +54,7 @@ class InterfaceCombination(RobotRule):
     name = "interface-combination-invalid"
     not_for = NOT_GAZEBO
 
-    def check(self, model: Model) -> Iterator[Finding]:
+    def check(self, model: Model) -> Findings:
         """Yield a finding for each duplicate or misspelt interface."""
         for block in model.robot.ros2_control:
             for joint in block.element.find_all("joint"):

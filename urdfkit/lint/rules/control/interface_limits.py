@@ -2,17 +2,14 @@
 
 from __future__ import annotations
 
+from urdfkit.description.urdf.robot import Joint
+from urdfkit.description.xml.element import Element
 from urdfkit.description.xml.numbers import number
-from urdfkit.lint.rule import NOT_GAZEBO, RobotRule
+from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from urdfkit.description.urdf.robot import Joint
-    from urdfkit.description.xml.element import Element
-    from urdfkit.lint.finding import Finding, Severity
-    from urdfkit.lint.model.model import Model
+    from urdfkit.lint.finding import Severity
 
 _DEGREES_RATIO = 20.0
 """Ratio of a value to the limit of a revolute joint above which the value must be in degrees."""
@@ -86,7 +83,7 @@ class InterfaceLimits(RobotRule):
     severity = "warning"
     not_for = NOT_GAZEBO
 
-    def check(self, model: Model) -> Iterator[Finding]:
+    def check(self, model: Model) -> Findings:
         """Yield a finding for each command interface, at its first invalid limit."""
         for block in model.robot.ros2_control:
             for part in block.element.find_all("joint"):
@@ -94,7 +91,7 @@ class InterfaceLimits(RobotRule):
                 for interface in part.find_all("command_interface") if joint is not None else ():
                     yield from self._check_interface(model, interface, joint)
 
-    def _check_interface(self, model: Model, interface: Element, joint: Joint | None) -> Iterator[Finding]:
+    def _check_interface(self, model: Model, interface: Element, joint: Joint | None) -> Findings:
         params = {param.get("name"): param for param in interface.find_all("param")}
         values = {name: number(params[name].text) for name in ("min", "max") if name in params}
         low, high = values.get("min"), values.get("max")

@@ -3,14 +3,7 @@
 from __future__ import annotations
 
 from urdfkit.lint.facts.control.hardware_interfaces import is_old
-from urdfkit.lint.rule import NOT_GAZEBO, RobotRule
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model.model import Model
+from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
 
 
 class OldTransmissionSyntax(RobotRule):
@@ -60,7 +53,7 @@ class OldTransmissionSyntax(RobotRule):
     severity = "warning"
     not_for = NOT_GAZEBO
 
-    def check(self, model: Model) -> Iterator[Finding]:
+    def check(self, model: Model) -> Findings:
         """Yield a finding for each transmission in the obsolete syntax."""
         for transmission in model.robot.transmissions:
             if is_old(transmission):

@@ -5,14 +5,7 @@ from __future__ import annotations
 from urdfkit.lint.facts.gazebo.plugins import plugins, simulated_hardware
 from urdfkit.lint.fix_builders import nearest, new_text
 from urdfkit.lint.project.target import WITHOUT_CLASSIC
-from urdfkit.lint.rule import NOT_GAZEBO, RobotRule
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model.model import Model
+from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
 
 HARDWARE = {
     "gazebo_ros2_control": "gazebo_ros2_control/GazeboSystem",
@@ -75,7 +68,7 @@ class HardwareMismatch(RobotRule):
     fix = "unsafe"
     not_for = NOT_GAZEBO
 
-    def check(self, model: Model) -> Iterator[Finding]:
+    def check(self, model: Model) -> Findings:
         """Yield a finding for each hardware that the Gazebo plugin of the robot does not have."""
         if not model.robot.ros2_control:
             return

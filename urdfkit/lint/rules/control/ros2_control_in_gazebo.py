@@ -2,16 +2,9 @@
 
 from __future__ import annotations
 
+from urdfkit.description.xml.element import Element
 from urdfkit.lint.finding import Edit, Fix
-from urdfkit.lint.rule import NOT_GAZEBO, RobotRule
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from urdfkit.description.xml.element import Element
-    from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model.model import Model
+from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
 
 
 class Ros2ControlInGazebo(RobotRule):
@@ -54,7 +47,7 @@ class Ros2ControlInGazebo(RobotRule):
     fix = "safe"
     not_for = NOT_GAZEBO
 
-    def check(self, model: Model) -> Iterator[Finding]:
+    def check(self, model: Model) -> Findings:
         """Yield a finding for each misplaced block."""
         for block in model.robot.gazebo:
             for child in block.element.find_all("ros2_control"):

@@ -4,14 +4,7 @@ from __future__ import annotations
 
 from urdfkit.lint.fix_builders import meant, new_value
 from urdfkit.lint.model.masked_names import unless_masked
-from urdfkit.lint.rule import NOT_GAZEBO, RobotRule
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model.model import Model
+from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
 
 
 class Ros2ControlJointUndefined(RobotRule):
@@ -66,7 +59,7 @@ class Ros2ControlJointUndefined(RobotRule):
     fix = "unsafe"
     not_for = NOT_GAZEBO
 
-    def check(self, model: Model) -> Iterator[Finding]:
+    def check(self, model: Model) -> Findings:
         """Yield a finding for each undefined joint and each commanded fixed joint."""
         joints = model.robot.joint_by_name
         for block in model.robot.ros2_control:

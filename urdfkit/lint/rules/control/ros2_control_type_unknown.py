@@ -3,14 +3,7 @@
 from __future__ import annotations
 
 from urdfkit.lint.fix_builders import meant, new_value
-from urdfkit.lint.rule import NOT_GAZEBO, RobotRule
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model.model import Model
+from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
 
 _TYPES = ("system", "sensor", "actuator")
 """The types that the resource manager of ros2_control accepts."""
@@ -54,7 +47,7 @@ class Ros2ControlTypeUnknown(RobotRule):
     fix = "safe"
     not_for = NOT_GAZEBO
 
-    def check(self, model: Model) -> Iterator[Finding]:
+    def check(self, model: Model) -> Findings:
         """Yield a finding for each block of an unknown type."""
         for block in model.robot.ros2_control:
             value = block.element.get("type")

@@ -2,14 +2,7 @@
 
 from __future__ import annotations
 
-from urdfkit.lint.rule import RobotRule
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model.model import Model
+from urdfkit.lint.rule import Findings, Model, RobotRule
 
 
 class TransmissionInRos2(RobotRule):
@@ -62,7 +55,7 @@ class TransmissionInRos2(RobotRule):
         "gz",
     )
 
-    def check(self, model: Model) -> Iterator[Finding]:
+    def check(self, model: Model) -> Findings:
         """Yield a finding at the first transmission of a robot without ``<ros2_control>``."""
         robot = model.robot
         if robot.transmissions and not robot.ros2_control and not model.is_incomplete:

@@ -2,18 +2,15 @@
 
 from __future__ import annotations
 
+from urdfkit.description.urdf.robot import Transmission
+from urdfkit.description.xml.element import Element
 from urdfkit.lint.facts.control.hardware_interfaces import has_gazebo_ros_control, is_old, misspelt_parts
 from urdfkit.lint.finding import Edit, Fix
-from urdfkit.lint.rule import NOT_GAZEBO, RobotRule
+from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from urdfkit.description.urdf.robot import Transmission
-    from urdfkit.description.xml.element import Element
-    from urdfkit.lint.finding import Finding, Severity
-    from urdfkit.lint.model.model import Model
+    from urdfkit.lint.finding import Severity
 
 
 class TransmissionInterfaceMissing(RobotRule):
@@ -70,7 +67,7 @@ class TransmissionInterfaceMissing(RobotRule):
     fix = "unsafe"
     not_for = NOT_GAZEBO | {"gz", "ros2"}
 
-    def check(self, model: Model) -> Iterator[Finding]:
+    def check(self, model: Model) -> Findings:
         """Yield a finding for each joint of a transmission without a hardware interface."""
         if not model.robot.transmissions or model.robot.ros2_control:
             return

@@ -2,16 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
+from urdfkit.description.xml.element import Element
 from urdfkit.lint.fix_builders import nearest, new_text
-from urdfkit.lint.rule import NOT_GAZEBO, RobotRule
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from urdfkit.description.xml.element import Element
-    from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model.model import Model
+from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
 
 _PACKAGE = "transmission_interface"
 _TYPES = ("SimpleTransmission", "DifferentialTransmission", "FourBarLinkageTransmission")
@@ -69,7 +64,7 @@ class TransmissionTypeUnknown(RobotRule):
     fix = "safe"
     not_for = NOT_GAZEBO
 
-    def check(self, model: Model) -> Iterator[Finding]:
+    def check(self, model: Model) -> Findings:
         """Yield a finding for each misspelt transmission type."""
         for element in _type_elements(model):
             package, slash, name = element.text.rpartition("/")

@@ -2,17 +2,10 @@
 
 from __future__ import annotations
 
+from urdfkit.description.urdf.robot import Robot
 from urdfkit.lint.facts.control.hardware_interfaces import has_gazebo_ros_control
 from urdfkit.lint.facts.gazebo.plugins import plugins, spec_of
-from urdfkit.lint.rule import NOT_GAZEBO, RobotRule
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from urdfkit.description.urdf.robot import Robot
-    from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model.model import Model
+from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
 
 
 class TwoDrivers(RobotRule):
@@ -91,7 +84,7 @@ class TwoDrivers(RobotRule):
     severity = "warning"
     not_for = NOT_GAZEBO
 
-    def check(self, model: Model) -> Iterator[Finding]:
+    def check(self, model: Model) -> Findings:
         """Yield a finding for each plugin that drives joints of a controller."""
         from urdfkit.description.plugins import values
 

@@ -4,20 +4,16 @@ from __future__ import annotations
 
 import re
 
+from urdfkit.description.urdf.robot import Problem
 from urdfkit.description.xml.numbers import number
 from urdfkit.lint.facts.escaped_expressions import is_unexpanded
 from urdfkit.lint.facts.root_cause import is_no_number, root_cause
 from urdfkit.lint.finding import Edit, Fix
-from urdfkit.lint.rule import RobotRule
+from urdfkit.lint.rule import Findings, Model, RobotRule
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from urdfkit.description.urdf.robot import Problem
     from urdfkit.lint.facts.root_cause import Place
-    from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model.model import Model
 
 _COMMA = re.compile(r"\s*,\s*")
 _COUNTS = {"xyz": 3, "rpy": 3, "size": 3, "scale": 3, "rgba": 4}
@@ -65,7 +61,7 @@ class BadNumber(RobotRule):
     name = "bad-number"
     fix = "safe"
 
-    def check(self, model: Model) -> Iterator[Finding]:
+    def check(self, model: Model) -> Findings:
         """Yield a finding for each invalid number, once per property that several values use."""
         reported: set[Place] = set()
         for problem in model.robot.problems:

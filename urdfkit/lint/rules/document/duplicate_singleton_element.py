@@ -2,17 +2,15 @@
 
 from __future__ import annotations
 
+from urdfkit.description.xml.element import Element
+from urdfkit.lint.finding import Finding
 from urdfkit.lint.fix_builders import without_element
 from urdfkit.lint.model.xacro_prefix import URDF_CHILDREN
-from urdfkit.lint.rule import RobotRule
+from urdfkit.lint.rule import Findings, Model, RobotRule
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from urdfkit.description.xml.element import Element
-    from urdfkit.lint.finding import Finding, Severity
-    from urdfkit.lint.model.model import Model
+    from urdfkit.lint.finding import Severity
 
 
 class DuplicateSingletonElement(RobotRule):
@@ -61,14 +59,14 @@ class DuplicateSingletonElement(RobotRule):
     name = "duplicate-singleton-element"
     fix = "unsafe"
 
-    def check(self, model: Model) -> Iterator[Finding]:
+    def check(self, model: Model) -> Findings:
         """Yield a finding for each duplicate element."""
         for part in model.parts:
             yield from self._check_children(model, part.element)
         if model.robot.gazebo:
             yield from self._check_plugins(model)
 
-    def _check_children(self, model: Model, element: Element) -> Iterator[Finding]:
+    def _check_children(self, model: Model, element: Element) -> Findings:
         allowed, children = URDF_CHILDREN[element.tag], element.children
         if len(children) > 1:
             first_by_kind: dict[str, Element] = {}
@@ -85,7 +83,7 @@ class DuplicateSingletonElement(RobotRule):
             if child.tag in URDF_CHILDREN and child.tag in allowed and child.tag != "material":
                 yield from self._check_children(model, child)
 
-    def _check_plugins(self, model: Model) -> Iterator[Finding]:
+    def _check_plugins(self, model: Model) -> Findings:
         from urdfkit.lint.facts.gazebo.plugins import plugins, specs
 
         for plugin, _, _ in plugins(model.robot):

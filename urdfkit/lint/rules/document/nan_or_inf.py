@@ -4,14 +4,7 @@ from __future__ import annotations
 
 from urdfkit.description.urdf.values import LARGEST as BEYOND
 from urdfkit.description.xml.numbers import numbers
-from urdfkit.lint.rule import RobotRule
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model.model import Model
+from urdfkit.lint.rule import Findings, Model, RobotRule
 
 LARGEST = 1e10
 """Largest plausible value, in SI units."""
@@ -65,7 +58,7 @@ class NanOrInf(RobotRule):
     code = "E012"
     name = "nan-or-inf"
 
-    def check(self, model: Model) -> Iterator[Finding]:
+    def check(self, model: Model) -> Findings:
         """Yield a finding for each value that is not finite or implausibly large."""
         for problem in model.robot.problems:
             if problem.kind == "not-finite":

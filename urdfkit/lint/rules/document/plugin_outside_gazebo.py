@@ -2,16 +2,9 @@
 
 from __future__ import annotations
 
+from urdfkit.description.xml.element import Element
 from urdfkit.lint.finding import Edit, Fix
-from urdfkit.lint.rule import NOT_GAZEBO, RobotRule
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from urdfkit.description.xml.element import Element
-    from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model.model import Model
+from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
 
 
 class PluginOutsideGazebo(RobotRule):
@@ -50,7 +43,7 @@ class PluginOutsideGazebo(RobotRule):
     fix = "safe"
     not_for = NOT_GAZEBO
 
-    def check(self, model: Model) -> Iterator[Finding]:
+    def check(self, model: Model) -> Findings:
         """Yield a finding for each plugin and sensor outside ``<gazebo>``."""
         for element in model.robot.element.children:
             is_sensor = element.tag == "sensor" and element.find("parent") is None and element.get("type") is not None

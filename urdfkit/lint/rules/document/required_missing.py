@@ -2,14 +2,7 @@
 
 from __future__ import annotations
 
-from urdfkit.lint.rule import RobotRule
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model.model import Model
+from urdfkit.lint.rule import Findings, Model, RobotRule
 
 _OTHER_RULES = frozenset(
     (
@@ -59,7 +52,7 @@ class RequiredMissing(RobotRule):
     code = "E014"
     name = "required-child-or-attr-missing"
 
-    def check(self, model: Model) -> Iterator[Finding]:
+    def check(self, model: Model) -> Findings:
         """Yield a finding for each missing element or attribute that no other rule reports."""
         for problem in model.robot.problems:
             if problem.kind != "missing" or (problem.element.tag, problem.attribute) in _OTHER_RULES:

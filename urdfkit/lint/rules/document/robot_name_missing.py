@@ -5,14 +5,7 @@ from __future__ import annotations
 import re
 
 from urdfkit.lint.fix_builders import more_attributes, new_value
-from urdfkit.lint.rule import RobotRule
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model.model import Model
+from urdfkit.lint.rule import Findings, Model, RobotRule
 
 
 class RobotNameMissing(RobotRule):
@@ -46,7 +39,7 @@ class RobotNameMissing(RobotRule):
     name = "robot-name-missing"
     fix = "safe"
 
-    def check(self, model: Model) -> Iterator[Finding]:
+    def check(self, model: Model) -> Findings:
         """Yield a finding for a robot without a name."""
         robot = model.robot
         if robot.element.get("name") or robot.element.tag != "robot" or not robot.links or model.is_incomplete:

@@ -6,14 +6,7 @@ from math import degrees, pi, radians
 
 from urdfkit.description.xml.numbers import numbers
 from urdfkit.lint.fix_builders import new_value
-from urdfkit.lint.rule import RobotRule
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model.model import Model
+from urdfkit.lint.rule import Findings, Model, RobotRule
 
 
 class RpyInDegrees(RobotRule):
@@ -58,7 +51,7 @@ class RpyInDegrees(RobotRule):
     severity = "warning"
     fix = "unsafe"
 
-    def check(self, model: Model) -> Iterator[Finding]:
+    def check(self, model: Model) -> Findings:
         """Yield a finding for each origin whose angles appear to be in degrees."""
         for origin in model.elements:
             text = origin.get("rpy") if origin.tag == "origin" else None

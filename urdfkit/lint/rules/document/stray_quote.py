@@ -4,16 +4,9 @@ from __future__ import annotations
 
 import re
 
+from urdfkit.description.xml.element import Element
 from urdfkit.lint.fix_builders import new_text, new_value
-from urdfkit.lint.rule import RobotRule
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from urdfkit.description.xml.element import Element
-    from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model.model import Model
+from urdfkit.lint.rule import Findings, Model, RobotRule
 
 _BACKTICKS = "`\u2018\u2019\u201c\u201d"
 _QUOTES = "\"'"
@@ -74,7 +67,7 @@ class StrayQuote(RobotRule):
     severity = "warning"
     fix = "safe"
 
-    def check(self, model: Model) -> Iterator[Finding]:
+    def check(self, model: Model) -> Findings:
         """Yield a finding for each value with a stray character."""
         if not any(_is_suspect(source.text) for source in model.expanded.sources.values()):
             return

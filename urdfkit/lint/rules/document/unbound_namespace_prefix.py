@@ -5,16 +5,9 @@ from __future__ import annotations
 import re
 
 from urdfkit.lint.finding import Fix
+from urdfkit.lint.model.tags import Document
 from urdfkit.lint.model.xacro_prefix import declaration, declares_xacro, has_xacro_as_default
-from urdfkit.lint.rule import SourceRule
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model.model import Model
-    from urdfkit.lint.model.tags import Document
+from urdfkit.lint.rule import Findings, Model, SourceRule
 
 _PREFIXED = r"[<\s]([A-Za-z_][\w.-]*):[A-Za-z_][\w.-]*(?=[\s/>=])"
 _NOT_IN_NAMES = frozenset("\"'=/>")
@@ -54,7 +47,7 @@ class UnboundNamespacePrefix(SourceRule):
     name = "unbound-namespace-prefix"
     fix = "safe"
 
-    def check(self, document: Document, model: Model) -> Iterator[Finding]:
+    def check(self, document: Document, model: Model) -> Findings:
         """Yield one finding for each unbound prefix, at the root element.
 
         A default namespace that is xacro's own is reported even if no prefix is used yet.

@@ -2,16 +2,10 @@
 
 from __future__ import annotations
 
+from urdfkit.description.xml.element import Element
 from urdfkit.lint.finding import Edit, Finding, Fix
-from urdfkit.lint.rule import RobotRule
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from urdfkit.description.xml.element import Element
-    from urdfkit.lint.model.model import Model
-    from urdfkit.lint.model.tags import Document, Tag
+from urdfkit.lint.model.tags import Document, Tag
+from urdfkit.lint.rule import Findings, Model, RobotRule
 
 
 class UnexpectedText(RobotRule):
@@ -59,7 +53,7 @@ class UnexpectedText(RobotRule):
     severity = "warning"
     fix = "unsafe"
 
-    def check(self, model: Model) -> Iterator[Finding]:
+    def check(self, model: Model) -> Findings:
         """Yield a finding for each piece of text."""
         root = model.robot.element
         if root.text:
@@ -73,9 +67,7 @@ class UnexpectedText(RobotRule):
                 if written is not None:
                     yield from self._check_text(model, model.document(position.file), written, element.text, element)
 
-    def _check_text(
-        self, model: Model, document: Document, tag: Tag, expanded: str, element: Element
-    ) -> Iterator[Finding]:
+    def _check_text(self, model: Model, document: Document, tag: Tag, expanded: str, element: Element) -> Findings:
         text, source = document.source.text, document.source
         skipped = [(child.start, child.close_end) for child in tag.children]
         skipped += [

@@ -2,17 +2,10 @@
 
 from __future__ import annotations
 
+from urdfkit.description.xml.element import Element
 from urdfkit.lint.fix_builders import nearest, new_name, without_attribute
 from urdfkit.lint.model.xacro_prefix import URDF_ATTRIBUTES
-from urdfkit.lint.rule import RobotRule
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from urdfkit.description.xml.element import Element
-    from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model.model import Model
+from urdfkit.lint.rule import Findings, Model, RobotRule
 
 _ALLOWED = {tag: frozenset(names) for tag, names in URDF_ATTRIBUTES.items()}
 _FOREIGN_NAMES = {
@@ -77,14 +70,14 @@ class UnknownAttribute(RobotRule):
     severity = "warning"
     fix = "unsafe"
 
-    def check(self, model: Model) -> Iterator[Finding]:
+    def check(self, model: Model) -> Findings:
         """Yield a finding for each unknown attribute."""
         for element in model.elements:
             allowed = URDF_ATTRIBUTES.get(element.tag)
             if allowed is not None and not element.attributes.keys() <= _ALLOWED[element.tag]:
                 yield from self._check_attributes(model, element, allowed)
 
-    def _check_attributes(self, model: Model, element: Element, allowed: tuple[str, ...]) -> Iterator[Finding]:
+    def _check_attributes(self, model: Model, element: Element, allowed: tuple[str, ...]) -> Findings:
         for attribute in element.attributes:
             if attribute not in allowed and ":" not in attribute and attribute != "xmlns":
                 suggestion = _FOREIGN_NAMES.get((element.tag, attribute)) or nearest(attribute, allowed)

@@ -2,17 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
+from urdfkit.description.xml.element import Element
+from urdfkit.lint.finding import Fix
 from urdfkit.lint.fix_builders import nearest, new_tag
 from urdfkit.lint.model.xacro_prefix import URDF_ATTRIBUTES, URDF_CHILDREN, misspelt_in_robot
-from urdfkit.lint.rule import RobotRule
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from urdfkit.description.xml.element import Element
-    from urdfkit.lint.finding import Finding, Fix
-    from urdfkit.lint.model.model import Model
+from urdfkit.lint.rule import Findings, Model, RobotRule
 
 _CURRENT_NAMES = {"joint_properties": "dynamics"}
 """Obsolete names of URDF elements → current names."""
@@ -69,7 +65,7 @@ class UnknownElement(RobotRule):
     severity = "warning"
     fix = "unsafe"
 
-    def check(self, model: Model) -> Iterator[Finding]:
+    def check(self, model: Model) -> Findings:
         """Yield a finding for each unknown element."""
         robot = model.robot.element
         if robot.tag != "robot":
@@ -91,7 +87,7 @@ class UnknownElement(RobotRule):
                 hint, fix = _hint(parent, child), _renamed(model, parent, child)
                 yield self.at(model, child, _message(parent, child), joint=joint.name, help=hint, fix=fix)
 
-    def _check_control(self, model: Model) -> Iterator[Finding]:
+    def _check_control(self, model: Model) -> Findings:
         robot = model.robot
         elements = [block.element for block in robot.transmissions]
         for element in (*elements, *(block.element for block in robot.ros2_control)):

@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-from urdfkit.lint.rule import Rule
+from collections.abc import Iterable
+
+from urdfkit.lint.rule import Findings, Model, Rule
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator
-
     from urdfkit.lint.facts.suppressions import Suppression
-    from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model.model import Model
 
 
 class UnknownSuppression(Rule):
@@ -49,7 +47,7 @@ class UnknownSuppression(Rule):
     name = "unknown-suppression"
     severity = "warning"
 
-    def check(self, suppressions: Iterable[Suppression], codes: Iterable[str], model: Model) -> Iterator[Finding]:
+    def check(self, suppressions: Iterable[Suppression], codes: Iterable[str], model: Model) -> Findings:
         """Yield a finding for each malformed suppression and each unknown code."""
         from urdfkit.errors import did_you_mean
 

@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-from urdfkit.lint.rule import Rule
+from collections.abc import Collection, Iterable
+
+from urdfkit.lint.rule import Findings, Model, Rule
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from collections.abc import Collection, Iterable, Iterator
-
     from urdfkit.lint.facts.suppressions import Suppression
-    from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model.model import Model
 
 
 class UnusedSuppression(Rule):
@@ -44,7 +42,7 @@ class UnusedSuppression(Rule):
     name = "unused-suppression"
     severity = "note"
 
-    def check(self, unused: Iterable[tuple[Suppression, Collection[str]]], model: Model) -> Iterator[Finding]:
+    def check(self, unused: Iterable[tuple[Suppression, Collection[str]]], model: Model) -> Findings:
         """Yield a finding for each suppression, with its unused codes."""
         for suppression, codes in unused:
             message = f"unused suppression of `{'`, `'.join(codes)}`" if codes else "unused suppression"

@@ -3,14 +3,7 @@
 from __future__ import annotations
 
 from urdfkit.lint.fix_builders import new_value
-from urdfkit.lint.rule import RobotRule
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model.model import Model
+from urdfkit.lint.rule import Findings, Model, RobotRule
 
 
 class WrongArity(RobotRule):
@@ -53,7 +46,7 @@ class WrongArity(RobotRule):
     name = "wrong-arity"
     fix = "unsafe"
 
-    def check(self, model: Model) -> Iterator[Finding]:
+    def check(self, model: Model) -> Findings:
         """Yield a finding for each list of numbers that is too long or too short."""
         for problem in model.robot.problems:
             if problem.kind != "wrong-arity" or model.is_unresolved(problem.element, problem.attribute):

@@ -3,16 +3,9 @@
 from __future__ import annotations
 
 from urdfkit.lint.finding import Edit, Fix
+from urdfkit.lint.model.tags import Document
 from urdfkit.lint.model.xacro_prefix import NAMESPACE
-from urdfkit.lint.rule import SourceRule
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model.model import Model
-    from urdfkit.lint.model.tags import Document
+from urdfkit.lint.rule import Findings, Model, SourceRule
 
 
 class WrongXacroNamespaceUri(SourceRule):
@@ -52,7 +45,7 @@ class WrongXacroNamespaceUri(SourceRule):
     severity = "warning"
     fix = "safe"
 
-    def check(self, document: Document, model: Model) -> Iterator[Finding]:
+    def check(self, document: Document, model: Model) -> Findings:
         """Yield a finding if the root element binds the prefix to another namespace."""
         text = document.source.text
         if text.count("xmlns:xacro") == text.count(f'xmlns:xacro="{NAMESPACE}"'):

@@ -2,17 +2,10 @@
 
 from __future__ import annotations
 
+from urdfkit.description.xacro.faults import Fault
 from urdfkit.lint.finding import Edit, Fix
-from urdfkit.lint.rule import FaultRule
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from urdfkit.description.xacro.faults import Fault
-    from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model.model import Model
-    from urdfkit.lint.model.tags import Document
+from urdfkit.lint.model.tags import Document
+from urdfkit.lint.rule import FaultRule, Findings, Model
 
 
 class XmlNotWellFormed(FaultRule):
@@ -56,7 +49,7 @@ class XmlNotWellFormed(FaultRule):
         """Return whether the fault concerns well-formedness or encoding, not an unbound prefix."""
         return fault.kind in self.kinds and fault.details.get("cause") != "unbound prefix"
 
-    def check(self, fault: Fault, model: Model) -> Iterator[Finding]:
+    def check(self, fault: Fault, model: Model) -> Findings:
         """Yield the finding; for a file that ends too early, at the last character of its text."""
         if fault.kind == "encoding":
             severity, help = fault.details["severity"], "save the file as UTF-8"

@@ -2,15 +2,8 @@
 
 from __future__ import annotations
 
-from urdfkit.lint.rule import NOT_GAZEBO, RobotRule
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from urdfkit.description.xml.element import Element
-    from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model.model import Model
+from urdfkit.description.xml.element import Element
+from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
 
 
 class ConflictingBlocks(RobotRule):
@@ -51,7 +44,7 @@ class ConflictingBlocks(RobotRule):
     severity = "warning"
     not_for = NOT_GAZEBO
 
-    def check(self, model: Model) -> Iterator[Finding]:
+    def check(self, model: Model) -> Findings:
         """Yield a finding for each value that contradicts an earlier one."""
         first_by_name: dict[tuple[str, str], Element] = {}
         for block in model.robot.gazebo:

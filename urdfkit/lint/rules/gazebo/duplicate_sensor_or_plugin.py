@@ -2,16 +2,14 @@
 
 from __future__ import annotations
 
+from urdfkit.description.xml.element import Element
 from urdfkit.lint.facts.gazebo.plugins import plugins
-from urdfkit.lint.rule import NOT_GAZEBO, RobotRule
+from urdfkit.lint.finding import Finding
+from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from urdfkit.description.xml.element import Element
-    from urdfkit.lint.finding import Finding, Severity
-    from urdfkit.lint.model.model import Model
+    from urdfkit.lint.finding import Severity
 
 
 class DuplicateSensorOrPlugin(RobotRule):
@@ -51,7 +49,7 @@ class DuplicateSensorOrPlugin(RobotRule):
     name = "duplicate-sensor-or-plugin-name"
     not_for = NOT_GAZEBO
 
-    def check(self, model: Model) -> Iterator[Finding]:
+    def check(self, model: Model) -> Findings:
         """Yield a finding for each sensor or plugin whose name is already used."""
         sensors: dict[tuple[str, str], Element] = {}
         for block in model.robot.gazebo:

@@ -3,14 +3,7 @@
 from __future__ import annotations
 
 from urdfkit.lint.facts.gazebo.plugins import lumped, plugins
-from urdfkit.lint.rule import NOT_GAZEBO, RobotRule
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model.model import Model
+from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
 
 _BODIES = frozenset(("body_name", "linkName", "link_name"))
 """Plugin parameters that name a link; sdformat itself updates ``bodyName`` and ``frameName`` (parser_urdf.cc)."""
@@ -67,7 +60,7 @@ class FixedJointLumping(RobotRule):
     severity = "warning"
     not_for = NOT_GAZEBO
 
-    def check(self, model: Model) -> Iterator[Finding]:
+    def check(self, model: Model) -> Findings:
         """Yield a finding for each use of a link or joint that Gazebo merges away."""
         merged = lumped(model.robot)
         if not merged:

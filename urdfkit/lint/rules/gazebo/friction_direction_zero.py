@@ -4,14 +4,7 @@ from __future__ import annotations
 
 from urdfkit.description.xml.numbers import numbers
 from urdfkit.lint.fix_builders import without_element
-from urdfkit.lint.rule import NOT_GAZEBO, RobotRule
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model.model import Model
+from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
 
 
 class FrictionDirectionZero(RobotRule):
@@ -53,7 +46,7 @@ class FrictionDirectionZero(RobotRule):
     fix = "safe"
     not_for = NOT_GAZEBO
 
-    def check(self, model: Model) -> Iterator[Finding]:
+    def check(self, model: Model) -> Findings:
         """Yield a finding for each direction of zero length."""
         for block in model.robot.gazebo:
             for element in block.element.walk():

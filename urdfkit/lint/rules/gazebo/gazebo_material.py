@@ -2,14 +2,7 @@
 
 from __future__ import annotations
 
-from urdfkit.lint.rule import RobotRule
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model.model import Model
+from urdfkit.lint.rule import Findings, Model, RobotRule
 
 
 class GazeboMaterial(RobotRule):
@@ -51,7 +44,7 @@ class GazeboMaterial(RobotRule):
     severity = "warning"
     only_for = ("gz",)
 
-    def check(self, model: Model) -> Iterator[Finding]:
+    def check(self, model: Model) -> Findings:
         """Yield a finding for each material script."""
         for block in model.robot.gazebo:
             for child in block.element.find_all("material"):

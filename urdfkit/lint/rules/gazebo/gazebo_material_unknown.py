@@ -3,14 +3,7 @@
 from __future__ import annotations
 
 from urdfkit.lint.fix_builders import new_text
-from urdfkit.lint.rule import NOT_GAZEBO, RobotRule
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model.model import Model
+from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
 
 
 class GazeboMaterialUnknown(RobotRule):
@@ -53,7 +46,7 @@ class GazeboMaterialUnknown(RobotRule):
     fix = "unsafe"
     not_for = NOT_GAZEBO | {"gz"}
 
-    def check(self, model: Model) -> Iterator[Finding]:
+    def check(self, model: Model) -> Findings:
         """Yield a finding for each unknown material."""
         from urdfkit.description.plugins.gazebo_materials import unknown_materials
 

@@ -4,14 +4,7 @@ from __future__ import annotations
 
 from urdfkit.lint.fix_builders import meant, new_value
 from urdfkit.lint.model.masked_names import unless_masked
-from urdfkit.lint.rule import NOT_GAZEBO, RobotRule
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model.model import Model
+from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
 
 
 class GazeboReferenceUndefined(RobotRule):
@@ -52,7 +45,7 @@ class GazeboReferenceUndefined(RobotRule):
     fix = "unsafe"
     not_for = NOT_GAZEBO
 
-    def check(self, model: Model) -> Iterator[Finding]:
+    def check(self, model: Model) -> Findings:
         """Yield a finding for each block with an undefined reference."""
         robot = model.robot
         for block in robot.gazebo:

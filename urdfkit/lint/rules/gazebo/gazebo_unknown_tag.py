@@ -3,14 +3,7 @@
 from __future__ import annotations
 
 from urdfkit.lint.fix_builders import nearest, new_tag
-from urdfkit.lint.rule import NOT_GAZEBO, RobotRule
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model.model import Model
+from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
 
 KEYS = (
     "material",
@@ -117,7 +110,7 @@ class GazeboUnknownTag(RobotRule):
     fix = "unsafe"
     not_for = NOT_GAZEBO
 
-    def check(self, model: Model) -> Iterator[Finding]:
+    def check(self, model: Model) -> Findings:
         """Yield a finding for each misspelt element of a block, and each unknown element of a sensor."""
         from urdfkit.description.plugins.sensor_elements import unknown_elements
 

@@ -5,14 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from urdfkit.lint.facts.gazebo.plugins import plugins
-from urdfkit.lint.rule import NOT_GAZEBO, RobotRule
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model.model import Model
+from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
 
 
 class PluginFileMissing(RobotRule):
@@ -55,7 +48,7 @@ class PluginFileMissing(RobotRule):
     severity = "warning"
     not_for = NOT_GAZEBO
 
-    def check(self, model: Model) -> Iterator[Finding]:
+    def check(self, model: Model) -> Findings:
         """Yield a finding for each parameter file that does not exist."""
         from urdfkit.description.packages.related_files import package_of
         from urdfkit.description.packages.resolver import near_path

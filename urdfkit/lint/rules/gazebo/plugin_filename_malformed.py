@@ -2,17 +2,10 @@
 
 from __future__ import annotations
 
+from urdfkit.description.urdf.robot import Plugin
 from urdfkit.lint.facts.gazebo.plugins import plugins, specs
 from urdfkit.lint.finding import Edit, Fix
-from urdfkit.lint.rule import NOT_GAZEBO, RobotRule
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from urdfkit.description.urdf.robot import Plugin
-    from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model.model import Model
+from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
 
 
 class PluginFilenameMalformed(RobotRule):
@@ -54,7 +47,7 @@ class PluginFilenameMalformed(RobotRule):
     fix = "safe"
     not_for = NOT_GAZEBO
 
-    def check(self, model: Model) -> Iterator[Finding]:
+    def check(self, model: Model) -> Findings:
         """Yield a finding for each malformed file name."""
         for plugin, _, _ in plugins(model.robot):
             name = plugin.filename

@@ -2,17 +2,13 @@
 
 from __future__ import annotations
 
+from urdfkit.description.urdf.robot import Plugin
 from urdfkit.lint.model.masked_names import unless_masked
-from urdfkit.lint.rule import NOT_GAZEBO, RobotRule
+from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from collections.abc import Iterator
-
     from urdfkit.description.plugins import Parameter
-    from urdfkit.description.urdf.robot import Plugin
-    from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model.model import Model
 
 _MAY_BE_FIXED = ("joint", "joints")
 """Meanings of parameters whose joints are only read, by force-torque sensors and state publishers."""
@@ -72,7 +68,7 @@ class PluginJointUndefined(RobotRule):
     fix = "unsafe"
     not_for = NOT_GAZEBO
 
-    def check(self, model: Model) -> Iterator[Finding]:
+    def check(self, model: Model) -> Findings:
         """Yield a finding for each undefined joint and each fixed joint that a plugin drives."""
         if not model.robot.gazebo:
             return
@@ -86,7 +82,7 @@ class PluginJointUndefined(RobotRule):
                         if parameter.names == "joint":
                             yield from self._check(model, plugin, parameter)
 
-    def _check(self, model: Model, plugin: Plugin, parameter: Parameter) -> Iterator[Finding]:
+    def _check(self, model: Model, plugin: Plugin, parameter: Parameter) -> Findings:
         from urdfkit.description.plugins import values
         from urdfkit.errors import did_you_mean
         from urdfkit.lint.fix_builders import meant, new_text

@@ -3,14 +3,7 @@
 from __future__ import annotations
 
 from urdfkit.lint.facts.gazebo.plugins import allowed, is_foreign, plugins, specs
-from urdfkit.lint.rule import RobotRule
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model.model import Model
+from urdfkit.lint.rule import Findings, Model, RobotRule
 
 
 class PluginLibWrongGeneration(RobotRule):
@@ -58,7 +51,7 @@ class PluginLibWrongGeneration(RobotRule):
         "ros2",
     )
 
-    def check(self, model: Model) -> Iterator[Finding]:
+    def check(self, model: Model) -> Findings:
         """Yield a finding for each library of another generation."""
         from urdfkit.description.plugins import ALL_SPECS
 

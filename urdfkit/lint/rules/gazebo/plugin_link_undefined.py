@@ -5,14 +5,7 @@ from __future__ import annotations
 from urdfkit.lint.facts.gazebo.plugins import is_frame, references
 from urdfkit.lint.fix_builders import meant, new_text
 from urdfkit.lint.model.masked_names import unless_masked
-from urdfkit.lint.rule import NOT_GAZEBO, RobotRule
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model.model import Model
+from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
 
 
 class PluginLinkUndefined(RobotRule):
@@ -58,7 +51,7 @@ class PluginLinkUndefined(RobotRule):
     fix = "unsafe"
     not_for = NOT_GAZEBO
 
-    def check(self, model: Model) -> Iterator[Finding]:
+    def check(self, model: Model) -> Findings:
         """Yield a finding for each undefined link."""
         for text, element, parameter, _ in references(model, ("link", "frame")):
             if parameter.names == "frame" and parameter.meaning != "base_frame":

@@ -4,14 +4,7 @@ from __future__ import annotations
 
 from urdfkit.lint.facts.gazebo.plugins import plugins
 from urdfkit.lint.fix_builders import new_value
-from urdfkit.lint.rule import NOT_GAZEBO, RobotRule
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model.model import Model
+from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
 
 
 class PluginNameCase(RobotRule):
@@ -54,7 +47,7 @@ class PluginNameCase(RobotRule):
     fix = "safe"
     not_for = NOT_GAZEBO | {"classic", "ros1"}
 
-    def check(self, model: Model) -> Iterator[Finding]:
+    def check(self, model: Model) -> Findings:
         """Yield a finding for each class in the wrong case."""
         from urdfkit.description.plugins import ALL_SPECS
 

@@ -3,14 +3,7 @@
 from __future__ import annotations
 
 from urdfkit.lint.facts.gazebo.plugins import plugins
-from urdfkit.lint.rule import NOT_GAZEBO, RobotRule
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model.model import Model
+from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
 
 
 class PluginOrSensorUnnamed(RobotRule):
@@ -48,7 +41,7 @@ class PluginOrSensorUnnamed(RobotRule):
     name = "plugin-or-sensor-unnamed"
     not_for = NOT_GAZEBO
 
-    def check(self, model: Model) -> Iterator[Finding]:
+    def check(self, model: Model) -> Findings:
         """Yield a finding for each unnamed plugin and sensor."""
         named = [(plugin.name, plugin.element) for plugin, _, _ in plugins(model.robot)]
         named += [(sensor.name, sensor.element) for block in model.robot.gazebo for sensor in block.sensors]

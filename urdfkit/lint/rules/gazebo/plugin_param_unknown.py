@@ -4,14 +4,7 @@ from __future__ import annotations
 
 from urdfkit.lint.facts.gazebo.plugins import is_foreign, plugins, spec_of
 from urdfkit.lint.fix_builders import new_tag
-from urdfkit.lint.rule import NOT_GAZEBO, RobotRule
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model.model import Model
+from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
 
 
 class PluginParamUnknown(RobotRule):
@@ -59,7 +52,7 @@ class PluginParamUnknown(RobotRule):
     fix = "unsafe"
     not_for = NOT_GAZEBO
 
-    def check(self, model: Model) -> Iterator[Finding]:
+    def check(self, model: Model) -> Findings:
         """Yield a finding for each parameter that no generation of the plugin reads."""
         from urdfkit.description.plugins.unread_parameters import unread
 

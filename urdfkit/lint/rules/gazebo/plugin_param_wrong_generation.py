@@ -4,14 +4,7 @@ from __future__ import annotations
 
 from urdfkit.lint.facts.gazebo.plugins import plugins, spec_of, specs
 from urdfkit.lint.fix_builders import new_tag
-from urdfkit.lint.rule import NOT_GAZEBO, RobotRule
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model.model import Model
+from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
 
 _NAMES = {"ros1": "ROS 1", "ros2": "ROS 2", "gz": "Gazebo Sim"}
 
@@ -65,7 +58,7 @@ class PluginParamWrongGeneration(RobotRule):
     fix = "unsafe"
     not_for = NOT_GAZEBO
 
-    def check(self, model: Model) -> Iterator[Finding]:
+    def check(self, model: Model) -> Findings:
         """Yield a finding for each parameter that only another generation reads."""
         for plugin, _, _ in plugins(model.robot):
             spec = spec_of(plugin, model.target)

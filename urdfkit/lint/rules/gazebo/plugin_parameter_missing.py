@@ -3,14 +3,7 @@
 from __future__ import annotations
 
 from urdfkit.lint.facts.gazebo.plugins import is_foreign, plugins, spec_of, specs
-from urdfkit.lint.rule import NOT_GAZEBO, RobotRule
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model.model import Model
+from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
 
 _REQUIRED = {
     ("imu", "ros1"): ("body",),
@@ -60,7 +53,7 @@ class PluginParameterMissing(RobotRule):
     name = "plugin-parameter-missing"
     not_for = NOT_GAZEBO
 
-    def check(self, model: Model) -> Iterator[Finding]:
+    def check(self, model: Model) -> Findings:
         """Yield a finding for each required parameter that is missing, unless it is misspelt."""
         if model.is_incomplete:
             return

@@ -2,17 +2,11 @@
 
 from __future__ import annotations
 
+from urdfkit.description.urdf.robot import Plugin
 from urdfkit.lint.facts.gazebo.plugins import plugins
+from urdfkit.lint.finding import Finding
 from urdfkit.lint.fix_builders import new_value
-from urdfkit.lint.rule import NOT_GAZEBO, RobotRule
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from urdfkit.description.urdf.robot import Plugin
-    from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model.model import Model
+from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
 
 
 class PluginUnknown(RobotRule):
@@ -56,7 +50,7 @@ class PluginUnknown(RobotRule):
     fix = "unsafe"
     not_for = NOT_GAZEBO
 
-    def check(self, model: Model) -> Iterator[Finding]:
+    def check(self, model: Model) -> Findings:
         """Yield a finding for each misspelt library and each misspelt class."""
         from urdfkit.description.plugins.lookup import stem
         from urdfkit.lint.facts.gazebo.gazebo_libraries import classes, meant_class, meant_library

@@ -2,18 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
+from urdfkit.description.xml.element import Element
 from urdfkit.lint.facts.gazebo.plugins import is_frame, references
 from urdfkit.lint.fix_builders import meant, new_text
 from urdfkit.lint.model.masked_names import unless_masked
-from urdfkit.lint.rule import NOT_GAZEBO, RobotRule
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from urdfkit.description.xml.element import Element
-    from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model.model import Model
+from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
 
 
 class SensorFrameUndefined(RobotRule):
@@ -66,7 +61,7 @@ class SensorFrameUndefined(RobotRule):
     fix = "unsafe"
     not_for = NOT_GAZEBO
 
-    def check(self, model: Model) -> Iterator[Finding]:
+    def check(self, model: Model) -> Findings:
         """Yield a finding for each undefined frame of a sensor."""
         for text, element, tag in self._frames(model):
             if is_frame(text.strip().lstrip("/"), model.robot) or is_frame(text, model.robot):

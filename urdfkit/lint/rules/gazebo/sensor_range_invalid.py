@@ -2,16 +2,9 @@
 
 from __future__ import annotations
 
+from urdfkit.description.xml.element import Element
 from urdfkit.lint.facts.gazebo.plugins import spec_of
-from urdfkit.lint.rule import NOT_GAZEBO, RobotRule
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from urdfkit.description.xml.element import Element
-    from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model.model import Model
+from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
 
 
 class SensorRangeInvalid(RobotRule):
@@ -66,7 +59,7 @@ class SensorRangeInvalid(RobotRule):
     severity = "error"
     not_for = NOT_GAZEBO
 
-    def check(self, model: Model) -> Iterator[Finding]:
+    def check(self, model: Model) -> Findings:
         """Yield a finding for each invalid value."""
         from urdfkit.description.plugins.sensor_values import (
             WIDE,

@@ -3,14 +3,7 @@
 from __future__ import annotations
 
 from urdfkit.lint.fix_builders import new_value
-from urdfkit.lint.rule import RobotRule
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model.model import Model
+from urdfkit.lint.rule import Findings, Model, RobotRule
 
 _REPLACEMENTS = {"ray": "gpu_lidar", "gpu_ray": "gpu_lidar", "depth": "depth_camera", "openni_kinect": "rgbd_camera"}
 
@@ -54,7 +47,7 @@ class SensorTypeDeprecated(RobotRule):
     fix = "safe"
     only_for = ("gz",)
 
-    def check(self, model: Model) -> Iterator[Finding]:
+    def check(self, model: Model) -> Findings:
         """Yield a finding for each sensor of an unsupported type."""
         for block in model.robot.gazebo:
             for sensor in block.sensors:

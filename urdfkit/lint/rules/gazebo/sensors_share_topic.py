@@ -2,15 +2,11 @@
 
 from __future__ import annotations
 
-from urdfkit.lint.rule import NOT_GAZEBO, RobotRule
+from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from collections.abc import Iterator
-
     from urdfkit.lint.facts.gazebo.sensor_topics import Published
-    from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model.model import Model
 
 
 class SensorsShareTopic(RobotRule):
@@ -53,7 +49,7 @@ class SensorsShareTopic(RobotRule):
     severity = "warning"
     not_for = NOT_GAZEBO
 
-    def check(self, model: Model) -> Iterator[Finding]:
+    def check(self, model: Model) -> Findings:
         """Yield a finding for each sensor on the topic of another sensor, once per sensor."""
         from urdfkit.lint.facts.gazebo.sensor_topics import published
 

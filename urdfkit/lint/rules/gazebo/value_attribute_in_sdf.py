@@ -2,16 +2,9 @@
 
 from __future__ import annotations
 
+from urdfkit.description.xml.element import Element
 from urdfkit.lint.finding import Edit, Fix
-from urdfkit.lint.rule import NOT_GAZEBO, RobotRule
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from urdfkit.description.xml.element import Element
-    from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model.model import Model
+from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
 
 
 class ValueAttributeInSdf(RobotRule):
@@ -60,14 +53,14 @@ class ValueAttributeInSdf(RobotRule):
     fix = "safe"
     not_for = NOT_GAZEBO
 
-    def check(self, model: Model) -> Iterator[Finding]:
+    def check(self, model: Model) -> Findings:
         """Yield a finding for each value that SDF does not read."""
         for block in model.robot.gazebo:
             for child in block.element.children:
                 if child.tag in ("sensor", "visual", "collision", "surface"):
                     yield from self._check_children(model, child)
 
-    def _check_children(self, model: Model, element: Element) -> Iterator[Finding]:
+    def _check_children(self, model: Model, element: Element) -> Findings:
         for child in element.children:
             if child.tag == "plugin":
                 continue

@@ -3,17 +3,10 @@
 from __future__ import annotations
 
 import re
+from pathlib import Path
 
 from urdfkit.lint.model.mesh_files import meshes, path_of
-from urdfkit.lint.rule import RobotRule
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-    from pathlib import Path
-
-    from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model.model import Model
+from urdfkit.lint.rule import Findings, Model, RobotRule
 
 
 class ColladaUpAxis(RobotRule):
@@ -49,7 +42,7 @@ class ColladaUpAxis(RobotRule):
     name = "collada-unit-or-upaxis"
     severity = "warning"
 
-    def check(self, model: Model) -> Iterator[Finding]:
+    def check(self, model: Model) -> Findings:
         """Yield a finding for each COLLADA file whose up axis or unit differs from URDF."""
         assets: dict[str, tuple[str, float]] = {}
         for mesh, element, link in meshes(model.robot):

@@ -7,14 +7,7 @@ import re
 from urdfkit.description.urdf.robot import Mesh
 from urdfkit.description.xml.numbers import numbers
 from urdfkit.lint.fix_builders import new_value
-from urdfkit.lint.rule import RobotRule
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model.model import Model
+from urdfkit.lint.rule import Findings, Model, RobotRule
 
 _INTENTIONAL = re.compile(r"invis|transparen|hidden|clear|none|ghost|empty", re.IGNORECASE)
 
@@ -63,7 +56,7 @@ class MaterialInvisible(RobotRule):
     severity = "warning"
     fix = "unsafe"
 
-    def check(self, model: Model) -> Iterator[Finding]:
+    def check(self, model: Model) -> Findings:
         """Yield a finding for each invisible colour."""
         used = set()
         for link in model.robot.links:

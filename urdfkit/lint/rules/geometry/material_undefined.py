@@ -2,16 +2,9 @@
 
 from __future__ import annotations
 
+from urdfkit.description.urdf.robot import Material
 from urdfkit.lint.finding import Edit, Fix
-from urdfkit.lint.rule import RobotRule
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from urdfkit.description.urdf.robot import Material
-    from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model.model import Model
+from urdfkit.lint.rule import Findings, Model, RobotRule
 
 _COLOURS = {
     "black": "0 0 0 1",
@@ -76,7 +69,7 @@ class MaterialUndefined(RobotRule):
     severity = "warning"
     fix = "unsafe"
 
-    def check(self, model: Model) -> Iterator[Finding]:
+    def check(self, model: Model) -> Findings:
         """Yield a finding for each use of an undefined material."""
         if model.missing_file:
             return

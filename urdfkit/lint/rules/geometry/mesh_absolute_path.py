@@ -6,14 +6,7 @@ import re
 
 from urdfkit.lint.fix_builders import new_value
 from urdfkit.lint.model.mesh_files import is_absolute, meshes
-from urdfkit.lint.rule import RobotRule
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model.model import Model
+from urdfkit.lint.rule import Findings, Model, RobotRule
 
 
 class MeshAbsolutePath(RobotRule):
@@ -54,7 +47,7 @@ class MeshAbsolutePath(RobotRule):
     severity = "warning"
     fix = "unsafe"
 
-    def check(self, model: Model) -> Iterator[Finding]:
+    def check(self, model: Model) -> Findings:
         """Yield a finding for each literal absolute path."""
         for mesh, element, link in meshes(model.robot):
             uri = mesh.uri.strip()

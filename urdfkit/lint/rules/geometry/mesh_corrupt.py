@@ -3,17 +3,10 @@
 from __future__ import annotations
 
 import re
+from pathlib import Path
 
 from urdfkit.lint.model.mesh_files import LFS, meshes, path_of
-from urdfkit.lint.rule import RobotRule
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-    from pathlib import Path
-
-    from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model.model import Model
+from urdfkit.lint.rule import Findings, Model, RobotRule
 
 _LARGE = 64 * 2**20
 """Size in bytes above which files are not searched for triangles."""
@@ -59,7 +52,7 @@ class MeshCorrupt(RobotRule):
     code = "G607"
     name = "mesh-corrupt-or-lfs-pointer"
 
-    def check(self, model: Model) -> Iterator[Finding]:
+    def check(self, model: Model) -> Findings:
         """Yield a finding for each file that contains no mesh."""
         faults: dict[str, str] = {}
         for mesh, element, link in meshes(model.robot):

@@ -6,14 +6,7 @@ import re
 
 from urdfkit.lint.fix_builders import new_value
 from urdfkit.lint.model.mesh_files import is_absolute, meshes, missing
-from urdfkit.lint.rule import RobotRule
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model.model import Model
+from urdfkit.lint.rule import Findings, Model, RobotRule
 
 
 class MeshFileMissing(RobotRule):
@@ -53,7 +46,7 @@ class MeshFileMissing(RobotRule):
     name = "mesh-file-missing"
     fix = "unsafe"
 
-    def check(self, model: Model) -> Iterator[Finding]:
+    def check(self, model: Model) -> Findings:
         """Yield a finding for each missing mesh file."""
         failures: dict[str, tuple[str, str] | None] = {}
         for mesh, element, link in meshes(model.robot):

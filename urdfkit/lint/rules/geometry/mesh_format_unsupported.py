@@ -3,14 +3,7 @@
 from __future__ import annotations
 
 from urdfkit.lint.model.mesh_files import meshes
-from urdfkit.lint.rule import RobotRule
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model.model import Model
+from urdfkit.lint.rule import Findings, Model, RobotRule
 
 _USUAL = frozenset(("stl", "stlb", "dae", "obj", "glb", "gltf", "ply"))
 _FORMATS = {
@@ -55,7 +48,7 @@ class MeshFormatUnsupported(RobotRule):
     name = "mesh-format-unsupported"
     severity = "warning"
 
-    def check(self, model: Model) -> Iterator[Finding]:
+    def check(self, model: Model) -> Findings:
         """Yield a finding for each mesh of an unsupported format."""
         formats = _FORMATS.get(model.target or "", _USUAL)
         for mesh, element, link in meshes(model.robot):

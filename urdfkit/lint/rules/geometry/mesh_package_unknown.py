@@ -3,14 +3,7 @@
 from __future__ import annotations
 
 from urdfkit.lint.model.mesh_files import meshes, missing
-from urdfkit.lint.rule import RobotRule
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model.model import Model
+from urdfkit.lint.rule import Findings, Model, RobotRule
 
 
 class MeshPackageUnknown(RobotRule):
@@ -47,7 +40,7 @@ class MeshPackageUnknown(RobotRule):
     name = "mesh-package-unknown"
     severity = "warning"
 
-    def check(self, model: Model) -> Iterator[Finding]:
+    def check(self, model: Model) -> Findings:
         """Yield a finding for each missing package, at its first mesh."""
         reported: set[str] = set()
         for mesh, element, link in meshes(model.robot):

@@ -5,20 +5,12 @@ from __future__ import annotations
 from math import dist, sqrt
 
 from urdfkit.description.urdf.geometry import box_around
-from urdfkit.description.urdf.robot import Mesh
+from urdfkit.description.urdf.robot import Link, Mesh
 from urdfkit.lint.facts.inertia.principal_moments import principal_moments
 from urdfkit.lint.fix_builders import more_attributes, new_value
 from urdfkit.lint.model.mesh_files import meshes
 from urdfkit.lint.model.placement import shapes_of
-from urdfkit.lint.rule import RobotRule
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from urdfkit.description.urdf.robot import Link
-    from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model.model import Model
+from urdfkit.lint.rule import Findings, Model, RobotRule
 
 MAX_RATIO = 50.0
 """Largest plausible ratio between the sizes of parts of one robot."""
@@ -85,7 +77,7 @@ class MeshScaleSuspect(RobotRule):
     severity = "warning"
     fix = "unsafe"
 
-    def check(self, model: Model) -> Iterator[Finding]:
+    def check(self, model: Model) -> Findings:
         """Yield a finding for each mesh that is far too large or too small."""
         sized_meshes = [(mesh, element, link, _size(model, mesh)) for mesh, element, link in meshes(model.robot)]
         if not any(size for *_, size in sized_meshes):

@@ -3,17 +3,10 @@
 from __future__ import annotations
 
 from urdfkit.description.xml.numbers import numbers
+from urdfkit.description.xml.source import Position
 from urdfkit.lint.facts.root_cause import is_not_positive, root_cause
 from urdfkit.lint.model.placement import shapes_of
-from urdfkit.lint.rule import RobotRule
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from urdfkit.description.xml.source import Position
-    from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model.model import Model
+from urdfkit.lint.rule import Findings, Model, RobotRule
 
 _SIZES = {
     "box": ("size",),
@@ -55,7 +48,7 @@ class NonpositivePrimitive(RobotRule):
     code = "G611"
     name = "nonpositive-primitive"
 
-    def check(self, model: Model) -> Iterator[Finding]:
+    def check(self, model: Model) -> Findings:
         """Yield a finding for each size that is not positive, once per property or argument that several shapes use."""
         reported: set[tuple[Position, str]] = set()
         for link in model.robot.links:

@@ -3,14 +3,7 @@
 from __future__ import annotations
 
 from urdfkit.lint.fix_builders import new_value
-from urdfkit.lint.rule import RobotRule
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model.model import Model
+from urdfkit.lint.rule import Findings, Model, RobotRule
 
 ROUNDING = 0.01
 """Tolerance for rounded components."""
@@ -55,7 +48,7 @@ class RgbaOutOfRange(RobotRule):
     severity = "warning"
     fix = "safe"
 
-    def check(self, model: Model) -> Iterator[Finding]:
+    def check(self, model: Model) -> Findings:
         """Yield a finding for each colour out of range."""
         inside = [visual.material for link in model.robot.links for visual in link.visuals]
         for material in (*model.robot.materials, *inside):

@@ -5,14 +5,7 @@ from __future__ import annotations
 from math import dist
 
 from urdfkit.description.urdf.robot import Mesh, Visual
-from urdfkit.lint.rule import RobotRule
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model.model import Model
+from urdfkit.lint.rule import Findings, Model, RobotRule
 
 _MIN_ALPHA = 0.5
 """Visuals with a smaller alpha are translucent."""
@@ -68,7 +61,7 @@ class ShapesApart(RobotRule):
     name = "shapes-apart"
     severity = "warning"
 
-    def check(self, model: Model) -> Iterator[Finding]:
+    def check(self, model: Model) -> Findings:
         """Yield a finding for each shape that is far from the other shapes of its link, or far larger."""
         for link in model.robot.links:
             extent = model.extents.get(link.name)

@@ -3,14 +3,11 @@
 from __future__ import annotations
 
 from urdfkit.lint.facts.gazebo.drive_wheels import drives
-from urdfkit.lint.rule import RobotRule
+from urdfkit.lint.rule import Findings, Model, RobotRule
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from urdfkit.lint.finding import Finding, Severity
-    from urdfkit.lint.model.model import Model
+    from urdfkit.lint.finding import Severity
 
 
 class VisualWithoutCollision(RobotRule):
@@ -64,7 +61,7 @@ class VisualWithoutCollision(RobotRule):
     name = "visual-without-collision"
     severity = "note"
 
-    def check(self, model: Model) -> Iterator[Finding]:
+    def check(self, model: Model) -> Findings:
         """Yield a finding for each link without a collision shape, at its first visual."""
         if not any(link.collisions for link in model.robot.links):
             return

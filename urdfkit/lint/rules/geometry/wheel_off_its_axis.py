@@ -3,17 +3,9 @@
 from __future__ import annotations
 
 from urdfkit.description.urdf.geometry import rotation_of, unit
-from urdfkit.description.urdf.robot import Cylinder, Sphere
+from urdfkit.description.urdf.robot import Cylinder, Sphere, Vector
 from urdfkit.lint.fix_builders import new_value
-from urdfkit.lint.rule import RobotRule
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from urdfkit.description.urdf.robot import Vector
-    from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model.model import Model
+from urdfkit.lint.rule import Findings, Model, RobotRule
 
 
 class WheelOffItsAxis(RobotRule):
@@ -74,7 +66,7 @@ class WheelOffItsAxis(RobotRule):
     severity = "warning"
     fix = "unsafe"
 
-    def check(self, model: Model) -> Iterator[Finding]:
+    def check(self, model: Model) -> Findings:
         """Yield a finding for each wheel that is off its axis by more than a tenth of its radius."""
         for joint in model.robot.joints:
             wheel = model.robot.link_by_name.get(joint.child or "")

@@ -3,14 +3,7 @@
 from __future__ import annotations
 
 from urdfkit.lint.facts.gazebo.plugins import is_simulated
-from urdfkit.lint.rule import RobotRule
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model.model import Model
+from urdfkit.lint.rule import Findings, Model, RobotRule
 
 
 class CollisionWithoutInertial(RobotRule):
@@ -70,7 +63,7 @@ class CollisionWithoutInertial(RobotRule):
     name = "collision-without-inertial"
     severity = "note"
 
-    def check(self, model: Model) -> Iterator[Finding]:
+    def check(self, model: Model) -> Findings:
         """Yield a finding for each fixed link with a collision shape and without a mass."""
         robot = model.robot
         if all(link.inertial is None for link in robot.links) and not is_simulated(model):

@@ -2,14 +2,7 @@
 
 from __future__ import annotations
 
-from urdfkit.lint.rule import RobotRule
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model.model import Model
+from urdfkit.lint.rule import Findings, Model, RobotRule
 
 TOLERANCE = 0.1
 """Tolerance relative to the diagonal of the bounding box; simplified shapes omit parts of the body."""
@@ -74,7 +67,7 @@ class ComOutsideGeometry(RobotRule):
     name = "com-outside-geometry"
     severity = "warning"
 
-    def check(self, model: Model) -> Iterator[Finding]:
+    def check(self, model: Model) -> Findings:
         """Yield a finding for each centre of mass outside the shapes."""
         for link in model.robot.links:
             inertial = link.inertial

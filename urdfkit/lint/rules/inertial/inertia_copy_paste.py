@@ -4,16 +4,9 @@ from __future__ import annotations
 
 from itertools import pairwise
 
+from urdfkit.description.urdf.robot import Link
 from urdfkit.lint.facts.inertia.inertia_tensor import COMPONENTS
-from urdfkit.lint.rule import RobotRule
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from urdfkit.description.urdf.robot import Link
-    from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model.model import Model
+from urdfkit.lint.rule import Findings, Model, RobotRule
 
 
 class InertiaCopyPaste(RobotRule):
@@ -80,7 +73,7 @@ class InertiaCopyPaste(RobotRule):
     name = "inertia-copy-paste"
     severity = "note"
 
-    def check(self, model: Model) -> Iterator[Finding]:
+    def check(self, model: Model) -> Findings:
         """Yield a finding for each tensor that several links of different size share, at the first link."""
         groups: dict[tuple[float, ...], list[Link]] = {}
         for link in model.robot.links:

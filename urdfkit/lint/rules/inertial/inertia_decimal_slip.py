@@ -4,14 +4,7 @@ from __future__ import annotations
 
 from urdfkit.lint.facts.inertia.inertia_tensor import tensor_of
 from urdfkit.lint.fix_builders import new_value
-from urdfkit.lint.rule import RobotRule
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model.model import Model
+from urdfkit.lint.rule import Findings, Model, RobotRule
 
 AGREEMENT = 1.7
 """Factor within which a moment agrees with that at uniform density."""
@@ -65,7 +58,7 @@ class InertiaDecimalSlip(RobotRule):
     severity = "warning"
     fix = "unsafe"
 
-    def check(self, model: Model) -> Iterator[Finding]:
+    def check(self, model: Model) -> Findings:
         """Yield a finding for each moment that is off by a power of ten."""
         for link in model.robot.links:
             inertial = link.inertial

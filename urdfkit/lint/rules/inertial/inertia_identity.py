@@ -6,14 +6,7 @@ from math import sqrt
 
 from urdfkit.lint.facts.inertia.inertia_tensor import computed, tensor_of
 from urdfkit.lint.facts.inertia.principal_moments import is_identity
-from urdfkit.lint.rule import RobotRule
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model.model import Model
+from urdfkit.lint.rule import Findings, Model, RobotRule
 
 MIN_MOMENT, MAX_MOMENT = 0.1, 25.0
 """[kg·m²] Range of the largest moment at uniform density for which an identity tensor is plausible."""
@@ -65,7 +58,7 @@ class InertiaIdentity(RobotRule):
     severity = "warning"
     fix = "unsafe"
 
-    def check(self, model: Model) -> Iterator[Finding]:
+    def check(self, model: Model) -> Findings:
         """Yield a finding for each identity that the shapes do not explain."""
         for link in model.robot.links:
             mass = link.inertial.mass if link.inertial is not None else None

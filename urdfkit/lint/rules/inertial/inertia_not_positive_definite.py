@@ -3,14 +3,7 @@
 from __future__ import annotations
 
 from urdfkit.lint.facts.inertia.principal_moments import principal_moments, reordered
-from urdfkit.lint.rule import RobotRule
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model.model import Model
+from urdfkit.lint.rule import Findings, Model, RobotRule
 
 TOLERANCE = 1e-9
 """Tolerance relative to the largest principal moment; rounding errors are about 1e-15."""
@@ -55,7 +48,7 @@ class InertiaNotPositiveDefinite(RobotRule):
     code = "I502"
     name = "inertia-not-positive-definite"
 
-    def check(self, model: Model) -> Iterator[Finding]:
+    def check(self, model: Model) -> Findings:
         """Yield a finding for each tensor that is not positive definite."""
         for link in model.robot.links:
             mass = link.inertial.mass if link.inertial is not None else None

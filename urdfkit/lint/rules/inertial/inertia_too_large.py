@@ -4,18 +4,11 @@ from __future__ import annotations
 
 from math import sqrt
 
+from urdfkit.description.urdf.robot import Link
+from urdfkit.description.xml.element import Element
 from urdfkit.lint.facts.inertia.inertia_tensor import computed
 from urdfkit.lint.facts.inertia.principal_moments import is_identity, principal_moments
-from urdfkit.lint.rule import RobotRule
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from urdfkit.description.urdf.robot import Link
-    from urdfkit.description.xml.element import Element
-    from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model.model import Model
+from urdfkit.lint.rule import Findings, Model, RobotRule
 
 MARGIN = 1.2
 """Largest plausible ratio; simplified shapes may be slightly smaller than the body."""
@@ -74,7 +67,7 @@ class InertiaTooLarge(RobotRule):
     severity = "warning"
     fix = "unsafe"
 
-    def check(self, model: Model) -> Iterator[Finding]:
+    def check(self, model: Model) -> Findings:
         """Yield a finding for each tensor that is too large for the shapes."""
         plausible: list[Element] = []
         implausible: list[tuple[Link, Element, str]] = []

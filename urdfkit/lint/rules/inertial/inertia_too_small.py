@@ -4,20 +4,12 @@ from __future__ import annotations
 
 from math import sqrt
 
-from urdfkit.description.urdf.robot import Mesh
+from urdfkit.description.urdf.robot import Link, Mesh
+from urdfkit.description.xml.element import Element
 from urdfkit.lint.facts.inertia.inertia_tensor import computed
 from urdfkit.lint.facts.inertia.principal_moments import principal_moments
 from urdfkit.lint.model.placement import shapes_of
-from urdfkit.lint.rule import RobotRule
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from urdfkit.description.urdf.robot import Link
-    from urdfkit.description.xml.element import Element
-    from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model.model import Model
+from urdfkit.lint.rule import Findings, Model, RobotRule
 
 MIN_RATIO = 0.05
 """Smallest plausible ratio; a solid ball has 0.63, a rod 0.58, and links with a motor at one end have less."""
@@ -75,7 +67,7 @@ class InertiaTooSmall(RobotRule):
     severity = "warning"
     fix = "unsafe"
 
-    def check(self, model: Model) -> Iterator[Finding]:
+    def check(self, model: Model) -> Findings:
         """Yield a finding for each tensor that is too small for the shapes."""
         plausible: list[Element] = []
         implausible: list[tuple[Link, Element, str]] = []

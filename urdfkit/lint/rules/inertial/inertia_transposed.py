@@ -5,14 +5,7 @@ from __future__ import annotations
 from urdfkit.lint.facts.inertia.inertia_tensor import COMPONENTS
 from urdfkit.lint.facts.inertia.principal_moments import reordered
 from urdfkit.lint.fix_builders import new_values
-from urdfkit.lint.rule import RobotRule
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model.model import Model
+from urdfkit.lint.rule import Findings, Model, RobotRule
 
 
 class InertiaTransposed(RobotRule):
@@ -58,7 +51,7 @@ class InertiaTransposed(RobotRule):
     name = "inertia-transposed"
     fix = "unsafe"
 
-    def check(self, model: Model) -> Iterator[Finding]:
+    def check(self, model: Model) -> Findings:
         """Yield a finding for each tensor that is possible in another order."""
         for link in model.robot.links:
             for element in link.inertial.element.find_all("inertia") if link.inertial is not None else ():

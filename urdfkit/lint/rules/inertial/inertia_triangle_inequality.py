@@ -3,14 +3,7 @@
 from __future__ import annotations
 
 from urdfkit.lint.facts.inertia.principal_moments import principal_moments, reordered, shown
-from urdfkit.lint.rule import RobotRule
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model.model import Model
+from urdfkit.lint.rule import Findings, Model, RobotRule
 
 TOLERANCE = 1e-3
 """Violations up to this fraction of the largest moment result from rounded numbers and are notes."""
@@ -58,7 +51,7 @@ class InertiaTriangleInequality(RobotRule):
     code = "I503"
     name = "inertia-triangle-inequality"
 
-    def check(self, model: Model) -> Iterator[Finding]:
+    def check(self, model: Model) -> Findings:
         """Yield a finding for each tensor that violates the inequality."""
         for link in model.robot.links:
             for moments, element in principal_moments(link):

@@ -4,14 +4,7 @@ from __future__ import annotations
 
 from urdfkit.description.urdf.masses import massless
 from urdfkit.lint.facts.inertia.inertia_tensor import COMPONENTS, computed
-from urdfkit.lint.rule import RobotRule
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model.model import Model
+from urdfkit.lint.rule import Findings, Model, RobotRule
 
 
 class InertiaZero(RobotRule):
@@ -69,7 +62,7 @@ class InertiaZero(RobotRule):
     name = "inertia-zero"
     fix = "unsafe"
 
-    def check(self, model: Model) -> Iterator[Finding]:
+    def check(self, model: Model) -> Findings:
         """Yield a finding for each tensor of zeros."""
         moving: set[str] | None = None
         for link in model.robot.links:

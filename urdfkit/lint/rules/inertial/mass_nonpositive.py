@@ -4,14 +4,7 @@ from __future__ import annotations
 
 from urdfkit.description.urdf.masses import massless
 from urdfkit.lint.facts.gazebo.plugins import is_simulated
-from urdfkit.lint.rule import RobotRule
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model.model import Model
+from urdfkit.lint.rule import Findings, Model, RobotRule
 
 _HELP = "set a mass greater than 0 kg"
 
@@ -56,7 +49,7 @@ class MassNonpositive(RobotRule):
     code = "I501"
     name = "mass-nonpositive"
 
-    def check(self, model: Model) -> Iterator[Finding]:
+    def check(self, model: Model) -> Findings:
         """Yield a finding for each negative mass and each mass of zero of a moving link."""
         moved: dict[str, str] | None = None
         fixed = {joint.child for joint in model.robot.joints if joint.type == "fixed"}

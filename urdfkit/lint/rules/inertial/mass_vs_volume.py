@@ -2,14 +2,7 @@
 
 from __future__ import annotations
 
-from urdfkit.lint.rule import RobotRule
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model.model import Model
+from urdfkit.lint.rule import Findings, Model, RobotRule
 
 MIN_DENSITY, MAX_DENSITY = 1.0, 25000.0
 """[kg/m³] Range of plausible densities."""
@@ -60,7 +53,7 @@ class MassVsVolume(RobotRule):
     name = "mass-vs-volume-density"
     severity = "warning"
 
-    def check(self, model: Model) -> Iterator[Finding]:
+    def check(self, model: Model) -> Findings:
         """Yield a finding for each link with an implausible density."""
         for link in model.robot.links:
             mass = link.inertial.mass if link.inertial is not None else None

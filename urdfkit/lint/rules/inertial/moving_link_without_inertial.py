@@ -3,17 +3,14 @@
 from __future__ import annotations
 
 from urdfkit.description.urdf.masses import massless
+from urdfkit.description.urdf.robot import Joint
 from urdfkit.description.xml.numbers import number
 from urdfkit.lint.facts.gazebo.plugins import is_simulated
-from urdfkit.lint.rule import RobotRule
+from urdfkit.lint.rule import Findings, Model, RobotRule
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from urdfkit.description.urdf.robot import Joint
-    from urdfkit.lint.finding import Finding, Severity
-    from urdfkit.lint.model.model import Model
+    from urdfkit.lint.finding import Severity
 
 
 class MovingLinkWithoutInertial(RobotRule):
@@ -78,7 +75,7 @@ class MovingLinkWithoutInertial(RobotRule):
     severity = "note"
     not_for = frozenset(("moveit",))
 
-    def check(self, model: Model) -> Iterator[Finding]:
+    def check(self, model: Model) -> Findings:
         """Yield a finding for each moving body without a mass or inertia; one for a robot without any mass."""
         robot = model.robot
         if model.is_incomplete:

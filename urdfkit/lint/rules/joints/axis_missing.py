@@ -3,14 +3,7 @@
 from __future__ import annotations
 
 from urdfkit.lint.fix_builders import more_children
-from urdfkit.lint.rule import RobotRule
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model.model import Model
+from urdfkit.lint.rule import Findings, Model, RobotRule
 
 
 class AxisMissing(RobotRule):
@@ -62,7 +55,7 @@ class AxisMissing(RobotRule):
     severity = "note"
     fix = "safe"
 
-    def check(self, model: Model) -> Iterator[Finding]:
+    def check(self, model: Model) -> Findings:
         """Yield a finding for each joint that relies on the default axis."""
         for joint in model.robot.joints:
             if (

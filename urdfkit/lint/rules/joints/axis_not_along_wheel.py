@@ -3,18 +3,10 @@
 from __future__ import annotations
 
 from urdfkit.description.urdf.geometry import rotate, rotation_of, unit
-from urdfkit.description.urdf.robot import Cylinder
+from urdfkit.description.urdf.robot import Cylinder, Joint, Vector
 from urdfkit.description.xml.numbers import numbers
 from urdfkit.lint.model.placement import shapes_of
-from urdfkit.lint.rule import RobotRule
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from urdfkit.description.urdf.robot import Joint, Vector
-    from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model.model import Model
+from urdfkit.lint.rule import Findings, Model, RobotRule
 
 PARALLEL = 0.985
 """Cosine of 10 degrees, the largest accepted deviation, so that cambered wheels pass."""
@@ -71,7 +63,7 @@ class AxisNotAlongWheel(RobotRule):
     name = "axis-not-along-wheel"
     severity = "warning"
 
-    def check(self, model: Model) -> Iterator[Finding]:
+    def check(self, model: Model) -> Findings:
         """Yield a finding for each wheel whose axis is off by more than 10 degrees."""
         for joint in model.robot.joints:
             axis = unit(joint.axis)

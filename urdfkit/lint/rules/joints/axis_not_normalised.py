@@ -4,14 +4,7 @@ from __future__ import annotations
 
 from urdfkit.description.urdf.geometry import unit
 from urdfkit.lint.fix_builders import new_value
-from urdfkit.lint.rule import RobotRule
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model.model import Model
+from urdfkit.lint.rule import Findings, Model, RobotRule
 
 TOLERANCE = 1e-3
 """Accepted deviation of the length from 1, so that rounded axes (0.577 0.577 0.577) pass."""
@@ -61,7 +54,7 @@ class AxisNotNormalised(RobotRule):
     severity = "warning"
     fix = "safe"
 
-    def check(self, model: Model) -> Iterator[Finding]:
+    def check(self, model: Model) -> Findings:
         """Yield a finding for each axis that is not a unit vector."""
         for joint in model.robot.joints:
             length = sum(value * value for value in joint.axis) ** 0.5

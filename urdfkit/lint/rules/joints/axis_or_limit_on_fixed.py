@@ -3,14 +3,7 @@
 from __future__ import annotations
 
 from urdfkit.lint.fix_builders import without_element
-from urdfkit.lint.rule import RobotRule
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model.model import Model
+from urdfkit.lint.rule import Findings, Model, RobotRule
 
 
 class AxisOrLimitOnFixed(RobotRule):
@@ -57,7 +50,7 @@ class AxisOrLimitOnFixed(RobotRule):
     severity = "note"
     fix = "safe"
 
-    def check(self, model: Model) -> Iterator[Finding]:
+    def check(self, model: Model) -> Findings:
         """Yield a finding for each axis or limit of a fixed joint."""
         for joint in model.robot.joints:
             if joint.type != "fixed":

@@ -2,14 +2,7 @@
 
 from __future__ import annotations
 
-from urdfkit.lint.rule import RobotRule
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model.model import Model
+from urdfkit.lint.rule import Findings, Model, RobotRule
 
 
 class AxisZero(RobotRule):
@@ -51,7 +44,7 @@ class AxisZero(RobotRule):
     code = "J411"
     name = "axis-zero"
 
-    def check(self, model: Model) -> Iterator[Finding]:
+    def check(self, model: Model) -> Findings:
         """Yield a finding for each axis of length zero."""
         for joint in model.robot.joints:
             if joint.type in ("revolute", "continuous", "prismatic", "planar") and not any(joint.axis):

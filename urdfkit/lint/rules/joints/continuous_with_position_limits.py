@@ -6,14 +6,7 @@ from math import pi
 
 from urdfkit.lint.finding import Fix
 from urdfkit.lint.fix_builders import without_attribute
-from urdfkit.lint.rule import RobotRule
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model.model import Model
+from urdfkit.lint.rule import Findings, Model, RobotRule
 
 
 class ContinuousWithPositionLimits(RobotRule):
@@ -63,7 +56,7 @@ class ContinuousWithPositionLimits(RobotRule):
     severity = "warning"
     fix = "unsafe"
 
-    def check(self, model: Model) -> Iterator[Finding]:
+    def check(self, model: Model) -> Findings:
         """Yield a finding for each continuous joint with position limits."""
         for joint in model.robot.joints:
             limit = joint.limit

@@ -2,14 +2,7 @@
 
 from __future__ import annotations
 
-from urdfkit.lint.rule import RobotRule
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model.model import Model
+from urdfkit.lint.rule import Findings, Model, RobotRule
 
 _LINEAR_UNITS = {"damping": "N·s/m", "friction": "N"}
 _ANGULAR_UNITS = {"damping": "N·m·s/rad", "friction": "N·m"}
@@ -58,7 +51,7 @@ class DynamicsEmptyOrNegative(RobotRule):
     name = "dynamics-empty-or-negative"
     severity = "warning"
 
-    def check(self, model: Model) -> Iterator[Finding]:
+    def check(self, model: Model) -> Findings:
         """Yield a finding for each ``<dynamics>`` that is empty, and for each negative value."""
         for joint in model.robot.joints:
             dynamics = joint.dynamics

@@ -2,14 +2,7 @@
 
 from __future__ import annotations
 
-from urdfkit.lint.rule import RobotRule
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model.model import Model
+from urdfkit.lint.rule import Findings, Model, RobotRule
 
 
 class EffortOrVelocityZero(RobotRule):
@@ -56,7 +49,7 @@ class EffortOrVelocityZero(RobotRule):
     severity = "note"
     not_for = frozenset(("moveit",))
 
-    def check(self, model: Model) -> Iterator[Finding]:
+    def check(self, model: Model) -> Findings:
         """Yield a finding for each joint with a limit of zero."""
         for joint in model.robot.joints:
             limit = joint.limit

@@ -2,16 +2,9 @@
 
 from __future__ import annotations
 
+from urdfkit.description.urdf.robot import Joint
 from urdfkit.lint.fix_builders import more_attributes
-from urdfkit.lint.rule import RobotRule
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from urdfkit.description.urdf.robot import Joint
-    from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model.model import Model
+from urdfkit.lint.rule import Findings, Model, RobotRule
 
 
 class JointTypeMissing(RobotRule):
@@ -58,7 +51,7 @@ class JointTypeMissing(RobotRule):
     name = "joint-type-missing"
     fix = "unsafe"
 
-    def check(self, model: Model) -> Iterator[Finding]:
+    def check(self, model: Model) -> Findings:
         """Yield a finding for each joint without a type."""
         from urdfkit.description.urdf.robot import JOINT_TYPES
 

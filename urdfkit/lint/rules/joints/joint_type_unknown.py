@@ -3,14 +3,7 @@
 from __future__ import annotations
 
 from urdfkit.lint.fix_builders import nearest, new_value
-from urdfkit.lint.rule import RobotRule
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model.model import Model
+from urdfkit.lint.rule import Findings, Model, RobotRule
 
 _FOREIGN_TYPES = {
     "hinge": "revolute",
@@ -70,7 +63,7 @@ class JointTypeUnknown(RobotRule):
     name = "joint-type-unknown"
     fix = "unsafe"
 
-    def check(self, model: Model) -> Iterator[Finding]:
+    def check(self, model: Model) -> Findings:
         """Yield a finding for each joint with an unknown type."""
         from urdfkit.description.urdf.robot import JOINT_TYPES
 

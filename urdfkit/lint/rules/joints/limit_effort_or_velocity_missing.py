@@ -2,14 +2,7 @@
 
 from __future__ import annotations
 
-from urdfkit.lint.rule import RobotRule
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model.model import Model
+from urdfkit.lint.rule import Findings, Model, RobotRule
 
 _LINEAR_UNITS = {"effort": "[N]", "velocity": "[m/s]"}
 _ANGULAR_UNITS = {"effort": "[N·m]", "velocity": "[rad/s]"}
@@ -58,7 +51,7 @@ class LimitEffortOrVelocityMissing(RobotRule):
     name = "limit-effort-or-velocity-missing"
     not_for = frozenset(("mujoco",))
 
-    def check(self, model: Model) -> Iterator[Finding]:
+    def check(self, model: Model) -> Findings:
         """Yield a finding for each limit that lacks an attribute."""
         for joint in model.robot.joints:
             limit = joint.limit

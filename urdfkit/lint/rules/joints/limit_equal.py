@@ -2,15 +2,8 @@
 
 from __future__ import annotations
 
-from urdfkit.lint.rule import RobotRule
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from urdfkit.description.urdf.robot import Limit
-    from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model.model import Model
+from urdfkit.description.urdf.robot import Limit
+from urdfkit.lint.rule import Findings, Model, RobotRule
 
 
 class LimitEqual(RobotRule):
@@ -57,7 +50,7 @@ class LimitEqual(RobotRule):
     name = "limit-equal"
     severity = "warning"
 
-    def check(self, model: Model) -> Iterator[Finding]:
+    def check(self, model: Model) -> Findings:
         """Yield a finding for each joint whose limits prevent motion."""
         for joint in model.robot.joints:
             limit = joint.limit

@@ -2,16 +2,9 @@
 
 from __future__ import annotations
 
+from urdfkit.description.urdf.robot import Limit
 from urdfkit.lint.finding import Edit, Fix
-from urdfkit.lint.rule import RobotRule
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from urdfkit.description.urdf.robot import Limit
-    from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model.model import Model
+from urdfkit.lint.rule import Findings, Model, RobotRule
 
 
 class LimitLowerAboveUpper(RobotRule):
@@ -57,7 +50,7 @@ class LimitLowerAboveUpper(RobotRule):
     name = "limit-lower-gt-upper"
     fix = "unsafe"
 
-    def check(self, model: Model) -> Iterator[Finding]:
+    def check(self, model: Model) -> Findings:
         """Yield a finding for each joint with inverted limits."""
         for joint in model.robot.joints:
             limit = joint.limit

@@ -2,14 +2,7 @@
 
 from __future__ import annotations
 
-from urdfkit.lint.rule import RobotRule
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model.model import Model
+from urdfkit.lint.rule import Findings, Model, RobotRule
 
 
 class LimitMissing(RobotRule):
@@ -54,7 +47,7 @@ class LimitMissing(RobotRule):
     name = "limit-missing"
     not_for = frozenset(("mujoco",))
 
-    def check(self, model: Model) -> Iterator[Finding]:
+    def check(self, model: Model) -> Findings:
         """Yield a finding for each joint that lacks a required limit."""
         for joint in model.robot.joints:
             if joint.type in ("revolute", "prismatic") and joint.limit is None:

@@ -4,17 +4,10 @@ from __future__ import annotations
 
 from math import pi, radians
 
+from urdfkit.description.urdf.robot import Limit
 from urdfkit.lint.finding import Edit, Fix
 from urdfkit.lint.fix_builders import new_value
-from urdfkit.lint.rule import RobotRule
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from urdfkit.description.urdf.robot import Limit
-    from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model.model import Model
+from urdfkit.lint.rule import Findings, Model, RobotRule
 
 
 class LimitsInDegrees(RobotRule):
@@ -64,7 +57,7 @@ class LimitsInDegrees(RobotRule):
     severity = "warning"
     fix = "unsafe"
 
-    def check(self, model: Model) -> Iterator[Finding]:
+    def check(self, model: Model) -> Findings:
         """Yield a finding for each joint whose limits appear to be in degrees."""
         for joint in model.robot.joints:
             limit = joint.limit

@@ -4,14 +4,7 @@ from __future__ import annotations
 
 from urdfkit.lint.fix_builders import meant, new_value
 from urdfkit.lint.model.masked_names import unless_masked
-from urdfkit.lint.rule import RobotRule
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model.model import Model
+from urdfkit.lint.rule import Findings, Model, RobotRule
 
 
 class MimicJointUndefined(RobotRule):
@@ -75,7 +68,7 @@ class MimicJointUndefined(RobotRule):
     name = "mimic-joint-undefined"
     fix = "unsafe"
 
-    def check(self, model: Model) -> Iterator[Finding]:
+    def check(self, model: Model) -> Findings:
         """Yield a finding for each joint without a valid joint to mimic."""
         for joint in model.robot.joints:
             mimic = joint.mimic

@@ -2,14 +2,7 @@
 
 from __future__ import annotations
 
-from urdfkit.lint.rule import RobotRule
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model.model import Model
+from urdfkit.lint.rule import Findings, Model, RobotRule
 
 _UNITS = {"effort": ("N", "N·m"), "velocity": ("m/s", "rad/s")}
 """Attribute → unit for a prismatic joint, and for any other."""
@@ -56,7 +49,7 @@ class NegativeEffortOrVelocity(RobotRule):
     code = "J410"
     name = "negative-effort-or-velocity"
 
-    def check(self, model: Model) -> Iterator[Finding]:
+    def check(self, model: Model) -> Findings:
         """Yield a finding for each negative limit."""
         for joint in model.robot.joints:
             for name in ("effort", "velocity") if joint.limit is not None and joint.is_movable else ():

@@ -2,14 +2,7 @@
 
 from __future__ import annotations
 
-from urdfkit.lint.rule import RobotRule
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model.model import Model
+from urdfkit.lint.rule import Findings, Model, RobotRule
 
 DISABLED_DISTANCE = 6.0
 """Distance from the hard limit [rad, m] from which a soft limit counts as deliberately disabled."""
@@ -62,7 +55,7 @@ class SafetyControllerInconsistent(RobotRule):
     name = "safety-controller-inconsistent"
     severity = "warning"
 
-    def check(self, model: Model) -> Iterator[Finding]:
+    def check(self, model: Model) -> Findings:
         """Yield a finding for each inconsistent safety controller."""
         for joint in model.robot.joints:
             safety, limit = joint.safety_controller, joint.limit

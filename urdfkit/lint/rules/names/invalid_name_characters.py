@@ -4,14 +4,7 @@ from __future__ import annotations
 
 import re
 
-from urdfkit.lint.rule import RobotRule
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model.model import Model
+from urdfkit.lint.rule import Findings, Model, RobotRule
 
 
 class InvalidNameCharacters(RobotRule):
@@ -44,7 +37,7 @@ class InvalidNameCharacters(RobotRule):
     name = "invalid-name-characters"
     severity = "warning"
 
-    def check(self, model: Model) -> Iterator[Finding]:
+    def check(self, model: Model) -> Findings:
         """Yield a finding for each invalid name."""
         for part in model.parts:
             name = part.name

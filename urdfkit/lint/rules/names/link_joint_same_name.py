@@ -2,14 +2,7 @@
 
 from __future__ import annotations
 
-from urdfkit.lint.rule import RobotRule
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model.model import Model
+from urdfkit.lint.rule import Findings, Model, RobotRule
 
 
 class LinkJointSameName(RobotRule):
@@ -60,7 +53,7 @@ class LinkJointSameName(RobotRule):
         )
     )
 
-    def check(self, model: Model) -> Iterator[Finding]:
+    def check(self, model: Model) -> Findings:
         """Yield a finding for each joint with the name of a link."""
         for joint in model.robot.joints:
             link = model.robot.link_by_name.get(joint.name)

@@ -3,18 +3,16 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator
 
+from urdfkit.description.xml.source import Source
 from urdfkit.lint.finding import Finding
-from urdfkit.lint.rule import NOT_GAZEBO, RobotRule
+from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from urdfkit.description.xml.source import Source
     from urdfkit.lint.facts.control.controller_joints import Named
     from urdfkit.lint.facts.control.ros_gz_bridges import Bridged
-    from urdfkit.lint.model.model import Model
 
 _BRIDGES = ("gz_type_name", "gz_topic_name", "ros_type_name", "ign_type_name", "parameter_bridge")
 
@@ -54,7 +52,7 @@ class BridgeMisspelt(RobotRule):
     severity = "warning"
     not_for = NOT_GAZEBO | {"classic", "ros1"}
 
-    def check(self, model: Model) -> Iterator[Finding]:
+    def check(self, model: Model) -> Findings:
         """Yield a finding for each invalid key, type, topic or direction."""
         sources = [source for source in model.related_files.values() if any(word in source.text for word in _BRIDGES)]
         if not sources:

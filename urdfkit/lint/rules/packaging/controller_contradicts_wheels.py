@@ -2,18 +2,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
+from urdfkit.description.xml.source import Source
 from urdfkit.lint.finding import Finding
-from urdfkit.lint.rule import NOT_GAZEBO, RobotRule
+from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from urdfkit.description.xml.source import Source
     from urdfkit.lint.facts.control.controller_settings import ControllerSettings
     from urdfkit.lint.facts.control.yaml_tree import Node
     from urdfkit.lint.facts.gazebo.drive_wheels import Wheel
-    from urdfkit.lint.model.model import Model
 
 TOLERANCE = 0.1
 """Accepted relative deviation; twice that of Gazebo plugins, because controllers are tuned on real robots."""
@@ -70,7 +69,7 @@ class ControllerContradictsWheels(RobotRule):
     severity = "warning"
     not_for = NOT_GAZEBO
 
-    def check(self, model: Model) -> Iterator[Finding]:
+    def check(self, model: Model) -> Findings:
         """Yield a finding for each parameter of a drive controller that contradicts the robot."""
         if model.is_incomplete:
             return
@@ -86,7 +85,7 @@ class ControllerContradictsWheels(RobotRule):
         if findings and not _has_other_wheels(model):
             yield from findings
 
-    def _contradictions(self, source: Source, controller: ControllerSettings, model: Model) -> Iterator[Finding]:
+    def _contradictions(self, source: Source, controller: ControllerSettings, model: Model) -> Findings:
         from urdfkit.lint.facts.gazebo.drive_wheels import track
         from urdfkit.lint.rules.semantics.wheel_separation import SKID_STEER_RATIO
 

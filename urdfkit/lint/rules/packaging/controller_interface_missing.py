@@ -3,13 +3,7 @@
 from __future__ import annotations
 
 from urdfkit.lint.finding import Finding
-from urdfkit.lint.rule import NOT_GAZEBO, RobotRule
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from urdfkit.lint.model.model import Model
+from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
 
 _REQUIRED_INTERFACES = {
     "effort_controllers": "EffortJointInterface",
@@ -54,7 +48,7 @@ class ControllerInterfaceMissing(RobotRule):
     severity = "warning"
     not_for = NOT_GAZEBO | {"ros2", "gz"}
 
-    def check(self, model: Model) -> Iterator[Finding]:
+    def check(self, model: Model) -> Findings:
         """Yield a finding at the type of each controller whose joint lacks the required interface."""
         from urdfkit.lint.facts.control.controller_joints import joints_of, typed
         from urdfkit.lint.facts.control.hardware_interfaces import is_misspelt

@@ -7,13 +7,7 @@ import re
 from urdfkit.lint.facts.neighbouring_names import neighbouring_names
 from urdfkit.lint.finding import Finding
 from urdfkit.lint.model.masked_names import unless_masked
-from urdfkit.lint.rule import NOT_GAZEBO, RobotRule
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from urdfkit.lint.model.model import Model
+from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
 
 
 class ControllerJointUndefined(RobotRule):
@@ -55,7 +49,7 @@ class ControllerJointUndefined(RobotRule):
     severity = "warning"
     not_for = NOT_GAZEBO
 
-    def check(self, model: Model) -> Iterator[Finding]:
+    def check(self, model: Model) -> Findings:
         """Yield a finding for each controller joint that no description in these packages can define."""
         from urdfkit.lint.facts.control.controller_joints import joints
         from urdfkit.lint.fix_builders import nearest

@@ -3,16 +3,11 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator
 
+from urdfkit.description.xml.source import Source, Span
 from urdfkit.lint.finding import Finding
-from urdfkit.lint.rule import NOT_GAZEBO, RobotRule
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from urdfkit.description.xml.source import Source, Span
-    from urdfkit.lint.model.model import Model
+from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
 
 _TRAJECTORY = "joint_trajectory_controller/JointTrajectoryController"
 _SINGLE_JOINT = {
@@ -87,7 +82,7 @@ class ControllerOfOtherRos(RobotRule):
     severity = "warning"
     not_for = NOT_GAZEBO
 
-    def check(self, model: Model) -> Iterator[Finding]:
+    def check(self, model: Model) -> Findings:
         """Yield a finding for each controller type of the other ROS version."""
         from urdfkit.lint.facts.control.yaml_tree import yamls
 

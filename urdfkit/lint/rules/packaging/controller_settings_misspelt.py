@@ -5,15 +5,9 @@ from __future__ import annotations
 import re
 from itertools import pairwise
 
+from urdfkit.description.xml.source import Source
 from urdfkit.lint.finding import Finding
-from urdfkit.lint.rule import NOT_GAZEBO, RobotRule
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from urdfkit.description.xml.source import Source
-    from urdfkit.lint.model.model import Model
+from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
 
 _KEY = r"(?m)^([ \t]*)[\"']?([\w/]+)[\"']?[ \t]*:[ \t]*\r?$"
 _GROUP = r"(?m)(?:^|[{,])[ \t]*[\"']?(ros_*[A-Za-z_]+)[\"']?[ \t]*:[ \t]*(?=\r?$|[{&*])"
@@ -63,7 +57,7 @@ class ControllerSettingsMisspelt(RobotRule):
     severity = "warning"
     not_for = NOT_GAZEBO
 
-    def check(self, model: Model) -> Iterator[Finding]:
+    def check(self, model: Model) -> Findings:
         """Yield a finding for each misspelt name, and for the first tab of a file."""
         from urdfkit.lint.facts.control.controller_joints import typed
         from urdfkit.lint.facts.control.launch_files import uncommented
@@ -85,7 +79,7 @@ class ControllerSettingsMisspelt(RobotRule):
             if (tab := re.search(_TAB, text)) is not None:
                 yield self._at(source, tab.start(), tab[0], "YAML is indented with a tab", help="indent with spaces")
 
-    def _keys(self, source: Source, text: str) -> Iterator[Finding]:
+    def _keys(self, source: Source, text: str) -> Findings:
         from urdfkit.lint.facts.control.controller_joints import controllers
         from urdfkit.lint.fix_builders import nearest
 
@@ -109,7 +103,7 @@ class ControllerSettingsMisspelt(RobotRule):
             if suggestion is not None:
                 yield self._at(source, start, name, f"unknown controller `{name}`; did you mean `{suggestion}`?")
 
-    def _parameters(self, source: Source) -> Iterator[Finding]:
+    def _parameters(self, source: Source) -> Findings:
         from urdfkit.lint.facts.control.controller_settings import misspelt
         from urdfkit.lint.facts.control.yaml_tree import span_of
 

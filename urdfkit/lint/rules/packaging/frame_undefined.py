@@ -4,17 +4,11 @@ from __future__ import annotations
 
 import re
 
+from urdfkit.description.xml.source import Source
 from urdfkit.lint.facts.neighbouring_names import neighbouring_names
 from urdfkit.lint.finding import Finding
 from urdfkit.lint.model.masked_names import unless_masked
-from urdfkit.lint.rule import RobotRule
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from urdfkit.description.xml.source import Source
-    from urdfkit.lint.model.model import Model
+from urdfkit.lint.rule import Findings, Model, RobotRule
 
 _FRAME = (
     r"(?m)^[ \t]*(robot_base_frame|base_frame(?:_id)?|base_link_frame(?:_id)?|base_link|tip_link|ee_link|root_link)"
@@ -56,7 +50,7 @@ class FrameUndefined(RobotRule):
     name = "yaml-link-undefined"
     severity = "warning"
 
-    def check(self, model: Model) -> Iterator[Finding]:
+    def check(self, model: Model) -> Findings:
         """Yield a finding for each named link that no description in these packages can define."""
         from urdfkit.lint.facts.control.launch_files import uncommented
         from urdfkit.lint.fix_builders import meant

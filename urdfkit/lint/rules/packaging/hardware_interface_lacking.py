@@ -2,16 +2,13 @@
 
 from __future__ import annotations
 
+from urdfkit.description.xml.source import Source
 from urdfkit.lint.finding import Finding
-from urdfkit.lint.rule import NOT_GAZEBO, RobotRule
+from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from urdfkit.description.xml.source import Source
     from urdfkit.lint.facts.control.ros2_controllers import DeclaredController
-    from urdfkit.lint.model.model import Model
 
 _BROADCASTERS = (
     "force_torque_sensor_broadcaster/ForceTorqueSensorBroadcaster",
@@ -70,7 +67,7 @@ class HardwareInterfaceLacking(RobotRule):
     severity = "warning"
     not_for = NOT_GAZEBO | {"ros1"}
 
-    def check(self, model: Model) -> Iterator[Finding]:
+    def check(self, model: Model) -> Findings:
         """Yield a finding for each interface that a controller requires and its joint lacks."""
         if not model.robot.ros2_control:
             return
@@ -86,7 +83,7 @@ class HardwareInterfaceLacking(RobotRule):
 
     def _unknown_sensor(
         self, source: Source, controller: DeclaredController, hardware: dict[str, dict[bool, list[str]]]
-    ) -> Iterator[Finding]:
+    ) -> Findings:
         from urdfkit.lint.facts.control.yaml_tree import span_of
         from urdfkit.lint.fix_builders import nearest
 
@@ -100,7 +97,7 @@ class HardwareInterfaceLacking(RobotRule):
 
     def _missing_interfaces(
         self, source: Source, controller: DeclaredController, hardware: dict[str, dict[bool, list[str]]], model: Model
-    ) -> Iterator[Finding]:
+    ) -> Findings:
         from urdfkit.lint.facts.control.hardware_interfaces import meant_interface, meant_joints
         from urdfkit.lint.facts.control.ros2_controllers import wanted
         from urdfkit.lint.facts.control.yaml_tree import span_of

@@ -2,15 +2,9 @@
 
 from __future__ import annotations
 
+from urdfkit.description.xml.source import Source
 from urdfkit.lint.finding import Finding
-from urdfkit.lint.rule import RobotRule
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from urdfkit.description.xml.source import Source
-    from urdfkit.lint.model.model import Model
+from urdfkit.lint.rule import Findings, Model, RobotRule
 
 
 class LaunchNotWellFormed(RobotRule):
@@ -42,7 +36,7 @@ class LaunchNotWellFormed(RobotRule):
     code = "K964"
     name = "launch-not-well-formed"
 
-    def check(self, model: Model) -> Iterator[Finding]:
+    def check(self, model: Model) -> Findings:
         """Yield a finding at the first syntax error of each launch file and package.xml."""
         for source in model.related_files.values():
             error = None

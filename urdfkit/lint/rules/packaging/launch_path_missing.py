@@ -6,13 +6,7 @@ import re
 from pathlib import Path
 
 from urdfkit.lint.finding import Finding
-from urdfkit.lint.rule import RobotRule
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from urdfkit.lint.model.model import Model
+from urdfkit.lint.rule import Findings, Model, RobotRule
 
 
 class LaunchPathMissing(RobotRule):
@@ -46,7 +40,7 @@ class LaunchPathMissing(RobotRule):
     name = "launch-path-missing"
     severity = "warning"
 
-    def check(self, model: Model) -> Iterator[Finding]:
+    def check(self, model: Model) -> Findings:
         """Yield a finding for each path that does not exist in its package."""
         from urdfkit.description.packages.related_files import LAUNCH, neighbours
         from urdfkit.description.packages.resolver import near_path

@@ -7,13 +7,7 @@ from pathlib import Path
 
 from urdfkit.description.packages.related_files import name_in
 from urdfkit.lint.finding import Finding
-from urdfkit.lint.rule import RobotRule
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from urdfkit.lint.model.model import Model
+from urdfkit.lint.rule import Findings, Model, RobotRule
 
 
 class NotInstalled(RobotRule):
@@ -54,7 +48,7 @@ class NotInstalled(RobotRule):
     name = "not-installed"
     severity = "warning"
 
-    def check(self, model: Model) -> Iterator[Finding]:
+    def check(self, model: Model) -> Findings:
         """Yield a finding at the first use of each folder that is not installed."""
         package = model.package
         package_name = name_in(model.manifest(package)) if package is not None else ""

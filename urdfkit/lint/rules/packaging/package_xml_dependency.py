@@ -6,15 +6,9 @@ import re
 from pathlib import Path
 
 from urdfkit.description.packages.related_files import LAUNCH, dependencies_in, name_in, package_of
+from urdfkit.description.xml.source import Source
 from urdfkit.lint.finding import Finding
-from urdfkit.lint.rule import RobotRule
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from urdfkit.description.xml.source import Source
-    from urdfkit.lint.model.model import Model
+from urdfkit.lint.rule import Findings, Model, RobotRule
 
 _TESTS = frozenset(("test", "tests"))
 """Folders whose files do not add runtime dependencies."""
@@ -56,7 +50,7 @@ class PackageXmlDependency(RobotRule):
     name = "package-xml-dependency"
     severity = "warning"
 
-    def check(self, model: Model) -> Iterator[Finding]:
+    def check(self, model: Model) -> Findings:
         """Yield a finding at the first use of each package without a dependency."""
         package = model.package
         if package is None:
@@ -77,7 +71,7 @@ class PackageXmlDependency(RobotRule):
                 yield self._missing(name, source, match.start(), match.end())
         yield from self._check_launch_files(model, {package: declared})
 
-    def _check_launch_files(self, model: Model, declared: dict[Path, set[str]]) -> Iterator[Finding]:
+    def _check_launch_files(self, model: Model, declared: dict[Path, set[str]]) -> Findings:
         """Yield a finding for each package that a launch file uses without a dependency in its own package."""
         from urdfkit.lint.facts.control.launch_files import packages_used
 

@@ -3,16 +3,14 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator
 
 from urdfkit.lint.finding import Finding
-from urdfkit.lint.rule import NOT_GAZEBO, RobotRule
+from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from collections.abc import Iterator
-
     from urdfkit.lint.facts.control.launched_nodes import Started
-    from urdfkit.lint.model.model import Model
 
 _CREATE = "world file param string topic name allow_renaming x y z R P Y"
 _SPAWN = "reference_frame gazebo_namespace robot_namespace unpause wait package_to_model x y z R P Y J b"
@@ -64,7 +62,7 @@ class SpawnArgumentMisspelt(RobotRule):
     name = "spawn-argument-misspelt"
     not_for = NOT_GAZEBO
 
-    def check(self, model: Model) -> Iterator[Finding]:
+    def check(self, model: Model) -> Findings:
         """Yield a finding for each invalid argument."""
         from urdfkit.lint.facts.control.launched_nodes import launches, started
 

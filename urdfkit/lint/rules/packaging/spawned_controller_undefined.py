@@ -3,17 +3,15 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator
 
+from urdfkit.description.xml.source import Source
 from urdfkit.lint.finding import Finding
-from urdfkit.lint.rule import NOT_GAZEBO, RobotRule
+from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from urdfkit.description.xml.source import Source
     from urdfkit.lint.facts.control.controller_joints import Named
-    from urdfkit.lint.model.model import Model
 
 
 _SPAWNERS = ("spawner", "spawner.py", "controller_spawner", "controller_spawner.py")
@@ -49,7 +47,7 @@ class SpawnedControllerUndefined(RobotRule):
     severity = "warning"
     not_for = NOT_GAZEBO
 
-    def check(self, model: Model) -> Iterator[Finding]:
+    def check(self, model: Model) -> Findings:
         """Yield a finding for each misspelt name of a spawned controller."""
         from urdfkit.errors import did_you_mean
         from urdfkit.lint.facts.control.controller_joints import controllers

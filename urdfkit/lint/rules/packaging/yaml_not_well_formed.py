@@ -4,16 +4,13 @@ from __future__ import annotations
 
 import re
 
+from urdfkit.description.xml.source import Source
 from urdfkit.lint.finding import Finding
-from urdfkit.lint.rule import RobotRule
+from urdfkit.lint.rule import Findings, Model, RobotRule
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from urdfkit.description.xml.source import Source
     from urdfkit.lint.facts.control.yaml_tree import Broken, Node
-    from urdfkit.lint.model.model import Model
 
 _TEMPLATE = r"\{%|\{\{|\$\{"
 _WITHOUT_COLON = r"\s*(?:-\s+)?([A-Za-z_][\w/.-]*)(?:\s+[^\s:#]\S*)?\s*(?:#.*)?$"
@@ -60,7 +57,7 @@ class YamlNotWellFormed(RobotRule):
     code = "K966"
     name = "yaml-not-well-formed"
 
-    def check(self, model: Model) -> Iterator[Finding]:
+    def check(self, model: Model) -> Findings:
         """Yield a finding for each malformed file, and for each string that should be a parameter."""
         from urdfkit.lint.facts.control.yaml_tree import documents, span_of, walk, yamls
 

@@ -6,18 +6,12 @@ import re
 from math import degrees, hypot, sqrt
 
 from urdfkit.description.urdf.geometry import rotate, unit
-from urdfkit.description.urdf.robot import Box, Capsule, Cylinder, Mesh, Sphere
-from urdfkit.lint.facts.gazebo.drive_wheels import drives
-from urdfkit.lint.rule import NOT_GAZEBO, RobotRule
+from urdfkit.description.urdf.robot import Box, Capsule, Cylinder, Joint, Link, Mesh, Sphere, Vector
+from urdfkit.lint.facts.gazebo.drive_wheels import TwoSided, drives
+from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from urdfkit.description.urdf.robot import Joint, Link, Vector
-    from urdfkit.lint.facts.gazebo.drive_wheels import TwoSided
-    from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model.model import Model
     from urdfkit.lint.model.placement import Frame
 
 _CASTER_NAME = re.compile(r"cast[eo]r|ball", re.IGNORECASE)
@@ -109,7 +103,7 @@ class CasterOffTheGround(RobotRule):
     severity = "warning"
     not_for = NOT_GAZEBO
 
-    def check(self, model: Model) -> Iterator[Finding]:
+    def check(self, model: Model) -> Findings:
         """Yield a finding for each link below the ground, and for a caster above it."""
         if model.is_incomplete or any(joint.type in ("prismatic", "planar") for joint in model.robot.joints):
             return
@@ -122,7 +116,7 @@ class CasterOffTheGround(RobotRule):
                 continue  # Intended, or reported by drive-wheels-misaligned.
             yield from self._check_supports(model, drive, min(heights), max(wheels[0].radii))
 
-    def _check_supports(self, model: Model, drive: TwoSided, ground: float, radius: float) -> Iterator[Finding]:
+    def _check_supports(self, model: Model, drive: TwoSided, ground: float, radius: float) -> Findings:
         driven = {wheel.joint.child for wheel in (*drive.left, *drive.right)}
         centre = [sum(wheel.place[i] for wheel in (*drive.left, *drive.right)) / (2 * len(drive.left)) for i in (0, 1)]
         supports: list[tuple[float, float, Joint]] = []

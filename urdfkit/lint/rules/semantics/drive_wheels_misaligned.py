@@ -5,14 +5,7 @@ from __future__ import annotations
 from math import dist
 
 from urdfkit.lint.facts.gazebo.drive_wheels import Wheel, drives
-from urdfkit.lint.rule import NOT_GAZEBO, RobotRule
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model.model import Model
+from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
 
 _MIN_DISTANCE = 0.01
 """Distance or height difference below which two wheels count as being in the same place or level [m]."""
@@ -95,7 +88,7 @@ class DriveWheelsMisaligned(RobotRule):
     severity = "warning"
     not_for = NOT_GAZEBO
 
-    def check(self, model: Model) -> Iterator[Finding]:
+    def check(self, model: Model) -> Findings:
         """Yield a finding for the worst defect of each pair of wheels."""
         if not model.robot.gazebo or model.is_incomplete:
             return

@@ -5,14 +5,7 @@ from __future__ import annotations
 from urdfkit.lint.facts.gazebo.drive_wheels import TwoSided, drives
 from urdfkit.lint.finding import Edit, Fix
 from urdfkit.lint.fix_builders import new_text
-from urdfkit.lint.rule import NOT_GAZEBO, RobotRule
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model.model import Model
+from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
 
 
 class LeftRightSwapped(RobotRule):
@@ -93,7 +86,7 @@ class LeftRightSwapped(RobotRule):
     fix = "unsafe"
     not_for = NOT_GAZEBO
 
-    def check(self, model: Model) -> Iterator[Finding]:
+    def check(self, model: Model) -> Findings:
         """Yield a finding for each drive with swapped sides, and for each that rolls backwards."""
         if not model.robot.gazebo:
             return

@@ -5,14 +5,7 @@ from __future__ import annotations
 from math import pi
 
 from urdfkit.lint.facts.gazebo.drive_wheels import same_turn
-from urdfkit.lint.rule import RobotRule
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model.model import Model
+from urdfkit.lint.rule import Findings, Model, RobotRule
 
 TOLERANCE = 2e-3
 """Accepted difference of the rotation matrices, so that 1.57 passes for π/2."""
@@ -59,7 +52,7 @@ class OpticalFrame(RobotRule):
     name = "optical-frame-convention"
     severity = "note"
 
-    def check(self, model: Model) -> Iterator[Finding]:
+    def check(self, model: Model) -> Findings:
         """Yield a finding for each optical frame with a different rotation."""
         for joint in model.robot.joints:
             child, parent = (joint.child or "").lower(), (joint.parent or "").lower()

@@ -4,14 +4,7 @@ from __future__ import annotations
 
 from urdfkit.description.urdf.geometry import unit
 from urdfkit.lint.facts.gazebo.drive_wheels import drives, mismatch, track, written
-from urdfkit.lint.rule import NOT_GAZEBO, RobotRule
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model.model import Model
+from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
 
 TOLERANCE = 0.05
 """Accepted relative deviation with one wheel on each side."""
@@ -101,7 +94,7 @@ class WheelSeparation(RobotRule):
     fix = "unsafe"
     not_for = NOT_GAZEBO
 
-    def check(self, model: Model) -> Iterator[Finding]:
+    def check(self, model: Model) -> Findings:
         """Yield a finding for each drive with a wrong wheel separation."""
         if not model.robot.gazebo:
             return

@@ -6,14 +6,7 @@ from urdfkit.description.urdf.queries import dangling
 from urdfkit.lint.facts.parentless_links import meant_child
 from urdfkit.lint.fix_builders import new_value
 from urdfkit.lint.model.masked_names import unless_masked
-from urdfkit.lint.rule import RobotRule
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model.model import Model
+from urdfkit.lint.rule import Findings, Model, RobotRule
 
 
 class ChildLinkUndefined(RobotRule):
@@ -50,7 +43,7 @@ class ChildLinkUndefined(RobotRule):
     name = "child-link-undefined"
     fix = "unsafe"
 
-    def check(self, model: Model) -> Iterator[Finding]:
+    def check(self, model: Model) -> Findings:
         """Yield a finding for each joint with an undefined child link."""
         for joint, name, element in dangling(model.robot, "child"):
             suggestion, hint = meant_child(model.robot, name)

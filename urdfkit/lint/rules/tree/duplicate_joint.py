@@ -3,14 +3,7 @@
 from __future__ import annotations
 
 from urdfkit.description.urdf.queries import repeated
-from urdfkit.lint.rule import RobotRule
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model.model import Model
+from urdfkit.lint.rule import Findings, Model, RobotRule
 
 
 class DuplicateJoint(RobotRule):
@@ -49,7 +42,7 @@ class DuplicateJoint(RobotRule):
     code = "T207"
     name = "duplicate-joint"
 
-    def check(self, model: Model) -> Iterator[Finding]:
+    def check(self, model: Model) -> Findings:
         """Yield a finding for each joint with the name of an earlier one."""
         for joint, first in repeated(model.robot.joints):
             yield self.at(

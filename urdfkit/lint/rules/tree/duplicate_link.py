@@ -3,14 +3,7 @@
 from __future__ import annotations
 
 from urdfkit.description.urdf.queries import repeated
-from urdfkit.lint.rule import RobotRule
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model.model import Model
+from urdfkit.lint.rule import Findings, Model, RobotRule
 
 
 class DuplicateLink(RobotRule):
@@ -46,7 +39,7 @@ class DuplicateLink(RobotRule):
     code = "T206"
     name = "duplicate-link"
 
-    def check(self, model: Model) -> Iterator[Finding]:
+    def check(self, model: Model) -> Findings:
         """Yield a finding for each link with the name of an earlier one."""
         for link, first in repeated(model.robot.links):
             yield self.at(

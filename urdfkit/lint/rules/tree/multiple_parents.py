@@ -2,14 +2,7 @@
 
 from __future__ import annotations
 
-from urdfkit.lint.rule import RobotRule
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model.model import Model
+from urdfkit.lint.rule import Findings, Model, RobotRule
 
 
 class MultipleParents(RobotRule):
@@ -49,7 +42,7 @@ class MultipleParents(RobotRule):
     code = "T205"
     name = "multiple-parents"
 
-    def check(self, model: Model) -> Iterator[Finding]:
+    def check(self, model: Model) -> Findings:
         """Yield a finding for each further joint with the same child."""
         for name, joints in model.robot.parents_of.items():
             first = joints[0]

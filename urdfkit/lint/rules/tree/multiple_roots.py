@@ -2,15 +2,8 @@
 
 from __future__ import annotations
 
-from urdfkit.lint.rule import RobotRule
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from urdfkit.description.urdf.robot import Robot
-    from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model.model import Model
+from urdfkit.description.urdf.robot import Robot
+from urdfkit.lint.rule import Findings, Model, RobotRule
 
 
 class MultipleRoots(RobotRule):
@@ -48,7 +41,7 @@ class MultipleRoots(RobotRule):
     code = "T203"
     name = "multiple-roots"
 
-    def check(self, model: Model) -> Iterator[Finding]:
+    def check(self, model: Model) -> Findings:
         """Yield a finding for each root except that of the largest tree."""
         robot = model.robot
         roots = robot.roots()

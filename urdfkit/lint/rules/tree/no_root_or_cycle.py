@@ -3,14 +3,7 @@
 from __future__ import annotations
 
 from urdfkit.description.urdf.queries import cycles
-from urdfkit.lint.rule import RobotRule
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model.model import Model
+from urdfkit.lint.rule import Findings, Model, RobotRule
 
 
 class NoRootOrCycle(RobotRule):
@@ -46,7 +39,7 @@ class NoRootOrCycle(RobotRule):
     code = "T204"
     name = "no-root-or-cycle"
 
-    def check(self, model: Model) -> Iterator[Finding]:
+    def check(self, model: Model) -> Findings:
         """Yield a finding for each loop, at the last of its joints in the file."""
         for loop in cycles(model.robot):
             last = max(loop, key=model.robot.joints.index)

@@ -5,14 +5,7 @@ from __future__ import annotations
 from urdfkit.description.urdf.queries import dangling
 from urdfkit.lint.fix_builders import meant, new_value
 from urdfkit.lint.model.masked_names import unless_masked
-from urdfkit.lint.rule import RobotRule
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model.model import Model
+from urdfkit.lint.rule import Findings, Model, RobotRule
 
 
 class ParentLinkUndefined(RobotRule):
@@ -50,7 +43,7 @@ class ParentLinkUndefined(RobotRule):
     name = "parent-link-undefined"
     fix = "unsafe"
 
-    def check(self, model: Model) -> Iterator[Finding]:
+    def check(self, model: Model) -> Findings:
         """Yield a finding for each joint with an undefined parent link."""
         for joint, name, element in dangling(model.robot, "parent"):
             suggestion, hint = meant(name, model.robot.link_by_name)

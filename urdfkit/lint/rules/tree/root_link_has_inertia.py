@@ -2,14 +2,7 @@
 
 from __future__ import annotations
 
-from urdfkit.lint.rule import RobotRule
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model.model import Model
+from urdfkit.lint.rule import Findings, Model, RobotRule
 
 
 class RootLinkHasInertia(RobotRule):
@@ -60,7 +53,7 @@ class RootLinkHasInertia(RobotRule):
         "ros2",
     )
 
-    def check(self, model: Model) -> Iterator[Finding]:
+    def check(self, model: Model) -> Findings:
         """Yield a finding for a root link with a mass."""
         roots = model.robot.roots()
         if len(roots) == 1 and roots[0].inertial is not None and roots[0].inertial.mass:

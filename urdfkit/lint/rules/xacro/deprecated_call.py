@@ -5,14 +5,8 @@ from __future__ import annotations
 import re
 
 from urdfkit.lint.finding import Edit, Finding, Fix
-from urdfkit.lint.rule import SourceRule
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from urdfkit.lint.model.model import Model
-    from urdfkit.lint.model.tags import Document
+from urdfkit.lint.model.tags import Document
+from urdfkit.lint.rule import Findings, Model, SourceRule
 
 
 class DeprecatedCall(SourceRule):
@@ -56,7 +50,7 @@ class DeprecatedCall(SourceRule):
     severity = "warning"
     fix = "safe"
 
-    def check(self, document: Document, model: Model) -> Iterator[Finding]:
+    def check(self, document: Document, model: Model) -> Findings:
         """Yield a finding for each call by the deprecated name."""
         text, source = document.source.text, document.source
         if "load_yaml" not in text:

@@ -2,16 +2,13 @@
 
 from __future__ import annotations
 
+from urdfkit.description.xacro.faults import Fault
 from urdfkit.lint.finding import Edit, Fix
-from urdfkit.lint.rule import FaultRule
+from urdfkit.lint.rule import FaultRule, Findings, Model
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from urdfkit.description.xacro.faults import Fault
-    from urdfkit.lint.finding import Finding, Severity
-    from urdfkit.lint.model.model import Model
+    from urdfkit.lint.finding import Severity
 
 
 class DirectiveAttribute(FaultRule):
@@ -53,7 +50,7 @@ class DirectiveAttribute(FaultRule):
     fix = "unsafe"
     kinds = ("directive-attribute",)
 
-    def check(self, fault: Fault, model: Model) -> Iterator[Finding]:
+    def check(self, fault: Fault, model: Model) -> Findings:
         """Yield the finding, with a fix if a known attribute is similar."""
         tag, fix = model.tag(fault.position), None
         attribute = tag.attributes.get(fault.attribute or "") if tag is not None else None

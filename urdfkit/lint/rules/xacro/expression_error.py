@@ -2,16 +2,9 @@
 
 from __future__ import annotations
 
+from urdfkit.description.xacro.faults import Fault
 from urdfkit.lint.facts.root_cause import cause_in_text, is_no_number
-from urdfkit.lint.rule import FaultRule
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from urdfkit.description.xacro.faults import Fault
-    from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model.model import Model
+from urdfkit.lint.rule import FaultRule, Findings, Model
 
 
 class ExpressionError(FaultRule):
@@ -48,7 +41,7 @@ class ExpressionError(FaultRule):
     name = "expression-error"
     kinds = ("bad-expression",)
 
-    def check(self, fault: Fault, model: Model) -> Iterator[Finding]:
+    def check(self, fault: Fault, model: Model) -> Findings:
         """Yield the finding, at the definition of a malformed number if that is the cause."""
         text = f"${{{fault.expression}}}"
         cause = cause_in_text(model, text, fault.expansions, is_no_number) if fault.expression else None

@@ -4,17 +4,10 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from urdfkit.description.xacro.faults import Fault
 from urdfkit.lint.finding import Edit, Fix
 from urdfkit.lint.fix_builders import nearest
-from urdfkit.lint.rule import FaultRule
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from urdfkit.description.xacro.faults import Fault
-    from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model.model import Model
+from urdfkit.lint.rule import FaultRule, Findings, Model
 
 
 class IncludeNotFound(FaultRule):
@@ -52,7 +45,7 @@ class IncludeNotFound(FaultRule):
     fix = "unsafe"
     kinds = ("include-not-found", "package-not-found")
 
-    def check(self, fault: Fault, model: Model) -> Iterator[Finding]:
+    def check(self, fault: Fault, model: Model) -> Findings:
         """Yield the finding, with a fix if a file with a similar name exists."""
         yield self.at(model, fault, fault.message, attribute=fault.attribute, fix=_nearest_file(fault, model))
 

@@ -3,15 +3,8 @@
 from __future__ import annotations
 
 from urdfkit.lint.finding import Edit, Fix
-from urdfkit.lint.rule import SourceRule
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model.model import Model
-    from urdfkit.lint.model.tags import Document
+from urdfkit.lint.model.tags import Document
+from urdfkit.lint.rule import Findings, Model, SourceRule
 
 
 class IncludeWithParameters(SourceRule):
@@ -49,7 +42,7 @@ class IncludeWithParameters(SourceRule):
     severity = "warning"
     fix = "unsafe"
 
-    def check(self, document: Document, model: Model) -> Iterator[Finding]:
+    def check(self, document: Document, model: Model) -> Findings:
         """Yield a finding for each unsupported attribute of an include."""
         text, source = document.source.text, document.source
         if "xacro:include" not in text:

@@ -4,15 +4,8 @@ from __future__ import annotations
 
 from urdfkit.description.xml.numbers import number
 from urdfkit.lint.finding import Edit, Fix
-from urdfkit.lint.rule import SourceRule
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model.model import Model
-    from urdfkit.lint.model.tags import Document
+from urdfkit.lint.model.tags import Document
+from urdfkit.lint.rule import Findings, Model, SourceRule
 
 
 class InertiaArguments(SourceRule):
@@ -65,7 +58,7 @@ class InertiaArguments(SourceRule):
     severity = "warning"
     fix = "unsafe"
 
-    def check(self, document: Document, model: Model) -> Iterator[Finding]:
+    def check(self, document: Document, model: Model) -> Findings:
         """Yield a finding for each call whose mass differs from that of the link."""
         source = document.source
         if not any(_may_name_mass(piece) for piece in source.text.split("<inertial")[1:]):

@@ -3,15 +3,8 @@
 from __future__ import annotations
 
 from urdfkit.lint.finding import Edit, Fix
-from urdfkit.lint.rule import SourceRule
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model.model import Model
-    from urdfkit.lint.model.tags import Document
+from urdfkit.lint.model.tags import Document
+from urdfkit.lint.rule import Findings, Model, SourceRule
 
 
 class InertiaFormula(SourceRule):
@@ -58,7 +51,7 @@ class InertiaFormula(SourceRule):
     name = "macro-formula-suspect"
     fix = "unsafe"
 
-    def check(self, document: Document, model: Model) -> Iterator[Finding]:
+    def check(self, document: Document, model: Model) -> Findings:
         """Yield a finding for each wrong moment of inertia."""
         text = document.source.text
         if not any("${" in piece.partition("<")[0] for piece in text.split("<inertia")[1:]):

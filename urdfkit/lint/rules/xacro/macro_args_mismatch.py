@@ -2,16 +2,9 @@
 
 from __future__ import annotations
 
+from urdfkit.description.xacro.faults import Fault
 from urdfkit.lint.fix_builders import nearest
-from urdfkit.lint.rule import FaultRule
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from urdfkit.description.xacro.faults import Fault
-    from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model.model import Model
+from urdfkit.lint.rule import FaultRule, Findings, Model
 
 
 class MacroArgsMismatch(FaultRule):
@@ -49,7 +42,7 @@ class MacroArgsMismatch(FaultRule):
     name = "macro-args-mismatch"
     kinds = ("macro-arguments", "undefined-block")
 
-    def check(self, fault: Fault, model: Model) -> Iterator[Finding]:
+    def check(self, fault: Fault, model: Model) -> Findings:
         """Yield the finding; a misspelt parameter and a missing asterisk are one finding each."""
         if (block := self._block_without_asterisk(fault, model)) is not None:
             position = model.expanded.macros[fault.name or ""].position

@@ -4,17 +4,10 @@ from __future__ import annotations
 
 from pathlib import PurePosixPath
 
+from urdfkit.description.xacro.faults import Fault
 from urdfkit.lint.finding import Edit, Fix
 from urdfkit.lint.fix_builders import removal
-from urdfkit.lint.rule import FaultRule
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from urdfkit.description.xacro.faults import Fault
-    from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model.model import Model
+from urdfkit.lint.rule import FaultRule, Findings, Model
 
 
 class PropertyUsedBeforeDefinition(FaultRule):
@@ -57,7 +50,7 @@ class PropertyUsedBeforeDefinition(FaultRule):
         """Return whether the property is defined after its use."""
         return fault.kind == "undefined-property" and fault.defined_at is not None
 
-    def check(self, fault: Fault, model: Model) -> Iterator[Finding]:
+    def check(self, fault: Fault, model: Model) -> Findings:
         """Yield the finding, with the position of the definition in its help."""
         definition = f" ({model.shown(fault.defined_at)})" if fault.defined_at is not None else ""
         yield self.at(

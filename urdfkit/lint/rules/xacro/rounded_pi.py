@@ -7,15 +7,8 @@ from math import pi
 
 from urdfkit.description.xml.numbers import number
 from urdfkit.lint.finding import Edit, Fix
-from urdfkit.lint.rule import SourceRule
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model.model import Model
-    from urdfkit.lint.model.tags import Document, Tag
+from urdfkit.lint.model.tags import Document, Tag
+from urdfkit.lint.rule import Findings, Model, SourceRule
 
 _ANGLES = r"rpy(?<=\srpy)\s*=\s*(?:\"([^\"<]*)\"|'([^'<]*)')"
 _DEFINITION = (
@@ -67,7 +60,7 @@ class RoundedPi(SourceRule):
     severity = "note"
     fix = "safe"
 
-    def check(self, document: Document, model: Model) -> Iterator[Finding]:
+    def check(self, document: Document, model: Model) -> Findings:
         """Yield a finding for each rounded angle, and for each property that defines π."""
         text = document.source.text
         for match in re.finditer(_ANGLES, text):

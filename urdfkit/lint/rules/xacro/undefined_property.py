@@ -2,11 +2,8 @@
 
 from __future__ import annotations
 
+from urdfkit.description.xacro.faults import Fault
 from urdfkit.lint.rule import FaultRule
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from urdfkit.description.xacro.faults import Fault
 
 
 class UndefinedProperty(FaultRule):

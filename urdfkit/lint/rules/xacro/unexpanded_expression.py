@@ -5,14 +5,7 @@ from __future__ import annotations
 from urdfkit.lint.facts.escaped_expressions import correct_escapes, is_unexpanded
 from urdfkit.lint.finding import Edit, Fix
 from urdfkit.lint.fix_builders import new_text, new_value
-from urdfkit.lint.rule import RobotRule
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model.model import Model
+from urdfkit.lint.rule import Findings, Model, RobotRule
 
 
 class UnexpandedExpression(RobotRule):
@@ -57,7 +50,7 @@ class UnexpandedExpression(RobotRule):
     name = "unexpanded-expression"
     fix = "safe"
 
-    def check(self, model: Model) -> Iterator[Finding]:
+    def check(self, model: Model) -> Findings:
         """Yield a finding for each expression that xacro does not evaluate."""
         if not any(is_unexpanded(source.text) for source in model.expanded.sources.values()):
             return
@@ -88,7 +81,7 @@ class UnexpandedExpression(RobotRule):
                 message = f"xacro does not evaluate the expression `{element.text}` in <{element.tag}>"
                 yield self.at(model, element, message, help="write ${…}", fix=fix)
 
-    def _in_xacro_elements(self, model: Model) -> Iterator[Finding]:
+    def _in_xacro_elements(self, model: Model) -> Findings:
         """Yield a finding for each malformed expression in a directive or in an argument of a macro call."""
         for file, source in model.expanded.sources.items():
             if not is_unexpanded(source.text):

@@ -4,17 +4,11 @@ from __future__ import annotations
 
 import os
 
+from urdfkit.description.xacro.faults import Fault
 from urdfkit.lint.facts.root_cause import is_in_broken_file
 from urdfkit.lint.finding import Edit, Finding, Fix
 from urdfkit.lint.fix_builders import nearest
-from urdfkit.lint.rule import FaultRule
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from urdfkit.description.xacro.faults import Fault
-    from urdfkit.lint.model.model import Model
+from urdfkit.lint.rule import FaultRule, Findings, Model
 
 
 class UnknownMacro(FaultRule):
@@ -59,7 +53,7 @@ class UnknownMacro(FaultRule):
     kinds = ("undefined-macro", "misspelt-directive")
     may_be_elsewhere = True
 
-    def check(self, fault: Fault, model: Model) -> Iterator[Finding]:
+    def check(self, fault: Fault, model: Model) -> Findings:
         """Yield the finding, with a fix for a misspelt name or a missing include."""
         if fault.kind == "undefined-macro" and is_in_broken_file(model, "macro", fault.name or ""):
             return  # The malformed file is reported instead.

@@ -5,16 +5,9 @@ from __future__ import annotations
 import re
 
 from urdfkit.lint.finding import Fix
+from urdfkit.lint.model.tags import Document
 from urdfkit.lint.model.xacro_prefix import is_unprefixed_directive, prefixing
-from urdfkit.lint.rule import SourceRule
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model.model import Model
-    from urdfkit.lint.model.tags import Document
+from urdfkit.lint.rule import Findings, Model, SourceRule
 
 _CANDIDATE = re.compile(r"<(?:macro|property|include|if|unless|arg|insert_block)[\s/>]")
 
@@ -59,7 +52,7 @@ class UnprefixedDirective(SourceRule):
     name = "unprefixed-xacro-directive"
     fix = "safe"
 
-    def check(self, document: Document, model: Model) -> Iterator[Finding]:
+    def check(self, document: Document, model: Model) -> Findings:
         """Yield a finding for each directive without the prefix."""
         if not _CANDIDATE.search(document.source.text):
             return

@@ -5,17 +5,9 @@ from __future__ import annotations
 import re
 
 from urdfkit.lint.finding import Fix
-from urdfkit.lint.model.xacro_prefix import FOREIGN, URDF_CHILDREN, URDF_ELEMENTS, prefixing
-from urdfkit.lint.rule import SourceRule
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model.model import Model
-    from urdfkit.lint.model.tags import Document, Tag
-    from urdfkit.lint.model.xacro_prefix import Signature
+from urdfkit.lint.model.tags import Document, Tag
+from urdfkit.lint.model.xacro_prefix import FOREIGN, URDF_CHILDREN, URDF_ELEMENTS, Signature, prefixing
+from urdfkit.lint.rule import Findings, Model, SourceRule
 
 _TRANSPARENT = ("xacro:if", "xacro:unless", "if", "unless")
 
@@ -58,7 +50,7 @@ class UnprefixedMacroCall(SourceRule):
     name = "unprefixed-macro-call"
     fix = "safe"
 
-    def check(self, document: Document, model: Model) -> Iterator[Finding]:
+    def check(self, document: Document, model: Model) -> Findings:
         """Yield a finding for each call without the prefix."""
         sources = model.expanded.sources.values()
         if not any(f"<{name}" in document.source.text for source in sources for name in _near_definitions(source.text)):

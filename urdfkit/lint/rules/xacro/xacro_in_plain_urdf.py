@@ -4,16 +4,9 @@ from __future__ import annotations
 
 import re
 
+from urdfkit.lint.model.tags import Document
 from urdfkit.lint.model.xacro_prefix import URDF_CHILDREN
-from urdfkit.lint.rule import SourceRule
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model.model import Model
-    from urdfkit.lint.model.tags import Document
+from urdfkit.lint.rule import Findings, Model, SourceRule
 
 
 class XacroInPlainUrdf(SourceRule):
@@ -48,7 +41,7 @@ class XacroInPlainUrdf(SourceRule):
     name = "xacro-in-plain-urdf"
     severity = "warning"
 
-    def check(self, document: Document, model: Model) -> Iterator[Finding]:
+    def check(self, document: Document, model: Model) -> Findings:
         """Yield a finding for a ``.urdf`` file that needs xacro."""
         text, source = document.source.text, document.source
         if not source.file.endswith(".urdf") or ("xacro" not in text and "${" not in text) or not document.roots:
