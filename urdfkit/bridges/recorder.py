@@ -9,15 +9,12 @@ from collections.abc import Callable
 from contextlib import ExitStack
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from types import TracebackType
+from typing import Any
 
 from urdfkit.atomic import staging, undisturbed
+from urdfkit.bus import Bus, Subscription, Topic
 from urdfkit.errors import MissingDependencyError, ResourceError, UsageError
-
-if TYPE_CHECKING:
-    from types import TracebackType
-
-    from urdfkit.bus import Bus, Subscription, Topic
 
 SUFFIX = ".mcap"
 STEM = "recording"

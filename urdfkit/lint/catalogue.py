@@ -3,11 +3,8 @@
 from __future__ import annotations
 
 from urdfkit.lint.rule import SECTIONS as SECTIONS
+from urdfkit.lint.rule import Rule
 from urdfkit.lint.rules import RULES
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from urdfkit.lint.rule import Rule
 
 _FIXES = {
     "safe": "fixed by `urdfkit lint --fix`",

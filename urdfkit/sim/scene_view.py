@@ -5,13 +5,14 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import Any, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
 from urdfkit.description.sdf import World
 from urdfkit.description.urdf.geometry import compose
+from urdfkit.kinematics import Kinematics
 from urdfkit.linear_algebra import inverse_placement, matmul
 from urdfkit.scene import MeshLoader, Role, Scene, Shape
 from urdfkit.scene.lights import lighting_of
@@ -22,10 +23,7 @@ from urdfkit.scene.segmentation_labels import label_of
 from urdfkit.scene.world_shapes import shapes_of_link
 from urdfkit.sim.construction.rigid_bodies import parts_of
 from urdfkit.sim.state.poses import seven
-
-if TYPE_CHECKING:
-    from urdfkit.kinematics import Kinematics
-    from urdfkit.sim.state.robot_state import Snapshot, State
+from urdfkit.sim.state.robot_state import Snapshot, State
 
 Array = NDArray[np.float64]
 

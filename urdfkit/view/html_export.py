@@ -9,16 +9,15 @@ import posixpath
 import re
 import zlib
 from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING, Any
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
 
 from urdfkit.view.content.mesh_store import GeometryStore
 from urdfkit.view.protocol import websocket_messages as protocol
 from urdfkit.view.server.broadcast import pack
 from urdfkit.view.server.http_handlers import APP, OFFLINE, meshcat_bundle
-
-if TYPE_CHECKING:
-    import numpy as np
-    from numpy.typing import NDArray
 
 _IMPORT = re.compile(r"""(\bfrom\s*|\bimport\s*)(["'])(\.\.?/[\w./-]+\.js)\2""")
 _PREFIX = "urdfkit/"

@@ -4,11 +4,8 @@ from __future__ import annotations
 
 import os
 import re
+from collections.abc import Iterator
 from pathlib import Path
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Iterator
 
 LAUNCH = (".launch", ".launch.xml", ".launch.py", ".launch.yaml")
 """Suffixes of launch files."""

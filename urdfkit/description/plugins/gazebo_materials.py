@@ -5,13 +5,11 @@ Source: gazebo-classic, media/materials/scripts/gazebo.material and grid.materia
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 from urdfkit.description.plugins.sensor_elements import nearest
 from urdfkit.description.urdf.robot import Robot
 from urdfkit.description.xml.element import Element
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Iterator
 
 Rgba = tuple[float, float, float, float]
 

@@ -2,16 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 from urdfkit.description.plugins.lookup import ALL_SPECS, stem
 from urdfkit.description.plugins.sensor_elements import nearest
 from urdfkit.description.plugins.spec import PluginSpec
 from urdfkit.description.urdf.robot import Plugin
 from urdfkit.description.xml.element import Element
 from urdfkit.record import record
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Iterator
 
 GENERATIONS = {"ros1": "ROS 1", "ros2": "ROS 2", "gz": "the new Gazebo"}
 

@@ -3,11 +3,8 @@
 from __future__ import annotations
 
 import re
-from typing import TYPE_CHECKING
+from typing import Any
 from xml.dom import minidom
-
-if TYPE_CHECKING:
-    from typing import Any
 
 
 def printed(document: Any, path: str) -> str:

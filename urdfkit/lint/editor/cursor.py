@@ -4,9 +4,7 @@ from __future__ import annotations
 
 import re
 
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from urdfkit.lint.model.tags import Attribute, Document, Tag
+from urdfkit.lint.model.tags import Attribute, Document, Tag
 
 _WORD = r"[A-Za-z_][\w.]*"
 _PARAMETER = r"[^\s:=,;]+"

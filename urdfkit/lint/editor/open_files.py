@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from urdfkit.description.packages.resolver import Packages
@@ -9,16 +10,11 @@ from urdfkit.description.xacro.fast.incremental import Memory
 from urdfkit.errors import UrdfkitError, bug
 from urdfkit.lint.engine.checker import Checker, model_of
 from urdfkit.lint.engine.run import merged
+from urdfkit.lint.finding import Finding
+from urdfkit.lint.model.model import Model
 from urdfkit.lint.project.entry_files import Entry, find_entries
 from urdfkit.lint.project.options import Options
 from urdfkit.record import record
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
-
-    from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model.model import Model
 
 
 @record(eq=False)

@@ -7,18 +7,13 @@ macro. Macros, properties and arguments are collected from the source text.
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator
 
-from urdfkit.description.xml.source import Position, Span
+from urdfkit.description.xml.element import Element
+from urdfkit.description.xml.source import Position, Source, Span
+from urdfkit.lint.model.model import Model
+from urdfkit.lint.model.tags import Document, Tag
 from urdfkit.record import record
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from urdfkit.description.xml.element import Element
-    from urdfkit.description.xml.source import Source
-    from urdfkit.lint.model.model import Model
-    from urdfkit.lint.model.tags import Document, Tag
 
 EXPANDED = ("link", "joint", "material")
 """Kinds of symbols that are collected after expansion."""

@@ -5,19 +5,15 @@ from __future__ import annotations
 import multiprocessing
 import sys
 import threading
+from collections.abc import Sequence
 from concurrent.futures import ProcessPoolExecutor
 from concurrent.futures.process import BrokenProcessPool
 
 from urdfkit.errors import ResourceError
 from urdfkit.lint.engine.checker import Checker
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    from urdfkit.lint.finding import EntryResult
-    from urdfkit.lint.project.entry_files import Entry
-    from urdfkit.lint.project.options import Options
+from urdfkit.lint.finding import EntryResult
+from urdfkit.lint.project.entry_files import Entry
+from urdfkit.lint.project.options import Options
 
 _checkers: list[Checker] = []
 """The checker of this process; its package lookups serve all files of the process."""

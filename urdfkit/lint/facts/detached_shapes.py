@@ -4,13 +4,10 @@ from __future__ import annotations
 
 from math import sqrt
 
+from urdfkit.description.urdf.robot import Collision, Link, Visual
 from urdfkit.lint.facts.inertia.principal_moments import principal_moments
+from urdfkit.lint.model.model import Model
 from urdfkit.lint.model.placement import shapes_of
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from urdfkit.description.urdf.robot import Collision, Link, Visual
-    from urdfkit.lint.model.model import Model
 
 MIN_GYRATION = 0.05
 """Minimum ratio of radius of gyration to reach (see I508)."""

@@ -8,13 +8,22 @@ from __future__ import annotations
 
 from math import pi
 
-from urdfkit.description.urdf.robot import JOINT_TYPES, Box, Capsule, Cylinder, Sphere
+from urdfkit.description.urdf.robot import (
+    JOINT_TYPES,
+    Box,
+    Capsule,
+    Collision,
+    Cylinder,
+    Inertial,
+    Joint,
+    Limit,
+    Link,
+    Robot,
+    Sphere,
+    Visual,
+)
+from urdfkit.description.xml.element import Element
 from urdfkit.description.xml.numbers import numbers
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from urdfkit.description.urdf.robot import Collision, Inertial, Joint, Limit, Link, Robot, Visual
-    from urdfkit.description.xml.element import Element
 
 _TENSOR = frozenset(("ixx", "ixy", "ixz", "iyy", "iyz", "izz"))
 _FAR = 2.0 * pi

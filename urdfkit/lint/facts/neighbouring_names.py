@@ -5,9 +5,7 @@ from __future__ import annotations
 import re
 from pathlib import Path
 
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from urdfkit.lint.model.model import Model
+from urdfkit.lint.model.model import Model
 
 
 def neighbouring_names(model: Model, tag: str) -> list[str]:

@@ -2,11 +2,8 @@
 
 from __future__ import annotations
 
+from urdfkit.description.urdf.robot import Robot
 from urdfkit.lint.fix_builders import meant, nearest
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from urdfkit.description.urdf.robot import Robot
 
 _CUTOFF = 0.6
 """Minimum similarity to the name of a link without parent: `amr` for `arm`."""

@@ -11,16 +11,12 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterable, Mapping
 
 from urdfkit.description.xml.source import Position
+from urdfkit.lint.finding import Finding
+from urdfkit.lint.model.tags import Document
 from urdfkit.record import record
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping
-
-    from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model.tags import Document
 
 _COMMENT = re.compile(r"\s*urdfkit:\s*([\w-]*)(.*)", re.DOTALL)
 _CODE = re.compile(r"[A-Z]+[0-9][0-9A-Z]*")

@@ -8,22 +8,17 @@ installed packages, are never changed.
 from __future__ import annotations
 
 import re
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from pathlib import Path
 
-from urdfkit.description.xml.source import Overlay
+from urdfkit.description.xml.source import Overlay, Source, Span
 from urdfkit.errors import ResourceError
 from urdfkit.lint.engine.run import Outcome, run
+from urdfkit.lint.finding import Edit, Finding
 from urdfkit.lint.fixes.regressions import WrittenText, new_findings, unmatched
+from urdfkit.lint.project.entry_files import Entry
 from urdfkit.lint.project.options import Options
 from urdfkit.record import record
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Mapping, Sequence
-
-    from urdfkit.description.xml.source import Source, Span
-    from urdfkit.lint.finding import Edit, Finding
-    from urdfkit.lint.project.entry_files import Entry
 
 _ROUNDS = 10
 _SURROGATE = re.compile("[\ud800-\udfff]")

@@ -14,14 +14,11 @@ Other new findings are defects that were masked before. Notes are never regressi
 from __future__ import annotations
 
 import re
+from collections.abc import Iterable, Iterator
 
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator
-
-    from urdfkit.description.xml.source import Source
-    from urdfkit.lint.engine.run import Outcome
-    from urdfkit.lint.finding import Finding
+from urdfkit.description.xml.source import Source
+from urdfkit.lint.engine.run import Outcome
+from urdfkit.lint.finding import Finding
 
 _ALWAYS = frozenset(("E001", "E013"))
 """The file is not well-formed; a unique element occurs twice."""

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from math import hypot, sqrt
 
 from urdfkit.description.urdf.geometry import (
     UNROTATED,
+    Rotation,
     box_around,
     box_around_all,
     product,
@@ -14,15 +16,21 @@ from urdfkit.description.urdf.geometry import (
     volume_of,
 )
 from urdfkit.description.urdf.queries import tree_order
-from urdfkit.description.urdf.robot import Box, Capsule, Cylinder, Mesh, Sphere
+from urdfkit.description.urdf.robot import (
+    Box,
+    Capsule,
+    Collision,
+    Cylinder,
+    Geometry,
+    Link,
+    Mesh,
+    Pose,
+    Robot,
+    Sphere,
+    Vector,
+    Visual,
+)
 from urdfkit.record import record
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    from urdfkit.description.urdf.geometry import Rotation
-    from urdfkit.description.urdf.robot import Collision, Geometry, Link, Pose, Robot, Vector, Visual
 
 
 @record

@@ -7,15 +7,12 @@ from __future__ import annotations
 
 import re
 from collections import Counter
+from collections.abc import Iterator
 from functools import cached_property
 from itertools import islice
 
 from urdfkit.description.xml.reader import MAX_TAGS
 from urdfkit.description.xml.source import Source, Span
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Iterator
 
 # Unclosed comments and sections extend to the end of the file, so they are scanned once. XML forbids `<` in attribute
 # values: every alternative stops there, so a stray quote cannot consume the file.

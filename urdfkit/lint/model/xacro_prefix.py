@@ -3,18 +3,14 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator
 
 from urdfkit.description.xacro.missing_prefix import FOREIGN as FOREIGN
 from urdfkit.description.xacro.missing_prefix import is_directive, may_be_directive_inside
+from urdfkit.description.xml.element import Element
 from urdfkit.lint.finding import Edit
+from urdfkit.lint.model.tags import Document, Tag
 from urdfkit.record import record
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from urdfkit.description.xml.element import Element
-    from urdfkit.lint.model.tags import Document, Tag
 
 NAMESPACE = "http://www.ros.org/wiki/xacro"
 """Namespace URI of ``xmlns:xacro``."""

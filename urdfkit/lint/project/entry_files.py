@@ -4,15 +4,12 @@ from __future__ import annotations
 
 import os
 import re
+from collections.abc import Iterable, Iterator
 from pathlib import Path
 
 from urdfkit.description.packages.related_files import LAUNCH, YAML, dependencies_in, manifest, neighbours, package_of
 from urdfkit.errors import ResourceError
 from urdfkit.record import record
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator
 
 SUFFIXES = (".urdf", ".xacro")
 _TO_MERGE = (".urdf.new", ".xacro.new")

@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-from urdfkit.record import field, record
+from collections.abc import Mapping
+from pathlib import Path
 
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Mapping
-    from pathlib import Path
+from urdfkit.record import field, record
 
 
 @record

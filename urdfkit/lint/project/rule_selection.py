@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-from urdfkit.errors import UsageError, did_you_mean
+from collections.abc import Callable, Iterable
 
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable
+from urdfkit.errors import UsageError, did_you_mean
 
 
 def selection(

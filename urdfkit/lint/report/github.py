@@ -5,11 +5,9 @@ https://docs.github.com/en/actions/reference/workflow-commands-for-github-action
 
 from __future__ import annotations
 
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Iterable
+from collections.abc import Iterable
 
-    from urdfkit.lint.finding import Finding
+from urdfkit.lint.finding import Finding
 
 _LEVELS = {"error": "error", "warning": "warning", "note": "notice"}
 

@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Iterable
+from collections.abc import Iterable
 
-    from urdfkit.lint.finding import Finding
+from urdfkit.lint.finding import Finding
 
 
 def as_json(findings: Iterable[Finding]) -> str:

@@ -6,13 +6,10 @@ The output follows the schema of the Jenkins xUnit plugin (junit-10.xsd).
 from __future__ import annotations
 
 import re
+from collections.abc import Iterable, Sequence
 from xml.sax.saxutils import escape, quoteattr
 
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Iterable, Sequence
-
-    from urdfkit.lint.finding import Finding
+from urdfkit.lint.finding import Finding
 
 _FORBIDDEN = re.compile("[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
 """Characters that XML 1.0 does not allow."""

@@ -14,13 +14,10 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterable, Mapping, Sequence
 
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping, Sequence
-
-    from urdfkit.description.xml.source import Expansion, Source
-    from urdfkit.lint.finding import Finding
+from urdfkit.description.xml.source import Expansion, Source
+from urdfkit.lint.finding import Finding
 
 _RESET = "\x1b[0m"
 _STYLES = {"error": "\x1b[1;31m", "warning": "\x1b[1;33m", "note": "\x1b[1;36m", "bold": "\x1b[1m", "dim": "\x1b[34m"}

@@ -3,14 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Collection
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from numpy.typing import NDArray
 
 from urdfkit.errors import SimulationError
-
-if TYPE_CHECKING:
-    from urdfkit.sim.engine import Contact, Engine
+from urdfkit.sim.engine import Contact, Engine
 
 DEEP = 0.005
 """Overlap without a warning [m]; models that are placed manually overlap slightly."""

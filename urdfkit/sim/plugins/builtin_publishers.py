@@ -8,23 +8,21 @@ from __future__ import annotations
 
 from abc import abstractmethod
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from urdfkit.bus import Bus, Topic
+from urdfkit.description.plugins import PluginSpec
 from urdfkit.description.urdf.queries import tree_order
+from urdfkit.description.urdf.robot import Plugin
+from urdfkit.kinematics import Kinematics
 from urdfkit.messages import CLOCK, JOINT_STATE, TF, header, message_type, stamp, transform
 from urdfkit.sim.plugins.parameters import Parameters
 from urdfkit.sim.plugins.periodic import Publisher
+from urdfkit.sim.plugins.setup import Setup
 from urdfkit.sim.plugins.topic_names import Topics
-
-if TYPE_CHECKING:
-    from urdfkit.description.plugins import PluginSpec
-    from urdfkit.description.urdf.robot import Plugin
-    from urdfkit.kinematics import Kinematics
-    from urdfkit.sim.plugins.setup import Setup
-    from urdfkit.sim.state.robot_state import State
+from urdfkit.sim.state.robot_state import State
 
 CLOCK_RATE = 100.0
 """Rate of ``/clock`` [Hz]; it need not be higher than that of the fastest controller."""

@@ -4,14 +4,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from math import cos, sin
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
+from urdfkit.bus import Bus, Topic
 from urdfkit.messages import ODOMETRY, TF, header, message_type, transform, twist
+from urdfkit.sim.plugins.wheel_odometry import Twist
 from urdfkit.sim.state.quaternion import yaw_of
-
-if TYPE_CHECKING:
-    from urdfkit.bus import Bus, Topic
-    from urdfkit.sim.plugins.wheel_odometry import Twist
 
 Pose = tuple[tuple[float, ...], tuple[float, ...]]
 """Position [m] and quaternion x y z w."""

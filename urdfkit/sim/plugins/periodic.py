@@ -4,13 +4,10 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Callable
-from typing import TYPE_CHECKING
 
+from urdfkit.bus import Topic
+from urdfkit.sim.state.robot_state import State
 from urdfkit.sim.state.ticks import NEVER, Ticks
-
-if TYPE_CHECKING:
-    from urdfkit.bus import Topic
-    from urdfkit.sim.state.robot_state import State
 
 
 class Periodic(ABC):

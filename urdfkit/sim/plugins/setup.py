@@ -4,21 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
+from pathlib import Path
 
+import numpy as np
+
+from urdfkit.bus import Bus
+from urdfkit.description.urdf.robot import SensorTag
+from urdfkit.description.xml.source import Position
 from urdfkit.errors import SimulationError, did_you_mean
+from urdfkit.kinematics import Kinematics
 from urdfkit.sim.plugins.ros_distro import Distro
-
-if TYPE_CHECKING:
-    from pathlib import Path
-
-    import numpy as np
-
-    from urdfkit.bus import Bus
-    from urdfkit.description.urdf.robot import SensorTag
-    from urdfkit.description.xml.source import Position
-    from urdfkit.kinematics import Kinematics
-    from urdfkit.sim.scene_view import Surroundings
+from urdfkit.sim.scene_view import Surroundings
 
 
 @dataclass(frozen=True)

@@ -9,10 +9,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from math import inf
-from typing import TYPE_CHECKING
 
-if TYPE_CHECKING:
-    from urdfkit.sim.plugins.parameters import Parameters
+from urdfkit.sim.plugins.parameters import Parameters
 
 
 @dataclass(slots=True)

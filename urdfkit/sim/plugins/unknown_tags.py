@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from typing import TYPE_CHECKING
 
 from urdfkit.description.plugins import PluginSpec
 from urdfkit.description.plugins.gazebo_materials import unknown_materials
@@ -13,9 +12,7 @@ from urdfkit.description.plugins.unread_parameters import unread
 from urdfkit.description.urdf.robot import Plugin, Robot, SensorTag
 from urdfkit.description.xml.element import Element
 from urdfkit.errors import did_you_mean
-
-if TYPE_CHECKING:
-    from urdfkit.sim.plugins.base import Sensor
+from urdfkit.sim.plugins.base import Sensor
 
 
 def misspelt(robot: Robot) -> Iterator[str]:

@@ -3,16 +3,12 @@
 from __future__ import annotations
 
 from math import atan2
-from typing import TYPE_CHECKING
 
-from urdfkit.description.urdf.robot import Cylinder, Sphere
+from urdfkit.description.urdf.robot import Cylinder, Robot, Sphere
+from urdfkit.description.xml.source import Position
 from urdfkit.errors import SimulationError
+from urdfkit.kinematics import Kinematics
 from urdfkit.sim.state.quaternion import rotate
-
-if TYPE_CHECKING:
-    from urdfkit.description.urdf.robot import Robot
-    from urdfkit.description.xml.source import Position
-    from urdfkit.kinematics import Kinematics
 
 Vector = tuple[float, float, float]
 

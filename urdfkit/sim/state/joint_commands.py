@@ -5,18 +5,16 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from math import inf, isfinite
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from urdfkit.description.urdf.robot import Joint
 from urdfkit.errors import SimulationError
 from urdfkit.kinematics import Kinematics
 from urdfkit.sim.engine.scalar_views import numbers
-
-if TYPE_CHECKING:
-    from urdfkit.description.urdf.robot import Joint
-    from urdfkit.sim.state.pid import Gains
+from urdfkit.sim.state.pid import Gains
 
 Array = NDArray[np.float64]
 

@@ -2,16 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from math import inf
-from typing import TYPE_CHECKING
 
+from urdfkit.description.control import Settings
 from urdfkit.errors import SimulationError
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    from urdfkit.description.control import Settings
 
 
 @dataclass(frozen=True, slots=True)

@@ -4,21 +4,19 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from functools import cached_property
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from urdfkit.errors import UnknownNameError, did_you_mean
 from urdfkit.kinematics import Kinematics
+from urdfkit.sim.engine import Contact, Engine
+from urdfkit.sim.engine.articulation import Articulation
 from urdfkit.sim.engine.scalar_views import numbers
 from urdfkit.sim.engine.state_conversion import configuration
 from urdfkit.sim.state.mechanics import energy_of, in_the_world, link_poses, pose_and_twist
 from urdfkit.sim.state.quaternion import product, rotate
-
-if TYPE_CHECKING:
-    from urdfkit.sim.engine import Contact, Engine
-    from urdfkit.sim.engine.articulation import Articulation
 
 Array = NDArray[np.float64]
 Placement = tuple[tuple[float, float, float], tuple[float, float, float, float]]

@@ -3,16 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
 
 from urdfkit.description.urdf.robot import Pose
+from urdfkit.sim.engine import Body
 from urdfkit.sim.state.poses import pose_of
 from urdfkit.sim.world.entity_poses import AT_REST, move_body
 from urdfkit.sim.world.external_forces import ZERO, ExternalForces
-
-if TYPE_CHECKING:
-    from urdfkit.sim.engine import Body
-    from urdfkit.sim.world.world_builder import WorldBuilder
+from urdfkit.sim.world.world_builder import WorldBuilder
 
 
 class RigidBody:

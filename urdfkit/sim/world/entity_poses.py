@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,10 +14,8 @@ from urdfkit.errors import SimulationError
 from urdfkit.linear_algebra import matmul
 from urdfkit.sim.state.arguments import vector
 from urdfkit.sim.state.poses import pose_from, seven
-
-if TYPE_CHECKING:
-    from urdfkit.sim.world.world_builder import WorldBuilder
-    from urdfkit.sim.world.world_entity import WorldEntity
+from urdfkit.sim.world.world_builder import WorldBuilder
+from urdfkit.sim.world.world_entity import WorldEntity
 
 AT_REST = (0.0,) * 6
 

@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from math import inf, isfinite
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,14 +18,12 @@ from numpy.typing import NDArray
 from urdfkit.errors import SimulationError, UnknownNameError
 from urdfkit.linear_algebra import matmul, vector_norm
 from urdfkit.sim.construction.rigid_bodies import parts_of
+from urdfkit.sim.engine import Engine, FreeBody
 from urdfkit.sim.state.arguments import nearest
 from urdfkit.sim.state.quaternion import product, rotate
-
-if TYPE_CHECKING:
-    from urdfkit.sim.engine import Engine, FreeBody
-    from urdfkit.sim.world.simulated_robot import SimulatedRobot
-    from urdfkit.sim.world.world_builder import WorldBuilder
-    from urdfkit.sim.world.world_entity import WorldEntity
+from urdfkit.sim.world.simulated_robot import SimulatedRobot
+from urdfkit.sim.world.world_builder import WorldBuilder
+from urdfkit.sim.world.world_entity import WorldEntity
 
 Array = NDArray[np.float64]
 Target = tuple["SimulatedRobot | None", str]

@@ -7,8 +7,9 @@ the user and has no other effect, like a service that returns an error.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
+from urdfkit.bus import Bus
 from urdfkit.errors import SimulationError, UrdfkitError
 from urdfkit.messages import message_type, vector
 from urdfkit.messages.simulation import (
@@ -26,12 +27,9 @@ from urdfkit.messages.simulation import (
 from urdfkit.sim.plugins.builtin_publishers import Publication
 from urdfkit.sim.state.poses import pose_from
 from urdfkit.sim.state.quaternion import product, rotate
+from urdfkit.sim.state.robot_state import State
+from urdfkit.sim.world.live_world import LiveWorld
 from urdfkit.sim.world.spawn_requests import SpawnRequest, spawn_request, spawn_request_of_text
-
-if TYPE_CHECKING:
-    from urdfkit.bus import Bus
-    from urdfkit.sim.state.robot_state import State
-    from urdfkit.sim.world.live_world import LiveWorld
 
 Note = Callable[[str], None]
 

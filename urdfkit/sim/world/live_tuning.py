@@ -9,20 +9,18 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from math import isfinite
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from urdfkit.description.sdf import World, WorldModel
 from urdfkit.errors import SimulationError, UnknownNameError
 from urdfkit.kinematics.pinocchio_model import spatial_inertia
 from urdfkit.sim.construction.loading import valid_gravity
 from urdfkit.sim.engine import Surface
+from urdfkit.sim.plugins.controllers.joint_handle import Follower
 from urdfkit.sim.state.arguments import nearest, number
 from urdfkit.sim.state.pid import Gains
-
-if TYPE_CHECKING:
-    from urdfkit.sim.plugins.controllers.joint_handle import Follower
-    from urdfkit.sim.world.live_world import LiveWorld
-    from urdfkit.sim.world.simulated_robot import SimulatedRobot
+from urdfkit.sim.world.live_world import LiveWorld
+from urdfkit.sim.world.simulated_robot import SimulatedRobot
 
 LEAST_MASS = 1e-6
 """Minimum mass [kg]."""

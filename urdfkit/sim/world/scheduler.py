@@ -4,14 +4,11 @@ from __future__ import annotations
 
 import heapq
 from collections.abc import Callable
-from typing import TYPE_CHECKING
 
+from urdfkit.sim.plugins.builtin_publishers import Publication
+from urdfkit.sim.state.robot_state import State
 from urdfkit.sim.state.ticks import NEVER
-
-if TYPE_CHECKING:
-    from urdfkit.sim.plugins.builtin_publishers import Publication
-    from urdfkit.sim.state.robot_state import State
-    from urdfkit.sim.world.world_builder import WorldBuilder
+from urdfkit.sim.world.world_builder import WorldBuilder
 
 
 class Scheduler:

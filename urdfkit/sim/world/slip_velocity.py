@@ -3,18 +3,15 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
 from urdfkit.linear_algebra import matmul, vector_norm
-
-if TYPE_CHECKING:
-    from urdfkit.sim.engine import Contact
-    from urdfkit.sim.plugins.sensors.point_motion import Motion
-    from urdfkit.sim.world.live_world import LiveWorld
-    from urdfkit.sim.world.simulated_robot import SimulatedRobot
+from urdfkit.sim.engine import Contact
+from urdfkit.sim.plugins.sensors.point_motion import Motion
+from urdfkit.sim.world.live_world import LiveWorld
+from urdfkit.sim.world.simulated_robot import SimulatedRobot
 
 Array = NDArray[np.float64]
 

@@ -9,7 +9,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
 from urdfkit.description.sdf import World, WorldJoint, WorldModel, WorldRobot
 from urdfkit.description.urdf.geometry import IDENTITY, between, compose, inverse
@@ -17,10 +16,8 @@ from urdfkit.description.urdf.robot import Pose
 from urdfkit.sim.construction.rigid_bodies import parts_of, trees_of
 from urdfkit.sim.state.poses import pose_from
 from urdfkit.sim.world.entity_poses import pose_of
-
-if TYPE_CHECKING:
-    from urdfkit.sim.world.world_builder import WorldBuilder
-    from urdfkit.sim.world.world_entity import WorldEntity
+from urdfkit.sim.world.world_builder import WorldBuilder
+from urdfkit.sim.world.world_entity import WorldEntity
 
 SMALL = 1e-12
 """Difference below which a pose is saved as in the original description [m, rad]."""

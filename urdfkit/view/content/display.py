@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import Any, Protocol
 
-if TYPE_CHECKING:
-    import numpy as np
-    from numpy.typing import NDArray
+import numpy as np
+from numpy.typing import NDArray
 
-    from urdfkit.view.content.mesh_store import GeometryStore
+from urdfkit.view.content.mesh_store import GeometryStore
 
 
 class StatusDisplay(Protocol):

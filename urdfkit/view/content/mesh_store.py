@@ -5,15 +5,13 @@ from __future__ import annotations
 import hashlib
 import struct
 from collections.abc import Collection, Iterator
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from urdfkit.scene import TriMesh
 from urdfkit.scene.meshes.unique_rows import unique_rows
-
-if TYPE_CHECKING:
-    from urdfkit.scene import TriMesh
 
 HEADER = struct.Struct("<III")
 """Number of vertices and triangles, whether the mesh has colours. Then per vertex 3 × float32 position and 3 × float32

@@ -3,18 +3,15 @@
 from __future__ import annotations
 
 import warnings
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from urdfkit.description.urdf.robot import Box, Capsule, Cylinder, Sphere
 from urdfkit.errors import MissingDependencyError
-from urdfkit.scene import TriMesh
+from urdfkit.scene import Scene, Shape, TriMesh
 from urdfkit.view.content.mesh_store import GeometryStore
-
-if TYPE_CHECKING:
-    from urdfkit.scene import Scene, Shape
 
 try:
     with warnings.catch_warnings():

@@ -3,15 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
+from urdfkit.scene import Shape
+from urdfkit.view.content.mesh_store import GeometryStore
 from urdfkit.view.content.meshcat_objects import SharedGeometry, geometry_of, link_path, material
-
-if TYPE_CHECKING:
-    from urdfkit.scene import Shape
-    from urdfkit.view.content.mesh_store import GeometryStore
 
 
 def draw_more(

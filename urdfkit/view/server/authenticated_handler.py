@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from tornado.web import RequestHandler
 
 from urdfkit.view.server.access_control import AccessControl, headers
-
-if TYPE_CHECKING:
-    from urdfkit.view.server.page_server import PageServer
+from urdfkit.view.server.page_server import PageServer
 
 NO_COOKIE = "This browser has not sent the token yet, or urdfkit was restarted with a new token."
 

@@ -6,7 +6,6 @@ import gzip
 from functools import lru_cache
 from importlib.util import find_spec
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from tornado.web import Application, HTTPError
 
@@ -14,10 +13,8 @@ from urdfkit.errors import MissingDependencyError
 from urdfkit.view.protocol import websocket_messages
 from urdfkit.view.server.access_control import headers
 from urdfkit.view.server.authenticated_handler import NO_COOKIE, AuthenticatedHandler
+from urdfkit.view.server.page_server import PageServer
 from urdfkit.view.server.page_socket import PageSocket
-
-if TYPE_CHECKING:
-    from urdfkit.view.server.page_server import PageServer
 
 PING = 5.0
 """Seconds between pings; a browser that has not answered one before the next is disconnected."""

@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Protocol
+from typing import Protocol
 
-if TYPE_CHECKING:
-    from urdfkit.view.content.mesh_store import GeometryStore
-    from urdfkit.view.server.access_control import AccessControl
-    from urdfkit.view.server.broadcast import Hub
-    from urdfkit.view.server.drive_lock import DriveLock
-    from urdfkit.view.server.rejection_log import RejectionLog
-    from urdfkit.view.server.send_queue import Channel
+from urdfkit.view.content.mesh_store import GeometryStore
+from urdfkit.view.server.access_control import AccessControl
+from urdfkit.view.server.broadcast import Hub
+from urdfkit.view.server.drive_lock import DriveLock
+from urdfkit.view.server.rejection_log import RejectionLog
+from urdfkit.view.server.send_queue import Channel
 
 
 class PageServer(Protocol):

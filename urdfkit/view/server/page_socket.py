@@ -8,7 +8,7 @@ import itertools
 import logging
 import struct
 from collections.abc import Awaitable
-from typing import TYPE_CHECKING, cast
+from typing import cast
 
 from tornado.iostream import StreamClosedError
 from tornado.websocket import WebSocketClosedError, WebSocketHandler, WebSocketProtocol, WebSocketProtocol13
@@ -16,10 +16,8 @@ from tornado.websocket import WebSocketClosedError, WebSocketHandler, WebSocketP
 from urdfkit.view.protocol import websocket_messages as protocol
 from urdfkit.view.server.authenticated_handler import AuthenticatedHandler
 from urdfkit.view.server.broadcast import CLEAR
+from urdfkit.view.server.page_server import PageServer
 from urdfkit.view.server.send_queue import Channel, Frame
-
-if TYPE_CHECKING:
-    from urdfkit.view.server.page_server import PageServer
 
 MAX_LOGGED = 10
 """Number of dropped messages that are logged per page."""

@@ -4,10 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from threading import Condition
-from typing import TYPE_CHECKING
 
-if TYPE_CHECKING:
-    from urdfkit.view.protocol.page_requests import Request
+from urdfkit.view.protocol.page_requests import Request
 
 MAX_ACTIONS = 16
 MAX_REQUESTS = 256

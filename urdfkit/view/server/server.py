@@ -8,9 +8,12 @@ import itertools
 import threading
 from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import Future
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
+import numpy as np
+from numpy.typing import NDArray
 from tornado.httpserver import HTTPServer
+from tornado.web import Application
 
 from urdfkit.view.content.mesh_store import GeometryStore
 from urdfkit.view.protocol import websocket_messages as protocol
@@ -23,13 +26,7 @@ from urdfkit.view.server.listen_address import bind, urls
 from urdfkit.view.server.rejection_log import RejectionLog
 from urdfkit.view.server.request_inbox import Inbox
 from urdfkit.view.server.saved_tokens import tokens_of
-
-if TYPE_CHECKING:
-    import numpy as np
-    from numpy.typing import NDArray
-    from tornado.web import Application
-
-    from urdfkit.view.server.send_queue import Channel
+from urdfkit.view.server.send_queue import Channel
 
 
 class Server:

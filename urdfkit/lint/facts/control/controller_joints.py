@@ -3,17 +3,12 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator
 
+from urdfkit.description.xml.source import Source
 from urdfkit.lint.facts.control.launch_files import uncommented
-from urdfkit.lint.facts.control.yaml_tree import documents, groups, start_of, walk
+from urdfkit.lint.facts.control.yaml_tree import Node, documents, groups, start_of, walk
 from urdfkit.record import record
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from urdfkit.description.xml.source import Source
-    from urdfkit.lint.facts.control.yaml_tree import Node
 
 _TYPE = r"\w*(?:_controllers?|_broadcaster)/\w+"
 _JOINTS = r"joints?|(?:left|right)_wheel(?:_names)?"

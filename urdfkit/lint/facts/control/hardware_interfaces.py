@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Iterator
+from collections.abc import Iterator
 
-    from urdfkit.description.urdf.robot import Robot, Transmission
-    from urdfkit.description.xml.element import Element
+from urdfkit.description.urdf.robot import Robot, Transmission
+from urdfkit.description.xml.element import Element
 
 PACKAGE = "hardware_interface"
 """Package prefix of the interface names, before the slash."""

@@ -3,15 +3,12 @@
 from __future__ import annotations
 
 from urdfkit.description.urdf.geometry import combined, principal_moments, rotated_tensor, rotation_of, volume_of
+from urdfkit.description.urdf.robot import Link
+from urdfkit.description.xml.element import Element
+from urdfkit.lint.finding import Fix
 from urdfkit.lint.fix_builders import new_values
+from urdfkit.lint.model.model import Model
 from urdfkit.lint.model.placement import Extent
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from urdfkit.description.urdf.robot import Link
-    from urdfkit.description.xml.element import Element
-    from urdfkit.lint.finding import Fix
-    from urdfkit.lint.model.model import Model
 
 COMPONENTS = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
 """URDF names of the entries of a tensor."""

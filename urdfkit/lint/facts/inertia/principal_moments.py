@@ -2,16 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Sequence
 from math import isfinite, sqrt
 
+from urdfkit.description.urdf.robot import Link
+from urdfkit.description.xml.element import Element
 from urdfkit.description.xml.numbers import number
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Iterator, Sequence
-
-    from urdfkit.description.urdf.robot import Link
-    from urdfkit.description.xml.element import Element
 
 _COMPONENTS = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
 

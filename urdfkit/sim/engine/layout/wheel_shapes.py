@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,11 +10,9 @@ from numpy.typing import NDArray
 from urdfkit.kinematics.model import Kinematics
 from urdfkit.linear_algebra import matmul, vector_norm
 from urdfkit.sim.engine.collision.support_points import HULL
+from urdfkit.sim.engine.contact_surface import Touching
 from urdfkit.sim.engine.contacts import ground_contacts
 from urdfkit.sim.engine.layout.tree_arrays import joint_subspace
-
-if TYPE_CHECKING:
-    from urdfkit.sim.engine.contact_surface import Touching
 
 Array = NDArray[np.float64]
 

@@ -8,15 +8,13 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from math import inf
-from typing import TYPE_CHECKING, ClassVar
+from typing import ClassVar
 
 from urdfkit.sim.plugins.controllers.joint_handle import LOOK, NEAR, Follower, JointHandle
-
-if TYPE_CHECKING:
-    from urdfkit.sim.plugins.controllers.joint_limits import JointLimits
-    from urdfkit.sim.state.joint_commands import Motors
-    from urdfkit.sim.state.pid import Gains
-    from urdfkit.sim.state.robot_state import State
+from urdfkit.sim.plugins.controllers.joint_limits import JointLimits
+from urdfkit.sim.state.joint_commands import Motors
+from urdfkit.sim.state.pid import Gains
+from urdfkit.sim.state.robot_state import State
 
 INTERFACES = ("position", "velocity", "effort")
 """Command interfaces of a joint."""

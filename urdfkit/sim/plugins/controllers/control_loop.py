@@ -2,24 +2,20 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from math import ceil, inf
-from typing import TYPE_CHECKING
 
+from urdfkit.description.control import Settings
 from urdfkit.errors import SimulationError, did_you_mean
+from urdfkit.sim.plugins.builtin_publishers import Publication
+from urdfkit.sim.plugins.controllers.command_output import Output
+from urdfkit.sim.plugins.controllers.controller import Hardware, Law
 from urdfkit.sim.plugins.controllers.controller_types import load_law
+from urdfkit.sim.plugins.controllers.joint_handle import Follower
+from urdfkit.sim.state.joint_commands import Motors
+from urdfkit.sim.state.robot_state import State
 from urdfkit.sim.state.ticks import NEVER, Ticks
-
-if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator
-
-    from urdfkit.description.control import Settings
-    from urdfkit.sim.plugins.builtin_publishers import Publication
-    from urdfkit.sim.plugins.controllers.command_output import Output
-    from urdfkit.sim.plugins.controllers.controller import Hardware, Law
-    from urdfkit.sim.plugins.controllers.joint_handle import Follower
-    from urdfkit.sim.state.joint_commands import Motors
-    from urdfkit.sim.state.robot_state import State
 
 STATES = {1: ("running", "stopped"), 2: ("active", "inactive")}
 """ROS version → names of the states of a running and of a loaded, stopped controller."""

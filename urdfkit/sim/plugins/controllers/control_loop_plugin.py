@@ -2,14 +2,10 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from urdfkit.sim.plugins.base import Controller
-
-if TYPE_CHECKING:
-    from urdfkit.sim.plugins.controllers.control_loop import ControlLoop
-    from urdfkit.sim.state.joint_commands import Motors
-    from urdfkit.sim.state.robot_state import State
+from urdfkit.sim.plugins.controllers.control_loop import ControlLoop
+from urdfkit.sim.state.joint_commands import Motors
+from urdfkit.sim.state.robot_state import State
 
 
 class ControlLoopPlugin(Controller):

@@ -6,21 +6,19 @@ from abc import ABC, abstractmethod
 from collections.abc import Callable
 from dataclasses import dataclass
 from math import inf
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import Any, ClassVar
 
+from urdfkit.bus import Topic
+from urdfkit.description.control import Settings
 from urdfkit.errors import DescriptionError, did_you_mean
 from urdfkit.sim.plugins.builtin_publishers import Publication
 from urdfkit.sim.plugins.controllers.command_output import Output
+from urdfkit.sim.plugins.controllers.joint_handle import Follower
+from urdfkit.sim.plugins.odometry import Pose
+from urdfkit.sim.plugins.setup import Setup
+from urdfkit.sim.state.joint_commands import Motors
+from urdfkit.sim.state.robot_state import State
 from urdfkit.sim.state.ticks import NEVER
-
-if TYPE_CHECKING:
-    from urdfkit.bus import Topic
-    from urdfkit.description.control import Settings
-    from urdfkit.sim.plugins.controllers.joint_handle import Follower
-    from urdfkit.sim.plugins.odometry import Pose
-    from urdfkit.sim.plugins.setup import Setup
-    from urdfkit.sim.state.joint_commands import Motors
-    from urdfkit.sim.state.robot_state import State
 
 
 @dataclass

@@ -6,15 +6,12 @@ warning, because a topic has no response.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from collections.abc import Callable
+from typing import Any
 
 from urdfkit.errors import UrdfkitError
 from urdfkit.messages.control import CONFIGURE, LOAD, SWITCH, UNLOAD
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    from urdfkit.sim.plugins.controllers.control_loop import ControlLoop
+from urdfkit.sim.plugins.controllers.control_loop import ControlLoop
 
 BEST_EFFORT = 1
 """Strictness at which controllers that cannot be switched are skipped."""

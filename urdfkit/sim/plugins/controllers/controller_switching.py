@@ -3,15 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING
 
 from urdfkit.errors import SimulationError, did_you_mean
-
-if TYPE_CHECKING:
-    from urdfkit.sim.plugins.builtin_publishers import Publication
-    from urdfkit.sim.plugins.controllers.control_loop import ControllerStatus, ControlLoop
-    from urdfkit.sim.plugins.odometry import Pose
-    from urdfkit.sim.state.robot_state import State
+from urdfkit.sim.plugins.builtin_publishers import Publication
+from urdfkit.sim.plugins.controllers.control_loop import ControllerStatus, ControlLoop
+from urdfkit.sim.plugins.odometry import Pose
+from urdfkit.sim.state.robot_state import State
 
 
 class Controllers:

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
+from urdfkit.description.control import Settings
 from urdfkit.errors import DescriptionError, did_you_mean
+from urdfkit.sim.plugins.controllers.controller import Hardware, Law
 from urdfkit.sim.plugins.controllers.joints.forward_command import Forward, ForwardGroup
 from urdfkit.sim.plugins.controllers.joints.gripper import Gripper
 from urdfkit.sim.plugins.controllers.joints.joint_state_broadcaster import JointStatePublisher
@@ -15,10 +15,6 @@ from urdfkit.sim.plugins.controllers.mobile_base.four_wheel_steering import Four
 from urdfkit.sim.plugins.controllers.mobile_base.mecanum import MecanumController
 from urdfkit.sim.plugins.controllers.mobile_base.steering import SteeringController
 from urdfkit.sim.plugins.controllers.trajectory.joint_trajectory import TrajectoryFollower
-
-if TYPE_CHECKING:
-    from urdfkit.description.control import Settings
-    from urdfkit.sim.plugins.controllers.controller import Hardware, Law
 
 LAWS: tuple[type[Law], ...] = (
     JointStatePublisher,

@@ -8,8 +8,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from math import inf, isfinite
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
+from urdfkit.description.plugins import PluginSpec
+from urdfkit.description.urdf.robot import Plugin
 from urdfkit.errors import SimulationError
 from urdfkit.messages import FLOAT
 from urdfkit.sim.plugins.base import Controller
@@ -17,14 +19,10 @@ from urdfkit.sim.plugins.controllers.joint_handle import Follower, JointHandle
 from urdfkit.sim.plugins.parameters import Parameters
 from urdfkit.sim.plugins.setup import Setup
 from urdfkit.sim.plugins.topic_names import Topics
+from urdfkit.sim.state.joint_commands import Motors
 from urdfkit.sim.state.pid import Gains
+from urdfkit.sim.state.robot_state import State
 from urdfkit.sim.state.ticks import NEVER
-
-if TYPE_CHECKING:
-    from urdfkit.description.plugins import PluginSpec
-    from urdfkit.description.urdf.robot import Plugin
-    from urdfkit.sim.state.joint_commands import Motors
-    from urdfkit.sim.state.robot_state import State
 
 
 class _GzJoint:

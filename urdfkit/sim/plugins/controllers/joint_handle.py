@@ -7,16 +7,13 @@ the sum of all terms.
 from __future__ import annotations
 
 from math import inf, isfinite, pi, remainder
-from typing import TYPE_CHECKING
 
+from urdfkit.description.urdf.robot import Joint
+from urdfkit.kinematics import Kinematics
+from urdfkit.sim.plugins.controllers.joint_limits import JointLimits
+from urdfkit.sim.state.joint_commands import Motors
 from urdfkit.sim.state.pid import Gains, Integral
-
-if TYPE_CHECKING:
-    from urdfkit.description.urdf.robot import Joint
-    from urdfkit.kinematics import Kinematics
-    from urdfkit.sim.plugins.controllers.joint_limits import JointLimits
-    from urdfkit.sim.state.joint_commands import Motors
-    from urdfkit.sim.state.robot_state import State
+from urdfkit.sim.state.robot_state import State
 
 FASTEST = 20.0
 """Greatest velocity at which a joint without ``<limit velocity>`` moves to a commanded position [rad/s] or [m/s]."""

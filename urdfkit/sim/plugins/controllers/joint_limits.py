@@ -6,17 +6,13 @@ joint_limits_urdf.h; gazebo_ros_pkgs noetic-devel, default_robot_hw_sim.cpp, reg
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from math import inf
-from typing import TYPE_CHECKING
 
+from urdfkit.description.control import Settings
+from urdfkit.description.urdf.robot import Joint
 from urdfkit.errors import DescriptionError
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    from urdfkit.description.control import Settings
-    from urdfkit.description.urdf.robot import Joint
 
 
 @dataclass(frozen=True)

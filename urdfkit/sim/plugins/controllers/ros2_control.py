@@ -7,12 +7,13 @@ from __future__ import annotations
 
 import re
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from urdfkit.description.control import Settings, node_settings, read_settings
 from urdfkit.description.packages.resolver import near_path
 from urdfkit.description.plugins.controller_plugins import GAZEBO_ROS2_CONTROL
+from urdfkit.description.xml.element import Element
 from urdfkit.description.xml.numbers import number
+from urdfkit.description.xml.source import Position
 from urdfkit.errors import ResourceError, SimulationError, did_you_mean
 from urdfkit.sim.plugins.controllers.command_output import (
     INTERFACES,
@@ -30,10 +31,6 @@ from urdfkit.sim.plugins.controllers.joint_handle import JointHandle
 from urdfkit.sim.plugins.parameters import Parameters
 from urdfkit.sim.plugins.setup import Setup
 from urdfkit.sim.plugins.topic_names import Topics
-
-if TYPE_CHECKING:
-    from urdfkit.description.xml.element import Element
-    from urdfkit.description.xml.source import Position
 
 SIMULATED = (
     "gz_ros2_control/GazeboSimSystem",

@@ -5,10 +5,9 @@ Source: gazebo_ros_pkgs noetic-devel, gazebo_ros_control/src/{gazebo_ros_control
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
-from urdfkit.description.control import Settings, find_configuration
+from urdfkit.description.control import Configuration, Settings, find_configuration
 from urdfkit.description.control.ros1_controllers import controllers
+from urdfkit.description.urdf.robot import Transmission
 from urdfkit.errors import SimulationError, did_you_mean
 from urdfkit.messages import BOOL
 from urdfkit.sim.plugins.controllers.command_output import EffortOutput, Output, PositionOutput, VelocityOutput
@@ -22,10 +21,6 @@ from urdfkit.sim.plugins.parameters import Parameters
 from urdfkit.sim.plugins.setup import Setup
 from urdfkit.sim.plugins.topic_names import Topics
 from urdfkit.sim.state.pid import read_gains
-
-if TYPE_CHECKING:
-    from urdfkit.description.control import Configuration
-    from urdfkit.description.urdf.robot import Transmission
 
 INTERFACES = {
     "EffortJointInterface": "effort",

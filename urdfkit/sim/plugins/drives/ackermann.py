@@ -7,7 +7,7 @@ after each update; urdfkit distributes the same impulse over the steps until the
 from __future__ import annotations
 
 from math import copysign, dist, hypot, tan
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from urdfkit.errors import SimulationError
 from urdfkit.messages import message_type
@@ -19,13 +19,10 @@ from urdfkit.sim.plugins.parameters import Parameters
 from urdfkit.sim.plugins.setup import Setup
 from urdfkit.sim.plugins.topic_names import Topics
 from urdfkit.sim.plugins.wheel_geometry import steering_angles, wheel_centre, wheel_radius
-from urdfkit.sim.state.joint_commands import effort_limit
+from urdfkit.sim.state.joint_commands import Motors, effort_limit
 from urdfkit.sim.state.pid import Gains, GazeboPid
+from urdfkit.sim.state.robot_state import State
 from urdfkit.sim.state.ticks import Ticks
-
-if TYPE_CHECKING:
-    from urdfkit.sim.state.joint_commands import Motors
-    from urdfkit.sim.state.robot_state import State
 
 JOINTS = (
     "front_right_joint",

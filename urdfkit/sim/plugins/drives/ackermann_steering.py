@@ -6,7 +6,7 @@ Source: gz-sim main, src/systems/ackermann_steering/AckermannSteering.cc.
 from __future__ import annotations
 
 from math import copysign, isfinite, sin, tan
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from urdfkit.errors import SimulationError
 from urdfkit.sim.plugins.drives.odometry_parameters import odometry_topics
@@ -17,11 +17,9 @@ from urdfkit.sim.plugins.speed_limits import SpeedLimits, limiter
 from urdfkit.sim.plugins.topic_names import Topics
 from urdfkit.sim.plugins.wheel_geometry import steering_angles
 from urdfkit.sim.plugins.wheel_odometry import BicycleOdometry
+from urdfkit.sim.state.joint_commands import Motors
 from urdfkit.sim.state.pid import Gains, GazeboPid
-
-if TYPE_CHECKING:
-    from urdfkit.sim.state.joint_commands import Motors
-    from urdfkit.sim.state.robot_state import State
+from urdfkit.sim.state.robot_state import State
 
 STRAIGHT = 0.001
 """Yaw rate below which the robot drives straight ahead [rad/s]."""

@@ -7,8 +7,10 @@ for these distributions only.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
+from urdfkit.description.plugins import PluginSpec
+from urdfkit.description.urdf.robot import Plugin
 from urdfkit.errors import SimulationError
 from urdfkit.messages import BOOL
 from urdfkit.sim.plugins.drives.odometry_parameters import by_encoder, odometry_topics
@@ -21,12 +23,8 @@ from urdfkit.sim.plugins.speed_limits import SpeedLimits, limiter
 from urdfkit.sim.plugins.topic_names import Topics
 from urdfkit.sim.plugins.wheel_geometry import turns_right
 from urdfkit.sim.plugins.wheel_odometry import DifferentialOdometry, WheelOdometry
-
-if TYPE_CHECKING:
-    from urdfkit.description.plugins import PluginSpec
-    from urdfkit.description.urdf.robot import Plugin
-    from urdfkit.sim.state.joint_commands import Motors
-    from urdfkit.sim.state.robot_state import State
+from urdfkit.sim.state.joint_commands import Motors
+from urdfkit.sim.state.robot_state import State
 
 CLOSE = 0.01
 """Difference to the target below which a wheel speed is set without the acceleration limit [m/s]."""

@@ -5,8 +5,6 @@ Source: gz-sim main, src/systems/mecanum_drive/MecanumDrive.cc.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from urdfkit.sim.plugins.drives.odometry_parameters import odometry_topics
 from urdfkit.sim.plugins.drives.velocity_drive import VelocityDrive, joints_of
 from urdfkit.sim.plugins.parameters import Parameters
@@ -14,10 +12,8 @@ from urdfkit.sim.plugins.setup import Setup
 from urdfkit.sim.plugins.speed_limits import SpeedLimits, limiter
 from urdfkit.sim.plugins.topic_names import Topics
 from urdfkit.sim.plugins.wheel_odometry import MecanumOdometry
-
-if TYPE_CHECKING:
-    from urdfkit.sim.state.joint_commands import Motors
-    from urdfkit.sim.state.robot_state import State
+from urdfkit.sim.state.joint_commands import Motors
+from urdfkit.sim.state.robot_state import State
 
 CORNERS = {
     "front_left_joint": (-1, -1),

@@ -2,15 +2,11 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from urdfkit.errors import SimulationError
 from urdfkit.sim.plugins.odometry import OdometryTopics
-
-if TYPE_CHECKING:
-    from urdfkit.sim.plugins.parameters import Parameters
-    from urdfkit.sim.plugins.setup import Setup
-    from urdfkit.sim.plugins.topic_names import Topics
+from urdfkit.sim.plugins.parameters import Parameters
+from urdfkit.sim.plugins.setup import Setup
+from urdfkit.sim.plugins.topic_names import Topics
 
 HUGE = 1e12
 """Variance of quantities that odometry does not measure, as gazebo_ros_diff_drive writes it."""

@@ -6,19 +6,15 @@ steps; urdfkit publishes the velocity of the present state.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from urdfkit.errors import SimulationError
 from urdfkit.sim.plugins.base import Drive
 from urdfkit.sim.plugins.odometry import Estimate, OdometryTopics, Pose, from_world
 from urdfkit.sim.plugins.parameters import Parameters
 from urdfkit.sim.plugins.setup import Setup
 from urdfkit.sim.plugins.topic_names import Topics
+from urdfkit.sim.state.joint_commands import Motors
 from urdfkit.sim.state.quaternion import from_rpy, product, rotate
-
-if TYPE_CHECKING:
-    from urdfkit.sim.state.joint_commands import Motors
-    from urdfkit.sim.state.robot_state import State
+from urdfkit.sim.state.robot_state import State
 
 
 class OdometryPublisher(Drive):

@@ -7,21 +7,18 @@ of every link; urdfkit sets that of the root link, and joints keep their velocit
 from __future__ import annotations
 
 from math import cos, pi, remainder, sin
-from typing import TYPE_CHECKING
 
+from urdfkit.description.plugins import PluginSpec
+from urdfkit.description.urdf.robot import Plugin
 from urdfkit.sim.plugins.drives.odometry_parameters import odometry_topics
 from urdfkit.sim.plugins.drives.velocity_drive import VelocityDrive
 from urdfkit.sim.plugins.odometry import Estimate
 from urdfkit.sim.plugins.parameters import Parameters
 from urdfkit.sim.plugins.setup import Setup
 from urdfkit.sim.plugins.topic_names import Topics
+from urdfkit.sim.state.joint_commands import Motors
 from urdfkit.sim.state.quaternion import rotate, yaw_of
-
-if TYPE_CHECKING:
-    from urdfkit.description.plugins import PluginSpec
-    from urdfkit.description.urdf.robot import Plugin
-    from urdfkit.sim.state.joint_commands import Motors
-    from urdfkit.sim.state.robot_state import State
+from urdfkit.sim.state.robot_state import State
 
 
 class PlanarMove(VelocityDrive):

@@ -5,16 +5,12 @@ Source: gazebo_ros_pkgs noetic-devel, gazebo_plugins/src/gazebo_ros_skid_steer_d
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from urdfkit.sim.plugins.drives.diff_drive import DiffDrive
 from urdfkit.sim.plugins.drives.odometry_parameters import odometry_topics
 from urdfkit.sim.plugins.drives.wheel_messages import Wheels
+from urdfkit.sim.plugins.parameters import Parameters
+from urdfkit.sim.plugins.setup import Setup
 from urdfkit.sim.plugins.topic_names import Topics
-
-if TYPE_CHECKING:
-    from urdfkit.sim.plugins.parameters import Parameters
-    from urdfkit.sim.plugins.setup import Setup
 
 
 class SkidSteer(DiffDrive):

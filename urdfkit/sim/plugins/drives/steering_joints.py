@@ -3,12 +3,10 @@
 from __future__ import annotations
 
 from math import inf
-from typing import TYPE_CHECKING
 
-if TYPE_CHECKING:
-    from urdfkit.sim.plugins.setup import Setup
-    from urdfkit.sim.state.joint_commands import Motors
-    from urdfkit.sim.state.robot_state import State
+from urdfkit.sim.plugins.setup import Setup
+from urdfkit.sim.state.joint_commands import Motors
+from urdfkit.sim.state.robot_state import State
 
 
 def put(joint: str, position: float, period: float, *, setup: Setup, state: State, motors: Motors) -> None:

@@ -8,7 +8,6 @@ away from most targets; its encoders have the wrong sign; its velocity is in the
 from __future__ import annotations
 
 from math import pi
-from typing import TYPE_CHECKING
 
 from urdfkit.sim.plugins.drives.odometry_parameters import by_encoder, odometry_topics
 from urdfkit.sim.plugins.drives.steering_joints import put
@@ -18,11 +17,9 @@ from urdfkit.sim.plugins.parameters import Parameters
 from urdfkit.sim.plugins.setup import Setup
 from urdfkit.sim.plugins.topic_names import Topics
 from urdfkit.sim.plugins.wheel_odometry import DifferentialOdometry
+from urdfkit.sim.state.joint_commands import Motors
+from urdfkit.sim.state.robot_state import State
 from urdfkit.sim.state.ticks import Ticks
-
-if TYPE_CHECKING:
-    from urdfkit.sim.state.joint_commands import Motors
-    from urdfkit.sim.state.robot_state import State
 
 
 class Tricycle(VelocityDrive):

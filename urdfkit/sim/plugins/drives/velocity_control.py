@@ -5,19 +5,15 @@ Source: gz-sim main, src/systems/velocity_control/VelocityControl.cc. It publish
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
+from urdfkit.description.plugins import PluginSpec
+from urdfkit.description.urdf.robot import Plugin
 from urdfkit.sim.plugins.drives.planar_move import movable
 from urdfkit.sim.plugins.drives.velocity_drive import VelocityDrive
 from urdfkit.sim.plugins.parameters import Parameters
 from urdfkit.sim.plugins.setup import Setup
 from urdfkit.sim.plugins.topic_names import Topics
-
-if TYPE_CHECKING:
-    from urdfkit.description.plugins import PluginSpec
-    from urdfkit.description.urdf.robot import Plugin
-    from urdfkit.sim.state.joint_commands import Motors
-    from urdfkit.sim.state.robot_state import State
+from urdfkit.sim.state.joint_commands import Motors
+from urdfkit.sim.state.robot_state import State
 
 
 class VelocityControl(VelocityDrive):

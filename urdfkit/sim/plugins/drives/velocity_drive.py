@@ -5,19 +5,17 @@ from __future__ import annotations
 from collections.abc import Callable
 from copy import copy
 from math import isfinite
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from urdfkit.errors import SimulationError
 from urdfkit.messages import TWIST
 from urdfkit.sim.plugins.base import Drive
 from urdfkit.sim.plugins.odometry import Estimate, OdometryTopics, Pose, from_world, planar
+from urdfkit.sim.plugins.parameters import Parameters
+from urdfkit.sim.plugins.setup import Setup
 from urdfkit.sim.plugins.speed_limits import SpeedLimits
-
-if TYPE_CHECKING:
-    from urdfkit.sim.plugins.parameters import Parameters
-    from urdfkit.sim.plugins.setup import Setup
-    from urdfkit.sim.plugins.wheel_odometry import WheelOdometry
-    from urdfkit.sim.state.robot_state import State
+from urdfkit.sim.plugins.wheel_odometry import WheelOdometry
+from urdfkit.sim.state.robot_state import State
 
 ZERO = (0.0, 0.0, 0.0)
 

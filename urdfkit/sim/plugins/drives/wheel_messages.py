@@ -3,13 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from urdfkit.messages import JOINT_STATE, TF, header, message_type, transform
-
-if TYPE_CHECKING:
-    from urdfkit.sim.plugins.setup import Setup
-    from urdfkit.sim.state.robot_state import Snapshot, State
+from urdfkit.sim.plugins.setup import Setup
+from urdfkit.sim.state.robot_state import Snapshot, State
 
 
 class Wheels:

@@ -6,11 +6,12 @@ from abc import abstractmethod
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cache
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from urdfkit.description.xml.element import Element
 from urdfkit.errors import SimulationError, did_you_mean
 from urdfkit.sim.plugins.base import Sensor
 from urdfkit.sim.plugins.parameters import Parameters
@@ -18,11 +19,8 @@ from urdfkit.sim.plugins.sensors.point_motion import Moment, Motion
 from urdfkit.sim.plugins.sensors.sensor_values import pose_of, rate_of
 from urdfkit.sim.plugins.setup import Setup
 from urdfkit.sim.plugins.topic_names import Topics
-
-if TYPE_CHECKING:
-    from urdfkit.description.xml.element import Element
-    from urdfkit.sim.scene_view import Surroundings
-    from urdfkit.sim.state.robot_state import State
+from urdfkit.sim.scene_view import Surroundings
+from urdfkit.sim.state.robot_state import State
 
 Array = NDArray[np.float64]
 

@@ -3,16 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
+from urdfkit.kinematics import Kinematics
 from urdfkit.linear_algebra import matmul
-
-if TYPE_CHECKING:
-    from urdfkit.kinematics import Kinematics
-    from urdfkit.sim.state.robot_state import Snapshot, State
+from urdfkit.sim.state.robot_state import Snapshot, State
 
 Array = NDArray[np.float64]
 

@@ -5,12 +5,13 @@ from __future__ import annotations
 from abc import abstractmethod
 from collections.abc import Callable
 from functools import cache, partial
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from urdfkit.description.plugins.sensor_values import senseless_parameters
+from urdfkit.description.urdf.robot import SensorTag
 from urdfkit.errors import SimulationError
 from urdfkit.linear_algebra import matmul
 from urdfkit.sim.plugins.base import Sensor
@@ -19,11 +20,8 @@ from urdfkit.sim.plugins.sensors.link_sensor import carrier
 from urdfkit.sim.plugins.sensors.sensor_values import pose_of, rate_of, refuse
 from urdfkit.sim.plugins.setup import Setup
 from urdfkit.sim.plugins.topic_names import Topics
-
-if TYPE_CHECKING:
-    from urdfkit.description.urdf.robot import SensorTag
-    from urdfkit.sim.scene_view import Layout
-    from urdfkit.sim.state.robot_state import State
+from urdfkit.sim.scene_view import Layout
+from urdfkit.sim.state.robot_state import State
 
 Array = NDArray[np.float64]
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from math import isfinite, isnan
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,9 +12,7 @@ from urdfkit.description.urdf.robot import Pose
 from urdfkit.description.xml.element import Element
 from urdfkit.errors import SimulationError
 from urdfkit.scene.placement import pose_matrix
-
-if TYPE_CHECKING:
-    from urdfkit.sim.plugins.parameters import Parameters
+from urdfkit.sim.plugins.parameters import Parameters
 
 
 def number(

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from urdfkit.sim.plugins.controllers.actions.action_topics import (
     ABORTED,
@@ -14,13 +15,8 @@ from urdfkit.sim.plugins.controllers.actions.action_topics import (
     Goal,
     RclAction,
 )
-from urdfkit.sim.plugins.controllers.controller import Report
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    from urdfkit.sim.plugins.controllers.controller import Law
-    from urdfkit.sim.state.robot_state import State
+from urdfkit.sim.plugins.controllers.controller import Law, Report
+from urdfkit.sim.state.robot_state import State
 
 __all__ = ["ABORTED", "SUCCEEDED", "Action", "RefusalError"]
 

@@ -8,17 +8,14 @@ published on ``get_result`` when a goal has ended.
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
+from collections.abc import Callable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
+from urdfkit.bus import Topic
 from urdfkit.messages import from_fields, header, message_type, stamp
 from urdfkit.messages.control import GOAL_ID, GOAL_STATUSES
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    from urdfkit.bus import Topic
-    from urdfkit.sim.plugins.controllers.controller import Law
+from urdfkit.sim.plugins.controllers.controller import Law
 
 ACTIVE, PREEMPTED, SUCCEEDED, ABORTED, REJECTED = 1, 2, 3, 4, 5
 """States of a goal (actionlib_msgs/GoalStatus)."""

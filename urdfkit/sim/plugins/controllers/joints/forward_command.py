@@ -7,16 +7,14 @@ forward_command_controller.
 from __future__ import annotations
 
 from math import isfinite
-from typing import TYPE_CHECKING, ClassVar
+from typing import ClassVar
 
 from urdfkit.errors import DescriptionError, did_you_mean
 from urdfkit.messages import FLOAT, FLOATS
 from urdfkit.sim.plugins.controllers.command_output import INTERFACES, PositionOutput
 from urdfkit.sim.plugins.controllers.controller import Law
-
-if TYPE_CHECKING:
-    from urdfkit.sim.state.joint_commands import Motors
-    from urdfkit.sim.state.robot_state import State
+from urdfkit.sim.state.joint_commands import Motors
+from urdfkit.sim.state.robot_state import State
 
 
 class Forward(Law):

@@ -5,19 +5,16 @@ Sources: ros_controllers noetic, gripper_action_controller_impl.h; ros2_controll
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, ClassVar
+from collections.abc import Callable
+from typing import Any, ClassVar
 
 from urdfkit.errors import DescriptionError
 from urdfkit.sim.plugins.controllers.actions.action_goal import ABORTED, SUCCEEDED, Action, RefusalError
 from urdfkit.sim.plugins.controllers.controller import Law
 from urdfkit.sim.plugins.controllers.joint_handle import Follower
+from urdfkit.sim.state.joint_commands import Motors
 from urdfkit.sim.state.pid import read_gains
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    from urdfkit.sim.state.joint_commands import Motors
-    from urdfkit.sim.state.robot_state import State
+from urdfkit.sim.state.robot_state import State
 
 MONITOR_RATE = 20.0
 """Default ``action_monitor_rate`` [Hz]."""

@@ -2,18 +2,15 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, ClassVar
+from collections.abc import Callable
+from typing import Any, ClassVar
 
 import numpy as np
 
 from urdfkit.errors import DescriptionError
 from urdfkit.messages import JOINT_STATE, header, message_type
 from urdfkit.sim.plugins.controllers.controller import Law
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    from urdfkit.sim.state.robot_state import State
+from urdfkit.sim.state.robot_state import State
 
 
 class JointStatePublisher(Law):

@@ -7,16 +7,13 @@ Sources: ros2_controllers 4.20, parallel_gripper_controller; control_msgs, Paral
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, ClassVar
+from collections.abc import Callable
+from typing import Any, ClassVar
 
 from urdfkit.messages import JOINT_STATE, from_fields
 from urdfkit.sim.plugins.controllers.actions.action_goal import RefusalError
 from urdfkit.sim.plugins.controllers.joints.gripper import Gripper
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    from urdfkit.sim.state.robot_state import State
+from urdfkit.sim.state.robot_state import State
 
 
 class ParallelGripper(Gripper):

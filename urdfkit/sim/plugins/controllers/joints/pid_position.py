@@ -6,8 +6,9 @@ joint_velocity_controller.cpp, joint_group_position_controller.cpp.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from math import inf, isfinite
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import Any, ClassVar
 
 import numpy as np
 
@@ -15,13 +16,9 @@ from urdfkit.errors import DescriptionError
 from urdfkit.messages import FLOAT, FLOATS, JOINT_CONTROLLER_STATE, header, message_type
 from urdfkit.sim.plugins.controllers.controller import Law
 from urdfkit.sim.plugins.controllers.joint_handle import Follower
+from urdfkit.sim.state.joint_commands import Motors
 from urdfkit.sim.state.pid import Gains, read_gains
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    from urdfkit.sim.state.joint_commands import Motors
-    from urdfkit.sim.state.robot_state import State
+from urdfkit.sim.state.robot_state import State
 
 STATES_EVERY = 10
 """Control periods between messages on ``state``."""

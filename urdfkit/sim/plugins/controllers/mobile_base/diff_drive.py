@@ -8,13 +8,14 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from math import inf
-from typing import TYPE_CHECKING, ClassVar
+from typing import ClassVar
 
 import numpy as np
 
 from urdfkit.errors import DescriptionError
 from urdfkit.linear_algebra import vector_norm
 from urdfkit.messages import TWIST_STAMPED, header, message_type, twist
+from urdfkit.sim.plugins.controllers.command_output import Output
 from urdfkit.sim.plugins.controllers.mobile_base.velocity_reference import Reference
 from urdfkit.sim.plugins.controllers.mobile_base.wheeled_base import (
     RATE,
@@ -25,11 +26,8 @@ from urdfkit.sim.plugins.controllers.mobile_base.wheeled_base import (
 )
 from urdfkit.sim.plugins.speed_limits import SpeedLimits
 from urdfkit.sim.plugins.wheel_odometry import DifferentialOdometry, Twist, WheelOdometry
-
-if TYPE_CHECKING:
-    from urdfkit.sim.plugins.controllers.command_output import Output
-    from urdfkit.sim.state.joint_commands import Motors
-    from urdfkit.sim.state.robot_state import State
+from urdfkit.sim.state.joint_commands import Motors
+from urdfkit.sim.state.robot_state import State
 
 
 class DiffDriveController(WheeledBase):

@@ -6,18 +6,16 @@ Sources: ros_controllers noetic, four_wheel_steering_controller.cpp, odometry.cp
 from __future__ import annotations
 
 from math import atan, copysign, dist, hypot, inf, pi, tan
-from typing import TYPE_CHECKING, ClassVar
+from typing import ClassVar
 
 from urdfkit.errors import DescriptionError
+from urdfkit.sim.plugins.controllers.command_output import Output
 from urdfkit.sim.plugins.controllers.mobile_base.velocity_reference import usual_reference
 from urdfkit.sim.plugins.controllers.mobile_base.wheeled_base import RATE, TIMEOUT, WheeledBase, limits_of_ros_1
 from urdfkit.sim.plugins.speed_limits import SpeedLimits
 from urdfkit.sim.plugins.wheel_odometry import FourWheelOdometry, Twist, WheelOdometry
-
-if TYPE_CHECKING:
-    from urdfkit.sim.plugins.controllers.command_output import Output
-    from urdfkit.sim.state.joint_commands import Motors
-    from urdfkit.sim.state.robot_state import State
+from urdfkit.sim.state.joint_commands import Motors
+from urdfkit.sim.state.robot_state import State
 
 STANDING = 0.001
 """Speed up to which the wheels stay at rest [m/s]."""

@@ -6,16 +6,14 @@ Source: ros2_controllers, mecanum_drive_controller.cpp and odometry.cpp.
 from __future__ import annotations
 
 from math import cos, inf, sin
-from typing import TYPE_CHECKING, ClassVar
+from typing import ClassVar
 
 from urdfkit.sim.plugins.controllers.mobile_base.velocity_reference import usual_reference
 from urdfkit.sim.plugins.controllers.mobile_base.wheeled_base import DIAGONAL, WheeledBase, limits_of_ros_2
 from urdfkit.sim.plugins.speed_limits import SpeedLimits
 from urdfkit.sim.plugins.wheel_odometry import MecanumOdometry, Twist, WheelOdometry
-
-if TYPE_CHECKING:
-    from urdfkit.sim.state.joint_commands import Motors
-    from urdfkit.sim.state.robot_state import State
+from urdfkit.sim.state.joint_commands import Motors
+from urdfkit.sim.state.robot_state import State
 
 CORNERS = {"front_left": (-1, -1), "front_right": (1, 1), "rear_left": (1, -1), "rear_right": (-1, 1)}
 """Wheel → signs of the lateral velocity and of the yaw rate in its speed, in the order of `MecanumOdometry`."""

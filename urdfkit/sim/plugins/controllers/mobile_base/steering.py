@@ -7,9 +7,11 @@ its three controllers; ros_controllers noetic, ackermann_steering_controller.cpp
 from __future__ import annotations
 
 from math import atan, tan
-from typing import TYPE_CHECKING, ClassVar
+from typing import ClassVar
 
+from urdfkit.description.control import Settings
 from urdfkit.errors import DescriptionError
+from urdfkit.sim.plugins.controllers.command_output import Output
 from urdfkit.sim.plugins.controllers.mobile_base.velocity_reference import usual_reference
 from urdfkit.sim.plugins.controllers.mobile_base.wheeled_base import (
     DIAGONAL,
@@ -21,12 +23,8 @@ from urdfkit.sim.plugins.controllers.mobile_base.wheeled_base import (
 from urdfkit.sim.plugins.speed_limits import SpeedLimits
 from urdfkit.sim.plugins.wheel_geometry import steering_angles
 from urdfkit.sim.plugins.wheel_odometry import BicycleOdometry, Twist, WheelOdometry
-
-if TYPE_CHECKING:
-    from urdfkit.description.control import Settings
-    from urdfkit.sim.plugins.controllers.command_output import Output
-    from urdfkit.sim.state.joint_commands import Motors
-    from urdfkit.sim.state.robot_state import State
+from urdfkit.sim.state.joint_commands import Motors
+from urdfkit.sim.state.robot_state import State
 
 SLOW = 1.1920929e-07
 """Speed below which the steering angle is undefined [m/s] (``std::numeric_limits<float>::epsilon``)."""

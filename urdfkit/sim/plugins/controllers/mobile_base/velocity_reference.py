@@ -3,13 +3,11 @@
 from __future__ import annotations
 
 from math import inf, isfinite
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from urdfkit.messages import TWIST, TWIST_STAMPED
-
-if TYPE_CHECKING:
-    from urdfkit.sim.plugins.controllers.controller import Law
-    from urdfkit.sim.plugins.wheel_odometry import Twist
+from urdfkit.sim.plugins.controllers.controller import Law
+from urdfkit.sim.plugins.wheel_odometry import Twist
 
 
 class Reference:

@@ -6,20 +6,18 @@ from abc import abstractmethod
 from collections.abc import Callable
 from copy import copy
 from math import inf, isfinite
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
+from urdfkit.description.control import Settings
 from urdfkit.errors import DescriptionError
+from urdfkit.sim.plugins.controllers.command_output import Output
 from urdfkit.sim.plugins.controllers.controller import Law
+from urdfkit.sim.plugins.controllers.mobile_base.velocity_reference import Reference
 from urdfkit.sim.plugins.odometry import Estimate, OdometryTopics, Pose, planar
 from urdfkit.sim.plugins.speed_limits import SpeedLimiter, SpeedLimits
 from urdfkit.sim.plugins.wheel_geometry import collision_radius
-
-if TYPE_CHECKING:
-    from urdfkit.description.control import Settings
-    from urdfkit.sim.plugins.controllers.command_output import Output
-    from urdfkit.sim.plugins.controllers.mobile_base.velocity_reference import Reference
-    from urdfkit.sim.plugins.wheel_odometry import Twist, WheelOdometry
-    from urdfkit.sim.state.robot_state import State
+from urdfkit.sim.plugins.wheel_odometry import Twist, WheelOdometry
+from urdfkit.sim.state.robot_state import State
 
 RATE = 50.0
 """Default ``publish_rate`` [Hz]."""

@@ -5,7 +5,8 @@ Sources: ros_controllers noetic, joint_trajectory_controller; ros2_controllers, 
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, ClassVar
+from collections.abc import Callable
+from typing import Any, ClassVar
 
 import numpy as np
 
@@ -18,13 +19,9 @@ from urdfkit.sim.plugins.controllers.joint_handle import Follower
 from urdfkit.sim.plugins.controllers.trajectory.spline import ROUNDING, Array, Trajectory, Waypoint
 from urdfkit.sim.plugins.controllers.trajectory.tolerances import Tolerances
 from urdfkit.sim.plugins.controllers.trajectory.trajectory_message import INVALID_JOINTS, TrajectoryReader, point_of
+from urdfkit.sim.state.joint_commands import Motors
 from urdfkit.sim.state.pid import Gains, read_gains
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    from urdfkit.sim.state.joint_commands import Motors
-    from urdfkit.sim.state.robot_state import State
+from urdfkit.sim.state.robot_state import State
 
 ACTION = "control_msgs/msg/FollowJointTrajectory"
 OFF_PATH, OFF_GOAL = -4, -5

@@ -11,7 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,15 +20,13 @@ from urdfkit.errors import SimulationError, did_you_mean
 from urdfkit.messages import header, message_type
 from urdfkit.messages.vision import DETECTIONS_2D, DETECTIONS_3D
 from urdfkit.scene import Shape
+from urdfkit.sim.plugins.parameters import Parameters
 from urdfkit.sim.plugins.sensors.cameras.bounding_boxes import Box2D, Box3D, draw, full_box, space_box, visible_box
 from urdfkit.sim.plugins.sensors.cameras.camera import Camera, Sight
 from urdfkit.sim.plugins.sensors.cameras.camera_optics import CAMERA_INFO, IMAGE, image
-
-if TYPE_CHECKING:
-    from urdfkit.sim.plugins.parameters import Parameters
-    from urdfkit.sim.plugins.setup import Setup
-    from urdfkit.sim.plugins.topic_names import Topics
-    from urdfkit.sim.scene_view import Layout
+from urdfkit.sim.plugins.setup import Setup
+from urdfkit.sim.plugins.topic_names import Topics
+from urdfkit.sim.scene_view import Layout
 
 Array = NDArray[np.float64]
 Numbers = NDArray[np.int64]

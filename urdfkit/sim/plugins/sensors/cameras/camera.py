@@ -10,15 +10,19 @@ from __future__ import annotations
 from abc import abstractmethod
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from urdfkit.description.urdf.robot import SensorTag
+from urdfkit.description.xml.element import Element
 from urdfkit.linear_algebra import matmul
 from urdfkit.scene import Shape
 from urdfkit.scene.camera_model import Distortion
 from urdfkit.scene.ray_images import Picture
+from urdfkit.scene.renderer import TakesPictures
+from urdfkit.sim.plugins.parameters import Parameters
 from urdfkit.sim.plugins.sensors.cameras.camera_optics import (
     CAMERA_INFO,
     IMAGE,
@@ -31,15 +35,9 @@ from urdfkit.sim.plugins.sensors.cameras.camera_optics import (
 from urdfkit.sim.plugins.sensors.noise import Noise, noise_of
 from urdfkit.sim.plugins.sensors.ray_sensor import Mounted
 from urdfkit.sim.plugins.sensors.sensor_values import pose_of
-
-if TYPE_CHECKING:
-    from urdfkit.description.urdf.robot import SensorTag
-    from urdfkit.description.xml.element import Element
-    from urdfkit.scene.renderer import TakesPictures
-    from urdfkit.sim.plugins.parameters import Parameters
-    from urdfkit.sim.plugins.setup import Setup
-    from urdfkit.sim.plugins.topic_names import Topics
-    from urdfkit.sim.scene_view import Layout
+from urdfkit.sim.plugins.setup import Setup
+from urdfkit.sim.plugins.topic_names import Topics
+from urdfkit.sim.scene_view import Layout
 
 Array = NDArray[np.float64]
 

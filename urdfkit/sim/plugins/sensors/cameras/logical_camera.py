@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from math import tan
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from urdfkit.description.urdf.robot import SensorTag
 from urdfkit.errors import SimulationError
 from urdfkit.linear_algebra import inverse_placement, matmul
 from urdfkit.messages import header, message_type
@@ -17,13 +18,10 @@ from urdfkit.scene.placement import pose_matrices
 from urdfkit.sim.plugins.parameters import Parameters
 from urdfkit.sim.plugins.sensors.ray_sensor import Mounted
 from urdfkit.sim.plugins.sensors.sensor_values import number
+from urdfkit.sim.plugins.setup import Setup
+from urdfkit.sim.plugins.topic_names import Topics
+from urdfkit.sim.scene_view import Layout
 from urdfkit.sim.state.quaternion import from_matrix
-
-if TYPE_CHECKING:
-    from urdfkit.description.urdf.robot import SensorTag
-    from urdfkit.sim.plugins.setup import Setup
-    from urdfkit.sim.plugins.topic_names import Topics
-    from urdfkit.sim.scene_view import Layout
 
 Array = NDArray[np.float64]
 Sight = tuple[float, Array, list[tuple[str, Array]]]

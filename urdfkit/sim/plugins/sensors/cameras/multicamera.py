@@ -9,20 +9,18 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import replace
 from functools import cache, partial
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from urdfkit.errors import SimulationError
+from urdfkit.sim.plugins.parameters import Parameters
 from urdfkit.sim.plugins.sensors.cameras.camera import Camera, Eye, Sight
 from urdfkit.sim.plugins.sensors.cameras.camera_optics import CAMERA_INFO, IMAGE, image
-
-if TYPE_CHECKING:
-    from urdfkit.sim.plugins.parameters import Parameters
-    from urdfkit.sim.plugins.setup import Setup
-    from urdfkit.sim.plugins.topic_names import Topics
-    from urdfkit.sim.scene_view import Layout
+from urdfkit.sim.plugins.setup import Setup
+from urdfkit.sim.plugins.topic_names import Topics
+from urdfkit.sim.scene_view import Layout
 
 Array = NDArray[np.float64]
 Looks = Callable[[int], Sight]

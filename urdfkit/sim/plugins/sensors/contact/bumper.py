@@ -10,11 +10,12 @@ from __future__ import annotations
 
 from abc import abstractmethod
 from functools import partial
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from urdfkit.description.xml.element import Element
 from urdfkit.errors import SimulationError
 from urdfkit.messages import BOOL, header, message_type, vector
 from urdfkit.messages.sensors import CONTACT_STATE, CONTACTS_STATE, GZ_CONTACT, GZ_CONTACTS, GZ_JOINT_WRENCH
@@ -26,12 +27,9 @@ from urdfkit.sim.plugins.sensors.link_sensor import carrier
 from urdfkit.sim.plugins.sensors.sensor_values import rate_of
 from urdfkit.sim.plugins.setup import Setup
 from urdfkit.sim.plugins.topic_names import Topics
+from urdfkit.sim.scene_view import Layout
+from urdfkit.sim.state.robot_state import State
 from urdfkit.sim.state.ticks import NEVER
-
-if TYPE_CHECKING:
-    from urdfkit.description.xml.element import Element
-    from urdfkit.sim.scene_view import Layout
-    from urdfkit.sim.state.robot_state import State
 
 Array = NDArray[np.float64]
 

@@ -11,16 +11,12 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
-from urdfkit.description.sdf import Plane
+from urdfkit.description.sdf import Plane, World
+from urdfkit.description.urdf.robot import Robot
+from urdfkit.scene import Scene
 from urdfkit.sim.construction.rigid_bodies import parts_of, touchable
-
-if TYPE_CHECKING:
-    from urdfkit.description.sdf import World
-    from urdfkit.description.urdf.robot import Robot
-    from urdfkit.scene import Scene
-    from urdfkit.sim.scene_view import Layout
+from urdfkit.sim.scene_view import Layout
 
 _LUMP = "_fixed_joint_lump__"
 _COUNTED = re.compile(r"_\d+$")

@@ -10,14 +10,16 @@ from __future__ import annotations
 from abc import abstractmethod
 from dataclasses import dataclass
 from functools import partial
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from urdfkit.description.xml.element import Element
 from urdfkit.errors import SimulationError, did_you_mean
 from urdfkit.linear_algebra import matmul
 from urdfkit.messages import header, message_type, vector
+from urdfkit.sim.engine import Contact
 from urdfkit.sim.plugins.base import Sensor
 from urdfkit.sim.plugins.parameters import Parameters
 from urdfkit.sim.plugins.sensors.contact.joint_load import Wrench, below, lumps_of, momentum, weight
@@ -26,11 +28,7 @@ from urdfkit.sim.plugins.sensors.point_motion import Moment
 from urdfkit.sim.plugins.sensors.sensor_values import pose_of, rate_of
 from urdfkit.sim.plugins.setup import Setup
 from urdfkit.sim.plugins.topic_names import Topics
-
-if TYPE_CHECKING:
-    from urdfkit.description.xml.element import Element
-    from urdfkit.sim.engine import Contact
-    from urdfkit.sim.state.robot_state import State
+from urdfkit.sim.state.robot_state import State
 
 WRENCH = "geometry_msgs/msg/WrenchStamped"
 

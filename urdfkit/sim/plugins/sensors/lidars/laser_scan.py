@@ -4,18 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from functools import partial
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
+from urdfkit.sim.plugins.parameters import Parameters
 from urdfkit.sim.plugins.sensors.cloud_messages import POINT_CLOUD, old_cloud
 from urdfkit.sim.plugins.sensors.hector_drift import drifting
 from urdfkit.sim.plugins.sensors.lidars.lidar import LASER_SCAN, RANGE, Lidar, Reading
-
-if TYPE_CHECKING:
-    from urdfkit.sim.plugins.parameters import Parameters
-    from urdfkit.sim.plugins.setup import Setup
-    from urdfkit.sim.plugins.topic_names import Topics
+from urdfkit.sim.plugins.setup import Setup
+from urdfkit.sim.plugins.topic_names import Topics
 
 Messages = tuple[Callable[[Reading], Any], ...]
 

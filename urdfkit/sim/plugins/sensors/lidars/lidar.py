@@ -10,24 +10,22 @@ from __future__ import annotations
 
 from abc import abstractmethod
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from urdfkit.description.urdf.robot import SensorTag
 from urdfkit.errors import did_you_mean
 from urdfkit.messages import header, message_type
+from urdfkit.scene import Role
+from urdfkit.sim.plugins.parameters import Parameters
 from urdfkit.sim.plugins.sensors.lidars.scan_pattern import scan_of
 from urdfkit.sim.plugins.sensors.noise import noise_of
 from urdfkit.sim.plugins.sensors.ray_sensor import Mounted
-
-if TYPE_CHECKING:
-    from urdfkit.description.urdf.robot import SensorTag
-    from urdfkit.scene import Role
-    from urdfkit.sim.plugins.parameters import Parameters
-    from urdfkit.sim.plugins.setup import Setup
-    from urdfkit.sim.plugins.topic_names import Topics
-    from urdfkit.sim.scene_view import Layout
+from urdfkit.sim.plugins.setup import Setup
+from urdfkit.sim.plugins.topic_names import Topics
+from urdfkit.sim.scene_view import Layout
 
 Array = NDArray[np.float64]
 

@@ -3,18 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from urdfkit.errors import SimulationError, did_you_mean
+from urdfkit.sim.plugins.parameters import Parameters
 from urdfkit.sim.plugins.sensors import cloud_messages
 from urdfkit.sim.plugins.sensors.lidars.lidar import LASER_SCAN, RANGE, Lidar, Reading
-
-if TYPE_CHECKING:
-    from urdfkit.sim.plugins.parameters import Parameters
-    from urdfkit.sim.plugins.setup import Setup
-    from urdfkit.sim.plugins.topic_names import Topics
+from urdfkit.sim.plugins.setup import Setup
+from urdfkit.sim.plugins.topic_names import Topics
 
 Messages = tuple[Callable[[Reading], Any], ...]
 

@@ -5,10 +5,11 @@ from __future__ import annotations
 from abc import abstractmethod
 from collections.abc import Callable
 from math import exp, log
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
+from urdfkit.description.xml.element import Element
 from urdfkit.messages import header, message_type
 from urdfkit.messages.sensors import GZ_ALTIMETER, HECTOR_ALTIMETER
 from urdfkit.sim.plugins.parameters import Parameters
@@ -18,12 +19,9 @@ from urdfkit.sim.plugins.sensors.noise import Noise, noise_of
 from urdfkit.sim.plugins.sensors.point_motion import Moment
 from urdfkit.sim.plugins.sensors.sensor_values import number
 from urdfkit.sim.plugins.setup import Setup
-
-if TYPE_CHECKING:
-    from urdfkit.description.xml.element import Element
-    from urdfkit.sim.plugins.topic_names import Topics
-    from urdfkit.sim.scene_view import Surroundings
-    from urdfkit.sim.state.robot_state import State
+from urdfkit.sim.plugins.topic_names import Topics
+from urdfkit.sim.scene_view import Surroundings
+from urdfkit.sim.state.robot_state import State
 
 FLUID_PRESSURE = "sensor_msgs/msg/FluidPressure"
 POINT = "geometry_msgs/msg/PointStamped"

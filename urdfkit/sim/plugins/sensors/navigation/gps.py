@@ -9,11 +9,12 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
 from math import cos, degrees, pi, radians
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from urdfkit.description.xml.element import Element
 from urdfkit.messages import header, message_type, vector
 from urdfkit.sim.plugins.parameters import Parameters
 from urdfkit.sim.plugins.sensors.hector_drift import drifting
@@ -21,11 +22,8 @@ from urdfkit.sim.plugins.sensors.link_sensor import Carried, Ride
 from urdfkit.sim.plugins.sensors.navigation.geodesy import A, Earth, earth_of
 from urdfkit.sim.plugins.sensors.noise import noise_of
 from urdfkit.sim.plugins.setup import Setup
-
-if TYPE_CHECKING:
-    from urdfkit.description.xml.element import Element
-    from urdfkit.sim.plugins.topic_names import Topics
-    from urdfkit.sim.scene_view import Surroundings
+from urdfkit.sim.plugins.topic_names import Topics
+from urdfkit.sim.scene_view import Surroundings
 
 FIX = "sensor_msgs/msg/NavSatFix"
 VELOCITY = "geometry_msgs/msg/Vector3Stamped"

@@ -10,11 +10,12 @@ from abc import abstractmethod
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from urdfkit.description.xml.element import Element
 from urdfkit.errors import SimulationError
 from urdfkit.linear_algebra import matmul, vector_norm
 from urdfkit.messages import header, message_type, vector
@@ -25,13 +26,10 @@ from urdfkit.sim.plugins.sensors.noise import Noise, noise_of
 from urdfkit.sim.plugins.sensors.point_motion import Moment
 from urdfkit.sim.plugins.sensors.sensor_values import rotation_matrix
 from urdfkit.sim.plugins.setup import Setup
+from urdfkit.sim.plugins.topic_names import Topics
+from urdfkit.sim.scene_view import Surroundings
 from urdfkit.sim.state.quaternion import from_matrix
-
-if TYPE_CHECKING:
-    from urdfkit.description.xml.element import Element
-    from urdfkit.sim.plugins.topic_names import Topics
-    from urdfkit.sim.scene_view import Surroundings
-    from urdfkit.sim.state.robot_state import State
+from urdfkit.sim.state.robot_state import State
 
 IMU = "sensor_msgs/msg/Imu"
 

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from math import cos, pi, radians, sin
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
+from urdfkit.description.xml.element import Element
 from urdfkit.linear_algebra import matmul
 from urdfkit.messages import header, message_type, vector
 from urdfkit.sim.plugins.parameters import Parameters
@@ -17,11 +18,8 @@ from urdfkit.sim.plugins.sensors.navigation.altimeter_and_barometer import OneTo
 from urdfkit.sim.plugins.sensors.navigation.geodesy import Earth, earth_of
 from urdfkit.sim.plugins.sensors.noise import noise_of
 from urdfkit.sim.plugins.setup import Setup
-
-if TYPE_CHECKING:
-    from urdfkit.description.xml.element import Element
-    from urdfkit.sim.plugins.topic_names import Topics
-    from urdfkit.sim.scene_view import Surroundings
+from urdfkit.sim.plugins.topic_names import Topics
+from urdfkit.sim.scene_view import Surroundings
 
 MAGNETIC_FIELD = "sensor_msgs/msg/MagneticField"
 VECTOR = "geometry_msgs/msg/Vector3Stamped"

@@ -6,7 +6,7 @@ Pose and twist are relative to ``frameName``, the world or another link; the twi
 from __future__ import annotations
 
 from functools import partial
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
@@ -19,9 +19,7 @@ from urdfkit.sim.plugins.sensors.point_motion import Moment, Motion
 from urdfkit.sim.plugins.setup import Setup
 from urdfkit.sim.plugins.topic_names import Topics
 from urdfkit.sim.state.quaternion import from_matrix, from_rpy, product
-
-if TYPE_CHECKING:
-    from urdfkit.sim.state.robot_state import State
+from urdfkit.sim.state.robot_state import State
 
 WORLD = ("world", "map")
 """Names of the world frame (gazebo_ros_p3d.cpp)."""
