@@ -92,7 +92,7 @@ def test_recovery_changes_nothing_where_nothing_is_wrong() -> None:
         if entry["status"] != "model" or path.suffix == ".urdf":
             continue
         strict = expand(path, arguments=entry.get("args"))
-        lenient = expand_leniently(path, arguments=entry.get("args"), mend_prefixes=False)
+        lenient = expand_leniently(path, arguments=entry.get("args"), add_prefixes=False)
         if lenient.faults:
             failures.append(f"{path}: {lenient.faults[0].message}")
         if lenient.xml != strict.xml:

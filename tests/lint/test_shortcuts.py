@@ -2,15 +2,11 @@
 
 from __future__ import annotations
 
-import importlib
 import re
-import subprocess
-import sys
 
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
-from urdfkit.description.xacro.fast import templates
 from urdfkit.lint.facts import escaped_expressions
 from urdfkit.lint.model.xacro_prefix import signatures
 from urdfkit.lint.project import entry_files
@@ -79,50 +75,3 @@ def test_what_begins_with_a_robot_is_found_to_be_one(begin: str, text: str) -> N
         assert root is not None
         assert root[1] == "robot"
         assert re.search(entry_files._NAMED, root[2])
-
-
-@settings(max_examples=300, deadline=None)
-@given(TEXTS)
-@example("a ${b} c ${d}")
-def test_texts_are_cut_at_their_expressions(text: str) -> None:
-    pieces = re.split(r"\$\{([^}]*)\}", text)
-    assert templates._cut(text) == ([] if any("$" in piece for piece in pieces) else pieces)
-
-
-def test_what_xacro_imports_later_is_the_module_itself() -> None:
-    code = (
-        "import sys; from urdfkit.description.xacro.stock_xacro import _stock; x = _stock();"
-        "assert not {'ast', 'glob', 'xacro.cli'} & set(sys.modules), sys.modules.keys();"
-        "assert x.is_valid_name('a') and not x.is_valid_name('if') and x.glob.glob('nothing*') == [];"
-        "import ast, glob; assert x.ast.parse is ast.parse; assert x.glob.glob is glob.glob;"
-        "assert x.process_args.__name__"
-    )
-    run = subprocess.run([sys.executable, "-S", "-c", f"import sys; sys.path[:0] = {sys.path!r}; {code}"], check=False)
-    assert run.returncode == 0
-
-
-def test_names_of_properties() -> None:
-    xacro = importlib.import_module("xacro")
-    from urdfkit.description.xacro.fast.expansion import QuickRun
-
-    run = QuickRun.__new__(QuickRun)
-    run.stock = {"is_valid_name": xacro.is_valid_name}
-    for name in (
-        "a",
-        "a_1",
-        "if",
-        "True",
-        "None",
-        "match",
-        "_",
-        "1a",
-        "a b",
-        "é",
-        "ﬁ",
-        "",
-        " a",
-        "a.b",
-        "print",
-        "__x",
-    ):
-        assert run.is_valid_name(name) == xacro.is_valid_name(name), name

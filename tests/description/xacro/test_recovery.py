@@ -76,7 +76,7 @@ def test_unprefixed_macros_and_calls_and_late_properties(write: Write) -> None:
 def test_prefixes_are_left_alone_on_request(write: Write) -> None:
     write("wheels.xacro", WHEELS)
     main = write("m.xacro", 'HEAD<xacro:include filename="wheels.xacro"/>\n<wheel side="left"/></robot>')
-    expanded = expand_leniently(main, mend_prefixes=False)
+    expanded = expand_leniently(main, add_prefixes=False)
     assert expanded.unprefixed == ()
     assert tags(expanded) == ["macro", "macro", "wheel"]
     assert {fault.name for fault in expanded.faults} == {"side", "radius", "y", "width", "m", "r"}

@@ -1,7 +1,6 @@
 """Expand a xacro file: every expanded element has its file, line, column and chain of macro calls.
 
-`expand` uses the evaluator in `evaluation`, which stops at the first error. `expand_leniently` still traces the xacro
-package: its module globals are set for one expansion and restored (`stock_xacro`), and faults are recorded.
+`expand` stops at the first error, `expand_leniently` records it and continues. Both use the evaluator in `evaluation`.
 """
 
 from __future__ import annotations
@@ -11,13 +10,12 @@ from pathlib import Path
 
 from urdfkit.description.packages.resolver import Packages
 from urdfkit.description.xacro.expanded import Expanded
-from urdfkit.description.xacro.stock_xacro import recovered
 from urdfkit.description.xml.reader import absolute, document_of, read_source, shown_path
 from urdfkit.errors import ResourceError, XmlError
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from urdfkit.description.xacro.fast.incremental import Memory
+    from urdfkit.description.xacro.memory import Memory
 
 
 def expand(
@@ -55,43 +53,38 @@ def expand_leniently(
     arguments: Mapping[str, str] | None = None,
     packages: Packages | None = None,
     run_xacro: bool | None = None,
-    mend_prefixes: bool = True,
+    add_prefixes: bool = True,
     texts: Mapping[str, str] | None = None,
     memory: Memory | None = None,
 ) -> Expanded:
-    """Expand a file and go on after errors, which are in `Expanded.faults`.
+    """Expand a file and continue after errors, which are in `Expanded.faults`.
 
-    An undefined property leaves its expression standing, an undefined macro or a missing include is dropped, a
-    property or macro defined too late is used all the same.
+    What uses an undefined property keeps its expression; a call of an undefined macro and the include of a missing file
+    are dropped; a property or macro that is defined after its use is used nevertheless.
 
     Args:
         path: a xacro or URDF file.
         arguments: values for ``$(arg …)``.
         packages: resolves ``$(find …)``.
         run_xacro: see `expand`.
-        mend_prefixes: read directives and macro calls without ``xacro:`` as if they had it.
+        add_prefixes: read directives and macro calls without ``xacro:`` as if they had it.
         texts: contents to read instead of those on disk, by absolute path.
-        memory: what is known of the files from when they were expanded before.
+        memory: elements of the last expansion of the file, to be used again where they are the same.
 
     Raises:
         ResourceError: no such file (the entry; a missing include is a fault).
     """
     _check_exists(path)
     packages = packages if packages is not None else Packages(near=path)
-    if not (is_xacro(path) if run_xacro is None else run_xacro):
-        return _read_plain_leniently(path, packages, texts or {}, memory)
-    from urdfkit.description.xacro.fast.expansion import QuickRun
-    from urdfkit.description.xacro.recovery import RecoveringRun
+    if is_xacro(path) if run_xacro is None else run_xacro:
+        from urdfkit.description.xacro.evaluation.recovery import expand_with_recovery
 
-    first = QuickRun(str(path), arguments or {}, packages, mend_prefixes=mend_prefixes, texts=texts)
-    first.memory = memory
-    quick = recovered(first)
+        expanded = expand_with_recovery(str(path), arguments or {}, packages, add_prefixes=add_prefixes, texts=texts)
+    else:
+        expanded = _read_plain_leniently(path, packages, texts)
     if memory is not None:
-        memory.settle(quick.root)
-    if isinstance(quick, QuickRun) and quick.is_mixed:
-        run = RecoveringRun(str(path), arguments or {}, packages, mend_prefixes=mend_prefixes, texts=texts)
-        return recovered(run).outcome()
-    return quick.outcome()
+        memory.settle(expanded.root)
+    return expanded
 
 
 def is_xacro(path: str | Path) -> bool:
@@ -99,13 +92,11 @@ def is_xacro(path: str | Path) -> bool:
     return not str(path).lower().endswith(".urdf")
 
 
-def _read_plain(
-    path: str | Path, packages: Packages, texts: Mapping[str, str] | None = None, memory: Memory | None = None
-) -> Expanded:
+def _read_plain(path: str | Path, packages: Packages, texts: Mapping[str, str] | None = None) -> Expanded:
     source = read_source(Path(path), shown_as=shown_path(path), texts=texts)
     return Expanded(
         path=Path(path),
-        root=document_of(source) if memory is None else memory.element(source),
+        root=document_of(source),
         files=(absolute(path),),
         sources={source.file: source},
         packages=packages,
@@ -113,13 +104,11 @@ def _read_plain(
     )
 
 
-def _read_plain_leniently(
-    path: str | Path, packages: Packages, texts: Mapping[str, str], memory: Memory | None
-) -> Expanded:
+def _read_plain_leniently(path: str | Path, packages: Packages, texts: Mapping[str, str] | None) -> Expanded:
     from urdfkit.description.xacro.faults import Fault
 
     try:
-        return _read_plain(path, packages, texts, memory)
+        return _read_plain(path, packages, texts)
     except XmlError as error:
         if error.position is None:
             raise

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
-
-from urdfkit.description.xml.vocabulary import TAGS
+from urdfkit.description.xacro.faults import Unprefixed
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
+    from collections.abc import Collection, Iterable, Iterator
     from typing import Any
-    from xml.dom import minidom
+
+    from urdfkit.description.xacro.evaluation.tree import Tag
 
 _DIRECTIVES: dict[str, tuple[str, ...]] = {
     "macro": ("name",),
@@ -56,63 +56,55 @@ def may_be_directive_inside(above: Iterable[str], tag: str, value: str) -> bool:
     return tag in ("if", "unless") and ("${" in value or "$(" in value)
 
 
-def mend_directives(document: minidom.Document) -> Iterator[tuple[minidom.Element, str]]:
-    """Give the directives in a document their prefix; yield each with the tag as it was written.
+def add_missing_prefixes(document: Tag) -> Iterator[Unprefixed]:
+    """Give the directives of a tree their prefix; yield what lacked it.
 
     Args:
         document: changed in place.
     """
-    for element in list(elements(document)):
-        tag = element.tagName
+    for element in list(tags_below(document)):
+        tag = element.tag
         if (
             tag in _DIRECTIVES
             and is_directive(tag, element.attributes)
-            and may_be_directive_inside(names_above(element), tag, element.getAttribute("value"))
+            and may_be_directive_inside(names_above(element), tag, element.attributes.get("value", ""))
         ):
             rename(element)
-            yield element, tag
+            yield Unprefixed("directive", tag, element.position, element.chain)
 
 
-def looks_like_a_call(node: minidom.Element, macro: Any) -> bool:
+def looks_like_a_call(node: Tag, parameters: Collection[str]) -> bool:
     """Whether an element without prefix is meant as a call of the macro of its name.
 
-    Elements of URDF and SDF are not, whatever macros are called. Inside ``<gazebo>``, where plugins name their
-    parameters as they like, only what has attributes and fits the macro's parameters is.
+    Inside ``<gazebo>``, where plugins name their parameters as they like, only an element is whose attributes all are
+    parameters of the macro.
 
     Args:
-        node: the element.
-        macro: xacro's macro of that name, None when there is none.
+        node: the element; its tag is none of URDF and SDF.
+        parameters: of the macro.
     """
-    if macro is None or node.tagName in TAGS:
-        return False
-    above = node.parentNode
-    while above is not None and above.nodeType == above.ELEMENT_NODE:
-        if above.tagName in ("gazebo", "ros2_control"):
-            given = node.attributes.keys()
-            return bool(given) and all(name in macro.params for name in given)
-        above = above.parentNode
+    if "gazebo" in (above := set(names_above(node))) or "ros2_control" in above:
+        return bool(node.attributes) and all(name in parameters for name in node.attributes)
     return True
 
 
-def rename(node: minidom.Element, name: str | None = None) -> str:
-    """Give an element the prefix ``xacro:``, and another name if one is given; return its new tag."""
-    renamed: Any = node
-    renamed.tagName = renamed.nodeName = f"xacro:{name or node.tagName}"
-    return str(node.tagName)
+def rename(node: Tag, name: str | None = None) -> None:
+    """Give an element the prefix ``xacro:``, and another name if one is given."""
+    node.tag = node.name = f"xacro:{name or node.tag}"
 
 
-def names_above(node: Any) -> Iterator[str]:
+def names_above(node: Tag) -> Iterator[str]:
     """Yield the names of the elements around one, nearest first."""
-    above = node.parentNode
-    while above is not None and above.nodeType == above.ELEMENT_NODE:
-        yield above.tagName
-        above = above.parentNode
+    above = node.parent
+    while above is not None and above.tag:
+        yield above.tag
+        above = above.parent
 
 
-def elements(node: Any) -> Iterator[minidom.Element]:
-    """Yield the elements below a node, in document order; children that are added meanwhile are not looked for."""
-    pending = [child for child in reversed(node.childNodes) if child.nodeType == child.ELEMENT_NODE]
+def tags_below(node: Tag) -> Iterator[Tag]:
+    """Yield the elements below one, in document order; elements that are added meanwhile are left out."""
+    pending = list(node.tags())[::-1]
     while pending:
-        element = pending.pop()
-        yield element
-        pending += [child for child in reversed(element.childNodes) if child.nodeType == child.ELEMENT_NODE]
+        tag = pending.pop()
+        yield tag
+        pending += list(tag.tags())[::-1]

@@ -3,19 +3,16 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from functools import lru_cache
 
 from urdfkit.description.xacro.faults import Fault
-from urdfkit.description.xacro.missing_prefix import FOREIGN, elements, is_directive, names_above, rename
+from urdfkit.description.xacro.missing_prefix import FOREIGN, is_directive, names_above, rename, tags_below
 from urdfkit.description.xml.vocabulary import TAGS
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from typing import Any
-    from xml.dom import minidom
-
-    from urdfkit.description.xacro.macro_calls import PositionOf
+    from urdfkit.description.xacro.evaluation.tree import Tag
 
 ATTRIBUTES: dict[str, tuple[str, ...]] = {
     "macro": ("name", "params"),
@@ -41,42 +38,41 @@ _OTHERS = frozenset(("attribute", "call", "element"))
 _LIKENESS = 0.8
 
 
-def mend_spelling(document: minidom.Document, position_of: PositionOf) -> Iterator[Fault]:
-    """Make directives that are misspelt, and attributes of them, what they must mean; yield what was wrong.
+def repair_spelling(document: Tag) -> Iterator[Fault]:
+    """Correct directives that are misspelt, and their attributes; yield what was wrong.
 
     Args:
-        document: is changed.
-        position_of: returns where an element was written, and its chain of calls.
+        document: changed in place.
     """
     for element, tag, meant in misspelt(document):
         what = f"macro `{tag[6:]}` is not defined" if tag.startswith("xacro:") else f"<{tag}> is not an xacro element"
         message = f"{what}; did you mean `{'' if tag.startswith('xacro:') else 'xacro:'}{meant}`?"
-        yield Fault("misspelt-directive", message, *position_of(element), name=meant)
+        yield Fault("misspelt-directive", message, element.position, name=meant)
         rename(element, meant)
-    for element in list(elements(document)):
-        directive = element.tagName.removeprefix("xacro:")
-        if directive in ATTRIBUTES and directive != element.tagName:
-            yield from _mend_attributes(element, directive, position_of)
+    for element in list(tags_below(document)):
+        directive = element.tag.removeprefix("xacro:")
+        if directive in ATTRIBUTES and directive != element.tag:
+            yield from _repair_attributes(element, directive)
 
 
-def _mend_attributes(element: Any, directive: str, position_of: PositionOf) -> Iterator[Fault]:
+def _repair_attributes(element: Tag, directive: str) -> Iterator[Fault]:
     for name, right in misspelt_attributes(element, directive):
         hint = f"; did you mean `{right}`?" if right is not None else ""
-        message = f"<{element.tagName}> has no attribute `{name}`{hint}"
-        yield Fault("directive-attribute", message, *position_of(element), attribute=name, name=right)
+        message = f"<{element.tag}> has no attribute `{name}`{hint}"
+        yield Fault("directive-attribute", message, element.position, attribute=name, name=right)
         if right is not None:
-            element.setAttribute(right, element.getAttribute(name))
-        element.removeAttribute(name)
-    written = element.getAttribute("params") if directive == "macro" else ""
+            element.attributes[right] = element.attributes[name]
+        del element.attributes[name]
+    written = element.attributes.get("params", "") if directive == "macro" else ""
     separated = _separated(written)
     if separated != written:
         message = f"parameters of a macro are separated by spaces: `{written[:80]}`"
         details = {"value": separated}
-        yield Fault("directive-attribute", message, *position_of(element), attribute="params", details=details)
-        element.setAttribute("params", separated)
+        yield Fault("directive-attribute", message, element.position, attribute="params", details=details)
+        element.attributes["params"] = separated
 
 
-def misspelt(document: minidom.Document) -> Iterator[tuple[minidom.Element, str, str]]:
+def misspelt(document: Tag) -> Iterator[tuple[Tag, str, str]]:
     """Yield the directives of a document whose name is misspelt, with what is written and what is meant.
 
     A name is one only where the attributes fit; macros that are defined in the document are none.
@@ -84,10 +80,10 @@ def misspelt(document: minidom.Document) -> Iterator[tuple[minidom.Element, str,
     Args:
         document: may be changed while it is gone through.
     """
-    every = list(elements(document))
+    every = list(tags_below(document))
     macros: set[str] | None = None
     for element in every:
-        tag = element.tagName
+        tag = element.tag
         name = tag.removeprefix("xacro:")
         if name in _OTHERS or ":" in name or (name == tag and (name in TAGS or is_directive(name, element.attributes))):
             continue
@@ -97,12 +93,12 @@ def misspelt(document: minidom.Document) -> Iterator[tuple[minidom.Element, str,
         if meant is None or not _fits(meant, element, name != tag):
             continue
         if macros is None:
-            macros = {one.getAttribute("name") for one in every if one.tagName in ("xacro:macro", "macro")}
+            macros = {one.attributes.get("name", "") for one in every if one.tag in ("xacro:macro", "macro")}
         if name not in macros:
             yield element, tag, meant
 
 
-def misspelt_attributes(element: Any, directive: str) -> Iterator[tuple[str, str | None]]:
+def misspelt_attributes(element: Tag, directive: str) -> Iterator[tuple[str, str | None]]:
     """Yield the attributes that a directive does not have, with what is meant, if that can be told.
 
     Args:
@@ -110,10 +106,10 @@ def misspelt_attributes(element: Any, directive: str) -> Iterator[tuple[str, str
         directive: its name, without prefix.
     """
     known = ATTRIBUTES[directive]
-    for name in list(element.attributes.keys()):
+    for name in list(element.attributes):
         if name in known or name.startswith(("xmlns", "xacro:")):
             continue
-        free = tuple(one for one in known if not element.hasAttribute(one))
+        free = tuple(one for one in known if one not in element.attributes)
         meant = _MEANT.get(directive, {}).get(name.lower())
         meant = meant if meant in free else _near(name, free)
         if meant is not None or directive != "include":  # parameters of an include are another matter
@@ -152,14 +148,14 @@ def _may_be_near(name: str, candidate: str) -> bool:
     return 2.0 * shared >= _LIKENESS * (len(name) + len(candidate))
 
 
-def _fits(directive: str, element: Any, is_prefixed: bool) -> bool:
+def _fits(directive: str, element: Tag, is_prefixed: bool) -> bool:
     """Whether an element has what the directive has, and nothing else."""
-    given: Iterable[str] = element.attributes.keys()
+    given = element.attributes
     known = ATTRIBUTES[directive]
     if not all(name in known or name.startswith("xmlns") or _near(name, known) for name in given):
         return False
     if directive == "property":
-        return element.hasAttribute("name") and (is_prefixed or len(element.attributes) > 1)
+        return "name" in given and (is_prefixed or len(given) > 1)
     if directive == "macro":
-        return element.hasAttribute("name") and (element.hasAttribute("params") or is_prefixed)
-    return element.hasAttribute(known[0]) and (is_prefixed or directive == "include")
+        return "name" in given and ("params" in given or is_prefixed)
+    return known[0] in given and (is_prefixed or directive == "include")

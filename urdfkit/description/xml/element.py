@@ -4,21 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from urdfkit.description.xml.source import Expansion, Origin
+from urdfkit.description.xml.source import Origin
 from urdfkit.record import field, record
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from typing import Any
 
 MAX_DEPTH = 200
 """Maximum nesting depth of the elements of a description; real descriptions have a depth of less than 20."""
-
-STAMP = "urdfkit.origin"
-"""Key of the DOM user data that stores the `Stamp` of a minidom element."""
-
-Stamp = tuple[str, int, int, tuple[Expansion, ...]]
-"""File, line, column and chain of macro calls: the compact form of an `Origin`."""
 
 
 @record(eq=False)
@@ -59,9 +49,3 @@ class Element:
         yield self
         for child in self.children:
             yield from child.walk()
-
-
-def stamp_of(node: Any) -> Stamp:
-    """Return the stamp of a minidom element of a `stamped_document`, or of a clone of such an element."""
-    stamp: Stamp = node.getUserData(STAMP)
-    return stamp

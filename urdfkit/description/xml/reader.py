@@ -1,4 +1,4 @@
-"""Read untrusted XML safely, into `Element` or into a minidom document with source positions.
+"""Read untrusted XML safely into `Element`.
 
 Document types that declare entities or name external files are rejected, because they can expand without bound or read
 other files. File size and nesting depth are bounded.
@@ -9,18 +9,16 @@ from __future__ import annotations
 import os
 import re
 from collections.abc import Callable, Collection, Mapping
-from functools import partial
 from pathlib import Path
 from xml.parsers import expat
 
-from urdfkit.description.xml.element import MAX_DEPTH, Element, stamp_of
+from urdfkit.description.xml.element import MAX_DEPTH, Element
 from urdfkit.description.xml.source import Origin, Position, Source, content_of
 from urdfkit.errors import ResourceError, XmlError
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     from typing import Any, NoReturn
-    from xml.dom import minidom
 
 MAX_BYTES = 64 * 2**20
 """Maximum size of a description [bytes]."""
@@ -113,65 +111,6 @@ def document_of(source: Source) -> Element:
     parser.StartDoctypeDeclHandler = lambda _, system, public, __: check_doctype(source, parser, system, public)
     parse_with(parser, source, lambda: [(tag, origin.position.line) for tag, _, origin in starts])
     return families[0][0]
-
-
-def stamped_document(source: Source, on_clone: Any, *, namespaces: bool = True) -> minidom.Document:
-    """Read a file into the minidom document that xacro processes.
-
-    The tree is the same as that of ``minidom.parseString``, except that every element has a `Stamp`.
-
-    Args:
-        source: the text.
-        on_clone: DOM user data handler; its `handle` is called for every clone of a stamped element.
-        namespaces: whether to reject undeclared prefixes, like minidom.
-
-    Raises:
-        XmlError: the file is not well-formed, declares entities, or exceeds a limit.
-    """
-    from urdfkit.description.xml.positions import PrefixBlindBuilder, StampingBuilder
-
-    kind = StampingBuilder if namespaces else PrefixBlindBuilder
-    check = partial(refuse_excess, source) if len(source.text) > MAX_VALUE else None
-    builder = kind(source.file, on_clone, partial(too_deep, source), check)
-    parser = builder.getParser()
-    parser.EntityDeclHandler = lambda name, *_: refuse_entity(source, parser, name)
-    inherited: Any = parser.StartDoctypeDeclHandler
-
-    def doctype(name: str, system: str | None, public: str | None, has_subset: bool) -> None:
-        check_doctype(source, parser, system, public)
-        inherited(name, system, public, has_subset)
-
-    parser.StartDoctypeDeclHandler = doctype
-    parse_with(parser, source, builder.open_tags)
-    return builder.document
-
-
-def element_of(node: Any, depth: int = 0) -> Element:
-    """Convert a stamped minidom element and its descendants to an `Element`.
-
-    Args:
-        node: an element of a `stamped_document`, or a clone of one.
-        depth: nesting depth of the element.
-
-    Raises:
-        XmlError: the expanded elements are nested too deeply.
-    """
-    if hasattr(node, "finished"):
-        (element,) = node.elements()
-        return element  # type: ignore[no-any-return]
-    file, line, column, expansions = stamp_of(node)
-    check_depth(depth, Position(file, line, column))
-    children: list[Element] = []
-    text = ""
-    for child in node.childNodes:
-        kind = child.nodeType
-        if kind == 1:
-            children.append(element_of(child, depth + 1))
-        elif kind in (3, 4):
-            text += child.data
-    # <xacro:attribute> may produce a number where minidom requires text.
-    attributes = {name: str(value) for name, value in node.attributes.items()} if node.hasAttributes() else {}
-    return Element(node.tagName, attributes, children, text.strip(), Origin(Position(file, line, column), expansions))
 
 
 def parse_with(parser: Any, source: Source, open_tags: Callable[[], list[tuple[str, int]]]) -> None:

@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from urdfkit.description.packages.resolver import Packages
-from urdfkit.description.xacro.fast.incremental import Memory
+from urdfkit.description.xacro.memory import Memory
 from urdfkit.errors import UrdfkitError, bug
 from urdfkit.lint.engine.checker import Checker, model_of
 from urdfkit.lint.engine.run import merged

@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from typing import Any
 
     from urdfkit.description.urdf.robot import Robot
-    from urdfkit.description.xacro.fast.incremental import Memory
+    from urdfkit.description.xacro.memory import Memory
     from urdfkit.description.xml.source import Source
     from urdfkit.lint.engine.cache import Cache
     from urdfkit.lint.facts.suppressions import Suppression
@@ -52,7 +52,7 @@ def model_of(path: Path, options: Options, *, packages: Packages | None = None, 
 
     def as_written() -> Robot:
         expanded = expand_leniently(
-            path, arguments=options.arguments, packages=packages, mend_prefixes=False, texts=options.texts
+            path, arguments=options.arguments, packages=packages, add_prefixes=False, texts=options.texts
         )
         return parse(expanded.root) if expanded.root is not None else robot
 

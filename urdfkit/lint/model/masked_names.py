@@ -88,7 +88,7 @@ class MaskedNames:
             if joint.child is None or "$" in joint.child:
                 self.children.add(_pattern(joint.child or "${}", {}))
         for position, attribute in model.expanded.unresolved:
-            tag = model.tag(position) if attribute is None else None
+            tag = model.tag(position) if attribute == "value" else None
             if tag is not None and tag.name in _CONDITIONS:
                 self._read(tag.children, {})
         for fault in model.expanded.faults:

@@ -6,10 +6,11 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
+import xacro
 
 from tests.description.xacro.evaluation.stock import by_stock_xacro
 from urdfkit.description.packages.resolver import Packages
-from urdfkit.description.xacro.evaluation.evaluator import Evaluator
+from urdfkit.description.xacro.evaluation.evaluator import Evaluator, is_identifier
 from urdfkit.description.xacro.evaluation.parameters import Parameter, parameters
 
 Write = Callable[[str, str], Path]
@@ -71,3 +72,10 @@ def test_a_file_expands(write: Write, text: str, expected: str) -> None:
 )
 def test_parameters_are_read(text: str, expected: list[Parameter]) -> None:
     assert list(parameters(text)) == expected
+
+
+@pytest.mark.parametrize(
+    "name", ["a", "a_1", "if", "True", "None", "match", "_", "1a", "a b", "é", "ﬁ", "", " a", "a.b", "print"]
+)
+def test_names_of_properties_are_those_of_stock_xacro(name: str) -> None:
+    assert is_identifier(name) == xacro.is_valid_name(name)

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.description.xacro.expressions.test_limits import GROWING
+from tests.description.xacro.evaluation.test_expression_limits import GROWING
 from urdfkit.description.packages.resolver import Packages
 from urdfkit.description.xacro.evaluation.evaluator import Evaluator
 from urdfkit.description.xacro.expanded import Expanded
@@ -67,7 +67,7 @@ HOSTILE = {
         '<xacro:property name="p0" value="1"/>'
         + "".join(f'<xacro:property name="p{i + 1}" value="${{p{i} + 1}}"/>' for i in range(3000))
         + '<l a="${p3000}"/>',
-        "nested too deeply",
+        "properties use each other",
     ),
 }
 

@@ -5,9 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 
 from urdfkit.description.xacro.evaluation.elements import Elements
+from urdfkit.description.xacro.evaluation.expressions.limits import MAX_MACRO_CALLS, MAX_MACRO_DEPTH
 from urdfkit.description.xacro.evaluation.expressions.symbols import Scope
 from urdfkit.description.xacro.evaluation.failures import (
     Failure,
+    cycle,
     macro_arguments,
     recursive_macro,
     undefined_macro,
@@ -16,9 +18,7 @@ from urdfkit.description.xacro.evaluation.failures import (
 from urdfkit.description.xacro.evaluation.parameters import Parameter, parameters
 from urdfkit.description.xacro.evaluation.texts import visible
 from urdfkit.description.xacro.evaluation.tree import Tag
-from urdfkit.description.xacro.expressions.excess import MAX_MACRO_CALLS
 from urdfkit.description.xacro.faults import MacroDefinition
-from urdfkit.description.xacro.recursion import MAX_MACRO_DEPTH, cycle
 from urdfkit.description.xml.source import Expansion
 
 TYPE_CHECKING = False
@@ -92,7 +92,7 @@ class Calls(Elements):
             node.tag = f"xacro:{self.text(name, scope)}"
             del node.attributes["macro"]
             self.at = (node, None)
-        name = node.tag[6:]
+        name, outer_macros, outer_scope, macro = self._found(node.tag[6:], node, macros, scope)
         self._calls += 1
         if len(self._stack) >= MAX_MACRO_DEPTH:
             names = [str(macro.body.attributes.get("name", "")) for macro in self._stack if macro.body is not None]
@@ -100,37 +100,46 @@ class Calls(Elements):
         if self._calls > MAX_MACRO_CALLS:
             what = f"there are more than {MAX_MACRO_CALLS:,} calls: do macros multiply each other?"
             raise self.placed(Failure("too-many", f"with this call, {what}"))
-        try:
-            outer_macros, outer_scope, macro = _found_macro(name, macros, scope)
-        except KeyError:
-            raise self.placed(undefined_macro(name, dict.fromkeys(macros.names()))) from None
         assert macro.body is not None
         body = macro.body.copy((Expansion(name, node.position), *node.chain), self.count)
         title = str(macro.body.attributes.get("name", ""))
-        self._stack.append(macro)
         inner_scope, inner_macros = Scope(outer_scope), Scope(outer_macros)
         names = [parameter.name for parameter in macro.parameters]
         candidates = list(names)
-        for parameter, value in list(node.attributes.items()):
-            if parameter not in names:
-                self.at = (node, None)
-                raise self.placed(macro_arguments(title, (), (parameter,), candidates))
-            names.remove(parameter)
-            self.at = (node, parameter)
-            inner_scope.set(parameter, self.text(value, scope), is_lazy=False)
-            node.attributes[parameter] = ""
-        yield self._element(node, macros, scope)
-        self.at = (node, None)
-        self._take_blocks(node, names, inner_scope, title)
-        self._take_defaults(macro, names, inner_scope, scope, node)
-        if names:
-            raise self.placed(macro_arguments(title, tuple(names), (), candidates))
-        yield self._element(body, inner_macros, inner_scope)
+        self._stack.append(macro)
+        try:
+            for parameter, value in list(node.attributes.items()):
+                if parameter not in names:
+                    self.at = (node, None)
+                    raise self.placed(macro_arguments(title, (), (parameter,), candidates))
+                names.remove(parameter)
+                self.at = (node, parameter)
+                inner_scope.set(parameter, self.text(value, scope), is_lazy=False)
+                node.attributes[parameter] = ""
+            yield self._element(node, macros, scope)
+            self.at = (node, None)
+            self._take_blocks(node, names, inner_scope, title)
+            self._take_defaults(macro, names, inner_scope, scope, node)
+            if names:
+                raise self.placed(macro_arguments(title, tuple(names), (), candidates))
+            yield self._element(body, inner_macros, inner_scope)
+        finally:
+            self._stack.pop()
         self.at = (node, None)
         self._remove_comments_before(node)
         self._import_namespaces(node.parent, body)
         node.replace([body])
-        self._stack.pop()
+
+    def _found(self, name: str, node: Tag, macros: Scope, scope: Scope) -> tuple[str, Scope, Scope, Macro]:
+        """Return the name of the macro that an element calls, the names that its body can use, and the macro.
+
+        Raises:
+            Failure: it is not defined.
+        """
+        try:
+            return name, *found_macro(name, macros, scope)
+        except KeyError:
+            raise self.placed(undefined_macro(name, dict.fromkeys(macros.names()))) from None
 
     def _take_blocks(self, node: Tag, names: list[str], scope: Scope, title: str) -> None:
         blocks = node.tags()
@@ -164,7 +173,7 @@ class Calls(Elements):
         self.at = (node, None)
 
 
-def _found_macro(name: str, macros: Scope, scope: Scope) -> tuple[Scope, Scope, Macro]:
+def found_macro(name: str, macros: Scope, scope: Scope) -> tuple[Scope, Scope, Macro]:
     """Return a macro, and the names that its body can use.
 
     Raises:

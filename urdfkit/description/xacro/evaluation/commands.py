@@ -9,9 +9,9 @@ from pathlib import Path
 from urdfkit.description.xacro.evaluation.expressions.budget import Budget
 from urdfkit.description.xacro.evaluation.expressions.functions import Functions, mathematics
 from urdfkit.description.xacro.evaluation.expressions.interpreter import Expressions
+from urdfkit.description.xacro.evaluation.expressions.limits import MAX_CHARACTERS, excess
 from urdfkit.description.xacro.evaluation.expressions.values import Function
 from urdfkit.description.xacro.evaluation.failures import Failure
-from urdfkit.description.xacro.expressions.excess import MAX_CHARACTERS, excess
 from urdfkit.errors import did_you_mean
 
 TYPE_CHECKING = False

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
+from urdfkit.description.xacro.evaluation.expressions.limits import MAX_EXPANDED
 from urdfkit.description.xacro.evaluation.expressions.symbols import Scope
 from urdfkit.description.xacro.evaluation.failures import Failure, short
 from urdfkit.description.xacro.evaluation.files import Files
 from urdfkit.description.xacro.evaluation.tree import COMMENT, TEXT, Node, Tag
-from urdfkit.description.xacro.expressions.excess import MAX_EXPANDED
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:

@@ -7,20 +7,26 @@ ours and not by Python.
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
 from pathlib import Path
 from types import MappingProxyType
 
 from urdfkit.description.xacro.evaluation.calls import Calls
+from urdfkit.description.xacro.evaluation.expressions.limits import MAX_MACRO_DEPTH, MAX_PROPERTY_DEPTH
 from urdfkit.description.xacro.evaluation.expressions.symbols import Namespace, Scope
 from urdfkit.description.xacro.evaluation.failures import (
     Failure,
+    cycle,
     error_of,
+    recursive_block,
     short,
     undefined_block,
 )
 from urdfkit.description.xacro.evaluation.tree import COMMENT, TEXT, Tag, element_of
 from urdfkit.description.xacro.expanded import Expanded
+from urdfkit.errors import XmlError
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -28,6 +34,8 @@ if TYPE_CHECKING:
 
     Steps = Iterator["Steps"]
     from urdfkit.description.packages.resolver import Packages
+    from urdfkit.description.xml.element import Element
+    from urdfkit.description.xml.source import Position
 
 
 class Evaluator(Calls):
@@ -38,6 +46,12 @@ class Evaluator(Calls):
         arguments: values of ``$(arg …)``.
         packages: resolves ``$(find …)``.
         texts: contents to read instead of those on disk, by absolute path.
+
+    Attributes:
+        properties: where each property was defined (the last definition).
+        open_blocks: the blocks that are being inserted, outermost first.
+        top_scope: the properties of the file.
+        top_macros: its macros.
     """
 
     def __init__(
@@ -49,7 +63,9 @@ class Evaluator(Calls):
         texts: Mapping[str, str] | None = None,
     ) -> None:
         super().__init__(path, arguments, packages, texts=texts)
-        self.properties: dict[str, Any] = {}
+        self.properties: dict[str, Position] = {}
+        self.open_blocks: list[str] = []
+        self.top_scope, self.top_macros = Scope(self.globals, self), Scope({})
         self._directives: dict[str, Callable[[Tag, Scope, Scope], Steps | None]] = {
             "xacro:insert_block": self._insert_block,
             "xacro:include": self._include,
@@ -70,15 +86,24 @@ class Evaluator(Calls):
             XacroError: it cannot be expanded; the position is that of the element.
         """
         try:
-            document = self.open(Path(self.path))
-            root = next(document.tags())
-            self._set_target_namespace(root)
-            self.run(self._element(root, Scope({}), Scope(self.globals, self)))
+            document, root = self._expand_all()
         except Failure as failure:
             raise error_of(self.placed(failure), self.sources.values()) from None
+        return self._outcome(document, element_of(root))
+
+    def _expand_all(self) -> tuple[Tag, Tag]:
+        """Expand the tree of the file; return what holds it, and its root."""
+        document = self.open(Path(self.path))
+        root = next(document.tags())
+        self._set_target_namespace(root)
+        with deep_calls():
+            self.run(self._element(root, self.top_macros, self.top_scope))
+        return document, root
+
+    def _outcome(self, document: Tag, root: Element | None, **facts: Any) -> Expanded:
         return Expanded(
             path=Path(self.path),
-            root=element_of(root),
+            root=root,
             files=tuple(self.files),
             sources=self.sources,
             packages=self.packages,
@@ -86,6 +111,7 @@ class Evaluator(Calls):
             properties=MappingProxyType(self.properties),
             warnings=tuple(self.warnings),
             _print=lambda: self.printed(document),
+            **facts,
         )
 
     def run(self, steps: Steps) -> None:
@@ -125,7 +151,11 @@ class Evaluator(Calls):
             following = node.after
             if isinstance(node, Tag):
                 evaluates_comments = False
-                yield from self._child(node, macros, scope)
+                try:
+                    yield from self._child(node, macros, scope)
+                except (Failure, XmlError) as failure:
+                    if not self._recovers(failure, node):
+                        raise
             elif node.kind == TEXT:
                 if "$" in node.data:
                     self.at = (tag, None)
@@ -163,6 +193,10 @@ class Evaluator(Calls):
         else:
             yield self._element(node, macros, scope)
 
+    def _recovers(self, failure: Failure | XmlError, node: Tag) -> bool:
+        """Return whether to continue after an element that cannot be expanded."""
+        return False
+
     # Directives
 
     def _insert_block(self, node: Tag, macros: Scope, scope: Scope) -> Steps:
@@ -174,8 +208,14 @@ class Evaluator(Calls):
         else:
             candidates = dict.fromkeys(key.lstrip("*") for key in scope.names() if key.startswith("*"))
             raise self.placed(undefined_block(str(name), candidates))
+        if len(self.open_blocks) >= MAX_MACRO_DEPTH:
+            raise self.placed(recursive_block(cycle(self.open_blocks)))
         block = block.copy(None, self.count)
-        yield self._element(block, macros, scope)
+        self.open_blocks.append(str(name))
+        try:
+            yield self._element(block, macros, scope)
+        finally:
+            self.open_blocks.pop()
         if content_only:
             node.replace([block])
         else:
@@ -197,6 +237,7 @@ class Evaluator(Calls):
             self.warn("Child elements of a <xacro:include> tag are ignored")
         included: list[Tag] = []
         for file in self.included_files(node, specification, scope):
+            depth = len(self.file_stack)
             try:
                 self.at = (node, None)
                 root = self.open_included(file)
@@ -204,10 +245,11 @@ class Evaluator(Calls):
                 self.at = (node, None)
                 self._import_namespaces(node.parent, root)
                 included.append(root)
-                self.file_stack.pop()
             except Failure as failure:
                 if not (is_optional is True and failure.is_missing_file):
                     raise
+            finally:
+                del self.file_stack[depth:]
         self._remove_comments_before(node)
         node.replace(included)
 
@@ -218,7 +260,7 @@ class Evaluator(Calls):
         self.at = (node, "name")
         name = self.text(name, scope)
         self.at = (node, None)
-        if not _is_identifier(name):
+        if not is_identifier(name):
             raise self.placed(Failure("other", f"Property names must be valid python identifiers: {short(str(name))}"))
         if name.startswith("__"):
             raise self.placed(Failure("other", f"Property names must not start with double underscore:{name}"))
@@ -268,7 +310,8 @@ class Evaluator(Calls):
         name, default = self._checked(node, ("name", "default"), ())
         if name not in self.commands.arguments:
             self.at = (node, "default")
-            self.commands.arguments[name] = str(self.text(default, scope))
+            value = self.text(default, scope)
+            self.commands.arguments[name] = value if isinstance(value, str) else str(value)
         self._remove_comments_before(node)
         node.remove()
 
@@ -298,7 +341,19 @@ class Evaluator(Calls):
             node.remove()
 
 
-def _is_identifier(name: Any) -> bool:
+@contextmanager
+def deep_calls() -> Iterator[None]:
+    """Let properties use each other as deep as `MAX_PROPERTY_DEPTH` allows; each takes about ten calls of Python."""
+    limit = sys.getrecursionlimit()
+    sys.setrecursionlimit(max(limit, 20 * MAX_PROPERTY_DEPTH))
+    try:
+        yield
+    finally:
+        sys.setrecursionlimit(limit)
+
+
+def is_identifier(name: Any) -> bool:
+    """Whether a property can have a name."""
     import keyword
     import unicodedata
 

@@ -41,6 +41,7 @@ class Failure(Exception):  # noqa: N818 - a fault of the file, reported as such
     Attributes:
         place: where it is written; set by the evaluator.
         is_missing_file: whether an ``include`` with ``optional`` may pass over it.
+        loop: what repeats without end: ``macro``, ``file`` or ``block``.
     """
 
     def __init__(self, kind: Any, message: str, **facts: Any) -> None:
@@ -48,6 +49,7 @@ class Failure(Exception):  # noqa: N818 - a fault of the file, reported as such
         self.kind, self.message, self.facts = kind, message, facts
         self.place: Place | None = None
         self.is_missing_file = False
+        self.loop = ""
 
     def fault(self) -> Fault:
         """Return the record of it; its place has to be names."""
@@ -67,14 +69,20 @@ def undefined_property(name: str, candidates: Iterable[str]) -> Failure:
     names = tuple(candidates)
     constants = ("pi", "tau", "radians", "degrees", "sin", "cos", "tan", "sqrt")
     meant = _ELSEWHERE.get(name)
-    hint = f"; did you mean `{meant}`?" if meant else did_you_mean(name, (*_near(name, names), *constants))
+    hint = f"; did you mean `{meant}`?" if meant else did_you_mean(name, (*near_in_length(name, names), *constants))
     return Failure("undefined-property", f"property `{name}` is not defined{hint}", name=name, candidates=names)
+
+
+def undefined_in_command(name: str, arguments: tuple[str, ...]) -> Failure:
+    """Return the failure for a name in ``$(eval …)`` that is not defined."""
+    message = f"`{name}` in $(eval …) is neither an argument nor a function{did_you_mean(name, arguments)}"
+    return Failure("undefined-arg", message, name=name, candidates=arguments)
 
 
 def undefined_macro(name: str, candidates: Iterable[str]) -> Failure:
     """Return the failure for a macro that is not defined."""
     names = tuple(candidates)
-    hint = did_you_mean(name, (*_near(name, names), *DIRECTIVES))
+    hint = did_you_mean(name, (*near_in_length(name, names), *DIRECTIVES))
     return Failure("undefined-macro", f"macro `{name}` is not defined{hint}", name=name, candidates=names)
 
 
@@ -102,16 +110,37 @@ def circular_property(cycle: tuple[str, ...]) -> Failure:
     return Failure("recursion", message, name=cycle[-1], details={"cycle": cycle})
 
 
+def cycle(names: list[str]) -> tuple[str, ...]:
+    """Return the cycle at the end of a stack of names, first name repeated."""
+    last = names[-1]
+    for distance in range(1, len(names)):
+        if names[-1 - distance] == last:
+            return tuple(names[-1 - distance :])
+    return tuple(names[-3:])
+
+
 def recursive_macro(cycle: tuple[str, ...]) -> Failure:
     """Return the failure for macros that call each other without end."""
     message = f"macro `{cycle[-1]}` calls itself in an infinite recursion: {' → '.join(cycle)}"
-    return Failure("recursion", message, details={"cycle": cycle})
+    return _loop("macro", message, cycle)
+
+
+def recursive_block(cycle: tuple[str, ...]) -> Failure:
+    """Return the failure for blocks that insert each other without end."""
+    message = f"block `{cycle[-1]}` inserts itself in an infinite recursion: {' → '.join(cycle)}"
+    return _loop("block", message, cycle)
 
 
 def recursive_include(cycle: tuple[str, ...]) -> Failure:
     """Return the failure for files that include each other without end."""
     message = f"files include each other in a cycle: {' → '.join(cycle)}"
-    return Failure("recursion", message, details={"cycle": cycle})
+    return _loop("file", message, cycle)
+
+
+def _loop(what: str, message: str, cycle: tuple[str, ...]) -> Failure:
+    failure = Failure("recursion", message, details={"cycle": cycle})
+    failure.loop = what
+    return failure
 
 
 def error_of(failure: Failure, sources: Iterable[Source]) -> XacroError:
@@ -124,14 +153,15 @@ def error_of(failure: Failure, sources: Iterable[Source]) -> XacroError:
     fault = failure.fault()
     message = fault.message
     if fault.kind in ("undefined-property", "undefined-macro") and fault.name is not None:
-        later = _definition(sources, fault.kind.removeprefix("undefined-"), fault.name)
+        later = definition(sources, fault.kind.removeprefix("undefined-"), fault.name)
         if later is not None:
             message = f"{message.split('; did you mean')[0]} yet: its definition follows at {later}"
     chain = "" if fault.kind == "recursion" else chain_words(fault.expansions)
     return XacroError(message + chain, position=fault.position)
 
 
-def _definition(sources: Iterable[Source], tag: str, name: str) -> Position | None:
+def definition(sources: Iterable[Source], tag: str, name: str) -> Position | None:
+    """Return where files first define a property or macro, in time or not."""
     for source in sources:
         try:
             root = document_of(source)
@@ -158,7 +188,7 @@ def short(text: str) -> str:
     return line if len(line) <= 120 else line[:119] + "…"
 
 
-def _near(name: str, names: tuple[str, ...]) -> tuple[str, ...]:
+def near_in_length(name: str, names: tuple[str, ...]) -> tuple[str, ...]:
     """Return the names worth comparing: all, or of very many those of nearly the same length."""
     if len(names) <= _MAX_COMPARED:
         return names

@@ -8,13 +8,18 @@ from collections.abc import Iterator, Mapping
 from pathlib import Path
 
 from urdfkit.description.xacro.evaluation.expressions.functions import Functions
+from urdfkit.description.xacro.evaluation.expressions.limits import (
+    MAX_INCLUDE_DEPTH,
+    MAX_INCLUDES,
+    MAX_YAML,
+    TooLarge,
+    check_length,
+)
 from urdfkit.description.xacro.evaluation.expressions.symbols import Scope
-from urdfkit.description.xacro.evaluation.failures import Failure, recursive_include
+from urdfkit.description.xacro.evaluation.failures import Failure, cycle, recursive_include
 from urdfkit.description.xacro.evaluation.texts import Texts, unreadable
 from urdfkit.description.xacro.evaluation.tree import Tag, read_tree
-from urdfkit.description.xacro.expressions.excess import MAX_INCLUDES, MAX_YAML, TooLarge, check_length
 from urdfkit.description.xacro.faults import Warned
-from urdfkit.description.xacro.recursion import MAX_INCLUDE_DEPTH, cycle
 from urdfkit.description.xml.reader import absolute, read_source, shown_path
 from urdfkit.description.xml.source import Position, Source, content_of
 from urdfkit.errors import ResourceError
@@ -82,6 +87,9 @@ class Files(Texts):
         source = self.sources.get(shown)
         if source is None:
             source = self.sources[shown] = read_source(path, shown_as=shown, texts=self._texts)
+        return self._read(source)
+
+    def _read(self, source: Source) -> Tag:
         return read_tree(source)
 
     def open_included(self, file: str) -> Tag:
@@ -113,7 +121,7 @@ class Files(Texts):
         """Yield the paths of the files that an include names."""
         self.at = (node, "filename")
         try:
-            path = self._absolute(str(self.text(specification, scope)))
+            path = self._absolute(self.text(specification, scope))
         except OSError as error:
             raise self.placed(unreadable(error, is_include=True)) from None
         if re.search("[*[?]+", path):
@@ -133,7 +141,8 @@ class Files(Texts):
 
         return printed(document, self.path)
 
-    def _absolute(self, name: str) -> str:
+    def _absolute(self, name: Any) -> str:
+        name = str(name)
         folder = os.path.dirname(self.file_stack[-1])  # noqa: PTH120 - the text that stock xacro makes
         path = os.path.join(folder, name)  # noqa: PTH118
         check_length(path)

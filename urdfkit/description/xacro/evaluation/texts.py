@@ -9,14 +9,22 @@ from urdfkit.description.packages.resolver import near_path
 from urdfkit.description.xacro.evaluation.commands import Commands
 from urdfkit.description.xacro.evaluation.expressions.budget import Budget
 from urdfkit.description.xacro.evaluation.expressions.interpreter import Expressions
-from urdfkit.description.xacro.evaluation.expressions.symbols import Scope
-from urdfkit.description.xacro.evaluation.failures import Failure, Place, circular_property, short, undefined_property
-from urdfkit.description.xacro.expressions.excess import (
+from urdfkit.description.xacro.evaluation.expressions.limits import (
     MAX_CHARACTERS,
     MAX_EXPRESSION,
     MAX_EXPRESSIONS,
+    MAX_PROPERTY_DEPTH,
     TooLarge,
     excess,
+)
+from urdfkit.description.xacro.evaluation.expressions.symbols import Scope
+from urdfkit.description.xacro.evaluation.failures import (
+    Failure,
+    Place,
+    circular_property,
+    short,
+    undefined_in_command,
+    undefined_property,
 )
 from urdfkit.description.xml.reader import shown_path
 
@@ -25,7 +33,7 @@ if TYPE_CHECKING:
     from typing import Any
 
 _TOKEN = re.compile(r"(\$\$+[{(])|\$\{([^}]*)\}|\$\(([^)]*)\)|([^$]+|\$[^{($]+|\$$)").match
-_ESCAPED, _EXPRESSION, _COMMAND, _PLAIN, _INVALID = 1, 2, 3, 4, 5
+ESCAPED, EXPRESSION, COMMAND, PLAIN, INVALID = 1, 2, 3, 4, 5
 
 
 class Texts:
@@ -37,6 +45,7 @@ class Texts:
 
     Attributes:
         at: the element and attribute being evaluated.
+        resolving: how many properties are being evaluated, each because the one before uses it.
     """
 
     def __init__(self, arguments: Mapping[str, str], find: Callable[[str], str]) -> None:
@@ -45,7 +54,7 @@ class Texts:
         self.commands = Commands(self.expressions, dict(arguments), find)
         self.at: Place = (None, None)
         self._tokens: dict[str, list[tuple[int, str]]] = {}
-        self._evaluated = 0
+        self._evaluated = self.resolving = 0
 
     def place(self) -> Place:
         """Return the element and attribute being evaluated."""
@@ -73,13 +82,15 @@ class Texts:
             )
         if len(tokens) == 1:
             return self._value(*tokens[0], scope)
-        parts = [self._value(kind, content, scope) for kind, content in tokens]
+        return self._joined([self._value(kind, content, scope) for kind, content in tokens], text)
+
+    def _joined(self, parts: list[Any], text: str) -> str:
         length, found = 0, []
         for part in parts:
             found.append(str(part))
             length += len(found[-1])
             if length > MAX_CHARACTERS:
-                raise self._too_large(excess("a text", MAX_CHARACTERS, "characters"), _EXPRESSION, text)
+                raise self._too_large(excess("a text", MAX_CHARACTERS, "characters"), EXPRESSION, text)
         return "".join(found)
 
     def resolve(self, scope: Scope, name: str) -> Any:
@@ -91,6 +102,9 @@ class Texts:
         if name in scope.open_names:
             self.at = scope.pending.get(name, self.at)
             raise self.placed(circular_property((*scope.open_names, name)))
+        if self.resolving >= MAX_PROPERTY_DEPTH:
+            raise self.placed(Failure("recursion", f"properties use each other more than {MAX_PROPERTY_DEPTH} deep"))
+        self.resolving += 1
         scope.open_names.append(name)
         outer, self.at = self.at, scope.pending[name]
         try:
@@ -98,6 +112,7 @@ class Texts:
         finally:
             self.at = outer
             scope.open_names.pop()
+            self.resolving -= 1
         return scope.values[name]
 
     def placed(self, failure: Failure) -> Failure:
@@ -107,13 +122,16 @@ class Texts:
         return failure
 
     def _value(self, kind: int, content: str, scope: Scope) -> Any:
-        if kind in (_PLAIN, _ESCAPED):
+        if kind in (PLAIN, ESCAPED):
             return content
-        if kind == _INVALID:
+        if kind == INVALID:
             raise self.placed(Failure("other", short(f"invalid expression: {content}")))
-        inner = str(self.text(content, scope)) if "$" in content else content
+        return self._computed(kind, self.text(content, scope) if "$" in content else content, scope)
+
+    def _computed(self, kind: int, content: Any, scope: Scope) -> Any:
+        inner = str(content)
         try:
-            if kind == _COMMAND:
+            if kind == COMMAND:
                 return self.commands.evaluate(inner)
             return self.expressions.evaluate(inner, scope)
         except Failure as failure:
@@ -128,28 +146,30 @@ class Texts:
         if isinstance(error, RecursionError):
             message = "calls of macros, includes and properties are nested too deeply"
             return self.placed(Failure("recursion", message))
-        expression = source if kind == _EXPRESSION else None
-        if isinstance(error, NameError) and error.name is not None and kind == _EXPRESSION:
+        expression = source if kind == EXPRESSION else None
+        if isinstance(error, NameError) and error.name is not None and kind == EXPRESSION:
             failure = undefined_property(error.name, visible(scope))
             failure.facts["expression"] = expression
+        elif isinstance(error, NameError) and error.name is not None:
+            failure = undefined_in_command(error.name, tuple(self.commands.arguments))
         elif isinstance(error, OSError):
             failure = unreadable(error, is_include=False)
             failure.is_missing_file = True
         else:
             text = error.msg if isinstance(error, SyntaxError) else str(error)
-            shown = f"${{{short(source)}}}" if kind == _EXPRESSION else f"$({short(source)})"
+            shown = f"${{{short(source)}}}" if kind == EXPRESSION else f"$({short(source)})"
             failure = Failure("bad-expression", f"cannot evaluate `{shown}`: {short(text)}", expression=expression)
         return self.placed(failure)
 
     def _too_large(self, error: TooLarge, kind: int, source: str) -> Failure:
-        shown = f"${{{short(source)}}}" if kind == _EXPRESSION else f"$({short(source)})"
-        expression = source if kind == _EXPRESSION and len(source) <= MAX_EXPRESSION else None
+        shown = f"${{{short(source)}}}" if kind == EXPRESSION else f"$({short(source)})"
+        expression = source if kind == EXPRESSION and len(source) <= MAX_EXPRESSION else None
         return self.placed(Failure("too-large", f"`{shown}` is too large: {error}", expression=expression))
 
 
 def visible(scope: Scope) -> list[str]:
     """Return the names of properties that an expression can use."""
-    return [name for name in scope.names() if not name.startswith(("*", "__"))]
+    return list(dict.fromkeys(name for name in scope.names() if not name.startswith(("*", "__"))))
 
 
 def unreadable(error: OSError, *, is_include: bool) -> Failure:
@@ -177,10 +197,10 @@ def _tokens(text: str) -> list[tuple[int, str]]:
         match = _TOKEN(text, at)
         if match is None:
             # Stock xacro reads one part ahead of the part it evaluates.
-            found.insert(max(len(found) - 1, 0), (_INVALID, text[at:]))
+            found.insert(max(len(found) - 1, 0), (INVALID, text[at:]))
             break
-        kind = match.lastindex or _PLAIN
+        kind = match.lastindex or PLAIN
         content = match[kind]
-        found.append((kind, content[1:] if kind == _ESCAPED else content))
+        found.append((kind, content[1:] if kind == ESCAPED else content))
         at = match.end()
     return found

@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 
+from urdfkit.description.xacro.evaluation.expressions.limits import MAX_ELEMENTS, TooLarge
 from urdfkit.description.xacro.evaluation.expressions.values import wrapped
-from urdfkit.description.xacro.expressions.excess import MAX_ELEMENTS, TooLarge
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:

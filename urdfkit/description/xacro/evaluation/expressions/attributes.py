@@ -10,9 +10,9 @@ from collections.abc import Callable, Iterable
 
 from urdfkit.description.xacro.evaluation.expressions.budget import Budget
 from urdfkit.description.xacro.evaluation.expressions.formats import formatted
+from urdfkit.description.xacro.evaluation.expressions.limits import TooLarge
+from urdfkit.description.xacro.evaluation.expressions.value_size import CONTAINERS, check_characters, items_of, steps_of
 from urdfkit.description.xacro.evaluation.expressions.values import Function, Type, YamlDict, YamlList
-from urdfkit.description.xacro.expressions.excess import TooLarge
-from urdfkit.description.xacro.expressions.value_size import CONTAINERS, check_characters, items_of, steps_of
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:

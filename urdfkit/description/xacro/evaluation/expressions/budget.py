@@ -10,7 +10,7 @@ import operator
 import re
 from collections.abc import Callable, Iterable, Iterator
 
-from urdfkit.description.xacro.expressions.excess import (
+from urdfkit.description.xacro.evaluation.expressions.limits import (
     MAX_BITS,
     MAX_CHARACTERS,
     MAX_ELEMENTS,
@@ -18,7 +18,13 @@ from urdfkit.description.xacro.expressions.excess import (
     endless,
     excess,
 )
-from urdfkit.description.xacro.expressions.value_size import CONTAINERS, TEXTS, check_characters, check_widths, steps_of
+from urdfkit.description.xacro.evaluation.expressions.value_size import (
+    CONTAINERS,
+    TEXTS,
+    check_characters,
+    check_widths,
+    steps_of,
+)
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from string import Formatter
 
 from urdfkit.description.xacro.evaluation.expressions.budget import Budget
-from urdfkit.description.xacro.expressions.value_size import check_characters, check_widths, steps_of
+from urdfkit.description.xacro.evaluation.expressions.value_size import check_characters, check_widths, steps_of
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:

@@ -8,9 +8,9 @@ import re
 from collections.abc import Callable
 
 from urdfkit.description.xacro.evaluation.expressions.budget import Budget
+from urdfkit.description.xacro.evaluation.expressions.limits import MAX_BITS, TooLarge, excess
 from urdfkit.description.xacro.evaluation.expressions.symbols import Namespace
 from urdfkit.description.xacro.evaluation.expressions.values import Function, Type, YamlDict
-from urdfkit.description.xacro.expressions.excess import MAX_BITS, TooLarge, excess
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:

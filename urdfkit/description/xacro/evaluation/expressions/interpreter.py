@@ -13,10 +13,10 @@ from collections.abc import Callable
 from urdfkit.description.xacro.evaluation.expressions.attributes import Attributes
 from urdfkit.description.xacro.evaluation.expressions.budget import SIZED, Budget
 from urdfkit.description.xacro.evaluation.expressions.formats import shown
+from urdfkit.description.xacro.evaluation.expressions.limits import MAX_DEPTH, MAX_EXPRESSION, TooLarge
 from urdfkit.description.xacro.evaluation.expressions.loops import Frame, Loops, checked_name
 from urdfkit.description.xacro.evaluation.expressions.symbols import Namespace
 from urdfkit.description.xacro.evaluation.expressions.values import Function
-from urdfkit.description.xacro.expressions.excess import MAX_DEPTH, MAX_EXPRESSION, TooLarge
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -51,6 +51,9 @@ class Expressions(Loops):
 
     Args:
         budget: counts their steps.
+
+    Attributes:
+        symbol: returns the value of a name; `symbol_of` unless replaced before the first expression.
     """
 
     def __init__(self, budget: Budget) -> None:
@@ -59,6 +62,7 @@ class Expressions(Loops):
         self._compiled: dict[str, tuple[Compute, int]] = {}
         self._bound: list[set[str]] = []
         self._depth = self._calls = self._size = 0
+        self.symbol = symbol_of
         self._parts: dict[type[ast.expr], Callable[[Any], Compute]] = {
             ast.Constant: self._constant,
             ast.Name: self._name,
@@ -156,9 +160,9 @@ class Expressions(Loops):
         return lambda _: value
 
     def _name(self, node: ast.Name) -> Compute:
-        name = checked_name(node.id)
+        name, symbol = checked_name(node.id), self.symbol
         if not any(name in names for names in self._bound):
-            return lambda frame: _symbol(frame.symbols, name)
+            return lambda frame: symbol(frame.symbols, name)
 
         def variable(frame: Frame) -> Any:
             at: Frame | None = frame
@@ -166,17 +170,18 @@ class Expressions(Loops):
                 if name in at.variables:
                     return at.variables[name]
                 at = at.outer
-            return _symbol(frame.symbols, name)
+            return symbol(frame.symbols, name)
 
         return variable
 
     def _attribute(self, node: ast.Attribute) -> Compute:
         owner, name, read = self._compute(node.value), checked_name(node.attr), self._attributes.read
+        symbol = self.symbol
 
         def attribute(frame: Frame) -> Any:
             value = owner(frame)
             if isinstance(value, Namespace):
-                return _symbol(value, name)
+                return symbol(value, name)
             return read(value, name)
 
         return attribute
@@ -322,7 +327,12 @@ class Expressions(Loops):
         return lambda frame: shown(budget, value(frame), conversion, specification(frame))
 
 
-def _symbol(symbols: Any, name: str) -> Any:
+def symbol_of(symbols: Any, name: str) -> Any:
+    """Return the value of a name.
+
+    Raises:
+        NameError: it is not defined.
+    """
     try:
         return symbols[name]
     except KeyError:

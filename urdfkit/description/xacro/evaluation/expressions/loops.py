@@ -6,8 +6,8 @@ import ast
 from collections.abc import Callable, Iterator
 
 from urdfkit.description.xacro.evaluation.expressions.budget import Budget
+from urdfkit.description.xacro.evaluation.expressions.limits import MAX_CALLS_DEEP, TooLarge
 from urdfkit.description.xacro.evaluation.expressions.values import Function
-from urdfkit.description.xacro.expressions.excess import MAX_CALLS_DEEP, TooLarge
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:

@@ -127,7 +127,7 @@ class Namespace(Scope):
 
 def literal(value: Any) -> Any:
     """Return the value of a text: without its single quotes, or the number or boolean it is."""
-    if not isinstance(value, str):
+    if type(value) is not str:
         return value
     if len(value) >= 2 and value[0] == "'" and value[-1] == "'":
         return value[1:-1]

@@ -2,7 +2,13 @@
 
 from __future__ import annotations
 
-from urdfkit.description.xacro.expressions.excess import MAX_CHARACTERS, MAX_ELEMENTS, MAX_NESTING, TooLarge, excess
+from urdfkit.description.xacro.evaluation.expressions.limits import (
+    MAX_CHARACTERS,
+    MAX_ELEMENTS,
+    MAX_NESTING,
+    TooLarge,
+    excess,
+)
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:

@@ -34,6 +34,15 @@ MAX_CALLS_DEEP = 60
 MAX_MACRO_CALLS = 10_000
 """Macro calls in one run, against macros that multiply each other; a large robot needs some hundreds."""
 
+MAX_MACRO_DEPTH = 400
+"""Macro calls, or blocks, inside one another; stock xacro fails at about 300, with Python's RecursionError."""
+
+MAX_PROPERTY_DEPTH = 400
+"""Properties that use one another; stock xacro fails at about 160, with Python's RecursionError."""
+
+MAX_INCLUDE_DEPTH = 60
+"""Files that include one another."""
+
 MAX_INCLUDES = 2_000
 """Files read in one run, one that is read again counted again."""
 
@@ -46,10 +55,6 @@ MAX_YAML = 500_000
 
 class TooLarge(Exception):  # noqa: N818 - a fault of the file, diagnosed and reported as such
     """Something is too large; the message goes on after what it is about: ``it makes …``."""
-
-
-class TooMany(TooLarge):
-    """Macros, blocks and includes make too many elements; the message stands by itself."""
 
 
 def excess(what: str, limit: int, unit: str) -> TooLarge:
