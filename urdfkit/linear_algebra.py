@@ -12,6 +12,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+Array = NDArray[np.float64]
+
 SUBSCRIPTS = {(1, 1): "i,i->", (1, 2): "i,ij->j", (2, 1): "ij,j->i", (2, 2): "ij,jk->ik"}
 
 
@@ -28,7 +30,7 @@ def vector_norm(vector: ArrayLike) -> float:
     return math.sqrt(np.einsum("i,i->", vector, vector))
 
 
-def inverse_placement(placement: NDArray[np.float64]) -> NDArray[np.float64]:
+def inverse_placement(placement: Array) -> Array:
     """Return the inverse of a placement; shape (4, 4)."""
     inverse = np.eye(4)
     inverse[:3, :3] = placement[:3, :3].T

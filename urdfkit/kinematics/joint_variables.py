@@ -9,13 +9,10 @@ from typing import Any
 
 import numpy as np
 import pinocchio as pin
-from numpy.typing import NDArray
 
 from urdfkit.description.urdf.robot import Robot
 from urdfkit.errors import KinematicsError
-from urdfkit.linear_algebra import matmul, vector_norm
-
-Array = NDArray[np.float64]
+from urdfkit.linear_algebra import Array, matmul, vector_norm
 
 PARTS = {
     "planar": ("x", "y", "theta"),

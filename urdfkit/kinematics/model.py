@@ -20,10 +20,10 @@ from numpy.typing import NDArray
 from urdfkit.description import Robot, load
 from urdfkit.errors import KinematicsError, did_you_mean
 from urdfkit.kinematics.joint_limits import JointLimitError, position_limits
-from urdfkit.kinematics.joint_variables import PARTS, Array, finite, index_variables, rates, unit_pose
+from urdfkit.kinematics.joint_variables import PARTS, finite, index_variables, rates, unit_pose
 from urdfkit.kinematics.mimic import Coupling, couplings
 from urdfkit.kinematics.pinocchio_model import build_model, pin
-from urdfkit.linear_algebra import matmul
+from urdfkit.linear_algebra import Array, matmul
 
 
 class Kinematics:

@@ -8,9 +8,9 @@ from typing import Any
 
 from urdfkit.description.urdf.queries import tree_order
 from urdfkit.description.urdf.robot import Joint, Robot
-from urdfkit.kinematics.joint_variables import Array
 from urdfkit.kinematics.model import Kinematics
 from urdfkit.kinematics.pinocchio_model import pin
+from urdfkit.linear_algebra import Array
 
 
 @dataclass(frozen=True, slots=True)

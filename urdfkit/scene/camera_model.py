@@ -9,7 +9,7 @@ from math import tan
 import numpy as np
 from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from urdfkit.linear_algebra import Array
 
 TILE = 4
 """Neighbouring pixels are neighbours among the rays: tiles of 4 × 4."""

@@ -6,14 +6,12 @@ Exact: in closed form for boxes, spheres, cylinders and capsules; by all vertice
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from urdfkit.description.urdf.robot import Box, Capsule, Cylinder, Sphere
-from urdfkit.linear_algebra import matmul
+from urdfkit.linear_algebra import Array, matmul
 from urdfkit.scene.placement import pose_matrices
 from urdfkit.scene.scene_table import Role, Scene, Shape
-
-Array = NDArray[np.float64]
 
 
 def bounds(scene: Scene, poses: ArrayLike, *, role: Role | None = None) -> Array | None:

@@ -6,15 +6,13 @@ from dataclasses import dataclass, field
 from math import cos
 
 import numpy as np
-from numpy.typing import NDArray
 
 from urdfkit.description.sdf import Light, World
 from urdfkit.description.xml.element import Element
-from urdfkit.linear_algebra import matmul, vector_norm
+from urdfkit.linear_algebra import Array, matmul, vector_norm
 from urdfkit.scene.placement import pose_matrix
 from urdfkit.scene.rays.shading.direct_lighting import DIRECTIONAL, LIGHT, POINT, SPOT
 
-Array = NDArray[np.float64]
 Color = tuple[float, float, float]
 
 AMBIENT: Color = (0.4, 0.4, 0.4)

@@ -3,12 +3,10 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from urdfkit.description.urdf.robot import Pose
-from urdfkit.linear_algebra import vector_norm
-
-Array = NDArray[np.float64]
+from urdfkit.linear_algebra import Array, vector_norm
 
 
 def pose_matrix(pose: Pose) -> Array:

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from urdfkit.linear_algebra import Array
 from urdfkit.scene.camera_model import Lens, spread
 from urdfkit.scene.lights import Lighting
 from urdfkit.scene.rays.kernels import outliner, tracer
@@ -15,8 +16,6 @@ from urdfkit.scene.rays.ray_packet import FAR
 from urdfkit.scene.rays.ray_scene import RayTable
 from urdfkit.scene.rays.shading.materials import occluders_of, paint_of
 from urdfkit.scene.rays.shading.shading_buffers import BUFFER_SIZE
-
-Array = NDArray[np.float64]
 
 ALIKE = 8
 """Largest difference between the channels of neighbouring pixels that is not an edge [of 255]."""

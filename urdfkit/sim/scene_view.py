@@ -8,12 +8,11 @@ from functools import cached_property
 from typing import Any, Protocol
 
 import numpy as np
-from numpy.typing import NDArray
 
 from urdfkit.description.sdf import World
 from urdfkit.description.urdf.geometry import compose
 from urdfkit.kinematics import Kinematics
-from urdfkit.linear_algebra import inverse_placement, matmul
+from urdfkit.linear_algebra import Array, inverse_placement, matmul
 from urdfkit.scene import MeshLoader, Role, Scene, Shape
 from urdfkit.scene.lights import lighting_of
 from urdfkit.scene.placement import pose_matrices, pose_matrix
@@ -24,8 +23,6 @@ from urdfkit.scene.world_shapes import shapes_of_link
 from urdfkit.sim.construction.rigid_bodies import parts_of
 from urdfkit.sim.state.poses import seven
 from urdfkit.sim.state.robot_state import Snapshot, State
-
-Array = NDArray[np.float64]
 
 BODY = "world/"
 """Prefix for the names of the world's bodies; names of links contain no slash."""

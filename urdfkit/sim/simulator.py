@@ -9,12 +9,12 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from urdfkit.bus import Bus, Subscription, absolute, nearest_topic
 from urdfkit.description import Robot, load
 from urdfkit.description.sdf import Physics, World
 from urdfkit.errors import SimulationError, UnknownNameError, suggestion
+from urdfkit.linear_algebra import Array
 from urdfkit.messages import TWIST, TWIST_STAMPED, header, message_type, twist
 from urdfkit.scene import Scene
 from urdfkit.sim.construction.initial_overlap import note_overlaps
@@ -33,8 +33,6 @@ from urdfkit.sim.world.live_world import LiveWorld
 from urdfkit.sim.world.scheduler import Scheduler
 from urdfkit.sim.world.simulated_robot import SimulatedRobot
 from urdfkit.sim.world.world_builder import WorldBuilder
-
-Array = NDArray[np.float64]
 
 LOG = logging.getLogger("urdfkit.sim")
 

@@ -9,11 +9,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from urdfkit.linear_algebra import Array
 from urdfkit.scene.gl.shaders import COLOR, Lamps, ShaderKind, fragment_shader, vertex_shader
 from urdfkit.scene.gl.triangle_models import TriangleModel, models_of
 from urdfkit.scene.rays.ray_scene import RayTable
 
-Array = NDArray[np.float64]
 Rows = NDArray[np.float32]
 Numbers = NDArray[np.int64]
 Mask = NDArray[np.bool_]

@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from urdfkit.linear_algebra import Array
 from urdfkit.scene.camera_model import Lens
 from urdfkit.scene.gl.draw_calls import Drawing, Shot
 from urdfkit.scene.gl.driver_probe import create, on_processor
@@ -21,8 +22,6 @@ from urdfkit.scene.lights import Lighting
 from urdfkit.scene.ray_images import Painter, Picture
 from urdfkit.scene.rays.ray_scene import RayTable
 from urdfkit.scene.rays.shading.direct_lighting import DIRECTIONAL, SPOT
-
-Array = NDArray[np.float64]
 
 
 class GlPainter:

@@ -8,11 +8,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from urdfkit.linear_algebra import Array
 from urdfkit.scene.gl.shaders import SHADOW_FRAGMENT, SHADOW_VERTEX
 from urdfkit.scene.placement import upright
 from urdfkit.scene.rays.ray_scene import RayTable
-
-Array = NDArray[np.float64]
 
 EDGES = {"s": 2048, "m": 1024}
 """Maximum number of texels along the edges of the map of static and of moving shapes."""

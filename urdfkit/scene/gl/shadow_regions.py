@@ -5,11 +5,9 @@ from __future__ import annotations
 from itertools import product
 
 import numpy as np
-from numpy.typing import NDArray
 
+from urdfkit.linear_algebra import Array
 from urdfkit.scene.camera_model import Lens
-
-Array = NDArray[np.float64]
 
 LARGE = 0.6
 """Fraction of the image above which both maps are used for the whole image."""

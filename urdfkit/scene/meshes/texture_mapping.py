@@ -15,10 +15,9 @@ from numpy.typing import NDArray
 
 from urdfkit.description.urdf.robot import Box, Capsule, Cylinder, Geometry, Sphere
 from urdfkit.errors import ResourceError
+from urdfkit.linear_algebra import Array
 from urdfkit.scene.meshes.loader import TriMesh
 from urdfkit.scene.meshes.textures import Texture, read_texture
-
-Array = NDArray[np.float64]
 
 AROUND = 64
 """Facets around."""

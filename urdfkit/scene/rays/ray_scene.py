@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from urdfkit.description.sdf import Cone, Ellipsoid, Plane
 from urdfkit.description.urdf.robot import Box, Capsule, Cylinder, Sphere
-from urdfkit.linear_algebra import matmul
+from urdfkit.linear_algebra import Array, matmul
 from urdfkit.scene.meshes.loader import TriMesh
 from urdfkit.scene.placement import upright
 from urdfkit.scene.rays import primitives
@@ -25,7 +25,6 @@ from urdfkit.scene.rays.triangles import CORNERS
 from urdfkit.scene.rays.wide_bvh import BOXES
 from urdfkit.scene.scene_table import Scene, Shape
 
-Array = NDArray[np.float64]
 Numbers = NDArray[np.int64]
 
 

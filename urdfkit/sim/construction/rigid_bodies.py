@@ -7,7 +7,6 @@ from pathlib import Path
 from typing import Any, cast
 
 import numpy as np
-from numpy.typing import NDArray
 
 from urdfkit.description.plugins import match
 from urdfkit.description.sdf import Cone, Ellipsoid, Plane, World, WorldLink, WorldModel, WorldShape
@@ -16,7 +15,7 @@ from urdfkit.description.sdf.shapes import plugins_of
 from urdfkit.description.urdf.geometry import compose
 from urdfkit.description.urdf.robot import Geometry, Mesh, Pose
 from urdfkit.errors import SimulationError
-from urdfkit.linear_algebra import inverse_placement, matmul
+from urdfkit.linear_algebra import Array, inverse_placement, matmul
 from urdfkit.scene import MeshLoader, Scene, Shape
 from urdfkit.scene.colors import DEFAULT, GAZEBO
 from urdfkit.scene.placement import pose_matrix, upright
@@ -26,7 +25,6 @@ from urdfkit.sim.construction.validation import impossible
 from urdfkit.sim.engine import Body, Piece, Surface
 from urdfkit.sim.state.poses import seven
 
-Array = NDArray[np.float64]
 Placed = tuple[str, Pose, WorldLink]
 """Name in the model, pose in the model, and link."""
 

@@ -6,15 +6,13 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 import numpy as np
-from numpy.typing import NDArray
 
 from urdfkit.errors import SimulationError
 from urdfkit.kinematics import Kinematics
+from urdfkit.linear_algebra import Array
 from urdfkit.scene import Scene, lowest_point
 from urdfkit.sim.state.arguments import vector
 from urdfkit.sim.state.quaternion import from_rpy, rotate
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, slots=True)

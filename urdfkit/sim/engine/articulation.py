@@ -7,16 +7,13 @@ from collections.abc import Sequence
 
 import numpy as np
 import pinocchio as pin
-from numpy.typing import NDArray
 
 from urdfkit.errors import SimulationError
 from urdfkit.kinematics.model import Kinematics
-from urdfkit.linear_algebra import matmul
+from urdfkit.linear_algebra import Array, matmul
 from urdfkit.sim.engine.arrays import DT, FOUND_CONTACTS, STEPS, Arrays
 from urdfkit.sim.engine.scalar_views import numbers
 from urdfkit.sim.engine.state_conversion import configuration, positions, set_configuration
-
-Array = NDArray[np.float64]
 
 
 class Articulation:

@@ -5,14 +5,10 @@ from __future__ import annotations
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field
 
-import numpy as np
-from numpy.typing import NDArray
-
 from urdfkit.kinematics.model import Kinematics
 from urdfkit.scene import Shape
 from urdfkit.sim.engine.contact_surface import Surface
 
-Array = NDArray[np.float64]
 SMOOTHNESS = Surface()
 """Surface of a shape without a defined surface."""
 AT_ORIGIN = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0)

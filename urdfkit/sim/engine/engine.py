@@ -7,11 +7,10 @@ from collections.abc import Callable, Collection, Mapping, Sequence
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from urdfkit.errors import SimulationError
 from urdfkit.kinematics.model import Kinematics
-from urdfkit.linear_algebra import matmul
+from urdfkit.linear_algebra import Array, matmul
 from urdfkit.scene import Shape
 from urdfkit.sim.engine.arrays import HAS_PAIRS, ITERATED, OVERFULL, STEPS
 from urdfkit.sim.engine.articulation import Articulation
@@ -23,8 +22,6 @@ from urdfkit.sim.engine.layout.collision_shapes import touching
 from urdfkit.sim.engine.layout.validation import require_inertia
 from urdfkit.sim.engine.layout.world_arrays import fill
 from urdfkit.sim.engine.state_conversion import contacts, turning
-
-Array = NDArray[np.float64]
 
 FLAT = Ground()
 """Default ground, at z = 0."""

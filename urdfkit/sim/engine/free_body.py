@@ -5,15 +5,12 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
 from urdfkit.errors import SimulationError
-from urdfkit.linear_algebra import matmul
+from urdfkit.linear_algebra import Array, matmul
 from urdfkit.sim.engine.arrays import Arrays
 from urdfkit.sim.engine.bodies import Body
 from urdfkit.sim.engine.layout.tree_arrays import place_free
-
-Array = NDArray[np.float64]
 
 
 class FreeBody:

@@ -10,12 +10,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from urdfkit.errors import SimulationError
-from urdfkit.linear_algebra import matmul, vector_norm
+from urdfkit.linear_algebra import Array, matmul, vector_norm
 from urdfkit.sim.engine.arrays import FOUND_CONTACTS, HAS_PAIRS, SLEEPING, Arrays
 from urdfkit.sim.engine.contact_surface import Contact, Touching
 from urdfkit.sim.engine.dynamics.mass_matrix import FREE, PLANAR
-
-Array = NDArray[np.float64]
 
 
 def configuration(model: Any, arrays: Arrays, tree: int = 0) -> Array:

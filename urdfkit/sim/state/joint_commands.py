@@ -8,15 +8,13 @@ from math import inf, isfinite
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from urdfkit.description.urdf.robot import Joint
 from urdfkit.errors import SimulationError
 from urdfkit.kinematics import Kinematics
+from urdfkit.linear_algebra import Array
 from urdfkit.sim.engine.scalar_views import numbers
 from urdfkit.sim.state.pid import Gains
-
-Array = NDArray[np.float64]
 
 APPROACH = 10.0
 """Rate at which a joint approaches its position target [1/s]: the error falls to 5e-5 of its value in a second."""

@@ -7,13 +7,11 @@ from math import atan2, cos, sin
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from urdfkit.kinematics import Kinematics
-from urdfkit.linear_algebra import matmul
+from urdfkit.linear_algebra import Array, matmul
 from urdfkit.sim.state.quaternion import product, rotate
 
-Array = NDArray[np.float64]
 NONE = np.zeros(0), np.zeros((0, 3))
 """Default of `energy_of`: no weightless bodies."""
 

@@ -7,10 +7,10 @@ from functools import cached_property
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from urdfkit.errors import UnknownNameError, did_you_mean
 from urdfkit.kinematics import Kinematics
+from urdfkit.linear_algebra import Array
 from urdfkit.sim.engine import Contact, Engine
 from urdfkit.sim.engine.articulation import Articulation
 from urdfkit.sim.engine.scalar_views import numbers
@@ -18,7 +18,6 @@ from urdfkit.sim.engine.state_conversion import configuration
 from urdfkit.sim.state.mechanics import energy_of, in_the_world, link_poses, pose_and_twist
 from urdfkit.sim.state.quaternion import product, rotate
 
-Array = NDArray[np.float64]
 Placement = tuple[tuple[float, float, float], tuple[float, float, float, float]]
 
 MOST_SHOWN = 6

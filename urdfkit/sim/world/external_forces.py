@@ -13,10 +13,9 @@ from math import inf, isfinite
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from urdfkit.errors import SimulationError, UnknownNameError
-from urdfkit.linear_algebra import matmul, vector_norm
+from urdfkit.linear_algebra import Array, matmul, vector_norm
 from urdfkit.sim.construction.rigid_bodies import parts_of
 from urdfkit.sim.engine import Engine, FreeBody
 from urdfkit.sim.state.arguments import nearest
@@ -25,7 +24,6 @@ from urdfkit.sim.world.simulated_robot import SimulatedRobot
 from urdfkit.sim.world.world_builder import WorldBuilder
 from urdfkit.sim.world.world_entity import WorldEntity
 
-Array = NDArray[np.float64]
 Target = tuple["SimulatedRobot | None", str]
 """A robot and the name of its link, or None and the name of a free body."""
 

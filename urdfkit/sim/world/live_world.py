@@ -8,11 +8,11 @@ from pathlib import Path
 from zlib import crc32
 
 import numpy as np
-from numpy.typing import NDArray
 
 from urdfkit.description.sdf import World, WorldModel
 from urdfkit.description.urdf.robot import Pose, Robot
 from urdfkit.errors import SimulationError
+from urdfkit.linear_algebra import Array
 from urdfkit.scene import Scene, Shape
 from urdfkit.sim.construction.initial_overlap import note_overlaps
 from urdfkit.sim.construction.rigid_bodies import visuals_of
@@ -29,8 +29,6 @@ from urdfkit.sim.world.simulated_robot import SimulatedRobot
 from urdfkit.sim.world.snapshot import current_description
 from urdfkit.sim.world.spawn_requests import SpawnRequest, spawn_request
 from urdfkit.sim.world.world_builder import WorldBuilder
-
-Array = NDArray[np.float64]
 
 
 class LiveWorld:

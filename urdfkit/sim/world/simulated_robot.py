@@ -6,9 +6,6 @@ from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
-import numpy as np
-from numpy.typing import NDArray
-
 from urdfkit.description import Robot
 from urdfkit.kinematics import Kinematics
 from urdfkit.scene import Scene, scene_of
@@ -28,8 +25,6 @@ from urdfkit.sim.plugins.setup import Setup
 from urdfkit.sim.state.joint_commands import Motors, Servos
 from urdfkit.sim.state.robot_state import State
 from urdfkit.sim.state.ticks import Ticks
-
-Array = NDArray[np.float64]
 
 SERVO_ARRAYS = (
     "position_target", "velocity_target", "kp", "kd", "servo_effort",

@@ -5,15 +5,12 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
-from urdfkit.linear_algebra import matmul, vector_norm
+from urdfkit.linear_algebra import Array, matmul, vector_norm
 from urdfkit.sim.engine import Contact
 from urdfkit.sim.plugins.sensors.point_motion import Motion
 from urdfkit.sim.world.live_world import LiveWorld
 from urdfkit.sim.world.simulated_robot import SimulatedRobot
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, slots=True)

@@ -10,13 +10,10 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
-import numpy as np
-from numpy.typing import NDArray
-
+from urdfkit.linear_algebra import Array
 from urdfkit.sim.engine import Engine
 from urdfkit.sim.engine.arrays import ITERATED, LAST_PAIRS, SLEEPING, STEPS, Arrays
 
-Array = NDArray[np.float64]
 _PER_DOF = (
     "motor_velocity",
     "motor_effort",

@@ -5,11 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
-from urdfkit.linear_algebra import matmul, vector_norm
-
-Array = NDArray[np.float64]
+from urdfkit.linear_algebra import Array, matmul, vector_norm
 
 MOST_VERTICES = 64
 """Vertices of a hull, at most: the time of a contact grows with them."""

@@ -5,11 +5,10 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from urdfkit.linear_algebra import matmul, vector_norm
+from urdfkit.linear_algebra import Array, matmul, vector_norm
 from urdfkit.sim.engine.collision.convex_hull import Hull
 from urdfkit.sim.engine.collision.convex_mesh import LEAF, ONE_SIDED
 
-Array = NDArray[np.float64]
 Indices = NDArray[np.int64]
 
 CONCAVE = 1e-6

@@ -7,12 +7,11 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from urdfkit.description.sdf import Plane
 from urdfkit.description.urdf.robot import Box, Capsule, Cylinder, Mesh, Sphere
 from urdfkit.errors import SimulationError
-from urdfkit.linear_algebra import matmul, vector_norm
+from urdfkit.linear_algebra import Array, matmul, vector_norm
 from urdfkit.scene import Shape
 from urdfkit.sim.engine.bodies import Body, Member
 from urdfkit.sim.engine.collision.support_points import HULL, MESH, PLANE
@@ -20,8 +19,6 @@ from urdfkit.sim.engine.contact_surface import Surface, Touching
 from urdfkit.sim.engine.contacts import ground_contacts
 from urdfkit.sim.engine.layout.tree_arrays import pose_matrix
 from urdfkit.sim.engine.layout.wheel_shapes import as_wheel
-
-Array = NDArray[np.float64]
 
 BOUNDLESS = 1e9
 """Radius of the ball round a plane [m]."""

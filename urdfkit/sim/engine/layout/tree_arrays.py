@@ -6,15 +6,12 @@ from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from urdfkit.errors import SimulationError
-from urdfkit.linear_algebra import matmul, vector_norm
+from urdfkit.linear_algebra import Array, matmul, vector_norm
 from urdfkit.sim.engine.arrays import Arrays
 from urdfkit.sim.engine.bodies import Body, Member
 from urdfkit.sim.engine.dynamics.mass_matrix import FREE, PLANAR, PRISMATIC, REVOLUTE
-
-Array = NDArray[np.float64]
 
 KINDS = {1: (PRISMATIC, REVOLUTE), 3: (PLANAR, PLANAR), 6: (FREE, FREE)}
 """Number of dofs → kind of joint that only shifts, kind of any other."""

@@ -5,16 +5,13 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from urdfkit.kinematics.model import Kinematics
-from urdfkit.linear_algebra import matmul, vector_norm
+from urdfkit.linear_algebra import Array, matmul, vector_norm
 from urdfkit.sim.engine.collision.support_points import HULL
 from urdfkit.sim.engine.contact_surface import Touching
 from urdfkit.sim.engine.contacts import ground_contacts
 from urdfkit.sim.engine.layout.tree_arrays import joint_subspace
-
-Array = NDArray[np.float64]
 
 SIDES = 12
 """Fewest corners of a rim that is taken for a circle."""

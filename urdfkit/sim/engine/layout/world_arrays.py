@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
 from urdfkit.sim.engine.arrays import Arrays, allocate
 from urdfkit.sim.engine.bodies import Body, Member
@@ -18,8 +17,6 @@ from urdfkit.sim.engine.contacts import ground_contacts
 from urdfkit.sim.engine.island_solver.conjugate_gradient import KEPT
 from urdfkit.sim.engine.layout.collision_shapes import box_of, still_box
 from urdfkit.sim.engine.layout.tree_arrays import fill_free, fill_member
-
-Array = NDArray[np.float64]
 
 PAIRS, PAIRS_EACH = 32768, 64
 """Most pairs of shapes whose boxes may overlap at once, or so many for each shape that moves if that is more."""

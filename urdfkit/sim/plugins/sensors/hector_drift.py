@@ -10,12 +10,10 @@ from __future__ import annotations
 from math import exp
 
 import numpy as np
-from numpy.typing import NDArray
 
 from urdfkit.errors import SimulationError
+from urdfkit.linear_algebra import Array
 from urdfkit.sim.plugins.parameters import Parameters
-
-Array = NDArray[np.float64]
 
 DRIFT_FREQUENCY = 1.0 / 3600.0
 """Default of ``driftFrequency`` [Hz]."""

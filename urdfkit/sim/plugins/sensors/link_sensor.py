@@ -9,10 +9,10 @@ from functools import cache
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from urdfkit.description.xml.element import Element
 from urdfkit.errors import SimulationError, did_you_mean
+from urdfkit.linear_algebra import Array
 from urdfkit.sim.plugins.base import Sensor
 from urdfkit.sim.plugins.parameters import Parameters
 from urdfkit.sim.plugins.sensors.point_motion import Moment, Motion
@@ -21,8 +21,6 @@ from urdfkit.sim.plugins.setup import Setup
 from urdfkit.sim.plugins.topic_names import Topics
 from urdfkit.sim.scene_view import Surroundings
 from urdfkit.sim.state.robot_state import State
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)

@@ -5,13 +5,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from urdfkit.description.xml.element import Element
 from urdfkit.errors import SimulationError, did_you_mean
+from urdfkit.linear_algebra import Array
 from urdfkit.sim.plugins.sensors.sensor_values import number
-
-Array = NDArray[np.float64]
 
 TYPES = ("none", "gaussian", "gaussian_quantized")
 

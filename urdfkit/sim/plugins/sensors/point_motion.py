@@ -5,13 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from urdfkit.kinematics import Kinematics
-from urdfkit.linear_algebra import matmul
+from urdfkit.linear_algebra import Array, matmul
 from urdfkit.sim.state.robot_state import Snapshot, State
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)

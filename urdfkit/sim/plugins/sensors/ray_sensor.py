@@ -8,12 +8,11 @@ from functools import cache, partial
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from urdfkit.description.plugins.sensor_values import senseless_parameters
 from urdfkit.description.urdf.robot import SensorTag
 from urdfkit.errors import SimulationError
-from urdfkit.linear_algebra import matmul
+from urdfkit.linear_algebra import Array, matmul
 from urdfkit.sim.plugins.base import Sensor
 from urdfkit.sim.plugins.parameters import Parameters
 from urdfkit.sim.plugins.sensors.link_sensor import carrier
@@ -22,8 +21,6 @@ from urdfkit.sim.plugins.setup import Setup
 from urdfkit.sim.plugins.topic_names import Topics
 from urdfkit.sim.scene_view import Layout
 from urdfkit.sim.state.robot_state import State
-
-Array = NDArray[np.float64]
 
 
 class Mounted(Sensor):

@@ -11,12 +11,13 @@ from typing import Any, ClassVar
 import numpy as np
 
 from urdfkit.errors import DescriptionError, did_you_mean
+from urdfkit.linear_algebra import Array
 from urdfkit.messages import TRAJECTORY, TRAJECTORY_STATE, from_fields, header
 from urdfkit.sim.plugins.controllers.actions.action_goal import ABORTED, SUCCEEDED, Action, RefusalError
 from urdfkit.sim.plugins.controllers.command_output import INTERFACES, Output
 from urdfkit.sim.plugins.controllers.controller import Law
 from urdfkit.sim.plugins.controllers.joint_handle import Follower
-from urdfkit.sim.plugins.controllers.trajectory.spline import ROUNDING, Array, Trajectory, Waypoint
+from urdfkit.sim.plugins.controllers.trajectory.spline import ROUNDING, Trajectory, Waypoint
 from urdfkit.sim.plugins.controllers.trajectory.tolerances import Tolerances
 from urdfkit.sim.plugins.controllers.trajectory.trajectory_message import INVALID_JOINTS, TrajectoryReader, point_of
 from urdfkit.sim.state.joint_commands import Motors

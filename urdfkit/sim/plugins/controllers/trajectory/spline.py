@@ -12,11 +12,8 @@ from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
-from numpy.typing import NDArray
 
-from urdfkit.linear_algebra import matmul
-
-Array = NDArray[np.float64]
+from urdfkit.linear_algebra import Array, matmul
 
 ROUNDING = 1e-9
 """Tolerance within which two times are equal [s]."""

@@ -11,11 +11,9 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from urdfkit.description.control import Settings
-
-Array = NDArray[np.float64]
+from urdfkit.linear_algebra import Array
 
 STOPPED = 0.01
 """Default ``stopped_velocity_tolerance`` [rad/s] or [m/s]."""

@@ -12,9 +12,10 @@ from typing import Any
 import numpy as np
 
 from urdfkit.errors import did_you_mean
+from urdfkit.linear_algebra import Array
 from urdfkit.messages import from_fields, message_type
 from urdfkit.sim.plugins.controllers.actions.action_goal import RefusalError
-from urdfkit.sim.plugins.controllers.trajectory.spline import ROUNDING, Array, Trajectory, Waypoint
+from urdfkit.sim.plugins.controllers.trajectory.spline import ROUNDING, Trajectory, Waypoint
 
 INVALID_GOAL, INVALID_JOINTS, OLD_STAMP = -1, -2, -3
 """Error codes of FollowJointTrajectory."""

@@ -17,6 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from urdfkit.errors import SimulationError, did_you_mean
+from urdfkit.linear_algebra import Array
 from urdfkit.messages import header, message_type
 from urdfkit.messages.vision import DETECTIONS_2D, DETECTIONS_3D
 from urdfkit.scene import Shape
@@ -28,7 +29,6 @@ from urdfkit.sim.plugins.setup import Setup
 from urdfkit.sim.plugins.topic_names import Topics
 from urdfkit.sim.scene_view import Layout
 
-Array = NDArray[np.float64]
 Numbers = NDArray[np.int64]
 
 SEMANTIC = ("semantic",)

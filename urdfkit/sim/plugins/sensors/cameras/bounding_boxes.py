@@ -12,12 +12,11 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from urdfkit.linear_algebra import matmul
+from urdfkit.linear_algebra import Array, matmul
 from urdfkit.scene.camera_model import Lens
 from urdfkit.scene.gl.triangle_models import triangles_of
 from urdfkit.scene.rays.ray_scene import RayTable
 
-Array = NDArray[np.float64]
 Numbers = NDArray[np.int64]
 
 AHEAD = 1e-3

@@ -13,11 +13,10 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from urdfkit.description.urdf.robot import SensorTag
 from urdfkit.description.xml.element import Element
-from urdfkit.linear_algebra import matmul
+from urdfkit.linear_algebra import Array, matmul
 from urdfkit.scene import Shape
 from urdfkit.scene.camera_model import Distortion
 from urdfkit.scene.ray_images import Picture
@@ -38,8 +37,6 @@ from urdfkit.sim.plugins.sensors.sensor_values import pose_of
 from urdfkit.sim.plugins.setup import Setup
 from urdfkit.sim.plugins.topic_names import Topics
 from urdfkit.sim.scene_view import Layout
-
-Array = NDArray[np.float64]
 
 SEVERAL = ("multicamera", "stereo_camera")
 """Sensor types with more than one camera."""

@@ -7,8 +7,8 @@ from functools import partial
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from urdfkit.linear_algebra import Array
 from urdfkit.sim.plugins.parameters import Parameters
 from urdfkit.sim.plugins.sensors.cameras.camera import SEVERAL, Camera, Sight, sensor_type
 from urdfkit.sim.plugins.sensors.cameras.camera_optics import CAMERA_INFO, IMAGE, depth_image
@@ -18,8 +18,6 @@ from urdfkit.sim.plugins.sensors.cloud_messages import POINT_CLOUD_2
 from urdfkit.sim.plugins.setup import Setup
 from urdfkit.sim.plugins.topic_names import Topics
 from urdfkit.sim.scene_view import Layout
-
-Array = NDArray[np.float64]
 
 
 class RosCamera(MultiCamera):

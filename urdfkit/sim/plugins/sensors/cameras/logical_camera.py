@@ -7,11 +7,10 @@ from math import tan
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from urdfkit.description.urdf.robot import SensorTag
 from urdfkit.errors import SimulationError
-from urdfkit.linear_algebra import inverse_placement, matmul
+from urdfkit.linear_algebra import Array, inverse_placement, matmul
 from urdfkit.messages import header, message_type
 from urdfkit.messages.sensors import GZ_LOGICAL_IMAGE, GZ_LOGICAL_MODEL
 from urdfkit.scene.placement import pose_matrices
@@ -23,7 +22,6 @@ from urdfkit.sim.plugins.topic_names import Topics
 from urdfkit.sim.scene_view import Layout
 from urdfkit.sim.state.quaternion import from_matrix
 
-Array = NDArray[np.float64]
 Sight = tuple[float, Array, list[tuple[str, Array]]]
 """Time [s], placement of the camera, shape (4, 4), and name and placement of each model in the world."""
 

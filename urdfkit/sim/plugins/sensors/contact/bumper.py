@@ -13,10 +13,10 @@ from functools import partial
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from urdfkit.description.xml.element import Element
 from urdfkit.errors import SimulationError
+from urdfkit.linear_algebra import Array
 from urdfkit.messages import BOOL, header, message_type, vector
 from urdfkit.messages.sensors import CONTACT_STATE, CONTACTS_STATE, GZ_CONTACT, GZ_CONTACTS, GZ_JOINT_WRENCH
 from urdfkit.messages.simulation import ENTITY
@@ -30,8 +30,6 @@ from urdfkit.sim.plugins.topic_names import Topics
 from urdfkit.sim.scene_view import Layout
 from urdfkit.sim.state.robot_state import State
 from urdfkit.sim.state.ticks import NEVER
-
-Array = NDArray[np.float64]
 
 
 class Contacts(Sensor):

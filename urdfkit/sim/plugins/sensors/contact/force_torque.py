@@ -13,11 +13,10 @@ from functools import partial
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from urdfkit.description.xml.element import Element
 from urdfkit.errors import SimulationError, did_you_mean
-from urdfkit.linear_algebra import matmul
+from urdfkit.linear_algebra import Array, matmul
 from urdfkit.messages import header, message_type, vector
 from urdfkit.sim.engine import Contact
 from urdfkit.sim.plugins.base import Sensor
@@ -32,7 +31,6 @@ from urdfkit.sim.state.robot_state import State
 
 WRENCH = "geometry_msgs/msg/WrenchStamped"
 
-Array = NDArray[np.float64]
 
 FRAMES = ("parent", "child", "sensor")
 DIRECTIONS = ("child_to_parent", "parent_to_child")

@@ -11,14 +11,12 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from urdfkit.description.urdf.robot import Robot
-from urdfkit.linear_algebra import matmul
+from urdfkit.linear_algebra import Array, matmul
 from urdfkit.scene.placement import pose_matrix
 from urdfkit.sim.plugins.sensors.point_motion import Motion
 
-Array = NDArray[np.float64]
 Wrench = tuple[Array, Array]
 """Force [N] and torque [N·m], along the world's axes."""
 

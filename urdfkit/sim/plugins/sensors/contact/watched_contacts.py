@@ -6,18 +6,16 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
-from numpy.typing import NDArray
 
 from urdfkit.description.xml.element import Element
 from urdfkit.errors import SimulationError, did_you_mean
-from urdfkit.linear_algebra import matmul
+from urdfkit.linear_algebra import Array, matmul
 from urdfkit.sim.engine import Contact
 from urdfkit.sim.plugins.sensors.contact.collision_names import Collision, collisions_of, find, scoped_name
 from urdfkit.sim.plugins.setup import Setup
 from urdfkit.sim.scene_view import Layout
 from urdfkit.sim.state.robot_state import State
 
-Array = NDArray[np.float64]
 Seen = dict[tuple[str, str], "list[Contact]"]
 """(watched link, other body), named as in contacts → their contacts."""
 

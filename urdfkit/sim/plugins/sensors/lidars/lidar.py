@@ -13,10 +13,10 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from urdfkit.description.urdf.robot import SensorTag
 from urdfkit.errors import did_you_mean
+from urdfkit.linear_algebra import Array
 from urdfkit.messages import header, message_type
 from urdfkit.scene import Role
 from urdfkit.sim.plugins.parameters import Parameters
@@ -26,8 +26,6 @@ from urdfkit.sim.plugins.sensors.ray_sensor import Mounted
 from urdfkit.sim.plugins.setup import Setup
 from urdfkit.sim.plugins.topic_names import Topics
 from urdfkit.sim.scene_view import Layout
-
-Array = NDArray[np.float64]
 
 LASER_SCAN = "sensor_msgs/msg/LaserScan"
 RANGE = "sensor_msgs/msg/Range"

@@ -5,15 +5,13 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from urdfkit.description.plugins.sensor_values import senseless_scan
 from urdfkit.description.urdf.robot import SensorTag
 from urdfkit.description.xml.element import Element
 from urdfkit.errors import SimulationError
+from urdfkit.linear_algebra import Array
 from urdfkit.sim.plugins.sensors.sensor_values import number, refuse
-
-Array = NDArray[np.float64]
 
 MAX_RAYS = 4_000_000
 """Maximum number of rays of one lidar."""

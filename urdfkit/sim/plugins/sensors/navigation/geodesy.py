@@ -6,13 +6,10 @@ from dataclasses import dataclass
 from math import atan2, cos, degrees, hypot, radians, sin, sqrt
 
 import numpy as np
-from numpy.typing import NDArray
 
 from urdfkit.description.sdf import World
-from urdfkit.linear_algebra import matmul
+from urdfkit.linear_algebra import Array, matmul
 from urdfkit.sim.plugins.sensors.sensor_values import number
-
-Array = NDArray[np.float64]
 
 A = 6378137.0
 """Semi-major axis [m] (WGS 84)."""

@@ -12,9 +12,9 @@ from math import cos, degrees, pi, radians
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from urdfkit.description.xml.element import Element
+from urdfkit.linear_algebra import Array
 from urdfkit.messages import header, message_type, vector
 from urdfkit.sim.plugins.parameters import Parameters
 from urdfkit.sim.plugins.sensors.hector_drift import drifting
@@ -30,8 +30,6 @@ VELOCITY = "geometry_msgs/msg/Vector3Stamped"
 
 DIAGONAL_KNOWN = 2
 """NavSatFix's COVARIANCE_TYPE_DIAGONAL_KNOWN."""
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)

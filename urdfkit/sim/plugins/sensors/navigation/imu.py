@@ -13,11 +13,10 @@ from functools import partial
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from urdfkit.description.xml.element import Element
 from urdfkit.errors import SimulationError
-from urdfkit.linear_algebra import matmul, vector_norm
+from urdfkit.linear_algebra import Array, matmul, vector_norm
 from urdfkit.messages import header, message_type, vector
 from urdfkit.sim.plugins.parameters import Parameters
 from urdfkit.sim.plugins.sensors.hector_drift import drifting
@@ -35,8 +34,6 @@ IMU = "sensor_msgs/msg/Imu"
 
 G = 9.8065
 """Gravity with which hector converts ``rpyOffset`` to an offset of the acceleration [m/s²]."""
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)
