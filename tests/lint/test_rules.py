@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import re
 import shutil
 from collections import Counter
@@ -41,12 +42,37 @@ def marks(path: Path) -> Counter:
     return expected
 
 
+def report(path: Path) -> str:
+    """Return all texts and places of the findings of a file in the current folder."""
+    lines = []
+    for finding in lint(path.name, target=target(BY_NAME[path.parent.name])):
+        span = finding.span
+        place = f"{span.line}:{span.column}-{span.end_line}:{span.end_column}"
+        lines.append(f"{span.file}:{place}: {finding.code} {finding.severity}: {finding.message}")
+        if finding.link or finding.joint:
+            lines.append(f"  in: link {finding.link}, joint {finding.joint}")
+        lines += [f"  expanded from: {' < '.join(call.macro for call in chain)}" for chain in finding.chains]
+        if finding.help:
+            lines.append(f"  help: {finding.help}")
+        if finding.fix:
+            lines.append(f"  {finding.fix.safety} fix: {finding.fix.title}")
+    return "".join(f"{line}\n" for line in lines).replace(f"{Path.cwd()}/", "")
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize("path", files("bad"))
 def test_bad_files_are_found_out_exactly_where_marked(path):
     found = lint(path, target=target(BY_NAME[path.parent.name]))
     assert Counter((finding.code, finding.line) for finding in found) == marks(path), [str(f) for f in found]
     assert BY_NAME[path.parent.name].code in {finding.code for finding in found}
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("path", files("bad"))
+def test_findings_have_their_place_message_help_and_fix(path, monkeypatch):
+    """After an intended change, write the expected files with ``python -m tests.lint.test_rules`` and read the diff."""
+    monkeypatch.chdir(path.parent)
+    assert report(path) == path.with_name(f"findings.{path.name}.txt").read_text()
 
 
 @pytest.mark.parametrize("rule", [rule for rule in RULES if rule.only_for or rule.not_for], ids=lambda rule: rule.name)
@@ -311,3 +337,10 @@ def test_hardware_of_another_gazebo_than_the_target_is_found_without_a_plugin(tm
         assert {f.code for f in lint(tmp_path, target=target)} == {"C709"}
     for target in right:
         assert "C709" not in {f.code for f in lint(tmp_path, target=target)}
+
+
+if __name__ == "__main__":
+    for parameter in files("bad"):
+        bad: Path = parameter.values[0]
+        os.chdir(bad.parent)
+        Path(f"findings.{bad.name}.txt").write_text(report(bad))
