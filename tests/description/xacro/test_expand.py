@@ -248,6 +248,13 @@ def test_a_comment_that_xml_does_not_allow_is_an_error_with_its_place(write: Wri
         _ = expand(write("m.xacro", text)).xml
 
 
+def test_half_a_character_is_an_error(write: Write) -> None:
+    with pytest.raises(
+        XacroError, match=r"m\.xacro:1:1: the expanded file contains '\\ud800', which is not a character"
+    ):
+        _ = expand(write("m.xacro", "HEAD${'\\ud800'}</robot>")).xml
+
+
 def test_as_deep_a_loop_as_stock_xacro_can_do(write: Write) -> None:
     path = write(
         "m.xacro",

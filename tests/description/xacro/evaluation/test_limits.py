@@ -49,6 +49,11 @@ HOSTILE = {
     "macros": (f'<xacro:macro name="m0"><l/></xacro:macro>{_macros(8, "<xacro:m{0}/>" * 30)}<xacro:m8/>', "multiply"),
     "merges": ("<l a=\"${len(xacro.load_yaml('merges.yaml'))}\"/>", "merge keys"),
     "depth": ("<l a=\"${len(xacro.load_yaml('deep.yaml'))}\"/>", "nested"),
+    "values": ("<l a=\"${xacro.load_yaml('values.yaml')[0]}\"/>" * 20, "exceed 1,000,000 steps"),
+    "comments": (
+        "<l a=\"${[xacro.load_yaml('comments.yaml') for i in python.range(1000)]}\"/>",
+        "exceed 1,000,000 steps",
+    ),
     "attribute": (f'<l a="{"x" * 10**7}"/>', "characters"),
     "params": (
         f'<xacro:macro name="m" params="a:={"b" * 60}&apos;{"&apos;" * 61}"/><xacro:m2/>',
@@ -63,6 +68,9 @@ HOSTILE = {
         "".join(f'<xacro:macro name="macro{i}"/>' for i in range(90_000)) + "<xacro:macrox/>",
         "macro `macrox` is not defined",
     ),
+    "patterns": ('<xacro:include filename="/*/*/*/*/*/*/none*.xacro"/>' * 20, "cannot include .* 1,000,000 steps"),
+    "device": ('<xacro:include filename="/dev/zero"/>', "cannot include `/dev/zero`: /dev/zero is not a regular file"),
+    "text": ("${'x' * 99999}" * 9, "is too large: it creates a text of more than 100,000 characters"),
     "chain": (
         '<xacro:property name="p0" value="1"/>'
         + "".join(f'<xacro:property name="p{i + 1}" value="${{p{i} + 1}}"/>' for i in range(3000))
@@ -77,6 +85,8 @@ def test_a_hostile_file_is_refused(write: Write, name: str) -> None:
     text, cause = HOSTILE[name]
     write("merges.yaml", _MERGES)
     write("deep.yaml", "[" * 5000 + "]" * 5000)
+    write("values.yaml", f"[{'1,' * 60_000}]")
+    write("comments.yaml", "# comment\n" * 40_000 + "a: 1\n")
     for number in range(2):
         write(f"double{number}.xacro", 'HEAD<xacro:include filename="double*.xacro"/></robot>')
     path = write("m.xacro", f"HEAD{text}</robot>")

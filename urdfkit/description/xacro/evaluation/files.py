@@ -16,7 +16,7 @@ from urdfkit.description.xacro.evaluation.expressions.limits import (
     check_length,
 )
 from urdfkit.description.xacro.evaluation.expressions.symbols import Scope
-from urdfkit.description.xacro.evaluation.failures import Failure, cycle, recursive_include
+from urdfkit.description.xacro.evaluation.failures import Failure, cycle, recursive_include, short
 from urdfkit.description.xacro.evaluation.texts import Texts, unreadable
 from urdfkit.description.xacro.evaluation.tree import Tag, read_tree
 from urdfkit.description.xacro.faults import Warned
@@ -56,7 +56,7 @@ class Files(Texts):
         host: dict[str, Any] = {
             "load_yaml": self._load_yaml,
             "abs_filename": self._absolute,
-            "arg": lambda name: self.commands.arguments[name],
+            "arg": self.commands.argument,
             "message": lambda *words, **_: self._record_message("message", words),
             "warning": lambda *words, **_: self._record_message("warning", words),
             "error": lambda *words, **_: self._record_message("error", words),
@@ -108,32 +108,53 @@ class Files(Texts):
             raise self.placed(Failure("too-many", message))
         try:
             document = self.open(Path(file))
-        except (OSError, ResourceError) as error:
+        except (OSError, ResourceError, ValueError) as error:  # ValueError: the name has a character that no file has
             self.file_stack.pop()
             missing = OSError(str(error))
             missing.filename = file
             failure = unreadable(missing, is_include=True)
-            failure.is_missing_file = True
+            failure.is_missing_file = not isinstance(error, ValueError)
             raise self.placed(failure) from None
         return next(document.tags())
 
     def included_files(self, node: Tag, specification: str, scope: Scope) -> Iterator[str]:
         """Yield the paths of the files that an include names."""
         self.at = (node, "filename")
+        text = self.text(specification, scope)
+        if not isinstance(text, str):
+            raise self.placed(Failure("other", f"the file name `{short(str(text))}` is not a text"))
         try:
-            path = self._absolute(self.text(specification, scope))
+            path = self._absolute(text)
+            is_pattern = re.search("[*[?]+", path) is not None
+            found = sorted(self._matching(path)) if is_pattern else [path]
         except OSError as error:
             raise self.placed(unreadable(error, is_include=True)) from None
-        if re.search("[*[?]+", path):
-            import glob
-
-            found = sorted(glob.glob(path))  # noqa: PTH207 - the patterns of stock xacro
-            if not found:
-                self.at = (node, None)
-                self.warn(f'Include tag\'s filename spec "{path}" matched no files.')
-        else:
-            found = [path]
+        except TooLarge as error:
+            raise self.placed(Failure("too-large", f"cannot include `{short(text)}`: {error}")) from None
+        if not found:
+            self.at = (node, None)
+            self.warn(f'Include tag\'s filename spec "{path}" matched no files.')
         yield from found
+
+    def _matching(self, pattern: str) -> Iterator[str]:
+        """Yield the paths that `glob.glob` finds, and count what is listed as steps."""
+        import fnmatch
+        import glob
+
+        folder, name = os.path.split(pattern)
+        for parent in self._matching(folder) if glob.has_magic(folder) and folder != pattern else [folder]:
+            if glob.has_magic(name):
+                try:
+                    names = os.listdir(parent or ".")  # noqa: PTH208 - names, not paths
+                except OSError:
+                    continue
+                self.budget.spend(8 + len(names))
+                found = [one for one in fnmatch.filter(names, name) if name[0] == "." or one[0] != "."]
+            else:
+                path = os.path.join(parent, name)  # noqa: PTH118
+                found = [name] if os.path.lexists(path) and (name or Path(parent).is_dir()) else []
+            for one in found:
+                yield os.path.join(parent, one)  # noqa: PTH118
 
     def printed(self, document: Tag) -> str:
         """Return the text that stock xacro prints for an expanded document."""
@@ -141,8 +162,7 @@ class Files(Texts):
 
         return printed(document, self.path)
 
-    def _absolute(self, name: Any) -> str:
-        name = str(name)
+    def _absolute(self, name: str) -> str:
         folder = os.path.dirname(self.file_stack[-1])  # noqa: PTH120 - the text that stock xacro makes
         path = os.path.join(folder, name)  # noqa: PTH118
         check_length(path)
@@ -161,7 +181,8 @@ class Files(Texts):
         text = content.decode()
         self.file_stack.append(path)
         try:
-            return self.budget.checked(yaml_values(text, lambda value: self.expressions.evaluate(value, self.globals)))
+            found = yaml_values(text, lambda value: self.expressions.evaluate(value, self.globals), self.budget.spend)
+            return self.budget.checked(found)
         finally:
             self.file_stack.pop()
 

@@ -22,7 +22,7 @@ def printed(document: Tag, path: str) -> str:
         path: of the file, as the user named it.
 
     Raises:
-        XacroError: a comment contains ``--``, or a CDATA section ``]]>``.
+        XacroError: a comment contains ``--``, a CDATA section ``]]>``, or a text half of a character.
     """
     rule = f" {'=' * 83} "
     shown = re.sub(r"-+", "-", path)
@@ -36,7 +36,13 @@ def printed(document: Tag, path: str) -> str:
         parts.append(f"<!--{line}-->\n")
     for node in document.children():
         _print(node, "", parts.append)
-    return "".join(parts)
+    text = "".join(parts)
+    try:
+        text.encode()
+    except UnicodeEncodeError as error:
+        message = f"the expanded file contains {text[error.start]!a}, which is not a character"
+        raise XacroError(message, position=next(document.tags()).position) from None
+    return text
 
 
 def _print(node: Node, indent: str, write: Callable[[str], Any]) -> None:

@@ -303,7 +303,7 @@ class RecoveringEvaluator(Evaluator):
                 self._unprefixed.setdefault(unprefixed)
         return document
 
-    def _absolute(self, name: Any) -> str:
+    def _absolute(self, name: str) -> str:
         if type(name) is Unknown:
             raise Recorded
         return super()._absolute(name)

@@ -90,7 +90,7 @@ class Texts:
             found.append(str(part))
             length += len(found[-1])
             if length > MAX_CHARACTERS:
-                raise self._too_large(excess("a text", MAX_CHARACTERS, "characters"), EXPRESSION, text)
+                raise self._too_large(excess("a text", MAX_CHARACTERS, "characters"), PLAIN, text)
         return "".join(found)
 
     def resolve(self, scope: Scope, name: str) -> Any:
@@ -157,14 +157,21 @@ class Texts:
             failure.is_missing_file = True
         else:
             text = error.msg if isinstance(error, SyntaxError) else str(error)
-            shown = f"${{{short(source)}}}" if kind == EXPRESSION else f"$({short(source)})"
-            failure = Failure("bad-expression", f"cannot evaluate `{shown}`: {short(text)}", expression=expression)
+            if isinstance(error, KeyError):
+                text = f"no key {text}"
+            message = f"cannot evaluate `{_shown(kind, source)}`: {short(text)}"
+            failure = Failure("bad-expression", message, expression=expression)
         return self.placed(failure)
 
     def _too_large(self, error: TooLarge, kind: int, source: str) -> Failure:
-        shown = f"${{{short(source)}}}" if kind == EXPRESSION else f"$({short(source)})"
         expression = source if kind == EXPRESSION and len(source) <= MAX_EXPRESSION else None
-        return self.placed(Failure("too-large", f"`{shown}` is too large: {error}", expression=expression))
+        message = f"`{_shown(kind, source)}` is too large: {error}"
+        return self.placed(Failure("too-large", message, expression=expression))
+
+
+def _shown(kind: int, source: str) -> str:
+    """Return a part of a text as it is written, in one line."""
+    return {EXPRESSION: "${%s}", COMMAND: "$(%s)"}.get(kind, "%s") % short(source)
 
 
 def visible(scope: Scope) -> list[str]:
@@ -185,8 +192,10 @@ def unreadable(error: OSError, *, is_include: bool) -> Failure:
     else:
         why = f"{'cannot be read' if path.is_file() else 'does not exist'}{near_path(path)}"
     kind = "include-not-found" if is_include else "other"
-    message = f"{'included ' if is_include else ''}file {shown_path(path)} {why}"
-    return Failure(kind, message, name=shown_path(path), details={"path": str(path)})
+    shown = shown_path(path)
+    named = short(shown) if "\n" in shown else shown
+    message = f"{'included ' if is_include else ''}file {named} {why}"
+    return Failure(kind, message, name=shown, details={"path": str(path)})
 
 
 def _tokens(text: str) -> list[tuple[int, str]]:

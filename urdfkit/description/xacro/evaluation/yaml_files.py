@@ -22,12 +22,13 @@ _UNITS = {
 }
 
 
-def yaml_values(text: str, evaluate: Callable[[str], Any]) -> Any:
+def yaml_values(text: str, evaluate: Callable[[str], Any], spend: Callable[[int], None]) -> Any:
     """Return the value of a YAML document.
 
     Args:
         text: of the file.
         evaluate: evaluates the expression of a value with a unit.
+        spend: counts steps; a value takes as long to read as four operations of an expression.
 
     Raises:
         TooLarge: its merge keys or its nesting make too much.
@@ -38,6 +39,10 @@ def yaml_values(text: str, evaluate: Callable[[str], Any]) -> Any:
         """Loads plain values; counts what merge keys copy."""
 
         merged = 0
+
+        def compose_node(self, parent: Any, index: Any) -> Any:
+            spend(4)
+            return super().compose_node(parent, index)
 
         def flatten_mapping(self, node: Any) -> None:
             for key, value in node.value:
@@ -53,6 +58,7 @@ def yaml_values(text: str, evaluate: Callable[[str], Any]) -> Any:
     def with_unit(factor: float) -> Callable[[Any, Any], float]:
         return lambda loader, node: float(evaluate(loader.construct_scalar(node))) * factor
 
+    spend(len(text) >> 3)
     for tag, factor in _UNITS.items():
         Loader.add_constructor(tag, with_unit(factor))
     try:

@@ -117,6 +117,10 @@ class Namespace(Scope):
 
     __slots__ = ()
 
+    def __repr__(self) -> str:
+        """Return what a text shows."""
+        return "<namespace>"
+
     @classmethod
     def of(cls, values: Mapping[str, Any]) -> Namespace:
         """Return a namespace with some values."""
