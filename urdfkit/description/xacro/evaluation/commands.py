@@ -126,14 +126,6 @@ class _Names:
             return converted(self._arguments[name])
         return self._builtins[name]
 
-    def set(self, name: str, value: Any, *, is_lazy: bool) -> None:
-        """Refuse an assignment.
-
-        Raises:
-            TypeError: always.
-        """
-        raise TypeError("$(eval …) does not support assignment")
-
 
 def converted(value: Any) -> Any:
     """Return the number or boolean that the text of an argument is, or the text."""

@@ -6,10 +6,11 @@ Python's object has; names that begin with two underscores are refused before th
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable
+from operator import attrgetter
 
 from urdfkit.description.xacro.evaluation.expressions.budget import Budget
-from urdfkit.description.xacro.evaluation.expressions.formats import formatted
+from urdfkit.description.xacro.evaluation.expressions.formats import Formats
 from urdfkit.description.xacro.evaluation.expressions.limits import TooLarge
 from urdfkit.description.xacro.evaluation.expressions.value_size import CONTAINERS, check_characters, items_of, steps_of
 from urdfkit.description.xacro.evaluation.expressions.values import Function, Type, YamlDict, YamlList
@@ -58,7 +59,7 @@ class Attributes:
     """
 
     def __init__(self, budget: Budget, callable_of: Callable[[Any], Any]) -> None:
-        self._budget, self._callable_of = budget, callable_of
+        self._budget, self._callable_of, self._formats = budget, callable_of, Formats(budget)
         self._found: dict[tuple[type, str], Function | None] = {}
 
     def read(self, value: Any, name: str) -> Any:
@@ -98,7 +99,7 @@ class Attributes:
         return self._found[key]
 
     def _format(self, text: str, /, *values: Any, **named: Any) -> str:
-        return str(self._budget.checked(formatted(self._budget, text, values, named)))
+        return str(self._budget.checked(self._formats.vformat(text, values, named)))
 
     def _guarded(self, name: str, method: Callable[..., Any], *, is_method: bool) -> Callable[..., Any]:
         budget = self._budget
@@ -165,10 +166,4 @@ def _refuse_containing(value: Any, owner: Any) -> None:
                 open_values += items_of(one)
 
 
-def _names(names: Iterable[str]) -> dict[str, Callable[[Any], Any]]:
-    from operator import attrgetter
-
-    return {name: attrgetter(name) for name in names}
-
-
-_DATA_READERS = _names(("real", "imag", "numerator", "denominator", "start", "stop", "step"))
+_DATA_READERS = {name: attrgetter(name) for names in _DATA.values() for name in names.split()}

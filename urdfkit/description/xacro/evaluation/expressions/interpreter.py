@@ -12,7 +12,7 @@ from collections.abc import Callable
 
 from urdfkit.description.xacro.evaluation.expressions.attributes import Attributes
 from urdfkit.description.xacro.evaluation.expressions.budget import SIZED, Budget
-from urdfkit.description.xacro.evaluation.expressions.formats import shown
+from urdfkit.description.xacro.evaluation.expressions.formats import Formats
 from urdfkit.description.xacro.evaluation.expressions.limits import MAX_DEPTH, MAX_EXPRESSION, TooLarge
 from urdfkit.description.xacro.evaluation.expressions.loops import Frame, Loops, checked_name
 from urdfkit.description.xacro.evaluation.expressions.symbols import Namespace
@@ -322,9 +322,9 @@ class Expressions(Loops):
         return lambda frame: checked("".join([part(frame) for part in parts]))
 
     def _formatted(self, node: ast.FormattedValue) -> Compute:
-        value, conversion, budget = self._compute(node.value), _CONVERSIONS[node.conversion], self.budget
+        value, conversion, formats = self._compute(node.value), _CONVERSIONS[node.conversion], Formats(self.budget)
         specification = self._compute(node.format_spec) if node.format_spec is not None else lambda _: ""
-        return lambda frame: shown(budget, value(frame), conversion, specification(frame))
+        return lambda frame: formats.format_field(formats.convert_field(value(frame), conversion), specification(frame))
 
 
 def symbol_of(symbols: Any, name: str) -> Any:

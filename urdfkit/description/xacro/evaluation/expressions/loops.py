@@ -7,6 +7,7 @@ from collections.abc import Callable, Iterator
 
 from urdfkit.description.xacro.evaluation.expressions.budget import Budget
 from urdfkit.description.xacro.evaluation.expressions.limits import MAX_CALLS_DEEP, TooLarge
+from urdfkit.description.xacro.evaluation.expressions.symbols import Scope
 from urdfkit.description.xacro.evaluation.expressions.values import Function
 
 TYPE_CHECKING = False
@@ -46,6 +47,8 @@ class Loops:
 
         def assign(frame: Frame) -> Any:
             result = value(frame)
+            if not isinstance(frame.symbols, Scope):
+                raise TypeError("$(eval …) does not support assignment")
             if nested:
                 frame.symbols.values[name] = result
             else:
