@@ -1,7 +1,5 @@
 """C717 control-part-missing."""
 
-from __future__ import annotations
-
 from urdfkit.description.xml.element import Element
 from urdfkit.description.xml.numbers import number
 from urdfkit.lint.facts.control.hardware_interfaces import is_old, misspelt_parts

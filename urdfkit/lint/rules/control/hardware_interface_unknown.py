@@ -1,7 +1,5 @@
 """C703 hardware-interface-unknown."""
 
-from __future__ import annotations
-
 from urdfkit.lint.facts.control.hardware_interfaces import INTERFACES, PACKAGE, written
 from urdfkit.lint.fix_builders import nearest, new_text
 from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule

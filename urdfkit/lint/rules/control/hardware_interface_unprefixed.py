@@ -1,7 +1,5 @@
 """C704 hardware-interface-unprefixed."""
 
-from __future__ import annotations
-
 from urdfkit.lint.facts.control.hardware_interfaces import INTERFACES, PACKAGE, written
 from urdfkit.lint.fix_builders import new_text
 from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule

@@ -1,7 +1,5 @@
 """C718 gazebo-hardware-without-plugin."""
 
-from __future__ import annotations
-
 from urdfkit.lint.facts.gazebo.plugins import plugins, simulated_hardware
 from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
 

@@ -1,7 +1,5 @@
 """C710 interface-combination-invalid."""
 
-from __future__ import annotations
-
 from urdfkit.lint.facts.control.hardware_interfaces import meant_interface
 from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
 

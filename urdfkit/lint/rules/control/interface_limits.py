@@ -1,7 +1,5 @@
 """C719 interface-limits-beyond-joint."""
 
-from __future__ import annotations
-
 from urdfkit.description.urdf.robot import Joint
 from urdfkit.description.xml.element import Element
 from urdfkit.description.xml.numbers import number

@@ -1,7 +1,5 @@
 """C706 old-transmission-syntax."""
 
-from __future__ import annotations
-
 from urdfkit.lint.facts.control.hardware_interfaces import is_old
 from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
 

@@ -1,7 +1,5 @@
 """C709 ros2-control-plugin-vs-distro."""
 
-from __future__ import annotations
-
 from urdfkit.lint.facts.gazebo.plugins import plugins, simulated_hardware
 from urdfkit.lint.fix_builders import nearest, new_text
 from urdfkit.lint.project.target import WITHOUT_CLASSIC

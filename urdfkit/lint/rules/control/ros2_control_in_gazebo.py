@@ -1,7 +1,5 @@
 """C708 ros2-control-nested-in-gazebo."""
 
-from __future__ import annotations
-
 from urdfkit.description.xml.element import Element
 from urdfkit.lint.finding import Edit, Fix
 from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule

@@ -1,7 +1,5 @@
 """C707 ros2-control-joint-undefined."""
 
-from __future__ import annotations
-
 from urdfkit.lint.fix_builders import meant, new_value
 from urdfkit.lint.model.masked_names import unless_masked
 from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule

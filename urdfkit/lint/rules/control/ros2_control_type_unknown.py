@@ -1,7 +1,5 @@
 """C716 ros2-control-type-unknown."""
 
-from __future__ import annotations
-
 from urdfkit.lint.fix_builders import meant, new_value
 from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
 

@@ -1,7 +1,5 @@
 """C705 transmission-in-ros2."""
 
-from __future__ import annotations
-
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
 

@@ -1,7 +1,5 @@
 """C702 transmission-hwif-missing."""
 
-from __future__ import annotations
-
 from urdfkit.description.urdf.robot import Transmission
 from urdfkit.description.xml.element import Element
 from urdfkit.lint.facts.control.hardware_interfaces import has_gazebo_ros_control, is_old, misspelt_parts

@@ -1,7 +1,5 @@
 """C715 transmission-type-unknown."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 
 from urdfkit.description.xml.element import Element

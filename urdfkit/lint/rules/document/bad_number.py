@@ -1,7 +1,5 @@
 """E010 bad-number."""
 
-from __future__ import annotations
-
 import re
 
 from urdfkit.description.urdf.robot import Problem

@@ -1,7 +1,5 @@
 """E012 nan-or-inf."""
 
-from __future__ import annotations
-
 from urdfkit.description.urdf.values import LARGEST as BEYOND
 from urdfkit.description.xml.numbers import numbers
 from urdfkit.lint.rule import Findings, Model, RobotRule

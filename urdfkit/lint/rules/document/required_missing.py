@@ -1,7 +1,5 @@
 """E014 required-child-or-attr-missing."""
 
-from __future__ import annotations
-
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
 _OTHER_RULES = frozenset(

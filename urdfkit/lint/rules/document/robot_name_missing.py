@@ -1,7 +1,5 @@
 """E006 robot-name-missing."""
 
-from __future__ import annotations
-
 import re
 
 from urdfkit.lint.fix_builders import more_attributes, new_value

@@ -1,7 +1,5 @@
 """J408 rpy-in-degrees."""
 
-from __future__ import annotations
-
 from math import degrees, pi, radians
 
 from urdfkit.description.xml.numbers import numbers

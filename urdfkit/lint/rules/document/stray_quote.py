@@ -1,7 +1,5 @@
 """E016 stray-quote-or-markdown."""
 
-from __future__ import annotations
-
 import re
 
 from urdfkit.description.xml.element import Element

@@ -1,7 +1,5 @@
 """E002 unbound-namespace-prefix."""
 
-from __future__ import annotations
-
 import re
 
 from urdfkit.lint.finding import Fix

@@ -1,7 +1,5 @@
 """E007 unexpected-text."""
 
-from __future__ import annotations
-
 from urdfkit.description.xml.element import Element
 from urdfkit.lint.finding import Edit, Finding, Fix
 from urdfkit.lint.model.tags import Document, Tag

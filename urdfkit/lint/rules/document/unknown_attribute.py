@@ -1,7 +1,5 @@
 """E009 unknown-attribute."""
 
-from __future__ import annotations
-
 from urdfkit.description.xml.element import Element
 from urdfkit.lint.fix_builders import nearest, new_name, without_attribute
 from urdfkit.lint.model.xacro_prefix import URDF_ATTRIBUTES

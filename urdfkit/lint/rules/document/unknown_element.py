@@ -1,7 +1,5 @@
 """E008 unknown-element."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 
 from urdfkit.description.xml.element import Element

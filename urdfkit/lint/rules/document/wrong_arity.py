@@ -1,7 +1,5 @@
 """E011 wrong-arity."""
 
-from __future__ import annotations
-
 from urdfkit.lint.fix_builders import new_value
 from urdfkit.lint.rule import Findings, Model, RobotRule
 

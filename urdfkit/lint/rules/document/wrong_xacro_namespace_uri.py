@@ -1,7 +1,5 @@
 """E004 wrong-xacro-namespace-uri."""
 
-from __future__ import annotations
-
 from urdfkit.lint.finding import Edit, Fix
 from urdfkit.lint.model.tags import Document
 from urdfkit.lint.model.xacro_prefix import NAMESPACE

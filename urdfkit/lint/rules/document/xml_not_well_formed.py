@@ -1,7 +1,5 @@
 """E001 xml-not-well-formed."""
 
-from __future__ import annotations
-
 from urdfkit.description.xacro.faults import Fault
 from urdfkit.lint.finding import Edit, Fix
 from urdfkit.lint.model.tags import Document

@@ -1,7 +1,5 @@
 """Z816 deprecated-gazebo-tag."""
 
-from __future__ import annotations
-
 from urdfkit.lint.fix_builders import new_tag
 from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
 

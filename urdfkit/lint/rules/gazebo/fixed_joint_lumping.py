@@ -1,7 +1,5 @@
 """Z819 fixed-joint-lumping-hazard."""
 
-from __future__ import annotations
-
 from urdfkit.lint.facts.gazebo.plugins import lumped, plugins
 from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
 

@@ -1,7 +1,5 @@
 """Z814 fdir1-zero."""
 
-from __future__ import annotations
-
 from urdfkit.description.xml.numbers import numbers
 from urdfkit.lint.fix_builders import without_element
 from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule

@@ -1,7 +1,5 @@
 """Z821 gazebo-material-in-gz."""
 
-from __future__ import annotations
-
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
 

@@ -1,7 +1,5 @@
 """Z824 gazebo-material-unknown."""
 
-from __future__ import annotations
-
 from urdfkit.lint.fix_builders import new_text
 from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
 

@@ -1,7 +1,5 @@
 """Z811 gazebo-unknown-link-tag."""
 
-from __future__ import annotations
-
 from urdfkit.lint.fix_builders import nearest, new_tag
 from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
 

@@ -1,7 +1,5 @@
 """Z828 plugin-file-missing."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 from urdfkit.lint.facts.gazebo.plugins import plugins

@@ -1,7 +1,5 @@
 """Z809 plugin-filename-malformed."""
 
-from __future__ import annotations
-
 from urdfkit.description.urdf.robot import Plugin
 from urdfkit.lint.facts.gazebo.plugins import plugins, specs
 from urdfkit.lint.finding import Edit, Fix

@@ -1,7 +1,5 @@
 """Z807 plugin-lib-wrong-generation."""
 
-from __future__ import annotations
-
 from urdfkit.lint.facts.gazebo.plugins import allowed, is_foreign, plugins, specs
 from urdfkit.lint.rule import Findings, Model, RobotRule
 

@@ -1,7 +1,5 @@
 """Z803 plugin-link-undefined."""
 
-from __future__ import annotations
-
 from urdfkit.lint.facts.gazebo.plugins import is_frame, references
 from urdfkit.lint.fix_builders import meant, new_text
 from urdfkit.lint.model.masked_names import unless_masked

@@ -1,7 +1,5 @@
 """Z808 plugin-name-case."""
 
-from __future__ import annotations
-
 from urdfkit.lint.facts.gazebo.plugins import plugins
 from urdfkit.lint.fix_builders import new_value
 from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule

@@ -1,7 +1,5 @@
 """Z829 plugin-or-sensor-unnamed."""
 
-from __future__ import annotations
-
 from urdfkit.lint.facts.gazebo.plugins import plugins
 from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
 

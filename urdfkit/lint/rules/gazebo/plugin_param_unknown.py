@@ -1,7 +1,5 @@
 """Z805 plugin-param-unknown."""
 
-from __future__ import annotations
-
 from urdfkit.lint.facts.gazebo.plugins import is_foreign, plugins, spec_of
 from urdfkit.lint.fix_builders import new_tag
 from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule

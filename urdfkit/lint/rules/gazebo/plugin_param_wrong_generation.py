@@ -1,7 +1,5 @@
 """Z806 plugin-param-wrong-generation."""
 
-from __future__ import annotations
-
 from urdfkit.lint.facts.gazebo.plugins import plugins, spec_of, specs
 from urdfkit.lint.fix_builders import new_tag
 from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule

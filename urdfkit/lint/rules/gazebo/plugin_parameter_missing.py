@@ -1,7 +1,5 @@
 """Z831 plugin-parameter-missing."""
 
-from __future__ import annotations
-
 from urdfkit.lint.facts.gazebo.plugins import is_foreign, plugins, spec_of, specs
 from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
 

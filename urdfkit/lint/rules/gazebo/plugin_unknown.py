@@ -1,7 +1,5 @@
 """Z825 plugin-unknown."""
 
-from __future__ import annotations
-
 from urdfkit.description.urdf.robot import Plugin
 from urdfkit.lint.facts.gazebo.plugins import plugins
 from urdfkit.lint.finding import Finding

@@ -1,7 +1,5 @@
 """Z804 sensor-frame-undefined."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 
 from urdfkit.description.xml.element import Element

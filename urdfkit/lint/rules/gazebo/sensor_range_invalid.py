@@ -1,7 +1,5 @@
 """Z823 sensor-range-invalid."""
 
-from __future__ import annotations
-
 from urdfkit.description.xml.element import Element
 from urdfkit.lint.facts.gazebo.plugins import spec_of
 from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule

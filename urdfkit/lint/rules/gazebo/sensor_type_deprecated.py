@@ -1,7 +1,5 @@
 """Z817 sensor-type-deprecated."""
 
-from __future__ import annotations
-
 from urdfkit.lint.fix_builders import new_value
 from urdfkit.lint.rule import Findings, Model, RobotRule
 

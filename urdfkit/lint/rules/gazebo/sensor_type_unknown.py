@@ -1,7 +1,5 @@
 """Z827 sensor-type-unknown."""
 
-from __future__ import annotations
-
 from urdfkit.lint.fix_builders import nearest, new_value
 from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
 

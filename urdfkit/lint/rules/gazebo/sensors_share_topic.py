@@ -1,7 +1,5 @@
 """Z826 sensors-share-topic."""
 
-from __future__ import annotations
-
 from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
 
 TYPE_CHECKING = False

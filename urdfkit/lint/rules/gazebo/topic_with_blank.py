@@ -1,7 +1,5 @@
 """Z830 topic-with-blank."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterator
 

@@ -1,7 +1,5 @@
 """Z812 value-attr-in-sdf-context."""
 
-from __future__ import annotations
-
 from urdfkit.description.xml.element import Element
 from urdfkit.lint.finding import Edit, Fix
 from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule

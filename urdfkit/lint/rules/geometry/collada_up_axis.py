@@ -1,7 +1,5 @@
 """G608 collada-unit-or-upaxis."""
 
-from __future__ import annotations
-
 import re
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """G616 material-invisible."""
 
-from __future__ import annotations
-
 import re
 
 from urdfkit.description.urdf.robot import Mesh

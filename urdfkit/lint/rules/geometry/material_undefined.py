@@ -1,7 +1,5 @@
 """G612 material-undefined."""
 
-from __future__ import annotations
-
 from urdfkit.description.urdf.robot import Material
 from urdfkit.lint.finding import Edit, Fix
 from urdfkit.lint.rule import Findings, Model, RobotRule

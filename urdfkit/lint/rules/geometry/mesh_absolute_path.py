@@ -1,7 +1,5 @@
 """G603 mesh-absolute-path."""
 
-from __future__ import annotations
-
 import re
 
 from urdfkit.lint.fix_builders import new_value

@@ -1,7 +1,5 @@
 """G607 mesh-corrupt-or-lfs-pointer."""
 
-from __future__ import annotations
-
 import re
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """G601 mesh-file-missing."""
 
-from __future__ import annotations
-
 import re
 
 from urdfkit.lint.fix_builders import new_value

@@ -1,7 +1,5 @@
 """G606 mesh-format-unsupported."""
 
-from __future__ import annotations
-
 from urdfkit.lint.model.mesh_files import meshes
 from urdfkit.lint.rule import Findings, Model, RobotRule
 

@@ -1,7 +1,5 @@
 """G602 mesh-package-unknown."""
 
-from __future__ import annotations
-
 from urdfkit.lint.model.mesh_files import meshes, missing
 from urdfkit.lint.rule import Findings, Model, RobotRule
 

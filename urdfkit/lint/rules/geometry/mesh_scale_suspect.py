@@ -1,7 +1,5 @@
 """G604 mesh-scale-suspect."""
 
-from __future__ import annotations
-
 from math import dist, sqrt
 
 from urdfkit.description.urdf.geometry import box_around

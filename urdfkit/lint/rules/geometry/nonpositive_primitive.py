@@ -1,7 +1,5 @@
 """G611 nonpositive-primitive."""
 
-from __future__ import annotations
-
 from urdfkit.description.xml.numbers import numbers
 from urdfkit.description.xml.source import Position
 from urdfkit.lint.facts.root_cause import is_not_positive, root_cause

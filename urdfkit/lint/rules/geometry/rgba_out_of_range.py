@@ -1,7 +1,5 @@
 """G614 rgba-out-of-range."""
 
-from __future__ import annotations
-
 from urdfkit.lint.fix_builders import new_value
 from urdfkit.lint.rule import Findings, Model, RobotRule
 

@@ -1,7 +1,5 @@
 """G617 shapes-apart."""
 
-from __future__ import annotations
-
 from math import dist
 
 from urdfkit.description.urdf.robot import Mesh, Visual

@@ -1,7 +1,5 @@
 """G610 visual-without-collision."""
 
-from __future__ import annotations
-
 from urdfkit.lint.facts.gazebo.drive_wheels import drives
 from urdfkit.lint.rule import Findings, Model, RobotRule
 

@@ -1,7 +1,5 @@
 """G615 visual-offset-from-wheel-axis."""
 
-from __future__ import annotations
-
 from urdfkit.description.urdf.geometry import rotation_of, unit
 from urdfkit.description.urdf.robot import Cylinder, Sphere, Vector
 from urdfkit.lint.fix_builders import new_value

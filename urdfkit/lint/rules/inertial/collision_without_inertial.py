@@ -1,7 +1,5 @@
 """I512 collision-without-inertial."""
 
-from __future__ import annotations
-
 from urdfkit.lint.facts.gazebo.plugins import is_simulated
 from urdfkit.lint.rule import Findings, Model, RobotRule
 

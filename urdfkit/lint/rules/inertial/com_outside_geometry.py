@@ -1,7 +1,5 @@
 """I513 com-outside-geometry."""
 
-from __future__ import annotations
-
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
 TOLERANCE = 0.1

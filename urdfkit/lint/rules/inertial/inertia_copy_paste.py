@@ -1,7 +1,5 @@
 """I510 inertia-copy-paste."""
 
-from __future__ import annotations
-
 from itertools import pairwise
 
 from urdfkit.description.urdf.robot import Link

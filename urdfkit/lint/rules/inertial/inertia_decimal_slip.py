@@ -1,7 +1,5 @@
 """I506 inertia-decimal-slip."""
 
-from __future__ import annotations
-
 from urdfkit.lint.facts.inertia.inertia_tensor import tensor_of
 from urdfkit.lint.fix_builders import new_value
 from urdfkit.lint.rule import Findings, Model, RobotRule

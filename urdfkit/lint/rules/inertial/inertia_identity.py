@@ -1,7 +1,5 @@
 """I509 inertia-identity-placeholder."""
 
-from __future__ import annotations
-
 from math import sqrt
 
 from urdfkit.lint.facts.inertia.inertia_tensor import computed, tensor_of

@@ -1,7 +1,5 @@
 """I502 inertia-not-positive-definite."""
 
-from __future__ import annotations
-
 from urdfkit.lint.facts.inertia.principal_moments import principal_moments, reordered
 from urdfkit.lint.rule import Findings, Model, RobotRule
 

@@ -1,7 +1,5 @@
 """I508 inertia-vs-geometry-too-small."""
 
-from __future__ import annotations
-
 from math import sqrt
 
 from urdfkit.description.urdf.robot import Link, Mesh

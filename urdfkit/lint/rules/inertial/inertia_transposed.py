@@ -1,7 +1,5 @@
 """I505 inertia-transposed."""
 
-from __future__ import annotations
-
 from urdfkit.lint.facts.inertia.inertia_tensor import COMPONENTS
 from urdfkit.lint.facts.inertia.principal_moments import reordered
 from urdfkit.lint.fix_builders import new_values

@@ -1,7 +1,5 @@
 """I503 inertia-triangle-inequality."""
 
-from __future__ import annotations
-
 from urdfkit.lint.facts.inertia.principal_moments import principal_moments, reordered, shown
 from urdfkit.lint.rule import Findings, Model, RobotRule
 

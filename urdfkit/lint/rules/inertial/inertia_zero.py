@@ -1,7 +1,5 @@
 """I504 inertia-zero."""
 
-from __future__ import annotations
-
 from urdfkit.description.urdf.masses import massless
 from urdfkit.lint.facts.inertia.inertia_tensor import COMPONENTS, computed
 from urdfkit.lint.rule import Findings, Model, RobotRule

@@ -1,7 +1,5 @@
 """I501 mass-nonpositive."""
 
-from __future__ import annotations
-
 from urdfkit.description.urdf.masses import massless
 from urdfkit.lint.facts.gazebo.plugins import is_simulated
 from urdfkit.lint.rule import Findings, Model, RobotRule

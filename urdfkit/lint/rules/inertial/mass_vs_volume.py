@@ -1,7 +1,5 @@
 """I514 mass-vs-volume-density."""
 
-from __future__ import annotations
-
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
 MIN_DENSITY, MAX_DENSITY = 1.0, 25000.0

@@ -1,7 +1,5 @@
 """I511 moving-link-without-inertial."""
 
-from __future__ import annotations
-
 from urdfkit.description.urdf.masses import massless
 from urdfkit.description.urdf.robot import Joint
 from urdfkit.description.xml.numbers import number

@@ -1,7 +1,5 @@
 """J413 axis-missing-on-movable."""
 
-from __future__ import annotations
-
 from urdfkit.lint.fix_builders import more_children
 from urdfkit.lint.rule import Findings, Model, RobotRule
 

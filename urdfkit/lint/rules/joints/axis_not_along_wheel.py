@@ -1,7 +1,5 @@
 """J414 axis-not-along-wheel."""
 
-from __future__ import annotations
-
 from urdfkit.description.urdf.geometry import rotate, rotation_of, unit
 from urdfkit.description.urdf.robot import Cylinder, Joint, Vector
 from urdfkit.description.xml.numbers import numbers

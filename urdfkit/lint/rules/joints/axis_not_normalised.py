@@ -1,7 +1,5 @@
 """J412 axis-not-normalised."""
 
-from __future__ import annotations
-
 from urdfkit.description.urdf.geometry import unit
 from urdfkit.lint.fix_builders import new_value
 from urdfkit.lint.rule import Findings, Model, RobotRule

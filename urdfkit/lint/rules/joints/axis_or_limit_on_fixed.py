@@ -1,7 +1,5 @@
 """J418 axis-or-limit-on-fixed."""
 
-from __future__ import annotations
-
 from urdfkit.lint.fix_builders import without_element
 from urdfkit.lint.rule import Findings, Model, RobotRule
 

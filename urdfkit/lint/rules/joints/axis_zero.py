@@ -1,7 +1,5 @@
 """J411 axis-zero."""
 
-from __future__ import annotations
-
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
 

@@ -1,7 +1,5 @@
 """J415 continuous-with-position-limits."""
 
-from __future__ import annotations
-
 from math import pi
 
 from urdfkit.lint.finding import Fix

@@ -1,7 +1,5 @@
 """J419 dynamics-empty-or-negative."""
 
-from __future__ import annotations
-
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
 _LINEAR_UNITS = {"damping": "N·s/m", "friction": "N"}

@@ -1,7 +1,5 @@
 """J409 effort-or-velocity-zero."""
 
-from __future__ import annotations
-
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
 

@@ -1,7 +1,5 @@
 """J401 joint-type-missing."""
 
-from __future__ import annotations
-
 from urdfkit.description.urdf.robot import Joint
 from urdfkit.lint.fix_builders import more_attributes
 from urdfkit.lint.rule import Findings, Model, RobotRule

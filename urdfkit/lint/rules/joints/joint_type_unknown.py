@@ -1,7 +1,5 @@
 """J402 joint-type-unknown."""
 
-from __future__ import annotations
-
 from urdfkit.lint.fix_builders import nearest, new_value
 from urdfkit.lint.rule import Findings, Model, RobotRule
 

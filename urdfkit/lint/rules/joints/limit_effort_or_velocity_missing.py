@@ -1,7 +1,5 @@
 """J404 limit-effort-or-velocity-missing."""
 
-from __future__ import annotations
-
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
 _LINEAR_UNITS = {"effort": "[N]", "velocity": "[m/s]"}

@@ -1,7 +1,5 @@
 """J406 limit-equal."""
 
-from __future__ import annotations
-
 from urdfkit.description.urdf.robot import Limit
 from urdfkit.lint.rule import Findings, Model, RobotRule
 

@@ -1,7 +1,5 @@
 """J405 limit-lower-gt-upper."""
 
-from __future__ import annotations
-
 from urdfkit.description.urdf.robot import Limit
 from urdfkit.lint.finding import Edit, Fix
 from urdfkit.lint.rule import Findings, Model, RobotRule

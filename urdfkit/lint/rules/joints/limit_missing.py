@@ -1,7 +1,5 @@
 """J403 limit-missing."""
 
-from __future__ import annotations
-
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
 

@@ -1,7 +1,5 @@
 """J407 limits-in-degrees."""
 
-from __future__ import annotations
-
 from math import pi, radians
 
 from urdfkit.description.urdf.robot import Limit

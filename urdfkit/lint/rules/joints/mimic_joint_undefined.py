@@ -1,7 +1,5 @@
 """J416 mimic-joint-undefined."""
 
-from __future__ import annotations
-
 from urdfkit.lint.fix_builders import meant, new_value
 from urdfkit.lint.model.masked_names import unless_masked
 from urdfkit.lint.rule import Findings, Model, RobotRule

@@ -1,7 +1,5 @@
 """J410 negative-effort-or-velocity."""
 
-from __future__ import annotations
-
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
 _UNITS = {"effort": ("N", "N·m"), "velocity": ("m/s", "rad/s")}

@@ -1,7 +1,5 @@
 """J420 safety-controller-inconsistent."""
 
-from __future__ import annotations
-
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
 DISABLED_DISTANCE = 6.0

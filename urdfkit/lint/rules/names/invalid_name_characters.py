@@ -1,7 +1,5 @@
 """N302 invalid-name-characters."""
 
-from __future__ import annotations
-
 import re
 
 from urdfkit.lint.rule import Findings, Model, RobotRule

@@ -1,7 +1,5 @@
 """N301 link-joint-same-name."""
 
-from __future__ import annotations
-
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
 

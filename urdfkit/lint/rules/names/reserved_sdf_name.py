@@ -1,7 +1,5 @@
 """N303 reserved-sdf-name."""
 
-from __future__ import annotations
-
 from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
 
 

@@ -1,7 +1,5 @@
 """K963 controller-interface-missing."""
 
-from __future__ import annotations
-
 from urdfkit.lint.finding import Finding
 from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
 

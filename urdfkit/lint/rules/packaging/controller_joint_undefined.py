@@ -1,7 +1,5 @@
 """K959 controller-joint-undefined."""
 
-from __future__ import annotations
-
 import re
 
 from urdfkit.lint.facts.neighbouring_names import neighbouring_names

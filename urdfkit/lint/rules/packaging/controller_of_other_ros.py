@@ -1,7 +1,5 @@
 """K967 controller-type-wrong-generation."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterator
 

@@ -1,7 +1,5 @@
 """K961 yaml-link-undefined."""
 
-from __future__ import annotations
-
 import re
 
 from urdfkit.description.xml.source import Source

@@ -1,7 +1,5 @@
 """K964 launch-not-well-formed."""
 
-from __future__ import annotations
-
 from urdfkit.description.xml.source import Source
 from urdfkit.lint.finding import Finding
 from urdfkit.lint.rule import Findings, Model, RobotRule

@@ -1,7 +1,5 @@
 """K958 launch-path-missing."""
 
-from __future__ import annotations
-
 import re
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """K957 not-installed."""
 
-from __future__ import annotations
-
 import re
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """K956 package-xml-dependency."""
 
-from __future__ import annotations
-
 import re
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """S906 double-offset."""
 
-from __future__ import annotations
-
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
 

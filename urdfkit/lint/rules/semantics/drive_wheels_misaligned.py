@@ -1,7 +1,5 @@
 """S907 drive-wheels-misaligned."""
 
-from __future__ import annotations
-
 from math import dist
 
 from urdfkit.lint.facts.gazebo.drive_wheels import Wheel, drives

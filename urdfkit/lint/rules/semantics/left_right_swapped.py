@@ -1,7 +1,5 @@
 """S903 left-right-swapped."""
 
-from __future__ import annotations
-
 from urdfkit.lint.facts.gazebo.drive_wheels import TwoSided, drives
 from urdfkit.lint.finding import Edit, Fix
 from urdfkit.lint.fix_builders import new_text

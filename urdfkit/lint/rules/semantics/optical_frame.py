@@ -1,7 +1,5 @@
 """S905 optical-frame-convention."""
 
-from __future__ import annotations
-
 from math import pi
 
 from urdfkit.lint.facts.gazebo.drive_wheels import same_turn

@@ -1,7 +1,5 @@
 """S902 wheel-diameter-inconsistent."""
 
-from __future__ import annotations
-
 from urdfkit.lint.facts.gazebo.drive_wheels import drives, mismatch, written
 from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
 

@@ -1,7 +1,5 @@
 """S901 wheel-separation-inconsistent."""
 
-from __future__ import annotations
-
 from urdfkit.description.urdf.geometry import unit
 from urdfkit.lint.facts.gazebo.drive_wheels import drives, mismatch, track, written
 from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule

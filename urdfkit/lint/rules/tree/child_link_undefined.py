@@ -1,7 +1,5 @@
 """T202 child-link-undefined."""
 
-from __future__ import annotations
-
 from urdfkit.description.urdf.queries import dangling
 from urdfkit.lint.facts.parentless_links import meant_child
 from urdfkit.lint.fix_builders import new_value

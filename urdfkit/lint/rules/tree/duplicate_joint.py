@@ -1,7 +1,5 @@
 """T207 duplicate-joint."""
 
-from __future__ import annotations
-
 from urdfkit.description.urdf.queries import repeated
 from urdfkit.lint.rule import Findings, Model, RobotRule
 

@@ -1,7 +1,5 @@
 """T206 duplicate-link."""
 
-from __future__ import annotations
-
 from urdfkit.description.urdf.queries import repeated
 from urdfkit.lint.rule import Findings, Model, RobotRule
 

@@ -1,7 +1,5 @@
 """T205 multiple-parents."""
 
-from __future__ import annotations
-
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
 

@@ -1,7 +1,5 @@
 """T203 multiple-roots."""
 
-from __future__ import annotations
-
 from urdfkit.description.urdf.robot import Robot
 from urdfkit.lint.rule import Findings, Model, RobotRule
 

@@ -1,7 +1,5 @@
 """T204 no-root-or-cycle."""
 
-from __future__ import annotations
-
 from urdfkit.description.urdf.queries import cycles
 from urdfkit.lint.rule import Findings, Model, RobotRule
 

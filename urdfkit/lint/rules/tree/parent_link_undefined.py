@@ -1,7 +1,5 @@
 """T201 parent-link-undefined."""
 
-from __future__ import annotations
-
 from urdfkit.description.urdf.queries import dangling
 from urdfkit.lint.fix_builders import meant, new_value
 from urdfkit.lint.model.masked_names import unless_masked

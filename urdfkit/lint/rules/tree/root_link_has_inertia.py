@@ -1,7 +1,5 @@
 """T210 root-link-has-inertia."""
 
-from __future__ import annotations
-
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
 

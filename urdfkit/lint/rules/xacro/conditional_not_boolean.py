@@ -1,7 +1,5 @@
 """X122 conditional-not-boolean."""
 
-from __future__ import annotations
-
 from urdfkit.lint.rule import FaultRule
 
 

@@ -1,7 +1,5 @@
 """X117 deprecated-xacro-cli-or-call."""
 
-from __future__ import annotations
-
 import re
 
 from urdfkit.lint.finding import Edit, Finding, Fix

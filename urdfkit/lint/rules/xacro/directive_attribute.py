@@ -1,7 +1,5 @@
 """X127 directive-attribute-unknown."""
 
-from __future__ import annotations
-
 from urdfkit.description.xacro.faults import Fault
 from urdfkit.lint.finding import Edit, Fix
 from urdfkit.lint.rule import FaultRule, Findings, Model

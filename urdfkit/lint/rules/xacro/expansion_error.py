@@ -1,7 +1,5 @@
 """X125 expansion-error."""
 
-from __future__ import annotations
-
 from urdfkit.lint.rule import FaultRule
 
 

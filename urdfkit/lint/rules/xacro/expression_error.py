@@ -1,7 +1,5 @@
 """X124 expression-error."""
 
-from __future__ import annotations
-
 from urdfkit.description.xacro.faults import Fault
 from urdfkit.lint.facts.root_cause import cause_in_text, is_no_number
 from urdfkit.lint.rule import FaultRule, Findings, Model

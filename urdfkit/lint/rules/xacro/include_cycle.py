@@ -1,7 +1,5 @@
 """X114 include-cycle."""
 
-from __future__ import annotations
-
 from urdfkit.lint.rule import FaultRule
 
 

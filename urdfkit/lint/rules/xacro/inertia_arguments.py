@@ -1,7 +1,5 @@
 """X120 macro-arg-vs-sibling-mismatch."""
 
-from __future__ import annotations
-
 from urdfkit.description.xml.numbers import number
 from urdfkit.lint.finding import Edit, Fix
 from urdfkit.lint.model.tags import Document

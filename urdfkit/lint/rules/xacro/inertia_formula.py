@@ -1,7 +1,5 @@
 """X119 macro-formula-suspect."""
 
-from __future__ import annotations
-
 from urdfkit.lint.finding import Edit, Fix
 from urdfkit.lint.model.tags import Document
 from urdfkit.lint.rule import Findings, Model, SourceRule

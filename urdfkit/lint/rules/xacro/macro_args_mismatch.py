@@ -1,7 +1,5 @@
 """X107 macro-args-mismatch."""
 
-from __future__ import annotations
-
 from urdfkit.description.xacro.faults import Fault
 from urdfkit.lint.fix_builders import nearest
 from urdfkit.lint.rule import FaultRule, Findings, Model

@@ -1,7 +1,5 @@
 """X105 property-used-before-definition."""
 
-from __future__ import annotations
-
 from pathlib import PurePosixPath
 
 from urdfkit.description.xacro.faults import Fault

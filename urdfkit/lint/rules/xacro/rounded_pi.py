@@ -1,7 +1,5 @@
 """X112 redundant-pi-definition."""
 
-from __future__ import annotations
-
 import re
 from math import pi
 

@@ -1,7 +1,5 @@
 """X126 too-large."""
 
-from __future__ import annotations
-
 from urdfkit.lint.rule import FaultRule
 
 

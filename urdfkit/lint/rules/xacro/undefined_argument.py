@@ -1,7 +1,5 @@
 """X106 undefined-arg."""
 
-from __future__ import annotations
-
 from urdfkit.lint.rule import FaultRule
 
 

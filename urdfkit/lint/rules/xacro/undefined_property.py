@@ -1,7 +1,5 @@
 """X104 undefined-property."""
 
-from __future__ import annotations
-
 from urdfkit.description.xacro.faults import Fault
 from urdfkit.lint.rule import FaultRule
 

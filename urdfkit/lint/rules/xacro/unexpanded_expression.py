@@ -1,7 +1,5 @@
 """X110 unexpanded-expression."""
 
-from __future__ import annotations
-
 from urdfkit.lint.facts.escaped_expressions import correct_escapes, is_unexpanded
 from urdfkit.lint.finding import Edit, Fix
 from urdfkit.lint.fix_builders import new_text, new_value

@@ -1,7 +1,5 @@
 """X103 unknown-macro."""
 
-from __future__ import annotations
-
 import os
 
 from urdfkit.description.xacro.faults import Fault

@@ -1,7 +1,5 @@
 """X101 unprefixed-xacro-directive."""
 
-from __future__ import annotations
-
 import re
 
 from urdfkit.lint.finding import Fix

@@ -1,7 +1,5 @@
 """X102 unprefixed-macro-call."""
 
-from __future__ import annotations
-
 import re
 
 from urdfkit.lint.finding import Fix

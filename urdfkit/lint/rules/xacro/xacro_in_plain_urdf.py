@@ -1,7 +1,5 @@
 """X123 xacro-in-plain-urdf."""
 
-from __future__ import annotations
-
 import re
 
 from urdfkit.lint.model.tags import Document
