@@ -3,8 +3,6 @@
 A `Robot` goes in; placements, transforms and the ``pin.Model`` come out.
 """
 
-from __future__ import annotations
-
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 

@@ -1,7 +1,5 @@
 """The frame tree as text, as Graphviz DOT, and as an SVG drawing."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from dataclasses import dataclass
 from unicodedata import east_asian_width

@@ -1,7 +1,5 @@
 """Position limits of joints, and the error for a position outside them."""
 
-from __future__ import annotations
-
 from urdfkit.description.urdf.robot import Joint
 from urdfkit.errors import KinematicsError
 

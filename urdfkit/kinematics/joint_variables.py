@@ -1,7 +1,5 @@
 """Variables: the numbers of a configuration by name, and the index of each in q."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass

@@ -1,7 +1,5 @@
 """Mimic joints: the master joint of each, and the linear law that couples them."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 from urdfkit.description.urdf.robot import Joint, Robot

@@ -7,8 +7,6 @@ planar or floating joint one number per variable, named as MoveIt names them (``
 ``joint/rot_w``, ...).
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from functools import cached_property
 from pathlib import Path

@@ -9,8 +9,6 @@ name), so a configuration of one is a configuration of the other. Two difference
   mimic joints have no forward dynamics (``aba``), and must be of the same kind as their master.
 """
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

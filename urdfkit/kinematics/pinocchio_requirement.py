@@ -1,7 +1,5 @@
 """Import Pinocchio, or raise an error with the command that installs it."""
 
-from __future__ import annotations
-
 import platform
 import sys
 from typing import Any

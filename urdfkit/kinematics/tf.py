@@ -1,7 +1,5 @@
 """TransformTree: the transform from any frame to any other."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any

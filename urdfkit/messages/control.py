@@ -3,8 +3,6 @@
 Actions are the messages that actionlib and ROS 2 make of them, services their requests by the names of ROS 2.
 """
 
-from __future__ import annotations
-
 GOAL_STATUSES = "actionlib_msgs/msg/GoalStatusArray"
 GOAL_ID = "actionlib_msgs/msg/GoalID"
 LOAD = "controller_manager_msgs/srv/LoadController_Request"

@@ -1,7 +1,5 @@
 """Messages of sensors that rosbags lacks: gazebo_msgs, ros_gz_interfaces and hector_uav_msgs."""
 
-from __future__ import annotations
-
 CONTACT_STATE = "gazebo_msgs/msg/ContactState"
 CONTACTS_STATE = "gazebo_msgs/msg/ContactsState"
 GZ_JOINT_WRENCH = "ros_gz_interfaces/msg/JointWrench"

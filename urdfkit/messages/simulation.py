@@ -1,7 +1,5 @@
 """Messages of gazebo_msgs and ros_gz_interfaces that rosbags lacks; a service's request goes by its ROS 2 name."""
 
-from __future__ import annotations
-
 MODEL_STATE = "gazebo_msgs/msg/ModelState"
 MODEL_STATES = "gazebo_msgs/msg/ModelStates"
 SPAWN = "gazebo_msgs/srv/SpawnModel_Request"

@@ -3,8 +3,6 @@
 rosbags and numpy are imported on first use, not with this module. Twists are linear first; quaternions x, y, z, w.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from functools import cache
 from typing import Any

@@ -1,7 +1,5 @@
 """Definitions of vision_msgs as of Humble, which rosbags lacks: the results of object detectors."""
 
-from __future__ import annotations
-
 DETECTIONS_2D = "vision_msgs/msg/Detection2DArray"
 DETECTIONS_3D = "vision_msgs/msg/Detection3DArray"
 

@@ -1,7 +1,5 @@
 """The camera model: the direction of each pixel, with Brown's distortion."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from functools import cached_property
 from math import tan

@@ -1,7 +1,5 @@
 """Colours of visuals from URDF materials and Gazebo's material names."""
 
-from __future__ import annotations
-
 from urdfkit.description.plugins.gazebo_materials import GAZEBO, Rgba, script_of
 from urdfkit.description.urdf.robot import Material, Robot, Visual
 from urdfkit.description.xml.element import Element

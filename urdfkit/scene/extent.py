@@ -3,8 +3,6 @@
 Exact: in closed form for boxes, spheres, cylinders and capsules; by all vertices for meshes.
 """
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import ArrayLike
 

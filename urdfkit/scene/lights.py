@@ -1,7 +1,5 @@
 """Lights of a world, for the renderers."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, field
 from math import cos
 

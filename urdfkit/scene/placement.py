@@ -1,7 +1,5 @@
 """Placements as homogeneous matrices."""
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import ArrayLike
 

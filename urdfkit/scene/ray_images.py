@@ -1,7 +1,5 @@
 """Painter: images of a scene with colour, depth and shape of each pixel, by ray casting."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

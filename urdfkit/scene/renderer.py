@@ -1,7 +1,5 @@
 """Choice of the renderer: ray casting, which works everywhere, or OpenGL, which needs a working driver."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor, wait
 from typing import Literal, Protocol, get_args

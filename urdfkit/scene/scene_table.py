@@ -1,7 +1,5 @@
 """The scene table: all shapes of all bodies, for sensors and viewer."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from functools import cached_property

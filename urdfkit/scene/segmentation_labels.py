@@ -1,7 +1,5 @@
 """Labels of segmentation and bounding-box cameras, by the label system of the new Gazebo."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 
 from urdfkit.description.plugins.lookup import stem

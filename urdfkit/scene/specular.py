@@ -6,8 +6,6 @@ of an OBJ file. The default shininess of SDF is zero (sdformat, material.sdf), a
 skips specular reflections without shininess (OGRE 1, FFPLighting::preAddToRenderState).
 """
 
-from __future__ import annotations
-
 from math import isfinite
 from typing import Any
 

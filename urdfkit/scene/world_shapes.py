@@ -1,7 +1,5 @@
 """Conversion of the links of a world to shapes of the scene table."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator
 from pathlib import Path
 

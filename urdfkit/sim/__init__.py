@@ -13,8 +13,6 @@ A robot, a world and commands go in; states, messages and recordings come out.
     print(simulator.t, simulator.state.base_pose)
 """
 
-from __future__ import annotations
-
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 

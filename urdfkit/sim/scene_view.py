@@ -1,7 +1,5 @@
 """Scene of a simulation, with all robots and bodies, and their poses at a moment."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property

@@ -1,7 +1,5 @@
 """FileWatch: detects changed files by polling their modification time and size."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """PID gains for joints with effort interfaces, from the inertia and weight that the joint moves."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from math import sqrt
 

@@ -1,7 +1,5 @@
 """Controller parameters as YAML for ROS 1 and ROS 2."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterator
 from decimal import Decimal

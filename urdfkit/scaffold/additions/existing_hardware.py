@@ -1,7 +1,5 @@
 """Existing control of a robot's joints: transmissions, ``<ros2_control>``, plugins and configured controllers."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field

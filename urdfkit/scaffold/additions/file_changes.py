@@ -1,7 +1,5 @@
 """Changes to existing files and new files, written all or none."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path

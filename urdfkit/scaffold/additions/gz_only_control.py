@@ -1,7 +1,5 @@
 """Control without ROS: Gazebo plugins that subscribe to Gazebo topics, as in the robot template without ROS."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterator
 from pathlib import Path

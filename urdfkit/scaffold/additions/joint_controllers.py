@@ -1,7 +1,5 @@
 """Choice of controllers for the joints of a robot, and the model elements that they need."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import takewhile

@@ -1,7 +1,5 @@
 """Purpose of each joint of a robot: wheel, arm, finger, or not driven."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field

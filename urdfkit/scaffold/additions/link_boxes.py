@@ -1,7 +1,5 @@
 """Axis-aligned bounding boxes of a robot's shapes, in the frame of one link."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 
 from urdfkit.description.urdf.geometry import Bounds, between, box_around, compose, link_poses

@@ -1,7 +1,5 @@
 """Choice of the link and the place for a new part."""
 
-from __future__ import annotations
-
 from urdfkit.description.urdf.geometry import box_around_all
 from urdfkit.description.urdf.robot import Link, Robot, Vector
 from urdfkit.errors import ResourceError, did_you_mean

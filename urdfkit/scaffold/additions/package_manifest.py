@@ -1,7 +1,5 @@
 """Changes to package.xml and CMakeLists.txt of an existing package: one more file, one more dependency."""
 
-from __future__ import annotations
-
 import re
 from pathlib import Path
 

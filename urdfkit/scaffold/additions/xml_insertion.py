@@ -1,7 +1,5 @@
 """Insertion of elements before ``</robot>`` that leaves all other bytes of the file unchanged."""
 
-from __future__ import annotations
-
 import re
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """Placeholders of the bundled templates that are computed in Python."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 
 

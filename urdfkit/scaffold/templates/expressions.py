@@ -1,7 +1,5 @@
 """Arithmetic expressions and comparisons in a template: ``base_width + wheel_width + 0.02``."""
 
-from __future__ import annotations
-
 import ast
 import math
 import operator

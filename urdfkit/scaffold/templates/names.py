@@ -1,7 +1,5 @@
 """Names of packages and worlds: validation by the rules of ROS and Gazebo, and the nearest valid name."""
 
-from __future__ import annotations
-
 import re
 import unicodedata
 from collections.abc import Callable, Iterable

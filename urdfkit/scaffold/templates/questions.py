@@ -1,7 +1,5 @@
 """Questions of a template, and the validation of answers."""
 
-from __future__ import annotations
-
 import math
 import re
 from collections.abc import Mapping

@@ -1,7 +1,5 @@
 """Recipes: the answers to a template's questions as a TOML file, which reproduces the same packages."""
 
-from __future__ import annotations
-
 import hashlib
 import json
 import shlex

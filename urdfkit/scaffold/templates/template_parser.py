@@ -1,7 +1,5 @@
 """Reader of ``template.toml``; errors are reported at their line."""
 
-from __future__ import annotations
-
 import re
 import sys
 from collections.abc import Mapping

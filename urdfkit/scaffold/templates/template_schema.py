@@ -1,7 +1,5 @@
 """Tables of a template other than questions: layers, words, facts, checks and next steps."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 

@@ -1,7 +1,5 @@
 """Sources of templates: bundled ones, those of installed packages, and folders of the user."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from types import ModuleType
 

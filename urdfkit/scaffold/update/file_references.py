@@ -1,7 +1,5 @@
 """Search for references to files that an update would remove."""
 
-from __future__ import annotations
-
 import os
 import re
 from collections.abc import Collection, Iterator, Sequence

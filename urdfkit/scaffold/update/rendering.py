@@ -1,7 +1,5 @@
 """Rendering a template into a folder, completely or not at all, without overwriting files."""
 
-from __future__ import annotations
-
 import os
 import shutil
 from collections.abc import Callable, Collection, Iterator, Mapping, Sequence

@@ -1,7 +1,5 @@
 """Files that have no effect after a change of the simulator: added or edited files for the other Gazebo."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Collection, Iterator
 from pathlib import Path

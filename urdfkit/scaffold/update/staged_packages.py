@@ -1,7 +1,5 @@
 """Checks of an update: the updated packages are assembled in a temporary folder and compared with the current ones."""
 
-from __future__ import annotations
-
 import os
 import re
 import shutil

@@ -6,8 +6,6 @@ longer has are removed unless a remaining file refers to them. An update that wo
 case only the ``.new`` files are written.
 """
 
-from __future__ import annotations
-
 import os
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from contextlib import contextmanager

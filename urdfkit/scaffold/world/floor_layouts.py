@@ -1,7 +1,5 @@
 """Floor plans of `urdfkit new world`: a room, an office along a corridor, a randomly divided house."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from itertools import pairwise
 

@@ -1,7 +1,5 @@
 """Floor plans: rooms, walls between them, doors in the walls."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 

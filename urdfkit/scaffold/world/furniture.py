@@ -1,7 +1,5 @@
 """Furniture along the walls of rooms that leaves doors and passages free."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 

@@ -1,7 +1,5 @@
 """Random obstacles that overlap neither each other nor the surroundings of the origin."""
 
-from __future__ import annotations
-
 import math
 
 from urdfkit.errors import UsageError

@@ -1,7 +1,5 @@
 """Random numbers that are reproducible on every machine and with every version of Python."""
 
-from __future__ import annotations
-
 import random
 from collections.abc import Sequence
 from typing import TypeVar

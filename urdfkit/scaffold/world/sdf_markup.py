@@ -1,7 +1,5 @@
 """SDF elements that all versions from 1.6 to 1.11 interpret identically."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Iterator, Sequence
 
 from urdfkit.scaffold.world.shapes import ModelShape, SdfModel, inertia

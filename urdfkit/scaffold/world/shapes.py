@@ -1,7 +1,5 @@
 """Shapes and models of generated worlds."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 WALL = (0.92, 0.92, 0.9)

@@ -1,7 +1,5 @@
 """Contents of the world file of `urdfkit new world`, from the answers."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 
 from urdfkit.errors import UsageError

@@ -4,8 +4,6 @@ A URDF from another source may refer to any file of the disk. Only files with th
 folders that belong to the robot, are copied.
 """
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterable
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Meshes and textures of a description: search, new paths, and copies of the files that they depend on."""
 
-from __future__ import annotations
-
 import re
 import unicodedata
 from collections.abc import Iterator, Sequence

@@ -1,7 +1,5 @@
 """Creation of packages for a URDF file: description with its meshes, Gazebo, bringup, and repository files."""
 
-from __future__ import annotations
-
 import json
 import re
 from collections.abc import Callable, Mapping, Sequence

@@ -3,8 +3,6 @@
 Seen from far away, from the front, left and above. The same robot gives the same picture.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 from itertools import pairwise
 from math import cos, dist, pi, sin

@@ -3,8 +3,6 @@
 They come from ``project/`` in the robot template, which is their only source.
 """
 
-from __future__ import annotations
-
 from collections.abc import Collection, Mapping
 from dataclasses import replace
 from pathlib import Path

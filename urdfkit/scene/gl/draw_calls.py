@@ -1,7 +1,5 @@
 """Draw calls for the shapes of a table: buffers on the device, and the drawing order."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from typing import Any

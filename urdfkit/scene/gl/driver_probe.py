@@ -3,8 +3,6 @@
 Run as a program, it tries the backends in turn, draws a triangle, checks the image and prints the result.
 """
 
-from __future__ import annotations
-
 import json
 import subprocess
 import sys

@@ -3,8 +3,6 @@
 It is believed for a day, while the libraries, the devices and the variables that choose a driver stay as they were.
 """
 
-from __future__ import annotations
-
 import hashlib
 import os
 import platform

@@ -3,8 +3,6 @@
 All coordinates are in the camera's frame: x forward, y left, z up.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 from urdfkit.scene.rays.shading.direct_lighting import DIRECTIONAL, SPOT

@@ -1,7 +1,5 @@
 """Regions of the image in which shadows of moving shapes can fall; only there both shadow maps are sampled."""
 
-from __future__ import annotations
-
 from itertools import product
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Meshes: a file → triangles in metres, each file read once."""
 
-from __future__ import annotations
-
 import hashlib
 import io
 import logging

@@ -1,7 +1,5 @@
 """Appearance of one part of a mesh file read by trimesh: normals, colours, specular properties, textures."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Binary STL, the format of most meshes of robots, without trimesh, which takes half a second to import."""
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import NDArray
 

@@ -1,7 +1,5 @@
 """Textures of meshes, and access to the files that meshes refer to."""
 
-from __future__ import annotations
-
 import hashlib
 import io
 import warnings

@@ -1,7 +1,5 @@
 """Distinct rows of an array."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

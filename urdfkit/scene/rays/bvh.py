@@ -4,8 +4,6 @@ Sources: Wald, *On fast Construction of SAH-based Bounding Volume Hierarchies* (
 for ray tracing using space subdivision* (1990).
 """
 
-from __future__ import annotations
-
 from typing import Any
 
 from urdfkit.scene.rays.compilation import compiled, inlined

@@ -1,7 +1,5 @@
 """Trees over the triangles of meshes, built once per mesh and stored in the user's cache folder."""
 
-from __future__ import annotations
-
 import hashlib
 import io
 import os

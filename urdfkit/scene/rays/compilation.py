@@ -1,7 +1,5 @@
 """Compilation of the ray kernels, once per machine and version, with numba's cache."""
 
-from __future__ import annotations
-
 import hashlib
 from collections.abc import Callable
 from functools import lru_cache

@@ -4,8 +4,6 @@ For each solid, the interval of a ray inside it is computed; the hit is its star
 Of two shapes at the same distance the one with the smaller index counts, independent of the tree.
 """
 
-from __future__ import annotations
-
 from math import sqrt
 from typing import Any
 

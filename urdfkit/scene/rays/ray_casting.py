@@ -1,7 +1,5 @@
 """Ray casting: traversal of the tree of shapes and, for meshes, of the tree of triangles."""
 
-from __future__ import annotations
-
 from math import inf
 from typing import Any
 

@@ -6,8 +6,6 @@ Tracing*, 2001). A packet is one array with `WIDTH` numbers per row. The offsets
 compiler knows that rows do not overlap.
 """
 
-from __future__ import annotations
-
 from typing import Any
 
 from urdfkit.scene.rays.compilation import compiled, inlined

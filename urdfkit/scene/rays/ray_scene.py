@@ -1,7 +1,5 @@
 """RayTable: the shapes of a scene for ray casting; built once, then only the poses of bodies change."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from math import inf

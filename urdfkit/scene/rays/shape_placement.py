@@ -1,7 +1,5 @@
 """Placement of the shapes: poses of bodies → frames and boxes of shapes, and the tree over them."""
 
-from __future__ import annotations
-
 from typing import Any
 
 from urdfkit.scene.rays.bvh import build_compiled, refit

@@ -1,7 +1,5 @@
 """Surface normals at the hit points of rays."""
 
-from __future__ import annotations
-
 from typing import Any
 
 from urdfkit.scene.rays.compilation import inlined

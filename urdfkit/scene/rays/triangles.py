@@ -1,7 +1,5 @@
 """Rays against the triangles of a mesh, a packet at a time."""
 
-from __future__ import annotations
-
 from typing import Any
 
 from urdfkit.scene.rays.compilation import compiled

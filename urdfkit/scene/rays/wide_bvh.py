@@ -4,8 +4,6 @@ Sources: Wald, Benthin and Boulos, *Getting Rid of Packets* (2008), and Dammertz
 Volume Hierarchies for Fast SIMD Ray Tracing* (2008).
 """
 
-from __future__ import annotations
-
 from typing import Any
 
 from urdfkit.scene.rays.bvh import area

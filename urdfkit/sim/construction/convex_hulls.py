@@ -5,8 +5,6 @@ inside: along every ray from the centre, the deviation is at most `TOLERANCE`. T
 circle that is larger than the base by the same rule; the deviation is at most 0.11 % of the radius.
 """
 
-from __future__ import annotations
-
 from functools import cache
 from math import cos, pi
 

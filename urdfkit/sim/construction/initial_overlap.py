@@ -1,7 +1,5 @@
 """Warnings about robots that start inside other bodies, because no separating push restores the intended pose."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Collection
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Links without gravity and links with self-collision, from ``<gazebo reference="LINK">``."""
 
-from __future__ import annotations
-
 from urdfkit.description.urdf.robot import Robot
 from urdfkit.description.xml.element import Element
 from urdfkit.errors import SimulationError

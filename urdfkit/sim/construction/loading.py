@@ -1,7 +1,5 @@
 """Loading of robots and worlds for a simulation, and validation of its arguments."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 from pathlib import Path

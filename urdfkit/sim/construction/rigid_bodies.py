@@ -1,7 +1,5 @@
 """Bodies and joint trees of a world, for the engine."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 from typing import Any, cast

@@ -1,7 +1,5 @@
 """Start pose of a robot: root link, joints and velocities; on the ground if no height is given."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 

@@ -1,7 +1,5 @@
 """Friction of links: ``<mu1>``, ``<mu2>``, ``<fdir1>`` of ``<gazebo reference="LINK">``."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from math import isfinite
 

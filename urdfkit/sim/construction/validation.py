@@ -1,7 +1,5 @@
 """Validation of masses, inertias, sizes and limits before anything is computed with them."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from math import isfinite
 from typing import Protocol

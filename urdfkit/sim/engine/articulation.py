@@ -1,7 +1,5 @@
 """One articulated robot of an engine: its targets and its state."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 

@@ -1,7 +1,5 @@
 """Members of an engine: robots, free bodies and static bodies."""
 
-from __future__ import annotations
-
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field
 

@@ -1,7 +1,5 @@
 """Compilation of the kernel's functions, and the numba type of their fields."""
 
-from __future__ import annotations
-
 import operator
 from collections.abc import Callable
 from typing import Any, TypeVar, cast

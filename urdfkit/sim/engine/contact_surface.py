@@ -1,7 +1,5 @@
 """Ground plane, friction of surfaces, and contacts."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 from urdfkit.linear_algebra import Array

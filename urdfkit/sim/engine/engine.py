@@ -1,7 +1,5 @@
 """Engine: robots, bodies and the ground, advanced in time."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Collection, Mapping, Sequence
 from typing import Any

@@ -1,7 +1,5 @@
 """One free body of an engine: where it is, how it moves, what pushes it."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Views of the engine's memory for single numbers, which come and go through them much faster than through arrays."""
 
-from __future__ import annotations
-
 from typing import Any
 
 from numpy.typing import NDArray

@@ -1,7 +1,5 @@
 """The engine's coordinates as Pinocchio's configuration, contacts as records, and back."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 from typing import Any

@@ -1,7 +1,5 @@
 """Odometry of drives and controllers: an estimate of pose and twist, as a message and a transform."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from math import cos, sin
 from typing import Any

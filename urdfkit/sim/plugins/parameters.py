@@ -1,7 +1,5 @@
 """Parameters of a plugin by meaning; errors contain the position of the invalid parameter."""
 
-from __future__ import annotations
-
 from math import isfinite
 
 from urdfkit.description.plugins import PluginSpec, read_all, values

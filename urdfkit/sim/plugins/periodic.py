@@ -1,7 +1,5 @@
 """Base classes of periodic work in a simulation: calls and publishers with a rate."""
 
-from __future__ import annotations
-
 from abc import ABC, abstractmethod
 from collections.abc import Callable
 

@@ -1,7 +1,5 @@
 """ROS distributions: some plugins behave differently from one distribution to the next."""
 
-from __future__ import annotations
-
 from urdfkit.errors import UsageError, did_you_mean
 
 ROS_1 = ("hydro", "indigo", "jade", "kinetic", "lunar", "melodic", "noetic")

@@ -1,7 +1,5 @@
 """Setup: interfaces and options with which the simulator configures a plugin."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Resolution of a plugin's topic names: namespaces, remappings and defaults of the three generations."""
 
-from __future__ import annotations
-
 import re
 
 from urdfkit.bus import absolute

@@ -1,7 +1,5 @@
 """Notes on a robot's ``<gazebo>`` blocks: unknown names with the nearest match, and sensors that share a topic."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator
 
 from urdfkit.description.plugins import PluginSpec

@@ -1,7 +1,5 @@
 """Geometry of wheels: radius, position and sense of rotation from the description, and Ackermann steering angles."""
 
-from __future__ import annotations
-
 from math import atan2
 
 from urdfkit.description.urdf.robot import Cylinder, Robot, Sphere

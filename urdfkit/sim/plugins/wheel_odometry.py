@@ -1,7 +1,5 @@
 """Wheel odometry: a planar pose integrated from the distances that wheels have rolled, for drives and controllers."""
 
-from __future__ import annotations
-
 from abc import ABC, abstractmethod
 from collections.abc import Sequence
 from math import copysign, cos, hypot, pi, sin, sqrt, tan

@@ -1,7 +1,5 @@
 """Validation of arguments from callers of the library: numbers, vectors and entity names."""
 
-from __future__ import annotations
-
 from math import isfinite
 from typing import Any, TypeVar
 

@@ -1,7 +1,5 @@
 """Commands of drives and controllers to the engine: joint motors, joint servos, joint efforts and the base velocity."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from math import inf, isfinite

@@ -1,7 +1,5 @@
 """Functions of configuration and velocity: poses of links and joints, velocities in the world frame, energy."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from math import atan2, cos, sin
 from typing import Any

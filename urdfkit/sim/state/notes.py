@@ -1,7 +1,5 @@
 """Warnings of a simulation for its user."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable
 
 

@@ -1,7 +1,5 @@
 """PID: gains and integral of ros_control's control_toolbox (noetic, src/pid.cpp), and the PID of Gazebo's drives."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 from math import inf

@@ -1,7 +1,5 @@
 """Conversions of poses: from user input, to `Pose` records, and to seven numbers."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from math import isfinite
 

@@ -1,7 +1,5 @@
 """Unit quaternions x y z w on plain floats, which are faster than numpy for single poses."""
 
-from __future__ import annotations
-
 from math import asin, atan2, cos, sin
 from typing import Any
 

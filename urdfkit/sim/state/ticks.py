@@ -1,7 +1,5 @@
 """Ticks: the steps at which periodic work is due, as integers, so that periods do not drift."""
 
-from __future__ import annotations
-
 from math import ceil, floor
 
 NEVER = 1 << 62

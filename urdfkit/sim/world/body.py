@@ -1,7 +1,5 @@
 """Handle to one rigid body of the world; stays valid while other entities are spawned or removed."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 from urdfkit.description.urdf.robot import Pose

@@ -1,7 +1,5 @@
 """Poses and velocities of the entities of a world: read and set, whether they are bodies, robots or static."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import replace
 

@@ -5,8 +5,6 @@ that moves with the link, by default its origin; several forces add up. A force 
 like all other quantities of the engine, so that a constant force on a rotating body is constant in the world.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 from math import inf, isfinite

@@ -4,8 +4,6 @@ Only the simulation changes; the description does not. A change of mass or frict
 transfers its state, as for a spawned entity. Changes persist after a reset.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from math import isfinite

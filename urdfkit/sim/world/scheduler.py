@@ -1,7 +1,5 @@
 """Scheduler: calls, drives, controllers, sensors and publications between the steps of the engine."""
 
-from __future__ import annotations
-
 import heapq
 from collections.abc import Callable
 

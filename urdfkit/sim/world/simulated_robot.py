@@ -1,7 +1,5 @@
 """Robot in the simulation: its model, initial pose, state, motors and plugins."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import replace
 from typing import Any

@@ -1,7 +1,5 @@
 """Slip velocity: tangential velocity of a robot's contact points relative to the other body."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

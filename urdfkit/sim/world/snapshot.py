@@ -5,8 +5,6 @@ file is loaded, and joint limits are shifted accordingly. A robot, whose plugins
 with its joints at zero. Velocities are not saved.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping
 from dataclasses import replace
 

@@ -1,7 +1,5 @@
 """Requests to spawn a model or robot: by name, from a file, from text, or already loaded."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path

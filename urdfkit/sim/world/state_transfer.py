@@ -5,8 +5,6 @@ warm start of the contact solver: those of joints and ground contacts, and those
 Sleeping trees wake with the impulses of their contacts, and may sleep again soon.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 

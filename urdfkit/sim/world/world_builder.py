@@ -1,7 +1,5 @@
 """Builder of a world: its entities, and the engine that simulates them."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Entities of a world, models and robots, with the bodies and robots that the engine simulates."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Rows of the joint panel."""
 
-from __future__ import annotations
-
 import math
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Triangle meshes for the browser, addressed by the hash of their content."""
 
-from __future__ import annotations
-
 import hashlib
 import struct
 from collections.abc import Collection, Iterator

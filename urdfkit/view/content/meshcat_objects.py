@@ -1,7 +1,5 @@
 """Scene → meshcat objects at ``/robot/links/<link>/{visual,collision}/<n>``."""
 
-from __future__ import annotations
-
 import warnings
 from typing import Any
 

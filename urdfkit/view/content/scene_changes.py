@@ -1,7 +1,5 @@
 """Adding shapes to the shown scene and removing bodies, without drawing the rest again."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Sequence
 from typing import Any
 

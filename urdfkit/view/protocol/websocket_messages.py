@@ -11,8 +11,6 @@ Python → browser: ``hello``, ``you``, ``model``, ``status``, ``fault``, ``prog
 ``stop``, ``answer``, and the messages of the mode.
 """
 
-from __future__ import annotations
-
 import json
 import math
 import struct

@@ -1,7 +1,5 @@
 """Access control of the server: token, cookie, the rules for Host and Origin, and the headers of every response."""
 
-from __future__ import annotations
-
 import hmac
 import ipaddress
 import re

@@ -1,7 +1,5 @@
 """AuthenticatedHandler: base class of all handlers; checks host, origin and cookie before a request is processed."""
 
-from __future__ import annotations
-
 from typing import Any
 
 from tornado.web import RequestHandler

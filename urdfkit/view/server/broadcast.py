@@ -1,7 +1,5 @@
 """Hub: sends scene commands, messages and poses to every browser, and keeps the state for browsers that join later."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from typing import Any
 

@@ -1,7 +1,5 @@
 """DriveLock: the page that drives the robot, and the deadman timeout."""
 
-from __future__ import annotations
-
 import time
 from collections.abc import Callable
 from threading import Lock

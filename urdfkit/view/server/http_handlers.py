@@ -1,7 +1,5 @@
 """HTTP routes: the page, its files, meshes and the WebSocket."""
 
-from __future__ import annotations
-
 import gzip
 from functools import lru_cache
 from importlib.util import find_spec

@@ -1,7 +1,5 @@
 """Bind a free port and return the URLs of the page."""
 
-from __future__ import annotations
-
 import errno
 import os
 import socket

@@ -1,7 +1,5 @@
 """PageServer: the interface of the server that the request handlers use."""
 
-from __future__ import annotations
-
 from typing import Protocol
 
 from urdfkit.view.content.mesh_store import GeometryStore

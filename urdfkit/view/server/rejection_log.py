@@ -1,7 +1,5 @@
 """RejectionLog: logs rejected requests, with a limit on repetitions and on lines per minute."""
 
-from __future__ import annotations
-
 import logging
 import time
 from collections.abc import Callable

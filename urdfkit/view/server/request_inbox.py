@@ -1,7 +1,5 @@
 """Inbox: bounded queue of the browsers' input for the caller's thread."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, field
 from threading import Condition
 

@@ -5,8 +5,6 @@ in the folder of the tokens (see `saved_tokens`), is named after the port, and i
 no private file can be written, the simulation is not registered and its URL has to be passed.
 """
 
-from __future__ import annotations
-
 import contextlib
 import json
 import os

@@ -6,8 +6,6 @@ uses them again if the last one was started less than `AGE` ago. If no private f
 new token, and open pages instruct the user to open the new address.
 """
 
-from __future__ import annotations
-
 import contextlib
 import json
 import math

@@ -1,7 +1,5 @@
 """Channel: bounded queue of the frames for one browser; a slow browser does not delay others."""
 
-from __future__ import annotations
-
 import asyncio
 from collections import deque
 from collections.abc import Awaitable, Callable

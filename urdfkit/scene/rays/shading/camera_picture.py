@@ -8,8 +8,6 @@ uses; a spot fades between its two cones. Transparent surfaces are blended with 
 shadow.
 """
 
-from __future__ import annotations
-
 from math import inf
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Direct lighting of the hit points of a packet, with one shadow ray per light."""
 
-from __future__ import annotations
-
 from typing import Any
 
 from urdfkit.scene.rays.compilation import compiled

@@ -1,7 +1,5 @@
 """Edge pixels of an image: pixels that differ from a neighbour."""
 
-from __future__ import annotations
-
 from typing import Any
 
 from urdfkit.scene.rays.compilation import inlined

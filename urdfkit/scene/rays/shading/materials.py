@@ -1,7 +1,5 @@
 """Colours, textures and specular properties of the shapes of a table, as arrays for the kernels."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Layout of the shading buffers: one row of `WIDTH` numbers per quantity, in addition to the ray packet."""
 
-from __future__ import annotations
-
 from urdfkit.scene.rays.ray_packet import WIDTH
 
 AT, NORMAL, COLOR, LIGHT_SUM, VIEW, BLENDED = (row * WIDTH for row in (0, 3, 6, 9, 12, 15))

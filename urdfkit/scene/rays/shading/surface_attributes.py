@@ -1,7 +1,5 @@
 """Surface attributes at a hit point: normals, colours and textures, interpolated between the corners of a triangle."""
 
-from __future__ import annotations
-
 from math import ceil, floor, hypot, log2
 from typing import Any
 

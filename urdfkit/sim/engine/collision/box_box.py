@@ -4,8 +4,6 @@ After S. Gottschalk, M. Lin and D. Manocha, OBBTree, SIGGRAPH 1996: two boxes ov
 square to an edge of each, separates them.
 """
 
-from __future__ import annotations
-
 from typing import Any
 
 from urdfkit.sim.engine.collision.support_faces import column

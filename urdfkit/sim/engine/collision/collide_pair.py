@@ -1,7 +1,5 @@
 """Contacts of a pair of shapes of any kind."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

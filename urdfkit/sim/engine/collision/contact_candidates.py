@@ -1,7 +1,5 @@
 """Contact candidates, and the reduction to the few that support the bodies."""
 
-from __future__ import annotations
-
 import math
 from typing import Any
 

@@ -4,8 +4,6 @@ Each point is taken along the normal to the other's face; the gap there is never
 normal is that of their least distance.
 """
 
-from __future__ import annotations
-
 import math
 from typing import Any
 

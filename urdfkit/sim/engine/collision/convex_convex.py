@@ -1,7 +1,5 @@
 """Contacts of two convex shapes of any kind."""
 
-from __future__ import annotations
-
 import math
 from typing import Any
 

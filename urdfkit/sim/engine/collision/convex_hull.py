@@ -1,7 +1,5 @@
 """The convex hull of a set of points, with as many vertices as a contact needs."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

@@ -5,8 +5,6 @@ that it has neighbours: where the normal it finds leans over an edge that only j
 come from there, and the normal is that of the triangle.
 """
 
-from __future__ import annotations
-
 import math
 from typing import Any
 

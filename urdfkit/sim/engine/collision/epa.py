@@ -5,8 +5,6 @@ the boundary of the difference there. After G. van den Bergen, Collision Detecti
 2003, section 4.3.8.
 """
 
-from __future__ import annotations
-
 import math
 from typing import Any
 

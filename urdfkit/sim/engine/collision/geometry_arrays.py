@@ -1,7 +1,5 @@
 """Hulls and meshes in the two flat arrays that the compiled functions read."""
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import NDArray
 

@@ -5,8 +5,6 @@ difference moves towards the origin until no support point is nearer. After C. E
 2005, sections 5.1 and 9.5.
 """
 
-from __future__ import annotations
-
 import math
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Contacts of a shape with the half-space below a plane."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

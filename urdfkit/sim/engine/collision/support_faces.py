@@ -1,7 +1,5 @@
 """The face, edge or corner with which a convex shape touches in a direction, as a polygon in the working memory."""
 
-from __future__ import annotations
-
 import math
 from typing import Any
 

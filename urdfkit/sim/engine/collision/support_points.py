@@ -5,8 +5,6 @@ hull and triangle are their own cores with radius zero. Results for the cores ar
 are subtracted from the gap.
 """
 
-from __future__ import annotations
-
 import math
 from typing import Any
 

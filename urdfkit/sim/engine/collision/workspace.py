@@ -1,7 +1,5 @@
 """Layout of the working memory for a pair: starts of fields in the two arrays of the caller."""
 
-from __future__ import annotations
-
 import numpy as np
 
 MOST_POINTS, MOST_FACES, MOST_CORNERS, MOST_CANDIDATES = 128, 256, 64, 64

@@ -4,8 +4,6 @@ Order: mimic joints, motors and dry friction, joint limits; then contacts withou
 (normal and two tangents), see `contact_rows`. A slot is the index of the impulse of the last step, for the warm start.
 """
 
-from __future__ import annotations
-
 import math
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Constraint rows of contacts: relative velocity at the contact point along the normal and the tangents."""
 
-from __future__ import annotations
-
 import math
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Joint limits that a step turns out to reach."""
 
-from __future__ import annotations
-
 from urdfkit.sim.engine.compilation import inlined
 from urdfkit.sim.engine.kernel_world import KernelWorld
 

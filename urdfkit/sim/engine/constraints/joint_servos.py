@@ -1,7 +1,5 @@
 """What acts without rows: applied efforts, damping, and position servos that no stiffness makes unstable."""
 
-from __future__ import annotations
-
 from urdfkit.sim.engine.compilation import inlined
 from urdfkit.sim.engine.constraints.constraint_rows import friction_with_motor
 from urdfkit.sim.engine.dynamics.mass_matrix import factor, solve_transposed

@@ -4,8 +4,6 @@ Shapes of a tree are paired with those of other trees, static shapes and, with s
 but not with those of the same body or of adjacent bodies. Pairs are in the order of their numbers, and so are contacts.
 """
 
-from __future__ import annotations
-
 from typing import Any
 
 from urdfkit.sim.engine.collision.support_points import CAPSULE, CYLINDER, SPHERE, WHEEL

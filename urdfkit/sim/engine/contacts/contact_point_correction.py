@@ -7,8 +7,6 @@ contact point in the middle of the step. The constrained velocities remain those
 the rows, which is accurate to second order like the rest of the step.
 """
 
-from __future__ import annotations
-
 from typing import Any
 
 from urdfkit.sim.engine.compilation import compiled, inlined

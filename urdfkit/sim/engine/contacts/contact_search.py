@@ -1,7 +1,5 @@
 """Contact search: broad phase, then narrow phase for the trees that may touch."""
 
-from __future__ import annotations
-
 from urdfkit.sim.engine.arrays import (
     CONTACTS,
     DOFS,

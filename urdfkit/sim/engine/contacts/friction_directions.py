@@ -5,8 +5,6 @@ and mu2: the friction ellipse becomes a circle of radius 1, and impulses along t
 Friction obeys the principle of maximum dissipation: it is the point of the ellipse that dissipates most power.
 """
 
-from __future__ import annotations
-
 from typing import Any
 
 from urdfkit.sim.engine.compilation import inlined

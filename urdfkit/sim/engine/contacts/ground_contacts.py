@@ -4,8 +4,6 @@ A contact is worth a row in the solver when its gap could close within a step. I
 shape can touch with has a number of its own, its feature, by which the solver finds last step's force again.
 """
 
-from __future__ import annotations
-
 import math
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Narrow phase: contacts of candidate pairs, and their impulses of the last step for the warm start."""
 
-from __future__ import annotations
-
 import math
 from typing import Any
 

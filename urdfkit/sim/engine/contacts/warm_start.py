@@ -1,7 +1,5 @@
 """Warm start: impulses of contacts and rows, stored for the next step, and for sleeping trees until they wake."""
 
-from __future__ import annotations
-
 from urdfkit.sim.engine.arrays import CONTACTS, DOFS, LAST_PAIRS, MIMICS, SHAPES, SLOTS
 from urdfkit.sim.engine.compilation import inlined
 from urdfkit.sim.engine.kernel_world import KernelWorld

@@ -1,7 +1,5 @@
 """Integration of configurations."""
 
-from __future__ import annotations
-
 import math
 from typing import Any
 

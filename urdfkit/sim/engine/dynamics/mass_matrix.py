@@ -9,8 +9,6 @@ Sources: R. Featherstone, Rigid Body Dynamics Algorithms, 2008: tables 5.1 (recu
 rigid bodies), 6.3 (factorisation M = LᵀL that keeps the tree's sparsity) and 6.5 (its solves).
 """
 
-from __future__ import annotations
-
 import math
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Motion of a tree during a step: terms at the start, predicted poses for the contacts, integration."""
 
-from __future__ import annotations
-
 from urdfkit.sim.engine.compilation import compiled
 from urdfkit.sim.engine.dynamics.integration import move
 from urdfkit.sim.engine.dynamics.mass_matrix import place, terms

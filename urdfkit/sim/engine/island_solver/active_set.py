@@ -7,8 +7,6 @@ held, or contacts slide (see `coulomb_direction`), some times over.
 Source: M. R. Hestenes, J. Optim. Theory Appl. 4 (1969) 303-320: multipliers.
 """
 
-from __future__ import annotations
-
 import math
 from typing import Any
 

@@ -1,7 +1,5 @@
 """What every row of an island is taken to do, and what the velocities and impulses that follow say about that."""
 
-from __future__ import annotations
-
 import math
 
 from urdfkit.sim.engine.compilation import compiled, inlined

@@ -8,8 +8,6 @@ Penetrations that are to be taken back seldom fit together where a body lies on 
 leaves of them what it could not take back. Without that impulses would grow, of rows that can never be met.
 """
 
-from __future__ import annotations
-
 import math
 
 from urdfkit.sim.engine.compilation import compiled

@@ -1,7 +1,5 @@
 """Writing the matrix M + Jᵀ·D·J of an island, see `block_matrix`."""
 
-from __future__ import annotations
-
 import math
 from typing import Any
 

@@ -4,8 +4,6 @@ It is factored in the order in which the fewest blocks fill in, the minimum degr
 Computing, 1972.
 """
 
-from __future__ import annotations
-
 import math
 from typing import Any
 

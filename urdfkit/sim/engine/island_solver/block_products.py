@@ -4,8 +4,6 @@ Most rows are of contacts, three of each, between bodies of six dofs: these are 
 the time that loops take.
 """
 
-from __future__ import annotations
-
 from typing import Any
 
 from urdfkit.sim.engine.arrays import WIDTH

@@ -8,8 +8,6 @@ that this takes out of their cones are put right by the next sweep.
 Source: M. Silcowitz-Hansen, S. Niebe, K. Erleben, The Visual Computer 26 (2010) 893-901.
 """
 
-from __future__ import annotations
-
 from urdfkit.sim.engine.compilation import compiled
 from urdfkit.sim.engine.kernel_world import KernelWorld
 

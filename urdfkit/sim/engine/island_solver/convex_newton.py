@@ -18,8 +18,6 @@ ZAMM 91 (2011) 155-175 (Coulomb's law as a sequence of convex problems). G. De S
 Modelling 28 (1998) 225-245 (the correction).
 """
 
-from __future__ import annotations
-
 import math
 from typing import Any
 

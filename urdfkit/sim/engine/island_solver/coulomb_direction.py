@@ -9,8 +9,6 @@ Woodbury).
 In ``near_x`` stand the stiffness of the damper across d, at the normal's row, and d, at the tangents'.
 """
 
-from __future__ import annotations
-
 import math
 from typing import Any
 

@@ -16,8 +16,6 @@ Sources: M. Jean, Comput. Methods Appl. Mech. Eng. 177 (1999) 235-257 (contact b
 Jean, ibid. 155 (1998) 31-47 (Gauss-Seidel for Coulomb's law).
 """
 
-from __future__ import annotations
-
 import math
 from typing import Any
 

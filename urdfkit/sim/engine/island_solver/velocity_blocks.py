@@ -10,8 +10,6 @@ tried once more with tiny penetrations and gaps left as they are: they contradic
 a robot that is jammed. Where that leads nowhere either, `augmented_lagrangian` gets there from anywhere.
 """
 
-from __future__ import annotations
-
 import math
 
 from urdfkit.sim.engine.compilation import compiled, inlined

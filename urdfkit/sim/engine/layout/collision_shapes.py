@@ -1,7 +1,5 @@
 """Collision shapes of robots and bodies in the form that the kernel uses."""
 
-from __future__ import annotations
-
 from collections import Counter
 from collections.abc import Sequence
 from dataclasses import replace

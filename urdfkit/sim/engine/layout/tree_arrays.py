@@ -1,7 +1,5 @@
 """One robot or free body → its part of the engine's arrays."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from typing import Any
 

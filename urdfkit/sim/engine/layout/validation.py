@@ -1,7 +1,5 @@
 """Validation of robots before the first step."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

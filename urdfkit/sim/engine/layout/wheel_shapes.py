@@ -1,7 +1,5 @@
 """Which collision shapes are wheels: round about the axis of the joint that carries them."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Robots, bodies and shapes → the engine's arrays."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 import numpy as np

@@ -4,8 +4,6 @@ The C library computes them otherwise on processors with fused multiply-add than
 differ. These are FreeBSD's msun (k_sin.c, k_cos.c, e_rem_pio2.c, e_exp.c), within 1 ulp of the exact value.
 """
 
-from __future__ import annotations
-
 import math
 
 from urdfkit.sim.engine.compilation import compiled, inlined

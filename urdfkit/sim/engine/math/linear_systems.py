@@ -1,7 +1,5 @@
 """Small linear systems, solved in place; matrices are written row by row."""
 
-from __future__ import annotations
-
 from typing import Any
 
 from urdfkit.sim.engine.compilation import inlined

@@ -6,8 +6,6 @@ are of one point, which the caller chooses. Names and formulas: R. Featherstone,
 chapter 2; the order of the two parts is Pinocchio's.
 """
 
-from __future__ import annotations
-
 from typing import Any
 
 from urdfkit.sim.engine.compilation import inlined

@@ -11,8 +11,6 @@ as long as all that touch each other are free bodies that nothing pushes. What r
 robot touches, rolls freely.
 """
 
-from __future__ import annotations
-
 import math
 
 from urdfkit.sim.engine.collision.support_points import CAPSULE, CYLINDER, SPHERE

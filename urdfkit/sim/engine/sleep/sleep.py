@@ -5,8 +5,6 @@ them. For an island of free bodies it is enough that their motion has died down,
 sleepers are kept from the end of their room on, so that they can be told and found again.
 """
 
-from __future__ import annotations
-
 from urdfkit.sim.engine.arrays import CONTACTS, DT, LAST_PAIRS, OBSERVED, SLEEPING, TREES
 from urdfkit.sim.engine.compilation import compiled, inlined
 from urdfkit.sim.engine.contacts.broadphase import update_bounds

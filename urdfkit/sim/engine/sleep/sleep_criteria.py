@@ -5,8 +5,6 @@ At rest it stays where it is: in `PATIENCE`, or since it lies, it has gone no fa
 and yet is at rest.
 """
 
-from __future__ import annotations
-
 from urdfkit.sim.engine.arrays import DT, OBSERVED
 from urdfkit.sim.engine.compilation import inlined
 from urdfkit.sim.engine.kernel_world import KernelWorld

@@ -16,8 +16,6 @@ than doubles from one window to the next.
 A round body is an exception to the second condition, as nothing resists its rolling on the ground.
 """
 
-from __future__ import annotations
-
 from typing import Any
 
 from urdfkit.sim.engine.arrays import OBSERVED

@@ -4,8 +4,6 @@ It does when what is awake comes within reach of a contact, or when what is aske
 velocity or gravity is not what it was.
 """
 
-from __future__ import annotations
-
 from urdfkit.sim.engine.arrays import CONTACTS, OBSERVED, SLEEPING, TREES
 from urdfkit.sim.engine.compilation import compiled, inlined
 from urdfkit.sim.engine.contacts.warm_start import copy_contact, insert_pair, store_impulses

@@ -13,8 +13,6 @@ Sources: P. Alart and A. Curnier, Comput. Methods Appl. Mech. Eng. 92 (1991) 353
 system of equations for Newton's method. R. T. Rockafellar, SIAM J. Control Optim. 14 (1976) 877-898: proximal point.
 """
 
-from __future__ import annotations
-
 import math
 from typing import Any
 

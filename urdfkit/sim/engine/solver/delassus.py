@@ -1,7 +1,5 @@
 """Delassus matrix A = J·M⁻¹·Jᵀ from rows whitened by the mass matrices, and the effect of impulses."""
 
-from __future__ import annotations
-
 from urdfkit.sim.engine.compilation import inlined
 from urdfkit.sim.engine.dynamics.mass_matrix import solve_transposed, solve_transposed_rows
 from urdfkit.sim.engine.kernel_world import KernelWorld

@@ -5,8 +5,6 @@ A sliding contact is described by the direction of its slip, a unit vector d in 
 rotates d.
 """
 
-from __future__ import annotations
-
 import math
 from typing import Any
 

@@ -10,8 +10,6 @@ with D the diagonal of A. These equations replace the redundant rows, so that th
 motion. The solution is the limit of vanishing softness.
 """
 
-from __future__ import annotations
-
 import math
 from typing import Any
 

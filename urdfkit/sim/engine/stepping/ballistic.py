@@ -6,8 +6,6 @@ order (H. Munthe-Kaas, High order Runge-Kutta methods on manifolds, 1999). Its l
 parent.
 """
 
-from __future__ import annotations
-
 from typing import Any
 
 from urdfkit.sim.engine.compilation import compiled, inlined

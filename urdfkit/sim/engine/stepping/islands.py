@@ -1,7 +1,5 @@
 """Islands: trees that are connected by contacts and must be solved together."""
 
-from __future__ import annotations
-
 from urdfkit.sim.engine.compilation import compiled, inlined
 from urdfkit.sim.engine.kernel_world import KernelWorld
 

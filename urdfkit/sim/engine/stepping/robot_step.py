@@ -4,8 +4,6 @@
 fast.
 """
 
-from __future__ import annotations
-
 import math
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Step of one island: smooth motion, rows, impulses, and new velocities."""
 
-from __future__ import annotations
-
 from urdfkit.sim.engine.arrays import (
     CONTACTS,
     DOFS,

@@ -1,7 +1,5 @@
 """The step: from one configuration and velocity to the next, all in one compiled call."""
 
-from __future__ import annotations
-
 import math
 from typing import Any
 

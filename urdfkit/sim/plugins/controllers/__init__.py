@@ -3,8 +3,6 @@
 A controller reads parameters and subscribes to commands. It writes joint commands and publishes states and odometry.
 """
 
-from __future__ import annotations
-
 from urdfkit.sim.plugins.base import Controller
 from urdfkit.sim.plugins.controllers.gz_joint_controllers import JointController, JointPositionController
 from urdfkit.sim.plugins.controllers.ros2_control import Ros2Control

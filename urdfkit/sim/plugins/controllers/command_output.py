@@ -4,8 +4,6 @@ Sources: gazebo_ros_pkgs noetic-devel, gazebo_ros_control/src/default_robot_hw_s
 gazebo_ros2_control, gazebo_system.cpp.
 """
 
-from __future__ import annotations
-
 from abc import ABC, abstractmethod
 from math import inf
 from typing import ClassVar

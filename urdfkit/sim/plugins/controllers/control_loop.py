@@ -1,7 +1,5 @@
 """ControlLoop: loads, starts and stops the controllers of one robot and updates them in every control period."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from math import ceil, inf

@@ -1,7 +1,5 @@
 """Base of the plugins that run a control loop: gazebo_ros_control and gz_ros2_control."""
 
-from __future__ import annotations
-
 from urdfkit.sim.plugins.base import Controller
 from urdfkit.sim.plugins.controllers.control_loop import ControlLoop
 from urdfkit.sim.state.joint_commands import Motors

@@ -1,7 +1,5 @@
 """Controllers: lists, loads, starts, stops and switches the controllers of all plugins."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 
 from urdfkit.errors import SimulationError, did_you_mean

@@ -1,7 +1,5 @@
 """Registry of the simulated controllers of ros_control and ros2_control by type name."""
 
-from __future__ import annotations
-
 from urdfkit.description.control import Settings
 from urdfkit.errors import DescriptionError, did_you_mean
 from urdfkit.sim.plugins.controllers.controller import Hardware, Law

@@ -4,8 +4,6 @@ A PID runs as an implicit servo of the engine, so it is stable for any gain and 
 the sum of all terms.
 """
 
-from __future__ import annotations
-
 from math import inf, isfinite, pi, remainder
 
 from urdfkit.description.urdf.robot import Joint

@@ -4,8 +4,6 @@ Sources: ros_control noetic, joint_limits_interface.h (saturation and soft limit
 joint_limits_urdf.h; gazebo_ros_pkgs noetic-devel, default_robot_hw_sim.cpp, registerJointLimits.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from math import inf

@@ -3,8 +3,6 @@
 Sources: gz_ros2_control, gz_ros2_control_plugin.cpp and gz_system.cpp; gazebo_ros2_control, gazebo_system.cpp.
 """
 
-from __future__ import annotations
-
 import re
 from pathlib import Path
 

@@ -3,8 +3,6 @@
 Source: gazebo_ros_pkgs noetic-devel, gazebo_ros_control/src/{gazebo_ros_control_plugin,default_robot_hw_sim}.cpp.
 """
 
-from __future__ import annotations
-
 from urdfkit.description.control import Configuration, Settings, find_configuration
 from urdfkit.description.control.ros1_controllers import controllers
 from urdfkit.description.urdf.robot import Transmission

@@ -3,8 +3,6 @@
 A drive subscribes to velocity commands, writes joint commands and publishes odometry and transforms.
 """
 
-from __future__ import annotations
-
 from urdfkit.sim.plugins.base import Drive
 from urdfkit.sim.plugins.drives.ackermann import Ackermann
 from urdfkit.sim.plugins.drives.ackermann_steering import AckermannSteering

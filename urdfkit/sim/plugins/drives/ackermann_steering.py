@@ -3,8 +3,6 @@
 Source: gz-sim main, src/systems/ackermann_steering/AckermannSteering.cc.
 """
 
-from __future__ import annotations
-
 from math import copysign, isfinite, sin, tan
 from typing import Any
 

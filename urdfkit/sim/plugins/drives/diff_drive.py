@@ -5,8 +5,6 @@ src/systems/diff_drive/DiffDrive.cc. Until Lunar, ROS 1 swapped left and right (
 for these distributions only.
 """
 
-from __future__ import annotations
-
 from typing import Any
 
 from urdfkit.description.plugins import PluginSpec

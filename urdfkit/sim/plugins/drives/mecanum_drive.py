@@ -3,8 +3,6 @@
 Source: gz-sim main, src/systems/mecanum_drive/MecanumDrive.cc.
 """
 
-from __future__ import annotations
-
 from urdfkit.sim.plugins.drives.odometry_parameters import odometry_topics
 from urdfkit.sim.plugins.drives.velocity_drive import VelocityDrive, joints_of
 from urdfkit.sim.plugins.parameters import Parameters

@@ -1,7 +1,5 @@
 """Common odometry parameters of drives: topics, frames, covariances and the source of the pose."""
 
-from __future__ import annotations
-
 from urdfkit.errors import SimulationError
 from urdfkit.sim.plugins.odometry import OdometryTopics
 from urdfkit.sim.plugins.parameters import Parameters

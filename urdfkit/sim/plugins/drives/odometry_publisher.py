@@ -4,8 +4,6 @@ Source: gz-sim main, src/systems/odometry_publisher/OdometryPublisher.cc. Gazebo
 steps; urdfkit publishes the velocity of the present state.
 """
 
-from __future__ import annotations
-
 from urdfkit.errors import SimulationError
 from urdfkit.sim.plugins.base import Drive
 from urdfkit.sim.plugins.odometry import Estimate, OdometryTopics, Pose, from_world

@@ -4,8 +4,6 @@ Sources: gazebo_ros_pkgs noetic-devel and ros2, gazebo_plugins/src/gazebo_ros_pl
 of every link; urdfkit sets that of the root link, and joints keep their velocities.
 """
 
-from __future__ import annotations
-
 from math import cos, pi, remainder, sin
 
 from urdfkit.description.plugins import PluginSpec

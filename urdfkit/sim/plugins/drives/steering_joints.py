@@ -1,7 +1,5 @@
 """Steering joints whose position Gazebo sets directly."""
 
-from __future__ import annotations
-
 from math import inf
 
 from urdfkit.sim.plugins.setup import Setup

@@ -5,8 +5,6 @@ plugin are fixed here: with a steering speed it compares the steering error with
 away from most targets; its encoders have the wrong sign; its velocity is in the odometry frame, not in the base frame.
 """
 
-from __future__ import annotations
-
 from math import pi
 
 from urdfkit.sim.plugins.drives.odometry_parameters import by_encoder, odometry_topics

@@ -3,8 +3,6 @@
 Source: gz-sim main, src/systems/velocity_control/VelocityControl.cc. It publishes no odometry.
 """
 
-from __future__ import annotations
-
 from urdfkit.description.plugins import PluginSpec
 from urdfkit.description.urdf.robot import Plugin
 from urdfkit.sim.plugins.drives.planar_move import movable

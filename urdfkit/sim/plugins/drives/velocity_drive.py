@@ -1,7 +1,5 @@
 """Base class of drives: velocity command, its limits, and odometry from the wheels or from the true pose."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from copy import copy
 from math import isfinite

@@ -1,7 +1,5 @@
 """Wheel transforms and wheel joint states of drives."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from typing import Any
 

@@ -3,8 +3,6 @@
 A sensor reads the state of the robot or the scene, and publishes messages at its update rate.
 """
 
-from __future__ import annotations
-
 from urdfkit.sim.plugins.base import Sensor
 from urdfkit.sim.plugins.sensors.cameras.annotated_camera import GzBoundingBoxCamera, GzSegmentationCamera
 from urdfkit.sim.plugins.sensors.cameras.camera import GzCamera

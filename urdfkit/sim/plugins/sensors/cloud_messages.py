@@ -1,7 +1,5 @@
 """Point cloud messages: PointCloud2 with the field layout of each plugin, and the deprecated PointCloud."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from typing import Any
 

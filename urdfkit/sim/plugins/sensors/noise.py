@@ -1,7 +1,5 @@
 """Gaussian noise of sensors: SDF's ``<noise>``, and the standard deviation in the parameters of ROS 1 plugins."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

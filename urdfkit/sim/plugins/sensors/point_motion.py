@@ -1,7 +1,5 @@
 """Motion of a frame on a link, computed on demand from a stored state of the robot."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Numbers, pose and rate of a ``<sensor>``; errors contain the position of the invalid value."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 from math import isfinite, isnan
 

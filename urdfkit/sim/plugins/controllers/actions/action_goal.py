@@ -1,7 +1,5 @@
 """Action: action server of a controller, which executes one goal at a time; see `action_topics` for the topics."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import replace
 from typing import Any

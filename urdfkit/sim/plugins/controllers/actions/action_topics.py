@@ -5,8 +5,6 @@ ROS 2 are emulated by topics with the names of the services: the requests are su
 published on ``get_result`` when a goal has ended.
 """
 
-from __future__ import annotations
-
 from abc import ABC, abstractmethod
 from collections.abc import Callable
 from dataclasses import dataclass

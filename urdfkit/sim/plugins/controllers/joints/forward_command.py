@@ -4,8 +4,6 @@ Sources: ros_controllers noetic, forward_command_controller, {position,velocity,
 forward_command_controller.
 """
 
-from __future__ import annotations
-
 from math import isfinite
 from typing import ClassVar
 

@@ -3,8 +3,6 @@
 Sources: ros_controllers noetic, gripper_action_controller_impl.h; ros2_controllers, gripper_controllers.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from typing import Any, ClassVar
 

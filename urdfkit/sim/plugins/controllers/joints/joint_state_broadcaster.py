@@ -1,7 +1,5 @@
 """joint_state_controller (ROS 1) and joint_state_broadcaster (ROS 2): joint states on ``joint_states``."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from typing import Any, ClassVar
 

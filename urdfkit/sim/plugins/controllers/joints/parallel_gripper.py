@@ -5,8 +5,6 @@ It replaces the other gripper controllers of ROS 2 from Jazzy on.
 Sources: ros2_controllers 4.20, parallel_gripper_controller; control_msgs, ParallelGripperCommand.action.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from typing import Any, ClassVar
 

@@ -4,8 +4,6 @@ Sources: ros_controllers noetic, effort_controllers and velocity_controllers, jo
 joint_velocity_controller.cpp, joint_group_position_controller.cpp.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from math import inf, isfinite
 from typing import Any, ClassVar

@@ -4,8 +4,6 @@ Sources: ros_controllers noetic, diff_drive_controller.cpp, speed_limiter.cpp, o
 diff_drive_controller.cpp and its parameter file.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from math import inf
 from typing import ClassVar

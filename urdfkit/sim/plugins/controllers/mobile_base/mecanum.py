@@ -3,8 +3,6 @@
 Source: ros2_controllers, mecanum_drive_controller.cpp and odometry.cpp.
 """
 
-from __future__ import annotations
-
 from math import cos, inf, sin
 from typing import ClassVar
 

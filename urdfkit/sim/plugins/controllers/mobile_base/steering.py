@@ -4,8 +4,6 @@ Sources: ros2_controllers, steering_controllers_library (steering_odometry.cpp, 
 its three controllers; ros_controllers noetic, ackermann_steering_controller.cpp.
 """
 
-from __future__ import annotations
-
 from math import atan, tan
 from typing import ClassVar
 

@@ -1,7 +1,5 @@
 """Reference: last commanded twist of a wheeled robot, valid until a timeout."""
 
-from __future__ import annotations
-
 from math import inf, isfinite
 from typing import Any
 

@@ -7,8 +7,6 @@ Sources: gz-sensors, SegmentationCameraSensor.cc and BoundingBoxCameraSensor.cc;
 Ogre2SegmentationMaterialSwitcher.cc; ros_gz_bridge, convert/vision_msgs.cpp, for the ROS messages of boxes.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any

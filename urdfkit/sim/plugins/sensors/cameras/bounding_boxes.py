@@ -5,8 +5,6 @@ has the axes of the object's shape if the object has one shape, else the princip
 eigen3/Util.hh, verticesToOrientedBox).
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

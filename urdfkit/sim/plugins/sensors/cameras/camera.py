@@ -5,8 +5,6 @@ convention an optical frame. The principal point in Gazebo Classic's CameraInfo 
 with, (W + 1)/2 instead of (W - 1)/2; urdfkit publishes the same value for compatibility.
 """
 
-from __future__ import annotations
-
 from abc import abstractmethod
 from collections.abc import Callable
 from dataclasses import dataclass, replace

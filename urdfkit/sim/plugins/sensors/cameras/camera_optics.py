@@ -1,7 +1,5 @@
 """Parameters of a camera from the ``<camera>`` of a ``<sensor>``; Image and CameraInfo messages."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Organised coloured point clouds from depth images, in the optical frame or in the axes of Gazebo's sensor."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

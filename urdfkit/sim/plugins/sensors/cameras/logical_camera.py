@@ -1,7 +1,5 @@
 """The new Gazebo's logical camera: reports the models whose origin is in its frustum, without occlusion."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from math import tan
 from typing import Any

@@ -6,8 +6,6 @@ It merges links connected by fixed joints into one, and renames the collisions o
 each of these names to its collision. In SDF, collisions keep their names.
 """
 
-from __future__ import annotations
-
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass

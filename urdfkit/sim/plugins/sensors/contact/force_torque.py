@@ -5,8 +5,6 @@ Without subscribers it does not stop, and the mean covers the time since its las
 of the joint (of the sensor in the new Gazebo), along the axes of the child link unless configured otherwise.
 """
 
-from __future__ import annotations
-
 from abc import abstractmethod
 from dataclasses import dataclass
 from functools import partial

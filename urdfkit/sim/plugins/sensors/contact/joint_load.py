@@ -5,8 +5,6 @@ wrenches and the joint; all except the joint's are known. Momenta are computed f
 method also works for fixed joints.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 

@@ -1,7 +1,5 @@
 """Lidars with LaserScan, Range or PointCloud output: gazebo_ros_laser, _block_laser and _range, and a sonar."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from functools import partial
 from typing import Any

@@ -6,8 +6,6 @@ the minimum range -inf (REP 117). Noise is added to all other readings, which ar
 type ``ray`` detect collisions, all other types visuals.
 """
 
-from __future__ import annotations
-
 from abc import abstractmethod
 from dataclasses import dataclass
 from typing import Any

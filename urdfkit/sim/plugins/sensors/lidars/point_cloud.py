@@ -1,7 +1,5 @@
 """Lidars with PointCloud2 output: gazebo_ros_ray_sensor of ROS 2, the Velodyne plugins and the new Gazebo's lidar."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Scan pattern of a lidar: ray directions and range limits in the ``<ray>`` or ``<lidar>`` of a ``<sensor>``."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

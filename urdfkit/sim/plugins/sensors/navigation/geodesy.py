@@ -1,7 +1,5 @@
 """Geodetic coordinates: positions in the world → latitude, longitude and altitude on WGS 84."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from math import atan2, cos, degrees, hypot, radians, sin, sqrt
 

@@ -3,8 +3,6 @@
 Noise is in metres along east, north and up; the new Gazebo's source adds the same numbers to degrees.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial

@@ -4,8 +4,6 @@ The acceleration is the mean over the step that ends with the measurement, so th
 earlier. Without subscribers it does not stop, and the mean covers the time since its last stop.
 """
 
-from __future__ import annotations
-
 from abc import abstractmethod
 from collections.abc import Callable
 from dataclasses import dataclass

@@ -1,7 +1,5 @@
 """Magnetometers: the world's magnetic field in the sensor's axes."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from math import cos, pi, radians, sin
 from typing import Any

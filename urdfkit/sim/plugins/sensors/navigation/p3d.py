@@ -3,8 +3,6 @@
 Pose and twist are relative to ``frameName``, the world or another link; the twist is along the axes of that frame.
 """
 
-from __future__ import annotations
-
 from functools import partial
 from typing import Any
 
