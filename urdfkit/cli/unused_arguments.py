@@ -5,12 +5,9 @@ from __future__ import annotations
 import re
 import sys
 from collections.abc import Iterable, Mapping
+from pathlib import Path
 
 from urdfkit.errors import did_you_mean
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from pathlib import Path
 
 _DECLARED = re.compile(r"""<\s*(?:\w+:)?arg\b[^>]*?\bname\s*=\s*["']([^"']+)["']""")
 

@@ -5,10 +5,7 @@ from __future__ import annotations
 import subprocess
 
 from urdfkit.errors import UsageError
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from urdfkit.scaffold import Template
+from urdfkit.scaffold import Template
 
 
 def identity(template: Template) -> dict[str, str]:

@@ -11,7 +11,6 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from urdfkit.errors import ResourceError, UsageError
 from urdfkit.scaffold import (
@@ -29,10 +28,8 @@ from urdfkit.scaffold import (
     template_names,
     updating,
 )
+from urdfkit.scaffold.templates.recipe_file import Made
 from urdfkit.scaffold.update.simulator_leftovers import left_behind
-
-if TYPE_CHECKING:
-    from urdfkit.scaffold.templates.recipe_file import Made
 
 _WORDS = {
     "add": "new",

@@ -2,16 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from math import asin, atan2, copysign, cos, hypot, pi, sin, sqrt
 
 from urdfkit.description.urdf.queries import tree_order
-from urdfkit.description.urdf.robot import Box, Capsule, Cylinder, Pose, Sphere, Vector
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    from urdfkit.description.urdf.robot import Geometry, Robot
+from urdfkit.description.urdf.robot import Box, Capsule, Cylinder, Geometry, Pose, Robot, Sphere, Vector
 
 Rotation = tuple[Vector, Vector, Vector]
 """A rotation matrix by rows."""

@@ -2,23 +2,19 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 from urdfkit.description.urdf.geometry import UNROTATED, rotation_of
+from urdfkit.description.urdf.robot import Geometry, Link, Pose, Vector
+from urdfkit.description.xml.element import Element
+from urdfkit.description.xml.source import Position, Source
 from urdfkit.errors import ResourceError, UrdfkitError
 from urdfkit.lint.facts.inertia.inertia_tensor import COMPONENTS
-from urdfkit.lint.facts.inertia.link_solids import of_primitive, union
+from urdfkit.lint.facts.inertia.link_solids import Moments, of_primitive, union
 from urdfkit.lint.finding import Edit
+from urdfkit.lint.model.model import Model
+from urdfkit.lint.model.tags import Tag
 from urdfkit.record import record
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from urdfkit.description.urdf.robot import Geometry, Link, Pose, Vector
-    from urdfkit.description.xml.element import Element
-    from urdfkit.description.xml.source import Position, Source
-    from urdfkit.lint.facts.inertia.link_solids import Moments
-    from urdfkit.lint.model.model import Model
-    from urdfkit.lint.model.tags import Tag
 
 KINDS = ("collision", "visual")
 """Kinds of shapes that an inertia can be computed from."""

@@ -3,16 +3,12 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator
 
+from urdfkit.description.xml.source import Source
 from urdfkit.lint.facts.control.controller_joints import Named
+from urdfkit.lint.facts.control.yaml_tree import Node
 from urdfkit.record import record
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from urdfkit.description.xml.source import Source
-    from urdfkit.lint.facts.control.yaml_tree import Node
 
 _PAIRS = """
 actuator_msgs/Actuators=Actuators builtin_interfaces/Time=Time geometry_msgs/Point=Vector3d geometry_msgs/Pose=Pose

@@ -7,25 +7,20 @@ the number of shapes that contain it. Only overlaps are sampled, so the result i
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Sequence
 from math import cos, hypot, pi, sin, sqrt
 
 from urdfkit.description.urdf.geometry import (
     UNROTATED,
+    Rotation,
     box_around,
     rotated_tensor,
     rotation_of,
     second_moments,
     volume_of,
 )
-from urdfkit.description.urdf.robot import Box, Capsule, Cylinder, Mesh, Sphere
+from urdfkit.description.urdf.robot import Box, Capsule, Cylinder, Geometry, Mesh, Pose, Sphere, Vector
 from urdfkit.record import record
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Iterator, Sequence
-
-    from urdfkit.description.urdf.geometry import Rotation
-    from urdfkit.description.urdf.robot import Geometry, Pose, Vector
 
 POINTS = 20_000
 """Sample points in each overlapping shape; the relative error of the overlap is about 1e-3."""

@@ -8,11 +8,8 @@ from math import degrees, hypot, sqrt
 from urdfkit.description.urdf.geometry import rotate, unit
 from urdfkit.description.urdf.robot import Box, Capsule, Cylinder, Joint, Link, Mesh, Sphere, Vector
 from urdfkit.lint.facts.gazebo.drive_wheels import TwoSided, drives
+from urdfkit.lint.model.placement import Frame
 from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from urdfkit.lint.model.placement import Frame
 
 _CASTER_NAME = re.compile(r"cast[eo]r|ball", re.IGNORECASE)
 _MAX_TILT = 0.06
