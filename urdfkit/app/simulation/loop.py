@@ -7,12 +7,14 @@ import time
 from collections import deque
 from collections.abc import Callable, Sequence
 from threading import Event
-from typing import TYPE_CHECKING, Any
+from typing import Any
+
+from numpy.typing import NDArray
 
 from urdfkit.app.page import note
 from urdfkit.app.simulation.clock_rate import FRAME, ClockRate
 from urdfkit.app.simulation.features.contact_forces import ContactForces
-from urdfkit.app.simulation.features.feature import Feature
+from urdfkit.app.simulation.features.feature import Done, Feature
 from urdfkit.app.simulation.features.joint_sliders import JointSliders
 from urdfkit.app.simulation.features.live_parameters import LiveParameters
 from urdfkit.app.simulation.features.playback import Playback
@@ -26,16 +28,11 @@ from urdfkit.app.simulation.features.topic_stream import TopicStreams
 from urdfkit.app.simulation.features.world_objects import WorldObjects
 from urdfkit.app.simulation.scene_bodies import SceneBodies
 from urdfkit.errors import SimulationError, UrdfkitError
+from urdfkit.sim.simulator import Simulator
 from urdfkit.sim.state.quaternion import yaw_of
 from urdfkit.teleop import STOP, Motion, Teleop
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from urdfkit.app.simulation.features.feature import Done
-    from urdfkit.sim.simulator import Simulator
-    from urdfkit.view.protocol.page_requests import Request, Schema
-    from urdfkit.view.server.server import Server
+from urdfkit.view.protocol.page_requests import Request, Schema
+from urdfkit.view.server.server import Server
 
 STATUS = 0.1
 """Seconds between two status messages to the page."""

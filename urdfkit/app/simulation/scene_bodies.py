@@ -3,18 +3,16 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from urdfkit.description import Robot
 from urdfkit.description.urdf.queries import tree_order
-
-if TYPE_CHECKING:
-    from urdfkit.description import Robot
-    from urdfkit.scene import Shape
-    from urdfkit.sim.simulator import Simulator
-    from urdfkit.view.content.display import Display
+from urdfkit.scene import Shape
+from urdfkit.sim.simulator import Simulator
+from urdfkit.view.content.display import Display
 
 BODY = "world/"
 """Prefix of the names of the world's bodies; no name of a link begins with it."""

@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-if TYPE_CHECKING:
-    from urdfkit.sim.simulator import Simulator
-    from urdfkit.view.protocol.page_requests import Request, Schema
-    from urdfkit.view.server.server import Server
+from urdfkit.sim.simulator import Simulator
+from urdfkit.view.protocol.page_requests import Request, Schema
+from urdfkit.view.server.server import Server
 
 Done = dict[str, Any] | None
 """Response to the page."""

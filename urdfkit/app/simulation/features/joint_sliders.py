@@ -2,26 +2,23 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from math import isfinite, pi
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from urdfkit.app.simulation.features.feature import Done, Feature, Takes
 from urdfkit.errors import UnknownNameError, did_you_mean
 from urdfkit.messages import FLOAT, FLOATS, TRAJECTORY, from_fields
+from urdfkit.sim.plugins.controllers.controller import Law
+from urdfkit.sim.plugins.controllers.joint_handle import JointHandle
 from urdfkit.sim.plugins.controllers.joints.forward_command import Forward, ForwardGroup
 from urdfkit.sim.plugins.controllers.joints.gripper import Gripper
 from urdfkit.sim.plugins.controllers.joints.pid_position import PidGroup, PidPosition, PidVelocity
 from urdfkit.sim.plugins.controllers.trajectory.joint_trajectory import TrajectoryFollower
+from urdfkit.sim.simulator import Simulator
+from urdfkit.sim.world.simulated_robot import SimulatedRobot
 from urdfkit.view.protocol.page_requests import Request, Schema, number, text
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    from urdfkit.sim.plugins.controllers.controller import Law
-    from urdfkit.sim.plugins.controllers.joint_handle import JointHandle
-    from urdfkit.sim.simulator import Simulator
-    from urdfkit.sim.world.simulated_robot import SimulatedRobot
-    from urdfkit.view.server.server import Server
+from urdfkit.view.server.server import Server
 
 KEY = "arms"
 """Key of the stream of joint positions."""

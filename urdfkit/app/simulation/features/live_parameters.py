@@ -2,19 +2,16 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from collections.abc import Callable
+from typing import Any
 
 from urdfkit.app.simulation.features.feature import Done, Feature, Takes
 from urdfkit.sim.construction.loading import MAX_GRAVITY
+from urdfkit.sim.simulator import Simulator
 from urdfkit.sim.state.pid import Gains
 from urdfkit.sim.world.live_tuning import LEAST_MASS, Tuning
 from urdfkit.view.protocol.page_requests import Request, Schema, number, numbers, text
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    from urdfkit.sim.simulator import Simulator
-    from urdfkit.view.server.server import Server
+from urdfkit.view.server.server import Server
 
 
 class LiveParameters(Feature):

@@ -3,14 +3,11 @@
 from __future__ import annotations
 
 from math import inf
-from typing import TYPE_CHECKING
 
+from urdfkit.app.simulation.clock_rate import ClockRate
 from urdfkit.app.simulation.features.feature import Done, Feature, Takes
 from urdfkit.errors import SimulationError
 from urdfkit.view.protocol.page_requests import Request, Schema, number, whole
-
-if TYPE_CHECKING:
-    from urdfkit.app.simulation.clock_rate import ClockRate
 
 MOST_STEPS = 10_000
 """Maximum number of steps of one request."""

@@ -3,18 +3,15 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any
+from collections.abc import Callable
+from typing import Any
 
 from urdfkit.app.simulation.features.feature import Feature
 from urdfkit.app.simulation.features.message_values import number_at
+from urdfkit.bus import Subscription
 from urdfkit.errors import UsageError
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    from urdfkit.bus import Subscription
-    from urdfkit.sim.simulator import Simulator
-    from urdfkit.view.server.server import Server
+from urdfkit.sim.simulator import Simulator
+from urdfkit.view.server.server import Server
 
 FIELD = "field:"
 """Prefix of the key of a plot, followed by the topic, a colon and the path in its messages."""

@@ -3,17 +3,13 @@
 from __future__ import annotations
 
 import contextlib
-from typing import TYPE_CHECKING
+from collections.abc import Callable
 
 from urdfkit.app.simulation.features.feature import Done, Feature, Takes
 from urdfkit.errors import SimulationError
+from urdfkit.sim.simulator import Simulator
 from urdfkit.view.protocol.page_requests import Request, Schema, numbers, text
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    from urdfkit.sim.simulator import Simulator
-    from urdfkit.view.server.server import Server
+from urdfkit.view.server.server import Server
 
 HOLD = 0.3
 """Duration of a push in simulated time [s]; pages repeat it twenty times a second."""

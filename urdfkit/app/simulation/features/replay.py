@@ -2,25 +2,22 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from contextlib import ExitStack
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from urdfkit.app.simulation.features.feature import Done, Feature, Takes
+from urdfkit.bridges.recorder import Recorder
+from urdfkit.bus import Bus, Topic
 from urdfkit.errors import SimulationError
+from urdfkit.sim.simulator import Simulator
 from urdfkit.view.protocol.page_requests import Request, Schema, choice, flag, number
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    from urdfkit.bridges.recorder import Recorder
-    from urdfkit.bus import Bus, Topic
-    from urdfkit.sim.simulator import Simulator
-    from urdfkit.view.server.server import Server
+from urdfkit.view.server.server import Server
 
 MOST_BYTES = 96 * 1024 * 1024
 """Maximum size of the recorded poses; the recording stops there."""

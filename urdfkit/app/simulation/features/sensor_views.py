@@ -11,23 +11,21 @@ import io
 from collections.abc import Callable
 from copy import copy
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from urdfkit.bus import Topic
 from urdfkit.sim.plugins.sensors.cameras.annotated_camera import GzSegmentationCamera
 from urdfkit.sim.plugins.sensors.cameras.camera import Camera
 from urdfkit.sim.plugins.sensors.cameras.camera_optics import IMAGE
 from urdfkit.sim.plugins.sensors.cameras.depth_camera import GzDepthCamera
 from urdfkit.sim.plugins.sensors.lidars.lidar import LASER_SCAN, Lidar
 from urdfkit.sim.plugins.sensors.ray_sensor import Mounted
+from urdfkit.sim.simulator import Simulator
 from urdfkit.view.protocol.websocket_messages import COLORED, PICTURE, POINTS
-
-if TYPE_CHECKING:
-    from urdfkit.bus import Topic
-    from urdfkit.sim.simulator import Simulator
-    from urdfkit.view.server.server import Server
+from urdfkit.view.server.server import Server
 
 Array = NDArray[Any]
 

@@ -3,13 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from urdfkit.messages import TWIST, TWIST_STAMPED, header, message_type, twist
-
-if TYPE_CHECKING:
-    from urdfkit.sim.simulator import Simulator
-    from urdfkit.sim.world.simulated_robot import SimulatedRobot
+from urdfkit.sim.simulator import Simulator
+from urdfkit.sim.world.simulated_robot import SimulatedRobot
 
 
 def drive_controls(simulator: Simulator) -> dict[str, Any]:

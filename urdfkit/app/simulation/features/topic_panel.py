@@ -5,18 +5,14 @@ from __future__ import annotations
 import re
 import struct
 from collections import deque
-from typing import TYPE_CHECKING
+from collections.abc import Callable, Sequence
 
 from urdfkit.app.simulation.features.feature import Done, Feature, Takes
 from urdfkit.app.simulation.features.message_values import as_json, numbers_in
 from urdfkit.errors import UsageError, did_you_mean
+from urdfkit.sim.simulator import Simulator
 from urdfkit.view.protocol.page_requests import Request, Schema, text, tree
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
-
-    from urdfkit.sim.simulator import Simulator
-    from urdfkit.view.server.server import Server
+from urdfkit.view.server.server import Server
 
 LIST, ECHO = "topics", "echo:"
 """Keys of the streams of the list, and of the last message of a topic."""

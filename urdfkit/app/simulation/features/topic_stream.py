@@ -2,17 +2,14 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from collections.abc import Callable
+from typing import Any
 
 from urdfkit.app.simulation.features.feature import Feature
 from urdfkit.app.simulation.features.message_values import as_json
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    from urdfkit.bus import Subscription, Topic
-    from urdfkit.sim.simulator import Simulator
-    from urdfkit.view.server.server import Server
+from urdfkit.bus import Subscription, Topic
+from urdfkit.sim.simulator import Simulator
+from urdfkit.view.server.server import Server
 
 TIMES, SIZES, EVERY, WHOLE = "times:", "sizes:", "every:", "whole:"
 """Prefixes of the keys: times of messages; times and sizes; content with long arrays cut; full content."""
