@@ -1,7 +1,5 @@
 """Warnings for xacro arguments that no file uses; xacro ignores them, and with them misspelt names."""
 
-from __future__ import annotations
-
 import re
 import sys
 from collections.abc import Iterable, Mapping

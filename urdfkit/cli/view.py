@@ -1,7 +1,5 @@
 """`urdfkit view`: show a robot in the browser with a slider for every joint; changed files are reloaded."""
 
-from __future__ import annotations
-
 import argparse
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """Rule catalogue: all rules, and the documentation page generated from each rule's docstring."""
 
-from __future__ import annotations
-
 from urdfkit.lint.rule import SECTIONS as SECTIONS
 from urdfkit.lint.rule import Rule
 from urdfkit.lint.rules import RULES

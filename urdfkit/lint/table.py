@@ -5,8 +5,6 @@ at least one of them is present, or always if the column is empty. For a `Source
 after a star, a file name suffix; for a `RobotRule`, a feature of the robot (`features.features_of`).
 """
 
-from __future__ import annotations
-
 Row = tuple[str, str, str]
 
 SOURCE: tuple[Row, ...] = (

@@ -1,7 +1,5 @@
 """Relation of simulated time to the clock: real time, a factor of it, or as fast as possible."""
 
-from __future__ import annotations
-
 from collections import deque
 from collections.abc import Callable
 from math import inf

@@ -1,7 +1,5 @@
 """Loop of a simulation driven from the page: execute requests, advance to the current time, publish the poses."""
 
-from __future__ import annotations
-
 import math
 import time
 from collections import deque

@@ -1,7 +1,5 @@
 """Rejection of invalid requests: one line on the wire and on standard error, never a traceback."""
 
-from __future__ import annotations
-
 import logging
 from collections.abc import Mapping
 from typing import Any

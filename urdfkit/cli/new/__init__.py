@@ -3,8 +3,6 @@
 Arguments and answers go in; `urdfkit.scaffold` writes the files, and the next commands are printed.
 """
 
-from __future__ import annotations
-
 import argparse
 import shlex
 import sys

@@ -1,7 +1,5 @@
 """``urdfkit new arm``: add an arm to an existing description."""
 
-from __future__ import annotations
-
 import argparse
 import sys
 

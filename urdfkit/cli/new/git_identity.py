@@ -1,7 +1,5 @@
 """Name and e-mail address of the user, from the configuration of git."""
 
-from __future__ import annotations
-
 import subprocess
 
 from urdfkit.errors import UsageError

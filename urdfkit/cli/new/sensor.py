@@ -1,7 +1,5 @@
 """``urdfkit new sensor``: add a sensor to an existing description."""
 
-from __future__ import annotations
-
 import argparse
 import sys
 

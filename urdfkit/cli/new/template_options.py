@@ -1,7 +1,5 @@
 """Options of ``urdfkit new KIND``: the questions of a bundled template or of the user's own."""
 
-from __future__ import annotations
-
 import argparse
 from functools import partial
 from itertools import takewhile

@@ -1,7 +1,5 @@
 """``urdfkit new --update``: show the changes, confirm, apply them. Also the checks of every created package."""
 
-from __future__ import annotations
-
 import argparse
 import difflib
 import os

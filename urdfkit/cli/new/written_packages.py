@@ -1,7 +1,5 @@
 """Report of written packages, and a warning where no build tool finds them."""
 
-from __future__ import annotations
-
 import os
 import sys
 from collections.abc import Iterable, Iterator

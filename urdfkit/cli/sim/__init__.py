@@ -3,8 +3,6 @@
 One module per subcommand reads its options and prints its result; `urdfkit.app.simulation` runs the simulation.
 """
 
-from __future__ import annotations
-
 import argparse
 from importlib import import_module
 

@@ -1,7 +1,5 @@
 """``--controllers``: parameter files that configure the robot's controllers."""
 
-from __future__ import annotations
-
 import argparse
 from pathlib import Path
 

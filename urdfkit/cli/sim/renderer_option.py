@@ -1,7 +1,5 @@
 """The option `--renderer` of every command that simulates."""
 
-from __future__ import annotations
-
 import argparse
 
 SYNONYMS = {"gl": ("opengl", "egl", "gpu", "moderngl"), "ray": ("rays", "raycast", "raycaster", "raytracer", "cpu")}

@@ -1,7 +1,5 @@
 """The option `--ros-distro` of every command that simulates."""
 
-from __future__ import annotations
-
 import argparse
 
 

@@ -1,7 +1,5 @@
 """`urdfkit sim teleop`: simulate a robot in real time and drive it in the browser."""
 
-from __future__ import annotations
-
 import argparse
 
 from urdfkit.app.page import Page, note, require_page, until_interrupted

@@ -1,7 +1,5 @@
 """`urdfkit sim warmup`: compile the physics kernels before their first use."""
 
-from __future__ import annotations
-
 import argparse
 import sys
 import time

@@ -3,8 +3,6 @@
 A topic goes in; its messages, rate or bandwidth are printed.
 """
 
-from __future__ import annotations
-
 import argparse
 from importlib import import_module
 

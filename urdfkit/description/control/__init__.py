@@ -3,8 +3,6 @@
 Input: a robot and its packages; output: settings with their source positions.
 """
 
-from __future__ import annotations
-
 from urdfkit.description.control.parameter_yaml import Settings, node_settings, read_settings
 from urdfkit.description.control.ros1_controllers import Configuration, find_configuration
 

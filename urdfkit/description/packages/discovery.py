@@ -1,7 +1,5 @@
 """Find the packages below a folder, of a workspace and of an install prefix."""
 
-from __future__ import annotations
-
 import os
 import re
 from pathlib import Path

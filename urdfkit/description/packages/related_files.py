@@ -1,7 +1,5 @@
 """Files related to a description: launch files and YAML of its package and of the packages that depend on it."""
 
-from __future__ import annotations
-
 import os
 import re
 from collections.abc import Iterator

@@ -1,7 +1,5 @@
 """Parameters common to several plugins: ROS blocks of Gazebo Classic, limits and odometry of gz drives."""
 
-from __future__ import annotations
-
 from urdfkit.description.plugins.spec import Parameter
 
 GAZEBO_ROS_1 = (

@@ -3,8 +3,6 @@
 Placeholders in defaults are replaced per model: ``{world}``, ``{model}`` and ``{joint}`` are names.
 """
 
-from __future__ import annotations
-
 from urdfkit.description.plugins.common_parameters import GAZEBO_ROS_1, GAZEBO_ROS_2
 from urdfkit.description.plugins.spec import Parameter, PluginSpec
 

@@ -3,8 +3,6 @@
 Source: gazebo-classic, media/materials/scripts/gazebo.material and grid.material.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 
 from urdfkit.description.plugins.sensor_elements import nearest

@@ -1,7 +1,5 @@
 """Find the table of a plugin and read its parameters by meaning."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterator
 

@@ -1,7 +1,5 @@
 """Messages about plugins that are not simulated, with position and most similar simulated plugin."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterable
 from difflib import get_close_matches

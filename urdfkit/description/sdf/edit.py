@@ -1,7 +1,5 @@
 """Edit worlds: return a copy with a model added, removed or moved."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 from urdfkit.description.sdf.model import WorldModel

@@ -1,7 +1,5 @@
 """Mass and inertia of solids of uniform density, for ``<inertial auto="true">`` (SDF 1.11)."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 from math import pi
 

@@ -1,7 +1,5 @@
 """Bundled models and worlds by name, and the bundled replacements of well-known Gazebo models."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 FOLDER = Path(__file__).resolve().parent.parent / "library"

@@ -1,7 +1,5 @@
 """Markup: write SDF line by line, with numbers that survive a round trip."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager

@@ -1,7 +1,5 @@
 """to_sdf: write a world as SDF that sdformat accepts and that loads as an equal world."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from math import isfinite
 from pathlib import Path

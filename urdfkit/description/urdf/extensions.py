@@ -1,7 +1,5 @@
 """The extensions of URDF: transmissions, ``<gazebo>`` and ``<ros2_control>``."""
 
-from __future__ import annotations
-
 from urdfkit.description.urdf.robot import (
     Actuator,
     GazeboBlock,

@@ -1,7 +1,5 @@
 """Geometry without numpy: rotations, poses, and the bounding boxes, volumes and second moments of primitives."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from math import asin, atan2, copysign, cos, hypot, pi, sin, sqrt
 

@@ -1,7 +1,5 @@
 """Links that move without mass or inertia; used by rules and by the simulator."""
 
-from __future__ import annotations
-
 from urdfkit.description.urdf.queries import tree_order
 from urdfkit.description.urdf.robot import Joint, Link, Robot
 

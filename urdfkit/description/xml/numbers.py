@@ -1,7 +1,5 @@
 """Parse numbers like urdfdom."""
 
-from __future__ import annotations
-
 import re
 
 

@@ -1,8 +1,6 @@
 # ruff: noqa: SIM905 - a list in words is easier to read and extend
 """The elements of URDF and SDF: tags that never call a macro of the same name."""
 
-from __future__ import annotations
-
 URDF_TAGS = frozenset(
     """
     robot link joint inertial visual collision origin mass inertia geometry box cylinder sphere capsule mesh material

@@ -1,7 +1,5 @@
 """Cursor: the syntax element at an offset of a file."""
 
-from __future__ import annotations
-
 import re
 
 from urdfkit.lint.model.tags import Attribute, Document, Tag

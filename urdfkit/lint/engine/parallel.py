@@ -1,7 +1,5 @@
 """Lint many entry files in several processes."""
 
-from __future__ import annotations
-
 import multiprocessing
 import sys
 import threading

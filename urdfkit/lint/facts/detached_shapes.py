@@ -1,7 +1,5 @@
 """Detached shapes: shapes of a link that are far away from its other shapes and from its centre of mass."""
 
-from __future__ import annotations
-
 from math import sqrt
 
 from urdfkit.description.urdf.robot import Collision, Link, Visual

@@ -1,7 +1,5 @@
 """Malformed expressions that xacro copies without evaluation."""
 
-from __future__ import annotations
-
 import re
 
 _INSIDE_OUT = r"\{\$(?<!\$\{\$)(?!\()[^{}]*\}"

@@ -4,8 +4,6 @@ A clean robot needs a third of the rules; importing and running the others takes
 set must be complete: a rule whose feature is missing does not run.
 """
 
-from __future__ import annotations
-
 from math import pi
 
 from urdfkit.description.urdf.robot import (

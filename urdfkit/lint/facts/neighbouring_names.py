@@ -1,7 +1,5 @@
 """Names that descriptions in neighbouring packages may define."""
 
-from __future__ import annotations
-
 import re
 from pathlib import Path
 

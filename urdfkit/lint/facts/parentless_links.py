@@ -1,7 +1,5 @@
 """Suggested child links for joints whose child is undefined: links with a similar name, preferably without parent."""
 
-from __future__ import annotations
-
 from urdfkit.description.urdf.robot import Robot
 from urdfkit.lint.fix_builders import meant, nearest
 

@@ -11,8 +11,6 @@ number. A fix causes a new finding if
 Other new findings are defects that were masked before. Notes are never regressions.
 """
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterable, Iterator
 

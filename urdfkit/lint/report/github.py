@@ -3,8 +3,6 @@
 https://docs.github.com/en/actions/reference/workflow-commands-for-github-actions
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 
 from urdfkit.lint.finding import Finding

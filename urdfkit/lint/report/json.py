@@ -1,7 +1,5 @@
 """Findings as one JSON value; the keys are a stable interface."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 
 from urdfkit.lint.finding import Finding

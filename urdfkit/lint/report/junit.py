@@ -3,8 +3,6 @@
 The output follows the schema of the Jenkins xUnit plugin (junit-10.xsd).
 """
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterable, Sequence
 from xml.sax.saxutils import escape, quoteattr

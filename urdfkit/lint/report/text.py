@@ -11,8 +11,6 @@
        = help: compute it from shape and mass
 """
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterable, Mapping, Sequence
 

@@ -1,7 +1,5 @@
 """Contact forces on robots as arrows, and slip velocities at their contacts; sent while a page shows them."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from urdfkit.app.simulation.features.feature import Feature

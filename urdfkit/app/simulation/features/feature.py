@@ -1,7 +1,5 @@
 """Feature: base class of the features of a simulation's page, with simulator, server and requests."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Sliders for the joints of controllers, and of the Gazebo drives that are commanded by one number."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from math import isfinite, pi
 from typing import Any

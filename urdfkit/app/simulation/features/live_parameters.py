@@ -1,7 +1,5 @@
 """Live parameters: change friction, masses, gravity and gains while the simulation runs."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from typing import Any
 

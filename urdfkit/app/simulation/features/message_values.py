@@ -1,7 +1,5 @@
 """Values of messages for the page: messages as JSON with long arrays cut, and numbers by path."""
 
-from __future__ import annotations
-
 import math
 import re
 from collections.abc import Iterator

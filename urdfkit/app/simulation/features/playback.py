@@ -1,7 +1,5 @@
 """Playback: single steps, N steps, and the speed of the simulation."""
 
-from __future__ import annotations
-
 from math import inf
 
 from urdfkit.app.simulation.clock_rate import ClockRate

@@ -1,7 +1,5 @@
 """Plots: send any number of any message while a page plots it."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 from typing import Any

@@ -1,7 +1,5 @@
 """Pushing: forces on links while pages drag them."""
 
-from __future__ import annotations
-
 import contextlib
 from collections.abc import Callable
 

@@ -1,7 +1,5 @@
 """Replay: record all poses in memory, show them again at any time and speed; record topics as MCAP."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from contextlib import ExitStack
 from pathlib import Path

@@ -5,8 +5,6 @@ first. Views use a limited share of the time, whatever the rates of the sensors.
 page, so that the simulation never waits for a large one.
 """
 
-from __future__ import annotations
-
 import io
 from collections.abc import Callable
 from copy import copy

@@ -1,7 +1,5 @@
 """Teleop: the robots that can be driven, and the keys."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Topics panel: the list with rates, the last message of a topic, and publishing."""
 
-from __future__ import annotations
-
 import re
 import struct
 from collections import deque

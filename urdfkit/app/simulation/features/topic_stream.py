@@ -1,7 +1,5 @@
 """Topic streams: every message of a topic for programs, as its time, its size, or its content."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Walls drawn on the page, with doors, as a static SDF model."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from itertools import pairwise
 from math import atan2, hypot

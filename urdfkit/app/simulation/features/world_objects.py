@@ -1,7 +1,5 @@
 """World objects: spawn, move, remove and save the objects of the world, and draw walls."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from tempfile import TemporaryDirectory
 

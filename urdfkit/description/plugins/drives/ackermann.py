@@ -1,7 +1,5 @@
 """Ackermann steering: gazebo_ros_ackermann_drive (ROS 2) and the new Gazebo's AckermannSteering. Not in ROS 1."""
 
-from __future__ import annotations
-
 from urdfkit.description.plugins.common_parameters import GAZEBO_ROS_2, GZ_LIMITS, GZ_ODOMETRY
 from urdfkit.description.plugins.spec import Parameter, PluginSpec
 

@@ -1,7 +1,5 @@
 """Differential drive: ROS 1, ROS 2 and the new Gazebo."""
 
-from __future__ import annotations
-
 from urdfkit.description.plugins.common_parameters import (
     GAZEBO_ROS_1,
     GAZEBO_ROS_2,

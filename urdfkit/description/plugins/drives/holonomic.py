@@ -1,7 +1,5 @@
 """Mecanum wheels and the odometry publisher, which only the new Gazebo has."""
 
-from __future__ import annotations
-
 from urdfkit.description.plugins.common_parameters import GZ_LIMITS, GZ_ODOMETRY, GZ_SEPARATE_LIMITS
 from urdfkit.description.plugins.spec import Parameter, PluginSpec
 

@@ -1,7 +1,5 @@
 """Plugins that move the base itself: planar move (ROS 1, ROS 2) and the new Gazebo's velocity control."""
 
-from __future__ import annotations
-
 from urdfkit.description.plugins.common_parameters import GAZEBO_ROS_1, GAZEBO_ROS_2
 from urdfkit.description.plugins.spec import Parameter, PluginSpec
 

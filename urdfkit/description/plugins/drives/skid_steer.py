@@ -1,7 +1,5 @@
 """The skid steer drive, which only ROS 1 has."""
 
-from __future__ import annotations
-
 from urdfkit.description.plugins.common_parameters import GAZEBO_ROS_1
 from urdfkit.description.plugins.spec import Parameter, PluginSpec
 

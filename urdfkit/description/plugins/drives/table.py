@@ -3,8 +3,6 @@
 Placeholders in defaults are replaced per model: ``{model}`` is its name, ``{root}`` its root link.
 """
 
-from __future__ import annotations
-
 from urdfkit.description.plugins.drives.ackermann import ACKERMANN
 from urdfkit.description.plugins.drives.diff_drive import DIFF_DRIVE
 from urdfkit.description.plugins.drives.holonomic import MECANUM_DRIVE_GZ, ODOMETRY_PUBLISHER_GZ

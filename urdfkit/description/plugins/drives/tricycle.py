@@ -1,7 +1,5 @@
 """The tricycle drive: one steered and driven wheel, two with encoders (ROS 1, ROS 2)."""
 
-from __future__ import annotations
-
 from urdfkit.description.plugins.common_parameters import GAZEBO_ROS_1, GAZEBO_ROS_2
 from urdfkit.description.plugins.spec import Parameter, PluginSpec
 

@@ -1,7 +1,5 @@
 """Contact and force sensors: bumpers, contact sensors, touch sensors and force/torque sensors of joints."""
 
-from __future__ import annotations
-
 from urdfkit.description.plugins.common_parameters import GAZEBO_ROS_1, GAZEBO_ROS_2
 from urdfkit.description.plugins.spec import Parameter, PluginSpec
 

@@ -1,7 +1,5 @@
 """Motion and position sensors: IMU, ground-truth pose (p3d), GPS and other sensors of the new Gazebo."""
 
-from __future__ import annotations
-
 from urdfkit.description.plugins.common_parameters import GAZEBO_ROS_1, GAZEBO_ROS_2
 from urdfkit.description.plugins.spec import Parameter, PluginSpec
 

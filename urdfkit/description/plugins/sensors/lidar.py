@@ -4,8 +4,6 @@ The scan (angles, samples, ranges, noise) is configured in the ``<sensor>`` that
 defaults are replaced per model: ``{world}``, ``{model}``, ``{link}`` and ``{sensor}`` are names.
 """
 
-from __future__ import annotations
-
 from urdfkit.description.plugins.common_parameters import GAZEBO_ROS_1, GAZEBO_ROS_2
 from urdfkit.description.plugins.spec import Parameter, PluginSpec
 

@@ -1,7 +1,5 @@
 """Sensors: the plugins in a ``<sensor>``, and the sensors that need no plugin, one module per family."""
 
-from __future__ import annotations
-
 from urdfkit.description.plugins.sensors.camera import (
     BOUNDING_BOX_CAMERA_GZ,
     CAMERA_GZ,

@@ -1,7 +1,5 @@
 """Joints of SDF."""
 
-from __future__ import annotations
-
 from math import inf
 
 from urdfkit.description.sdf.frame_graph import Scope

@@ -1,7 +1,5 @@
 """Links of SDF, their mass properties, and lights."""
 
-from __future__ import annotations
-
 from urdfkit.description.sdf.frame_graph import Scope
 from urdfkit.description.sdf.inertia import WATER, Solid, solid, together
 from urdfkit.description.sdf.model import WorldInertial, WorldLink

@@ -4,8 +4,6 @@ Elements whose absence changes the simulation raise an error with the position (
 ignored visual elements and plugins are listed in `World.notes`.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 from dataclasses import replace
 from pathlib import Path

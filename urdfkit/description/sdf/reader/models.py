@@ -1,7 +1,5 @@
 """Models of SDF: links, joints, frames, nested models and included files."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 from urdfkit.description.sdf.frame_graph import Scope

@@ -1,7 +1,5 @@
 """``<state>``: the poses of a world that Gazebo classic saved."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 from urdfkit.description.sdf.model import WorldLink, WorldModel

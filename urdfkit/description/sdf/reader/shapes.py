@@ -1,7 +1,5 @@
 """Collisions and visuals of SDF: geometry, surface, colour."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from math import sqrt
 

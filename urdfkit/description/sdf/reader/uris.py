@@ -1,7 +1,5 @@
 """Resolve URIs in SDF to local files: models by name, and meshes; nothing is downloaded."""
 
-from __future__ import annotations
-
 import re
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """Elements that SDF allows in each element, so that a misspelt one is reported."""
 
-from __future__ import annotations
-
 from urdfkit.description.sdf.reader.reading_state import Context
 from urdfkit.description.xml.element import Element
 from urdfkit.errors import did_you_mean

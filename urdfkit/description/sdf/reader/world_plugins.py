@@ -1,7 +1,5 @@
 """Plugins of worlds: plugins whose function is built into the simulator, and notes about unknown plugins."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 
 from urdfkit.description.plugins.lookup import match, stem

@@ -1,7 +1,5 @@
 """Hardware interfaces of ros_control and ros2_control, and misspelt names of them in transmissions."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 
 from urdfkit.description.urdf.robot import Robot, Transmission

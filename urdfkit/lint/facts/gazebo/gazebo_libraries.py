@@ -3,8 +3,6 @@
 `urdfkit.description.plugins` lists the libraries with a specification; this module adds other common libraries.
 """
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterable
 from functools import cache

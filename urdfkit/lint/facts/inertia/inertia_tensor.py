@@ -1,7 +1,5 @@
 """Inertia tensor of a link's shapes, in plain Python; the reference for rules and fixes."""
 
-from __future__ import annotations
-
 from urdfkit.description.urdf.geometry import combined, principal_moments, rotated_tensor, rotation_of, volume_of
 from urdfkit.description.urdf.robot import Link
 from urdfkit.description.xml.element import Element

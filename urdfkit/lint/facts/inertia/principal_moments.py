@@ -1,7 +1,5 @@
 """Principal moments of an inertia tensor, in plain Python."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Sequence
 from math import isfinite, sqrt
 

@@ -1,7 +1,5 @@
 """S908 caster-off-the-ground."""
 
-from __future__ import annotations
-
 import re
 from math import degrees, hypot, sqrt
 
