@@ -64,15 +64,15 @@ def test_where_nobody_wants_to_go_on_it_is_raised(write):
 
 
 def test_what_fails_before_the_rules_is_said_too(write, capsys, monkeypatch):
-    from urdfkit.lint.engine import checker
+    from urdfkit.description.urdf import parser
 
     def parse(root, **more):
         if root.origin.position.file == "bad.urdf":
             raise KeyError("x")
         return known(root, **more)
 
-    known = checker.parse
-    monkeypatch.setattr(checker, "parse", parse)
+    known = parser.parse
+    monkeypatch.setattr(parser, "parse", parse)
     write("bad.urdf", FAILS)
     write("good.urdf", FINE)
     assert main(["lint", ".", "--format", "json"]) == 2
