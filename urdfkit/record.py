@@ -80,7 +80,8 @@ def _prepare(cls: Any, eq: bool, order: bool) -> Any:
     cls._record_post = getattr(cls, "__post_init__", None)
     cls.__match_args__ = cls._record_names  # type: ignore[misc]
     cls.__dataclass_fields__ = _Fields()
-    cls.__init__ = _init
+    if "__init__" not in cls.__dict__:
+        cls.__init__ = _init
     if "__repr__" not in cls.__dict__:
         cls.__repr__ = _repr
     cls.__setattr__ = _frozen

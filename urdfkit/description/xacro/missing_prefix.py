@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from urdfkit.description.xacro.evaluation.tree import MORE
 from urdfkit.description.xacro.faults import Unprefixed
 
 TYPE_CHECKING = False
@@ -91,6 +92,10 @@ def looks_like_a_call(node: Tag, parameters: Collection[str]) -> bool:
 def rename(node: Tag, name: str | None = None) -> None:
     """Give an element the prefix ``xacro:``, and another name if one is given."""
     node.tag = node.name = f"xacro:{name or node.tag}"
+    above: Tag | None = node
+    while above is not None:
+        above.work = MORE
+        above = above.parent
 
 
 def names_above(node: Tag) -> Iterator[str]:

@@ -29,6 +29,13 @@ class Element:
     text: str
     origin: Origin = field(repr=False)
 
+    def __init__(
+        self, tag: str, attributes: dict[str, str], children: list[Element], text: str, origin: Origin
+    ) -> None:  # faster than that of records
+        values = self.__dict__
+        values["tag"], values["attributes"], values["children"] = tag, attributes, children
+        values["text"], values["origin"] = text, origin
+
     def get(self, attribute: str, default: str | None = None) -> str | None:
         """Return an attribute's value."""
         return self.attributes.get(attribute, default)

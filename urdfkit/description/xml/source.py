@@ -65,6 +65,10 @@ class Origin:
     position: Position
     expansions: tuple[Expansion, ...] = ()
 
+    def __init__(self, position: Position, expansions: tuple[Expansion, ...] = ()) -> None:  # faster than of records
+        values = self.__dict__
+        values["position"], values["expansions"] = position, expansions
+
 
 @record
 class Source:

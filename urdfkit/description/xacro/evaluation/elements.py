@@ -6,9 +6,9 @@ from collections.abc import Mapping
 
 from urdfkit.description.xacro.evaluation.expressions.limits import MAX_EXPANDED
 from urdfkit.description.xacro.evaluation.expressions.symbols import Scope
-from urdfkit.description.xacro.evaluation.failures import Failure, short
+from urdfkit.description.xacro.evaluation.failures import Failure, SourceElement, short
 from urdfkit.description.xacro.evaluation.files import Files
-from urdfkit.description.xacro.evaluation.tree import COMMENT, TEXT, Node, Tag
+from urdfkit.description.xacro.evaluation.tree import COMMENT, NOTHING, TEXT, Copy, Node, Tag, expressions_of
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -48,6 +48,28 @@ class Elements(Files):
                 self.at = (tag, name)
                 attributes[name] = str(self.text(value, scope))
         attributes.pop("xmlns:xacro", None)
+
+    def _values(self, tag: Tag, scope: Scope) -> None:
+        """Evaluate an element without directives."""
+        if tag.work == NOTHING:
+            return
+        if type(tag) is Copy and tag.source is not None:
+            values = []
+            for index, (position, name, text) in enumerate(expressions_of(tag.source)):
+                self.at = (SourceElement(position, tag.chain), name)
+                values.append(str(self.text(text if tag.values is None else tag.values[index], scope)))
+            tag.values = values
+            return
+        for name, value in tag.attributes.items():
+            if "$" in value:
+                self.at = (tag, name)
+                tag.attributes[name] = str(self.text(value, scope))
+        for node in tag.children():
+            if isinstance(node, Tag):
+                self._values(node, scope)
+            elif node.kind == TEXT and "$" in node.data:
+                self.at = (tag, None)
+                node.data = str(self.text(node.data, scope))
 
     def _required(self, node: Tag, name: str) -> Any:
         value = node.attributes.get(name)

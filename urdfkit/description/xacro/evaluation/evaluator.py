@@ -24,7 +24,13 @@ from urdfkit.description.xacro.evaluation.failures import (
     short,
     undefined_block,
 )
-from urdfkit.description.xacro.evaluation.tree import COMMENT, TEXT, Tag, element_of
+from urdfkit.description.xacro.evaluation.tree import (
+    COMMENT,
+    MORE,
+    TEXT,
+    Tag,
+    element_of,
+)
 from urdfkit.description.xacro.expanded import Expanded
 from urdfkit.errors import XmlError
 
@@ -144,6 +150,9 @@ class Evaluator(Calls):
 
     def _element(self, tag: Tag, macros: Scope, scope: Scope) -> Steps:
         """Evaluate the attributes of an element and all below it."""
+        if tag.work < MORE:
+            self._values(tag, scope)
+            return
         self._attributes(tag, scope)
         node = tag.first
         evaluates_comments = False
@@ -151,6 +160,10 @@ class Evaluator(Calls):
             following = node.after
             if isinstance(node, Tag):
                 evaluates_comments = False
+                if node.work < MORE:
+                    self._values(node, scope)
+                    node = following
+                    continue
                 try:
                     yield from self._child(node, macros, scope)
                 except (Failure, XmlError) as failure:

@@ -16,8 +16,23 @@ if TYPE_CHECKING:
 
     from urdfkit.description.xacro.evaluation.tree import Tag
 
-Place = tuple["Tag | None", "str | None"]
+Place = tuple["Tag | SourceElement | None", "str | None"]
 """An element and one of its attributes; None for text, or for the element as a whole."""
+
+
+class SourceElement:
+    """An element that a person wrote, in the macro calls that use it.
+
+    Attributes:
+        position: of its start tag.
+        chain: the macro calls, innermost first.
+    """
+
+    __slots__ = ("chain", "position")
+
+    def __init__(self, position: Position, chain: tuple[Expansion, ...]) -> None:
+        self.position, self.chain = position, chain
+
 
 _MAX_COMPARED = 2_000
 DIRECTIVES = ("arg", "attribute", "call", "element", "if", "include", "insert_block", "macro", "property", "unless")

@@ -18,7 +18,8 @@ from urdfkit.description.xacro.evaluation.expressions.limits import (
 from urdfkit.description.xacro.evaluation.expressions.symbols import Scope
 from urdfkit.description.xacro.evaluation.failures import Failure, cycle, recursive_include, short
 from urdfkit.description.xacro.evaluation.texts import Texts, unreadable
-from urdfkit.description.xacro.evaluation.tree import Tag, read_tree
+from urdfkit.description.xacro.evaluation.tree import Tag
+from urdfkit.description.xacro.evaluation.tree_reader import read_tree
 from urdfkit.description.xacro.faults import Warned
 from urdfkit.description.xml.reader import absolute, read_source, shown_path
 from urdfkit.description.xml.source import Position, Source, content_of

@@ -16,7 +16,8 @@ from urdfkit.description.xacro.evaluation.expressions.limits import MAX_CHARACTE
 from urdfkit.description.xacro.evaluation.expressions.symbols import Scope
 from urdfkit.description.xacro.evaluation.failures import Failure, definition, undefined_property
 from urdfkit.description.xacro.evaluation.texts import EXPRESSION, visible
-from urdfkit.description.xacro.evaluation.tree import Tag, element_of, read_tree
+from urdfkit.description.xacro.evaluation.tree import Tag, element_of
+from urdfkit.description.xacro.evaluation.tree_reader import read_tree
 from urdfkit.description.xacro.evaluation.unknown_values import Arguments, Recorded, Unknown
 from urdfkit.description.xacro.expanded import Expanded
 from urdfkit.description.xacro.faults import Fault, Unprefixed
@@ -149,7 +150,7 @@ class RecoveringEvaluator(Evaluator):
 
     def outcome(self) -> Expanded:
         """Return what the pass made."""
-        document, root = Tag("", {}, "", 1, 1, ()), None
+        document, root = Tag("", {}, Position(self.path, 1, 1), ()), None
         if self._expanded_tree is not None:
             document, tag = self._expanded_tree
             try:

@@ -82,7 +82,8 @@ class Texts:
             )
         if len(tokens) == 1:
             return self._value(*tokens[0], scope)
-        return self._joined([self._value(kind, content, scope) for kind, content in tokens], text)
+        value = self._value
+        return self._joined([part if kind == PLAIN else value(kind, part, scope) for kind, part in tokens], text)
 
     def _joined(self, parts: list[Any], text: str) -> str:
         length, found = 0, []

@@ -5,22 +5,14 @@ The links between siblings are those of the DOM, so that directives can be repla
 
 from __future__ import annotations
 
-import re
 from collections.abc import Callable, Iterator
-from functools import partial
-from xml.parsers import expat
 
-from urdfkit.description.xml.element import MAX_DEPTH, Element
+from urdfkit.description.xml.element import Element
 from urdfkit.description.xml.reader import (
-    MAX_VALUE,
+    MAX_MADE_DEPTH,
     check_depth,
-    check_doctype,
-    parse_with,
-    refuse_entity,
-    refuse_excess,
-    too_deep,
 )
-from urdfkit.description.xml.source import Expansion, Origin, Position, Source
+from urdfkit.description.xml.source import Expansion, Origin, Position
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -28,10 +20,9 @@ if TYPE_CHECKING:
 
 Chain = tuple[Expansion, ...]
 
+NOTHING, VALUES, MORE = range(3)
+
 TEXT, CDATA, COMMENT, INSTRUCTION, DOCTYPE, ELEMENT = "text", "cdata", "comment", "instruction", "doctype", "element"
-
-
-_SUBSET = re.compile(r"<!DOCTYPE[^\[>]*\[(.*?)\]\s*>", re.DOTALL).search
 
 
 class Node:
@@ -86,28 +77,39 @@ class Tag(Node):
         tag: its qualified name.
         name: the name that stock xacro's messages show: not changed by ``xacro:call``.
         attributes: name → value; ``xacro:attribute`` may leave a number.
-        file: where its start tag is.
-        line: where its start tag is.
-        column: where its start tag is.
+        position: of its start tag.
         chain: the macro calls that produced it, innermost first.
         first: its first child.
         last: its last child.
+        work: what has to be done in it: `NOTHING`, only to compute `VALUES`, or `MORE`.
+        size: how many elements and attributes it has, itself and all below it included; valid unless `work` is `MORE`.
+        height: how many elements are nested in it; valid unless `work` is `MORE`.
+        expressions: what `expressions_of` found.
     """
 
-    __slots__ = ("attributes", "chain", "column", "file", "first", "last", "line", "name", "tag")
+    __slots__ = (
+        "attributes",
+        "chain",
+        "expressions",
+        "first",
+        "height",
+        "last",
+        "name",
+        "position",
+        "size",
+        "tag",
+        "work",
+    )
 
-    def __init__(self, tag: str, attributes: dict[str, Any], file: str, line: int, column: int, chain: Chain) -> None:
+    def __init__(self, tag: str, attributes: dict[str, Any], position: Position, chain: Chain) -> None:
         self.kind, self.data = ELEMENT, ""
         self.parent = self.before = self.after = None
         self.first: Node | None = None
         self.last: Node | None = None
         self.tag = self.name = tag
-        self.attributes, self.file, self.line, self.column, self.chain = attributes, file, line, column, chain
-
-    @property
-    def position(self) -> Position:
-        """The place of the start tag."""
-        return Position(self.file, self.line, self.column)
+        self.attributes, self.position, self.chain = attributes, position, chain
+        self.work, self.size, self.height = MORE, 0, 0
+        self.expressions: list[tuple[Position, str | None, str]] | None = None
 
     def append(self, node: Node) -> None:
         """Add a child that has no parent."""
@@ -138,21 +140,25 @@ class Tag(Node):
             chain: the macro calls of the copy; None keeps those of each element.
             count: called with the number of elements and attributes of each element.
         """
-        top = Tag(
-            self.tag, dict(self.attributes), self.file, self.line, self.column, self.chain if chain is None else chain
-        )
+        if self.work < MORE:
+            count(self.size)
+            return Copy(self, self.chain if chain is None else chain)
+        top = Tag(self.tag, dict(self.attributes), self.position, self.chain if chain is None else chain)
         open_tags = [(self, top)]
         while open_tags:
             source, made = open_tags.pop()
             count(1 + len(made.attributes))
             child = source.first
             while child is not None:
-                if isinstance(child, Tag):
-                    kept = child.chain if chain is None else chain
-                    new: Node = Tag(child.tag, dict(child.attributes), child.file, child.line, child.column, kept)
-                    open_tags.append((child, new))  # type: ignore[arg-type]
-                else:
+                new: Node
+                if not isinstance(child, Tag):
                     new = Node(child.kind, child.data)
+                elif child.work < MORE:
+                    new = child.copy(chain, count)
+                else:
+                    kept = child.chain if chain is None else chain
+                    new = Tag(child.tag, dict(child.attributes), child.position, kept)
+                    open_tags.append((child, new))
                 made.append(new)
                 child = child.after
         return top
@@ -168,112 +174,103 @@ class Tag(Node):
         self.remove()
 
 
-def read_tree(source: Source, *, namespaces: bool = True) -> Tag:
-    """Read a file; its document element is the only element of the returned element, which has no name.
+class Copy(Tag):
+    """A copy of an element in which at most values have to be computed; its children are made when they are read.
 
-    Args:
-        source: the text.
-        namespaces: refuse prefixes that are not declared.
-
-    Raises:
-        XmlError: it is not well-formed, or hostile.
+    Attributes:
+        source: the element that is copied; None after the children were made.
+        values: those of the expressions of the source, in order; None before they are computed.
     """
-    parser = expat.ParserCreate(namespace_separator=" ") if namespaces else expat.ParserCreate()
-    return _Reader(source, parser).read(namespaces)
 
+    __slots__ = ("_attributes", "_first", "_last", "source", "values")
 
-class _Reader:
-    """Builds the tree of one file from the events of a parser."""
-
-    def __init__(self, source: Source, parser: Any) -> None:
-        self._source, self._parser = source, parser
-        self._check = partial(refuse_excess, source) if len(source.text) > MAX_VALUE else None
-        self._document = self._at = Tag("", {}, source.file, 1, 1, ())
-        self._depth = 0
-        self._is_cdata = self._cdata_continues = False
-        self._declared: list[tuple[str, str]] = []
-        self._subset = False
-
-    def read(self, namespaces: bool) -> Tag:
-        """Parse the text."""
-        parser, source = self._parser, self._source
-        parser.buffer_text = True
-        parser.ordered_attributes = True
-        parser.specified_attributes = True
-        if namespaces:
-            parser.namespace_prefixes = True
-            parser.StartNamespaceDeclHandler = lambda prefix, uri: self._declared.append((prefix, uri or ""))
-        parser.StartElementHandler = self._start
-        parser.EndElementHandler = self._end
-        parser.CharacterDataHandler = self._text
-        parser.CommentHandler = lambda data: self._add(Node(COMMENT, data))
-        parser.ProcessingInstructionHandler = lambda target, data: self._add(Node(INSTRUCTION, f"{target} {data}"))
-        parser.StartCdataSectionHandler = partial(self._cdata, is_open=True)
-        parser.EndCdataSectionHandler = partial(self._cdata, is_open=False)
-        parser.EntityDeclHandler = lambda name, *_: refuse_entity(source, parser, name)
-        parser.StartDoctypeDeclHandler = self._doctype
-        parser.EndDoctypeDeclHandler = self._end_doctype
-        parse_with(parser, source, self._open_tags)
-        return self._document
-
-    def _start(self, name: str, values: list[str]) -> None:
-        tag = _qualified(name)
-        if self._check is not None:
-            self._check(self._parser, tag, values[1::2])
-        attributes = {f"xmlns:{prefix}" if prefix else "xmlns": uri for prefix, uri in self._declared}
-        self._declared.clear()
-        for index in range(0, len(values), 2):
-            attributes[_qualified(values[index])] = values[index + 1]
-        parser = self._parser
-        element = Tag(tag, attributes, self._source.file, parser.CurrentLineNumber, parser.CurrentColumnNumber + 1, ())
-        self._at.append(element)
-        self._at = element
-        self._depth += 1
-        if self._depth > MAX_DEPTH:
-            too_deep(self._source, parser)
-
-    def _end(self, _: str) -> None:
-        self._depth -= 1
-        assert self._at.parent is not None
-        self._at = self._at.parent
-
-    def _text(self, data: str) -> None:
-        kind, last = (CDATA if self._is_cdata else TEXT), self._at.last
-        if last is not None and last.kind == kind and (kind == TEXT or self._cdata_continues):
-            last.data += data
+    def __init__(self, source: Tag, chain: Chain) -> None:
+        self.kind, self.data = ELEMENT, ""
+        self.parent = self.before = self.after = None
+        self.tag, self.name, self.position, self.chain = source.tag, source.name, source.position, chain
+        self.work, self.size, self.height, self.expressions = source.work, source.size, source.height, None
+        self.values: list[str] | None = None
+        self._first: Node | None = None
+        self._last: Node | None = None
+        if type(source) is Copy and source.source is not None:
+            self.source: Tag | None = source.source
+            self.values = source.values
         else:
-            self._add(Node(kind, data))
-        self._cdata_continues = self._is_cdata
+            self.source = source
 
-    def _cdata(self, *, is_open: bool) -> None:
-        self._is_cdata, self._cdata_continues = is_open, False
+    def open(self) -> None:
+        """Make the attributes and children."""
+        if self.source is None:
+            return
+        source, self.source = self.source, None
+        values = iter(self.values) if self.values is not None else None
+        self._attributes = dict(source.attributes)
+        open_tags: list[tuple[Tag, Tag, Node | None]] = [(source, self, source.first)]
+        self._put(self, values)
+        while open_tags:
+            tag, made, child = open_tags.pop()
+            while child is not None:
+                if isinstance(child, Tag):
+                    new = Tag(child.tag, dict(child.attributes), child.position, self.chain)
+                    new.work, new.size, new.height = child.work, child.size, child.height
+                    self._put(new, values)
+                    made.append(new)
+                    open_tags += [(tag, made, child.after), (child, new, child.first)]
+                    break
+                is_value = values is not None and child.kind == TEXT and "$" in child.data
+                made.append(Node(child.kind, next(values) if is_value else child.data))  # type: ignore[arg-type]
+                child = child.after
 
-    def _add(self, node: Node) -> None:
-        if not self._subset:
-            self._at.append(node)
+    def _put(self, tag: Tag, values: Iterator[str] | None) -> None:
+        if values is not None:
+            for name, value in tag.attributes.items():
+                if "$" in value:
+                    tag.attributes[name] = next(values)
 
-    def _doctype(self, name: str, system: str | None, public: str | None, has_subset: bool) -> None:
-        check_doctype(self._source, self._parser, system, public)
-        subset = _SUBSET(self._source.text) if has_subset else None
-        self._add(Node(DOCTYPE, f"{name} [{subset[1]}]" if subset else name))
-        self._subset = True
+    @property
+    def attributes(self) -> dict[str, Any]:
+        """Its attributes."""
+        self.open()
+        return self._attributes
 
-    def _end_doctype(self) -> None:
-        self._subset = False
+    @attributes.setter
+    def attributes(self, attributes: dict[str, Any]) -> None:
+        self._attributes = attributes
 
-    def _open_tags(self) -> list[tuple[str, int]]:
-        found: list[tuple[str, int]] = []
-        at: Tag | None = self._at
-        while at is not None and at.parent is not None:
-            found.append((at.tag, at.line))
-            at = at.parent
-        return found[::-1]
+    @property
+    def first(self) -> Node | None:
+        """Its first child."""
+        self.open()
+        return self._first
+
+    @first.setter
+    def first(self, node: Node | None) -> None:
+        self._first = node
+
+    @property
+    def last(self) -> Node | None:
+        """Its last child."""
+        self.open()
+        return self._last
+
+    @last.setter
+    def last(self, node: Node | None) -> None:
+        self._last = node
 
 
-def _qualified(name: str) -> str:
-    """Return the name with its prefix, from a parser's `uri local prefix`."""
-    parts = name.split(" ")
-    return f"{parts[2]}:{parts[1]}" if len(parts) == 3 else parts[-1]
+def expressions_of(tag: Tag) -> list[tuple[Position, str | None, str]]:
+    """Return the texts with expressions in an element and below, in order: element, attribute and text."""
+    found = tag.expressions
+    if found is None:
+        found = tag.expressions = []
+        if tag.work == VALUES:
+            found += [(tag.position, name, value) for name, value in tag.attributes.items() if "$" in value]
+            for child in tag.children():
+                if isinstance(child, Tag):
+                    found += expressions_of(child)
+                elif child.kind == TEXT and "$" in child.data:
+                    found.append((tag.position, None, child.data))
+    return found
 
 
 def element_of(tag: Tag, depth: int = 0) -> Element:
@@ -282,13 +279,42 @@ def element_of(tag: Tag, depth: int = 0) -> Element:
     Raises:
         XmlError: macros have made elements that are nested too deep.
     """
-    check_depth(depth, tag.position)
+    if (
+        type(tag) is Copy
+        and tag.source is not None
+        and depth + tag.height < MAX_MADE_DEPTH
+        and (tag.values is not None or tag.work == NOTHING)
+    ):
+        return _copied(tag.source, tag.chain, iter(tag.values or ()))
+    if depth >= MAX_MADE_DEPTH:
+        check_depth(depth, tag.position)
     children: list[Element] = []
     text = ""
-    for child in tag.children():
+    child = tag.first
+    while child is not None:
         if isinstance(child, Tag):
             children.append(element_of(child, depth + 1))
-        elif child.kind in (TEXT, CDATA):
+        elif child.kind == TEXT or child.kind == CDATA:
             text += child.data
+        child = child.after
     attributes = {name: str(value) for name, value in tag.attributes.items()}
     return Element(tag.tag, attributes, children, text.strip(), Origin(tag.position, tag.chain))
+
+
+def _copied(source: Tag, chain: Chain, values: Iterator[str]) -> Element:
+    """Return the element that a copy of an element becomes."""
+    attributes = source.attributes.copy()
+    if source.work == VALUES:
+        for name, value in attributes.items():
+            if "$" in value:
+                attributes[name] = next(values)
+    children: list[Element] = []
+    text = ""
+    child = source.first
+    while child is not None:
+        if isinstance(child, Tag):
+            children.append(_copied(child, chain, values))
+        elif child.kind == TEXT or child.kind == CDATA:
+            text += next(values) if "$" in child.data and child.kind == TEXT else child.data
+        child = child.after
+    return Element(source.tag, attributes, children, text.strip(), Origin(source.position, chain))
