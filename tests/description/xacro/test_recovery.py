@@ -1,11 +1,15 @@
 # ruff: noqa: E501 - one case a line
 from __future__ import annotations
 
+import re
+import time
+from collections import Counter
 from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 
+from tests.description.xacro.evaluation.test_limits import HOSTILE, hostile_file
 from urdfkit.description.xacro.expand import expand_leniently
 from urdfkit.description.xacro.expanded import Expanded
 from urdfkit.errors import ResourceError
@@ -299,3 +303,28 @@ def test_names_of_files_that_are_too_long_are_said(write: Write) -> None:
     assert tags(expanded) == ["link"]
     with pytest.raises(ResourceError, match="file name too long"):
         expanded.packages.resolve(f"{'x' * 5000}.stl", main)
+
+
+def test_faults_in_an_infinite_recursion_are_reported_for_its_first_round(write: Write) -> None:
+    macro = '<xacro:macro name="m" params=""><link name="${x}"/>\n<xacro:m y="1"/>\n<xacro:m/></xacro:macro>'
+    expanded = expand_leniently(write("m.xacro", f'HEAD{macro}<xacro:m/><link name="left"/></robot>'))
+    assert Counter(fault.kind for fault in expanded.faults) == {
+        "undefined-property": 2,
+        "macro-arguments": 2,
+        "recursion": 1,
+    }
+    assert expanded.root is not None
+    assert expanded.root.children[-1].get("name") == "left"
+
+
+@pytest.mark.parametrize("name", HOSTILE)
+def test_a_hostile_file_has_few_faults(write: Write, name: str) -> None:
+    text, cause = HOSTILE[name]
+    path = hostile_file(write, f'{text}\n<link name="left"/>')
+    start = time.process_time()
+    expanded = expand_leniently(path)
+    assert time.process_time() - start < 10
+    assert any(re.search(cause, fault.message) for fault in expanded.faults)
+    assert len(expanded.faults) <= 3
+    if expanded.root is not None:
+        assert expanded.root.children[-1].get("name") == "left"

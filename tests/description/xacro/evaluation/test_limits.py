@@ -37,7 +37,7 @@ def _macros(count: int, body: str) -> str:
     return "".join(f'<xacro:macro name="m{i + 1}">{body.format(i)}</xacro:macro>' for i in range(count))
 
 
-_MERGES = "a0: &a0 {k: 1}\n" + "".join(
+MERGES = "a0: &a0 {k: 1}\n" + "".join(
     f"a{i + 1}: &a{i + 1} {{<<: [{', '.join([f'*a{i}'] * 99)}], k{i}: 1}}\n" for i in range(12)
 )
 HOSTILE = {
@@ -80,16 +80,21 @@ HOSTILE = {
 }
 
 
-@pytest.mark.parametrize("name", HOSTILE)
-def test_a_hostile_file_is_refused(write: Write, name: str) -> None:
-    text, cause = HOSTILE[name]
-    write("merges.yaml", _MERGES)
+def hostile_file(write: Write, text: str) -> Path:
+    """Write a file, and those that hostile files read; return its path."""
+    write("merges.yaml", MERGES)
     write("deep.yaml", "[" * 5000 + "]" * 5000)
     write("values.yaml", f"[{'1,' * 60_000}]")
     write("comments.yaml", "# comment\n" * 40_000 + "a: 1\n")
     for number in range(2):
         write(f"double{number}.xacro", 'HEAD<xacro:include filename="double*.xacro"/></robot>')
-    path = write("m.xacro", f"HEAD{text}</robot>")
+    return write("m.xacro", f"HEAD{text}</robot>")
+
+
+@pytest.mark.parametrize("name", HOSTILE)
+def test_a_hostile_file_is_refused(write: Write, name: str) -> None:
+    text, cause = HOSTILE[name]
+    path = hostile_file(write, text)
     start = time.process_time()
     with pytest.raises(UrdfkitError, match=cause):
         evaluated(path)

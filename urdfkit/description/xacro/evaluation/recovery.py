@@ -112,7 +112,7 @@ class RecoveringEvaluator(Evaluator):
         self._unresolved: set[tuple[Position, str | None]] = set()
         self._loops: set[str] = set()
         self._uncalled: set[str] = set()
-        self._is_full = False
+        self._exceeded: set[str] = set()
         self._expression = ""
         self._expanded_tree: tuple[Tag, Tag] | None = None
 
@@ -129,7 +129,7 @@ class RecoveringEvaluator(Evaluator):
 
     def learn(self) -> bool:
         """Find what was undefined when used and is defined by now; return whether there is anything new."""
-        if self._is_full or self._is_exhausted:
+        if self._exceeded or self._is_exhausted:
             return False
         late = self._late
         properties, macros = len(late.properties), len(late.macros)
@@ -160,22 +160,30 @@ class RecoveringEvaluator(Evaluator):
         return self._outcome(
             document,
             root,
-            faults=tuple(self._faults.values()),
+            faults=tuple(fault for fault in self._faults.values() if not self._repeats(fault)),
             unprefixed=tuple(self._unprefixed),
             unresolved=frozenset(self._unresolved),
         )
 
     # Failures
 
+    def _repeats(self, fault: Fault) -> bool:
+        """Whether a fault is in the second or a later round of macros that call each other without end."""
+        if not self._loops or fault.kind == "recursion":
+            return False
+        calls = [call for call in fault.expansions if call.macro in self._loops]
+        return len(set(calls)) < len(calls)
+
     def _record(self, failure: Failure | XmlError) -> None:
         if isinstance(failure, XmlError):
             assert failure.position is not None
             self._keep(Fault("xml", failure.message, failure.position, details={"cause": failure.cause}))
         elif not isinstance(failure, Recorded):
-            if failure.kind == "too-many":
-                if self._is_full:
+            if failure.kind == "too-many" or (failure.kind == "too-large" and self._is_exhausted):
+                limit = "elements" if failure.kind == "too-many" else "expressions"
+                if limit in self._exceeded:
                     return
-                self._is_full = True
+                self._exceeded.add(limit)
             fault = self.placed(failure).fault()
             if failure.loop in ("macro", "file"):  # otherwise two calls in each round double the work of each round
                 self._loops.update(fault.details["cycle"])
@@ -334,7 +342,7 @@ class RecoveringEvaluator(Evaluator):
 
     def _found(self, name: str, node: Tag, macros: Scope, scope: Scope) -> tuple[str, Scope, Scope, Macro]:
         """Return the macro that an element calls, also one that is misspelt or defined later; fit the call to it."""
-        if name in self._loops or self._is_full or "$" in name:  # a computed name whose value is unknown
+        if name in self._loops or "elements" in self._exceeded or "$" in name:  # a computed name whose value is unknown
             raise Recorded
         try:
             found = super()._found(name, node, macros, scope)
