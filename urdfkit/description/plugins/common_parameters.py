@@ -1,6 +1,6 @@
-"""Parameters common to several plugins: ROS blocks of Gazebo Classic, limits and odometry of gz drives."""
+"""What several plugins have in common: parameters, and the names of libraries, classes and source files."""
 
-from urdfkit.description.plugins.spec import Parameter
+from urdfkit.description.plugins.spec import Parameter, PluginSpec
 
 GAZEBO_ROS_1 = (
     Parameter("namespace", "robotNamespace"),
@@ -46,3 +46,23 @@ GZ_ODOMETRY = (
     Parameter("odometry_rate", "odom_publish_frequency", "50", "[Hz]"),
 )
 """Topics, frames and rate of the drives that publish odometry."""
+
+
+def gazebo_ros_1(kind: str, library: str, *parameters: Parameter, source: str = "") -> PluginSpec:
+    """Return the table of a plugin of gazebo_ros_pkgs for ROS 1, whose source file has the name of its library."""
+    source = source or f"gazebo_ros_pkgs noetic-devel, gazebo_plugins/src/{library}.cpp"
+    return PluginSpec(kind, "ros1", (library,), (), (*parameters, *GAZEBO_ROS_1), source)
+
+
+def gazebo_ros_2(kind: str, library: str, *parameters: Parameter, source: str = "") -> PluginSpec:
+    """Return the table of a plugin of gazebo_ros_pkgs for ROS 2, whose source file has the name of its library."""
+    source = source or f"gazebo_ros_pkgs ros2, gazebo_plugins/src/{library}.cpp"
+    return PluginSpec(kind, "ros2", (library,), (), (*parameters, *GAZEBO_ROS_2), source)
+
+
+def gz_system(kind: str, name: str, *parameters: Parameter) -> PluginSpec:
+    """Return the table of a system of the new Gazebo, whose libraries and source file have the name of its class."""
+    snake = "".join(f"_{letter.lower()}" if letter.isupper() else letter for letter in name)[1:]
+    libraries = tuple(f"{prefix}-{snake.replace('_', '-')}-system" for prefix in ("gz-sim", "ignition-gazebo"))
+    classes = (f"gz::sim::systems::{name}", f"ignition::gazebo::systems::{name}")
+    return PluginSpec(kind, "gz", libraries, classes, parameters, f"gz-sim main, src/systems/{snake}/{name}.cc")

@@ -3,7 +3,7 @@
 Placeholders in defaults are replaced per model: ``{world}``, ``{model}``, ``{link}`` and ``{sensor}`` are names.
 """
 
-from urdfkit.description.plugins.common_parameters import GAZEBO_ROS_1, GAZEBO_ROS_2
+from urdfkit.description.plugins.common_parameters import GAZEBO_ROS_1, gazebo_ros_2
 from urdfkit.description.plugins.spec import Parameter, PluginSpec
 
 _INTRINSICS_ROS_1 = (
@@ -86,26 +86,20 @@ DEPTH_CAMERA_ROS_1 = PluginSpec(
     source="gazebo_ros_pkgs noetic-devel, gazebo_plugins/src/gazebo_ros_depth_camera.cpp",
 )
 
-CAMERA_ROS_2 = PluginSpec(
-    kind="camera",
-    generation="ros2",
-    filenames=("gazebo_ros_camera",),
-    class_names=(),
-    parameters=(
-        Parameter("camera", "camera_name", "{sensor}"),
-        Parameter("frame", "frame_name", "{link}", names="frame"),
-        Parameter("triggered", "triggered", "false"),
-        Parameter("focal_length", "focal_length", "0", "[px]"),
-        Parameter("cx", "cx", "0", "[px]"),
-        Parameter("cy", "cy", "0", "[px]"),
-        Parameter("baseline", "hack_baseline", "0", "[m]"),
-        Parameter("auto_distortion", "autoDistortion", "false"),
-        Parameter("border_crop", "border_crop", "true"),
-        Parameter("min_depth", "min_depth", "0.4", "[m]"),
-        Parameter("max_depth", "max_depth", unit="[m]"),
-        *GAZEBO_ROS_2,
-    ),
-    source="gazebo_ros_pkgs ros2, gazebo_plugins/src/gazebo_ros_camera.cpp",
+CAMERA_ROS_2 = gazebo_ros_2(
+    "camera",
+    "gazebo_ros_camera",
+    Parameter("camera", "camera_name", "{sensor}"),
+    Parameter("frame", "frame_name", "{link}", names="frame"),
+    Parameter("triggered", "triggered", "false"),
+    Parameter("focal_length", "focal_length", "0", "[px]"),
+    Parameter("cx", "cx", "0", "[px]"),
+    Parameter("cy", "cy", "0", "[px]"),
+    Parameter("baseline", "hack_baseline", "0", "[m]"),
+    Parameter("auto_distortion", "autoDistortion", "false"),
+    Parameter("border_crop", "border_crop", "true"),
+    Parameter("min_depth", "min_depth", "0.4", "[m]"),
+    Parameter("max_depth", "max_depth", unit="[m]"),
 )
 """Topics are ``CAMERA/image_raw``, ``CAMERA/camera_info`` and for a sensor of type depth ``CAMERA/depth/…`` and
 ``CAMERA/points``, changed by ``<ros><remapping>`` only."""

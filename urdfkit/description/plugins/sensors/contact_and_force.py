@@ -1,29 +1,20 @@
 """Contact and force sensors: bumpers, contact sensors, touch sensors and force/torque sensors of joints."""
 
-from urdfkit.description.plugins.common_parameters import GAZEBO_ROS_1, GAZEBO_ROS_2
+from urdfkit.description.plugins.common_parameters import gazebo_ros_1, gazebo_ros_2
 from urdfkit.description.plugins.spec import Parameter, PluginSpec
 
-BUMPER_ROS_1 = PluginSpec(
-    kind="bumper",
-    generation="ros1",
-    filenames=("gazebo_ros_bumper",),
-    class_names=(),
-    parameters=(
-        Parameter("topic", "bumperTopicName", "bumper_states", names="topic"),
-        Parameter("frame", "frameName", "world", names="frame"),
-        *GAZEBO_ROS_1,
-    ),
-    source="gazebo_ros_pkgs noetic-devel, gazebo_plugins/src/gazebo_ros_bumper.cpp",
+BUMPER_ROS_1 = gazebo_ros_1(
+    "bumper",
+    "gazebo_ros_bumper",
+    Parameter("topic", "bumperTopicName", "bumper_states", names="topic"),
+    Parameter("frame", "frameName", "world", names="frame"),
 )
 """All values are in world axes, independent of ``frameName``."""
 
-BUMPER_ROS_2 = PluginSpec(
-    kind="bumper",
-    generation="ros2",
-    filenames=("gazebo_ros_bumper",),
-    class_names=(),
-    parameters=(Parameter("frame", "frame_name", "world", names="frame"), *GAZEBO_ROS_2),
-    source="gazebo_ros_pkgs ros2, gazebo_plugins/src/gazebo_ros_bumper.cpp",
+BUMPER_ROS_2 = gazebo_ros_2(
+    "bumper",
+    "gazebo_ros_bumper",
+    Parameter("frame", "frame_name", "world", names="frame"),
 )
 """Publishes on ``bumper_states``, changed by ``<ros><remapping>`` only."""
 
@@ -39,35 +30,23 @@ CONTACT_GZ = PluginSpec(
 )
 """Read from the ``<sensor>`` itself; a ``<topic>`` inside its ``<contact>`` has precedence."""
 
-FORCE_TORQUE_ROS_1 = PluginSpec(
-    kind="force_torque",
-    generation="ros1",
-    filenames=("gazebo_ros_ft_sensor",),
-    class_names=(),
-    parameters=(
-        Parameter("joint", "jointName", names="joint"),
-        Parameter("topic", "topicName", names="topic"),
-        Parameter("gaussian_noise", "gaussianNoise", "0", "[N, N·m]"),
-        Parameter("update_rate", "updateRate", "0", "[Hz]"),
-        *GAZEBO_ROS_1,
-    ),
-    source="gazebo_ros_pkgs noetic-devel, gazebo_plugins/src/gazebo_ros_ft_sensor.cpp",
+FORCE_TORQUE_ROS_1 = gazebo_ros_1(
+    "force_torque",
+    "gazebo_ros_ft_sensor",
+    Parameter("joint", "jointName", names="joint"),
+    Parameter("topic", "topicName", names="topic"),
+    Parameter("gaussian_noise", "gaussianNoise", "0", "[N, N·m]"),
+    Parameter("update_rate", "updateRate", "0", "[Hz]"),
 )
 
-FORCE_TORQUE_ROS_2 = PluginSpec(
-    kind="force_torque",
-    generation="ros2",
-    filenames=("gazebo_ros_ft_sensor",),
-    class_names=(),
-    parameters=(
-        Parameter("joint", "joint_name", names="joint"),
-        Parameter("body", "body_name", names="link"),
-        Parameter("frame", "frame_name", names="frame"),
-        Parameter("gaussian_noise", "gaussian_noise", "0", "[N, N·m]"),
-        Parameter("update_rate", "update_rate", "0", "[Hz]"),
-        *GAZEBO_ROS_2,
-    ),
-    source="gazebo_ros_pkgs ros2, gazebo_plugins/src/gazebo_ros_ft_sensor.cpp",
+FORCE_TORQUE_ROS_2 = gazebo_ros_2(
+    "force_torque",
+    "gazebo_ros_ft_sensor",
+    Parameter("joint", "joint_name", names="joint"),
+    Parameter("body", "body_name", names="link"),
+    Parameter("frame", "frame_name", names="frame"),
+    Parameter("gaussian_noise", "gaussian_noise", "0", "[N, N·m]"),
+    Parameter("update_rate", "update_rate", "0", "[Hz]"),
 )
 """Publishes on ``wrench``, changed by ``<ros><remapping>`` only; ``body_name`` selects the wrench on that link."""
 

@@ -4,7 +4,7 @@ The scan (angles, samples, ranges, noise) is configured in the ``<sensor>`` that
 defaults are replaced per model: ``{world}``, ``{model}``, ``{link}`` and ``{sensor}`` are names.
 """
 
-from urdfkit.description.plugins.common_parameters import GAZEBO_ROS_1, GAZEBO_ROS_2
+from urdfkit.description.plugins.common_parameters import GAZEBO_ROS_1, GAZEBO_ROS_2, gazebo_ros_1, gazebo_ros_2
 from urdfkit.description.plugins.spec import Parameter, PluginSpec
 
 LASER_ROS_1 = PluginSpec(
@@ -20,52 +20,35 @@ LASER_ROS_1 = PluginSpec(
     source="gazebo_ros_pkgs noetic-devel, gazebo_plugins/src/gazebo_ros_laser.cpp and gazebo_ros_gpu_laser.cpp",
 )
 
-BLOCK_LASER_ROS_1 = PluginSpec(
-    kind="block_laser",
-    generation="ros1",
-    filenames=("gazebo_ros_block_laser",),
-    class_names=(),
-    parameters=(
-        Parameter("topic", "topicName", "/world", names="topic"),
-        Parameter("frame", "frameName", "/world", names="frame"),
-        Parameter("gaussian_noise", "gaussianNoise", "0", "[m]"),
-        Parameter("min_intensity", "hokuyoMinIntensity", "101"),
-        Parameter("update_rate", "updateRate", "0", "[Hz]"),
-        *GAZEBO_ROS_1,
-    ),
-    source="gazebo_ros_pkgs noetic-devel, gazebo_plugins/src/gazebo_ros_block_laser.cpp",
+BLOCK_LASER_ROS_1 = gazebo_ros_1(
+    "block_laser",
+    "gazebo_ros_block_laser",
+    Parameter("topic", "topicName", "/world", names="topic"),
+    Parameter("frame", "frameName", "/world", names="frame"),
+    Parameter("gaussian_noise", "gaussianNoise", "0", "[m]"),
+    Parameter("min_intensity", "hokuyoMinIntensity", "101"),
+    Parameter("update_rate", "updateRate", "0", "[Hz]"),
 )
 """The plugin reads ``hokuyoMinIntensity`` and ``updateRate`` but does not use them."""
 
-RANGE_ROS_1 = PluginSpec(
-    kind="range",
-    generation="ros1",
-    filenames=("gazebo_ros_range",),
-    class_names=(),
-    parameters=(
-        Parameter("topic", "topicName", "/range", names="topic"),
-        Parameter("frame", "frameName", "/world", names="frame"),
-        Parameter("radiation", "radiation", "ultrasound"),
-        Parameter("field_of_view", "fov", "0.05", "[rad]"),
-        Parameter("gaussian_noise", "gaussianNoise", "0", "[m]"),
-        Parameter("update_rate", "updateRate", "0", "[Hz]"),
-        *GAZEBO_ROS_1,
-    ),
-    source="gazebo_ros_pkgs noetic-devel, gazebo_plugins/src/gazebo_ros_range.cpp",
+RANGE_ROS_1 = gazebo_ros_1(
+    "range",
+    "gazebo_ros_range",
+    Parameter("topic", "topicName", "/range", names="topic"),
+    Parameter("frame", "frameName", "/world", names="frame"),
+    Parameter("radiation", "radiation", "ultrasound"),
+    Parameter("field_of_view", "fov", "0.05", "[rad]"),
+    Parameter("gaussian_noise", "gaussianNoise", "0", "[m]"),
+    Parameter("update_rate", "updateRate", "0", "[Hz]"),
 )
 
-RAY_SENSOR_ROS_2 = PluginSpec(
-    kind="ray_sensor",
-    generation="ros2",
-    filenames=("gazebo_ros_ray_sensor",),
-    class_names=(),
-    parameters=(
-        Parameter("output_type", "output_type", "sensor_msgs/PointCloud2"),
-        Parameter("frame", "frame_name", "{link}", names="frame"),
-        Parameter("min_intensity", "min_intensity", "0"),
-        Parameter("radiation", "radiation_type", "infrared"),
-        *GAZEBO_ROS_2,
-    ),
+RAY_SENSOR_ROS_2 = gazebo_ros_2(
+    "ray_sensor",
+    "gazebo_ros_ray_sensor",
+    Parameter("output_type", "output_type", "sensor_msgs/PointCloud2"),
+    Parameter("frame", "frame_name", "{link}", names="frame"),
+    Parameter("min_intensity", "min_intensity", "0"),
+    Parameter("radiation", "radiation_type", "infrared"),
     source="gazebo_ros_pkgs ros2, gazebo_plugins/src/gazebo_ros_ray_sensor.cpp and "
     "gazebo_ros/include/gazebo_ros/conversions/sensor_msgs.hpp",
 )
