@@ -6,8 +6,8 @@ import numpy as np
 import pinocchio as pin
 from numpy.typing import NDArray
 
-from urdfkit.sim.engine.arrays import Arrays
 from urdfkit.sim.engine.dynamics.mass_matrix import FREE, PLANAR
+from urdfkit.sim.engine.simulation_memory import Arrays
 
 Array = NDArray[np.float64]
 

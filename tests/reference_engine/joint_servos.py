@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from urdfkit.sim.engine.arrays import Arrays
+from urdfkit.sim.engine.simulation_memory import Arrays
 
 Array = NDArray[np.float64]
 

@@ -13,20 +13,20 @@ import numpy as np
 import pinocchio as pin
 from numpy.typing import NDArray
 
-from tests.reference_engine.contact_point_correction import exchange
 from tests.reference_engine.integration import go, inward, move, outward
 from tests.reference_engine.joint_servos import grow_integrals, servo_effort, servos, set_integral_parts
+from tests.reference_engine.midstep_contact_points import exchange
 from tests.reference_engine.pinocchio_models import Tree, free_model, model_of
 from tests.reference_engine.shared_kernels import find_candidates, find_contacts, find_impulses
 from urdfkit.errors import SimulationError
-from urdfkit.sim.engine.arrays import DT, FOUND_CONTACTS, FOUND_ROWS, GUESSES, ITERATED, STEPS, Arrays
 from urdfkit.sim.engine.bodies import Body, Member
 from urdfkit.sim.engine.constraints.constraint_rows import FASTEST_JOINT, RECOVERY
 from urdfkit.sim.engine.constraints.contact_rows import FASTEST_RECOVERY, MOBILITY
-from urdfkit.sim.engine.constraints.joint_limits import PASSING, WHIRLING
 from urdfkit.sim.engine.constraints.joint_servos import SERVO_ATTEMPTS
+from urdfkit.sim.engine.constraints.limit_crossings import PASSING, WHIRLING
 from urdfkit.sim.engine.dynamics.mass_matrix import FREE, PLANAR
 from urdfkit.sim.engine.kernel_cache import load_compiled, world_digest
+from urdfkit.sim.engine.simulation_memory import DT, FOUND_CONTACTS, FOUND_ROWS, GUESSES, ITERATED, STEPS, Arrays
 from urdfkit.sim.engine.state_conversion import configuration, turning
 
 Array = NDArray[np.float64]

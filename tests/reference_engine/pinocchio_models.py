@@ -7,9 +7,9 @@ from typing import Any
 import numpy as np
 import pinocchio as pin
 
-from urdfkit.sim.engine.arrays import Arrays
 from urdfkit.sim.engine.bodies import Body, Member
 from urdfkit.sim.engine.layout.tree_arrays import pose_matrix
+from urdfkit.sim.engine.simulation_memory import Arrays
 
 
 class Tree:

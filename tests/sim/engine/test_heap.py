@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 from tests.sim.engine.worlds import ball, cube, rover, slab
-from urdfkit.sim.engine.arrays import GUESSES
 from urdfkit.sim.engine.constraints.contact_rows import FASTEST_RECOVERY
+from urdfkit.sim.engine.simulation_memory import GUESSES
 
 G = 9.81
 X = 3.0

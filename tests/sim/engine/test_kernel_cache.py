@@ -12,9 +12,9 @@ import pytest
 
 import urdfkit.sim.engine
 from urdfkit.sim.engine import warmup
-from urdfkit.sim.engine.arrays import At
 from urdfkit.sim.engine.kernel_cache import KERNEL_MODULES, WORLD_FOLDERS, load_compiled, sources_digest, world_digest
 from urdfkit.sim.engine.kernel_world import world
+from urdfkit.sim.engine.simulation_memory import At
 
 FOLDER = Path(urdfkit.sim.engine.__file__).parent
 

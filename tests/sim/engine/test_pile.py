@@ -7,7 +7,7 @@ import pytest
 
 from tests.reference_engine import ENGINES
 from tests.sim.engine.worlds import ball, can, cube, pill, rover, slab
-from urdfkit.sim.engine.arrays import GUESSES
+from urdfkit.sim.engine.simulation_memory import GUESSES
 
 G = 9.81
 X = 3.0

@@ -9,8 +9,8 @@ import pinocchio as pin
 from urdfkit.errors import SimulationError
 from urdfkit.kinematics.model import Kinematics
 from urdfkit.linear_algebra import Array, matmul
-from urdfkit.sim.engine.arrays import DT, FOUND_CONTACTS, STEPS, Arrays
 from urdfkit.sim.engine.scalar_views import numbers
+from urdfkit.sim.engine.simulation_memory import DT, FOUND_CONTACTS, STEPS, Arrays
 from urdfkit.sim.engine.state_conversion import configuration, positions, set_configuration
 
 

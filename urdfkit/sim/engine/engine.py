@@ -10,7 +10,6 @@ from urdfkit.errors import SimulationError
 from urdfkit.kinematics.model import Kinematics
 from urdfkit.linear_algebra import Array, matmul
 from urdfkit.scene import Shape
-from urdfkit.sim.engine.arrays import HAS_PAIRS, ITERATED, OVERFULL, STEPS
 from urdfkit.sim.engine.articulation import Articulation
 from urdfkit.sim.engine.bodies import AT_ORIGIN, Body, Member
 from urdfkit.sim.engine.contact_surface import Contact, Ground, Surface
@@ -19,6 +18,7 @@ from urdfkit.sim.engine.kernel_cache import kernel, world_kernel
 from urdfkit.sim.engine.layout.collision_shapes import touching
 from urdfkit.sim.engine.layout.validation import require_inertia
 from urdfkit.sim.engine.layout.world_arrays import fill
+from urdfkit.sim.engine.simulation_memory import HAS_PAIRS, ITERATED, OVERFULL, STEPS
 from urdfkit.sim.engine.state_conversion import contacts, turning
 
 FLAT = Ground()
@@ -156,7 +156,7 @@ class Engine(Articulation):
         """Wake all sleeping trees, as required when their support is removed."""
         a = self.arrays
         # The stored targets at sleep are no longer valid.
-        a["asked"][np.repeat(a["asleep"], np.diff(a["tree_dof"])) != 0] = np.nan
+        a["targets_at_sleep"][np.repeat(a["asleep"], np.diff(a["tree_dof"])) != 0] = np.nan
 
     def contacts(self) -> tuple[Contact, ...]:
         """Return what touched in the last step; of what sleeps, in the last before it fell asleep."""

@@ -6,9 +6,9 @@ import numpy as np
 
 from urdfkit.errors import SimulationError
 from urdfkit.linear_algebra import Array, matmul
-from urdfkit.sim.engine.arrays import Arrays
 from urdfkit.sim.engine.bodies import Body
 from urdfkit.sim.engine.layout.tree_arrays import place_free
+from urdfkit.sim.engine.simulation_memory import Arrays
 
 
 class FreeBody:

@@ -9,13 +9,13 @@ from pathlib import Path
 from typing import Any
 
 KERNEL_MODULES = (
-    "arrays",
+    "simulation_memory",
     "compilation",
     "constraints/constraint_rows",
     "constraints/contact_rows",
-    "constraints/joint_limits",
+    "constraints/limit_crossings",
     "constraints/joint_servos",
-    "contacts/contact_point_correction",
+    "contacts/midstep_contact_points",
     "contacts/friction_directions",
     "contacts/ground_contacts",
     "dynamics/integration",

@@ -11,8 +11,8 @@ from numba.core.typing.templates import AttributeTemplate, infer_getattr
 from numba.extending import intrinsic, lower_getattr_generic, register_model
 from numba.np.arrayobj import make_array
 
-from urdfkit.sim.engine.arrays import FLOATS, INTEGERS, At
 from urdfkit.sim.engine.compilation import Field
+from urdfkit.sim.engine.simulation_memory import FLOATS, INTEGERS, At
 
 FLOAT_FIELD, INTEGER_FIELD = Field(types.float64), Field(types.int64)
 BLOCKS = {"floats": FLOAT_FIELD, "sizes": INTEGER_FIELD}

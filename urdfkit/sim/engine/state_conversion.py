@@ -9,9 +9,9 @@ from numpy.typing import NDArray
 
 from urdfkit.errors import SimulationError
 from urdfkit.linear_algebra import Array, matmul, vector_norm
-from urdfkit.sim.engine.arrays import FOUND_CONTACTS, HAS_PAIRS, SLEEPING, Arrays
 from urdfkit.sim.engine.contact_surface import Contact, Touching
 from urdfkit.sim.engine.dynamics.mass_matrix import FREE, PLANAR
+from urdfkit.sim.engine.simulation_memory import FOUND_CONTACTS, HAS_PAIRS, SLEEPING, Arrays
 
 
 def configuration(model: Any, arrays: Arrays, tree: int = 0) -> Array:

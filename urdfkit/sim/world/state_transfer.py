@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 from urdfkit.linear_algebra import Array
 from urdfkit.sim.engine import Engine
-from urdfkit.sim.engine.arrays import ITERATED, LAST_PAIRS, SLEEPING, STEPS, Arrays
+from urdfkit.sim.engine.simulation_memory import ITERATED, LAST_PAIRS, SLEEPING, STEPS, Arrays
 
 _PER_DOF = (
     "motor_velocity",

@@ -11,8 +11,8 @@ from tests.sim.engine.worlds import piece, rover, rovers, slab
 from urdfkit.description.urdf.robot import Box, Capsule, Cylinder, Mesh, Sphere
 from urdfkit.scene import Shape
 from urdfkit.scene.meshes.loader import TriMesh
-from urdfkit.sim.engine.arrays import FOUND_PAIRS, FOUND_ROWS
 from urdfkit.sim.engine.bodies import Body, Piece
+from urdfkit.sim.engine.simulation_memory import FOUND_PAIRS, FOUND_ROWS
 
 
 def turned(rng):

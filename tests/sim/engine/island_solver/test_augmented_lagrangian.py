@@ -9,8 +9,8 @@ import pytest
 
 from tests.sim.engine.worlds import cube, rover, slab
 from urdfkit.sim import Simulator
-from urdfkit.sim.engine.arrays import GUESSES
 from urdfkit.sim.engine.island_solver.augmented_lagrangian import BALANCE, HARDNESS, HEAP_ROUNDS, MORE_ROUNDS
+from urdfkit.sim.engine.simulation_memory import GUESSES
 
 X = 3.0
 """Where things are, away from the robot [m]."""

@@ -13,10 +13,10 @@ from urdfkit.errors import SimulationError
 from urdfkit.kinematics import Kinematics
 from urdfkit.scene import scene_of
 from urdfkit.sim.engine import Engine
-from urdfkit.sim.engine.arrays import FOUND_CONTACTS, FOUND_ROWS, GUESSES, allocate
 from urdfkit.sim.engine.island_solver.block_matrix import MOST_TREES
 from urdfkit.sim.engine.island_solver.gauss_seidel import SWEEPS
 from urdfkit.sim.engine.layout.world_arrays import MOST_DENSE
+from urdfkit.sim.engine.simulation_memory import FOUND_CONTACTS, FOUND_ROWS, GUESSES, allocate
 
 X = 3.0
 """Where things are, away from the robot [m]."""

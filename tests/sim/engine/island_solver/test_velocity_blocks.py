@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from urdfkit.sim.engine.arrays import allocate
 from urdfkit.sim.engine.island_solver.velocity_blocks import hold
 from urdfkit.sim.engine.kernel_cache import load_compiled, world_digest
 from urdfkit.sim.engine.kernel_world import world
+from urdfkit.sim.engine.simulation_memory import allocate
 from urdfkit.sim.engine.solver.row_states import AT_LOW, HOLDS, SLIDES
 
 

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from tests.sim.engine.worlds import ball, can, cube, rover, rovers, slab, start
-from urdfkit.sim.engine.arrays import FOUND_CONTACTS, FOUND_ROWS
+from urdfkit.sim.engine.simulation_memory import FOUND_CONTACTS, FOUND_ROWS
 
 G = 9.81
 

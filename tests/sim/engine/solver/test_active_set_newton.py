@@ -9,8 +9,8 @@ from hypothesis import strategies as st
 
 from tests.reference_engine.shared_kernels import find_impulses
 from urdfkit.sim.engine import Surface
-from urdfkit.sim.engine.arrays import FOUND_ROWS, GUESSES, allocate
 from urdfkit.sim.engine.kernel_cache import load_compiled
+from urdfkit.sim.engine.simulation_memory import FOUND_ROWS, GUESSES, allocate
 
 
 def solved(A, g, low, high, mu, before=None):

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from urdfkit.sim.engine.arrays import FOUND_ROWS
+from urdfkit.sim.engine.simulation_memory import FOUND_ROWS
 
 DT = 0.001
 

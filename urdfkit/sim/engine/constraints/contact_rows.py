@@ -3,10 +3,9 @@
 import math
 from typing import Any
 
-from urdfkit.sim.engine.arrays import WIDTH
 from urdfkit.sim.engine.compilation import compiled, inlined
 from urdfkit.sim.engine.constraints.constraint_rows import open_row, recovery_speed
-from urdfkit.sim.engine.contacts.contact_point_correction import (
+from urdfkit.sim.engine.contacts.midstep_contact_points import (
     contact_point_velocity,
     correct_contact_point,
     first_of_pair,
@@ -14,6 +13,7 @@ from urdfkit.sim.engine.contacts.contact_point_correction import (
 from urdfkit.sim.engine.dynamics.mass_matrix import FREE
 from urdfkit.sim.engine.kernel_world import KernelWorld
 from urdfkit.sim.engine.math.spatial_algebra import ZERO, add, cross, dot, load_spatial, load_vector, scale, sub
+from urdfkit.sim.engine.simulation_memory import WIDTH
 
 FASTEST_RECOVERY = 0.1
 """Fastest that bodies found in each other are pushed apart [m/s]: what starts in the ground rises, it does not jump.
@@ -76,7 +76,7 @@ def write_free(
 def free_rows(w: KernelWorld, k: int, row: int, width: int, dt: float) -> bool:
     """Write the rows of a contact of a free body with a static shape or another free body; return whether it is one.
 
-    The rows are those of `contact_rows` and `contact_point_correction`, computed from the axes of the bodies instead of
+    The rows are those of `contact_rows` and `midstep_contact_points`, computed from the axes of the bodies instead of
     the motion subspaces.
     """
     body, other = w.contact_body[k], w.contact_other[k]
@@ -89,7 +89,7 @@ def free_rows(w: KernelWorld, k: int, row: int, width: int, dt: float) -> bool:
     if other >= 0:
         one = w.body_tree[other]
         shift = sub(load_vector(w.contact_origin, tree), load_vector(w.contact_origin, one))
-        # Both have the impulse where it is halfway through the step: see `contact_point_correction`.
+        # Both have the impulse where it is halfway through the step: see `midstep_contact_points`.
         first = load_vector(w.contact_point, first_of_pair(w, k))
         way = scale(0.5 * dt, contact_point_velocity(w, k, first, add(first, shift)))
         for j in range(3 if rubs else 1):

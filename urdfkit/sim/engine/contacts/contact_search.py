@@ -1,6 +1,12 @@
 """Contact search: broad phase, then narrow phase for the trees that may touch."""
 
-from urdfkit.sim.engine.arrays import (
+from urdfkit.sim.engine.compilation import compiled
+from urdfkit.sim.engine.contacts.broadphase import find_pairs, update_bounds
+from urdfkit.sim.engine.contacts.friction_directions import orient_friction
+from urdfkit.sim.engine.contacts.ground_contacts import collide_with_plane, near_plane
+from urdfkit.sim.engine.contacts.narrowphase import collide_pairs, match_contacts
+from urdfkit.sim.engine.kernel_world import KernelWorld
+from urdfkit.sim.engine.simulation_memory import (
     CONTACTS,
     DOFS,
     DT,
@@ -16,12 +22,6 @@ from urdfkit.sim.engine.arrays import (
     SLOTS,
     TREES,
 )
-from urdfkit.sim.engine.compilation import compiled
-from urdfkit.sim.engine.contacts.broadphase import find_pairs, update_bounds
-from urdfkit.sim.engine.contacts.friction_directions import orient_friction
-from urdfkit.sim.engine.contacts.ground_contacts import collide_with_plane, near_plane
-from urdfkit.sim.engine.contacts.narrowphase import collide_pairs, match_contacts
-from urdfkit.sim.engine.kernel_world import KernelWorld
 
 
 @compiled

@@ -1,9 +1,9 @@
 """Warm start: impulses of contacts and rows, stored for the next step, and for sleeping trees until they wake."""
 
-from urdfkit.sim.engine.arrays import CONTACTS, DOFS, LAST_PAIRS, MIMICS, SHAPES, SLOTS
 from urdfkit.sim.engine.compilation import inlined
 from urdfkit.sim.engine.kernel_world import KernelWorld
 from urdfkit.sim.engine.math.spatial_algebra import load_rotation, load_vector, store_rotation, store_vector
+from urdfkit.sim.engine.simulation_memory import CONTACTS, DOFS, LAST_PAIRS, MIMICS, SHAPES, SLOTS
 
 
 @inlined

@@ -1,8 +1,8 @@
-"""What every row of an island does, found by trying: velocities and impulses for what they are taken to do, and mended.
+"""Active-set method for an island: guess the state of each row (free, held, sliding), solve, and revise the guess.
 
-With rows that hold taken for stiff dampers, the impulses are corrected until the rows are where they should be (the
-method of multipliers), starting from those of the last step. If the law then forbids something, rows are let go or
-held, or contacts slide (see `coulomb_direction`), some times over.
+Held rows are stiff dampers, and their impulses are corrected until the rows are met (the method of multipliers),
+starting from the impulses of the last step. Rows whose solution contradicts Coulomb's law or a limit then change their
+state, for contacts that slide see `coulomb_direction`, and the island is solved again, at most `REVISIONS` times.
 
 Source: M. R. Hestenes, J. Optim. Theory Appl. 4 (1969) 303-320: multipliers.
 """
@@ -24,7 +24,7 @@ NOT_MET, MET, CONTRADICT = range(3)
 ROUNDS = 8
 """Most corrections of the impulses."""
 SLIDING_ROUNDS = 3
-"""The same where contacts slide, before their directions are taken anew."""
+"""The same where contacts slide, before their directions are updated."""
 REVISIONS = 8
 """How often what rows do is changed before it is given up."""
 LEAST = 1e-12
@@ -134,9 +134,9 @@ def ease(w: KernelWorld, rows: int, tiny: float) -> bool:
 
 @compiled
 def try_states(w: KernelWorld, root: int, rows: int, n: int, tiny: float, most: float) -> int:
-    """Find what rows do, beginning with what ``state`` says; return how many sets were tried, 0 if in vain.
+    """Find what rows do, beginning with those in ``state``; return how many sets were tried, 0 if in vain.
 
-    Impulses beyond `most` come of rows that contradict each other: what they say about the rest means nothing.
+    Impulses beyond `most` come from rows that contradict each other, and are no basis for a revision.
     """
     one_before = two_before = -1
     changed = True
@@ -149,7 +149,7 @@ def try_states(w: KernelWorld, root: int, rows: int, n: int, tiny: float, most: 
         sliding = follow(w, rows, n)
         there = correct(w, root, rows, n, sliding, tiny)
         if there == CONTRADICT:
-            # As of a table on four feet: they are met as nearly as can be, and no impulses grow of what is left.
+            # For example a table on four feet: meet the rows as nearly as possible, so that no impulses grow.
             there = NOT_MET
             if ease(w, rows, tiny):
                 start_over(w, rows, n)

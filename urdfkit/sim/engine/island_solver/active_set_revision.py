@@ -1,4 +1,4 @@
-"""What every row of an island is taken to do, and what the velocities and impulses that follow say about that."""
+"""Revision of an active set: rows whose velocity or impulse contradicts their state change it."""
 
 import math
 
@@ -36,7 +36,7 @@ def first_hold(w: KernelWorld, rows: int) -> None:
 
 @inlined
 def revise_contact(w: KernelWorld, k: int, tiny: float, least: float) -> None:
-    """Change what the law forbids a contact, or take the direction of its slip anew."""
+    """Change the state of a contact that violates Coulomb's law, or update the direction of its slip."""
     off, x, stiffness, state = w.y, w.x, w.g, w.state
     doing = state[k]
     if doing == AT_LOW:
@@ -47,7 +47,7 @@ def revise_contact(w: KernelWorld, k: int, tiny: float, least: float) -> None:
     elif doing == HOLDS:
         size = math.sqrt(x[k + 1] ** 2 + x[k + 2] ** 2)
         if size > w.mu[k] * x[k] * (1.0 + 1e-9) + least:
-            # It will slip about as fast as what is too much for it would have kept it from.
+            # The expected slip is the velocity that the excess of the impulse would have prevented.
             left = (size - w.mu[k] * x[k]) * STIFFNESS / max(stiffness[k + 1], stiffness[k + 2])
             slide(w, k, -x[k + 1] / size, -x[k + 2] / size, left, x[k])
     else:
@@ -61,7 +61,7 @@ def revise_contact(w: KernelWorld, k: int, tiny: float, least: float) -> None:
 
 @compiled
 def revise(w: KernelWorld, rows: int, tiny: float, least: float) -> bool:
-    """Change what the law forbids at the velocities y of the rows; return whether something had to change."""
+    """Change the states that the velocities y of the rows contradict; return whether any state changed."""
     off = w.y
     changed = False
     k = 0

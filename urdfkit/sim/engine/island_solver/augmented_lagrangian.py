@@ -4,8 +4,8 @@ A round minimises a convex function (see `convex_newton`) from the last step's v
 there already. The first rounds are soft, which takes few steps, the others a hundred times as hard. Rounds end once the
 next would change nothing.
 
-Penetrations that are to be taken back seldom fit together where a body lies on more points than it needs; each round
-leaves of them what it could not take back. Without that impulses would grow, of rows that can never be met.
+Corrections of penetrations seldom fit together where a body rests on more points than it needs; each round drops the
+part that it could not correct. Otherwise, the impulses of rows that can never be met would grow.
 """
 
 import math
@@ -34,9 +34,9 @@ OFF = 1e-4
 HEAP = 100
 """Rows beyond which an island is a heap."""
 HEAP_ROUNDS = 2
-"""Most rounds of a heap: the next step goes on from there."""
+"""Most rounds of a heap: the next step continues from there."""
 GROSS = 1e-3
-"""Velocity [m/s or rad/s] by which rounds may leave a heap off the law: beyond, what is pushed down sinks."""
+"""Velocity [m/s or rad/s] by which rounds may violate the law in a heap: beyond it, loaded bodies sink."""
 TRIED_AFTER = 5
 """Rounds after which `active_set` is tried once more: where slips are slow to settle that is quicker."""
 SOLVED = 1e-10
@@ -44,7 +44,7 @@ SOLVED = 1e-10
 NEAR = 5e-6
 """The same where rounds gain nothing more, as where rows still contradict each other."""
 GAIN = 0.4
-"""Ratio of what a round changes to the change before that is no gain."""
+"""Ratio of the change in a round to the change before it, from which on rounds gain nothing."""
 MEMORY = 0.99
 """How much of the last step's impulses is started from."""
 
@@ -73,7 +73,7 @@ def try_from_here(w: KernelWorld, root: int, rows: int, n: int, tiny: float, mos
 
 @compiled
 def go_round(w: KernelWorld, root: int, rows: int, n: int, tiny: float, most: float) -> int:
-    """Go on from the velocities of now and the impulses ``before``, until the law is met or no better met.
+    """Continue from the current velocities and the impulses ``before``, until the law is met or no better met.
 
     Returns:
         How many rounds it took, one more than the most where velocities only come near the law; 0 for a heap where

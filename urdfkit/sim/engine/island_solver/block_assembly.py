@@ -3,16 +3,16 @@
 import math
 from typing import Any
 
-from urdfkit.sim.engine.arrays import WIDTH
 from urdfkit.sim.engine.compilation import compiled, inlined
 from urdfkit.sim.engine.kernel_world import KernelWorld
 from urdfkit.sim.engine.math.simd import load6, store
+from urdfkit.sim.engine.simulation_memory import WIDTH
 from urdfkit.sim.engine.solver.row_states import HOLDS, SLIDES
 
 
 @inlined
 def add_three(K: Any, n: int, i: int, j: int, Y: Any, at: int, to: int, width: int, d: Any) -> None:
-    """Add what the three rows of a contact add, aᵀ·D·b, to a block of K of six by six."""
+    """Add aᵀ·D·b, the contribution of the three rows of a contact, to a 6 x 6 block of K."""
     first, second, third = load6(Y, to), load6(Y, to + width), load6(Y, to + 2 * width)
     for k in range(6):
         a, b, c = d[0] * Y[at + k], d[1] * Y[at + width + k], d[2] * Y[at + 2 * width + k]
@@ -22,7 +22,7 @@ def add_three(K: Any, n: int, i: int, j: int, Y: Any, at: int, to: int, width: i
 
 @inlined
 def add_contact(w: KernelWorld, k: int, n: int, d: Any) -> None:
-    """Add what the three rows of a contact add to K where both its trees, or its only one, have six dofs."""
+    """Add the contribution of a contact's three rows to K where all of its trees have six dofs."""
     width = w.sizes[WIDTH]
     K = w.B
     i, at = w.at_a[k], k * width

@@ -32,7 +32,7 @@ def arrange(w: KernelWorld, root: int, rows: int) -> int:
 
     Afterwards ``block_tree`` lists the trees in order, ``tree_block`` their places in it, ``block_first`` where their
     dofs start, and ``block_after`` those after each that it shares a block with, as bits. For each row ``at_a`` and
-    ``at_b`` tell where the dofs of its trees start, ``of_a`` and ``of_b`` how many these are: none where there is but
+    ``at_b`` are where the dofs of its trees start, ``of_a`` and ``of_b`` how many these are: none where there is but
     one tree.
     """
     block_after = w.block_after
@@ -161,7 +161,7 @@ def eliminate(w: KernelWorld, n: int) -> bool:
 
 @inlined
 def forward_six(K: Any, n: int, d: int, x: Any) -> Any:
-    """Return of x, from d on, what a block of six makes of it on the way forward."""
+    """Return x, from d on, after forward substitution with a block of six."""
     at = d * n + d
     a = x[d] * K[at]
     b = (x[d + 1] - a * K[at + 1]) * K[at + n + 1]
@@ -175,7 +175,7 @@ def forward_six(K: Any, n: int, d: int, x: Any) -> Any:
 
 @inlined
 def backward_six(K: Any, n: int, d: int, x: Any) -> None:
-    """Do with a block of six, from d on, what is to be done on the way back."""
+    """Apply back substitution with a block of six, from d on."""
     at = d * n + d
     to = at + 3 * n + 3
     g = x[d + 5] * K[to + 2 * n + 2]
@@ -191,7 +191,7 @@ def backward_six(K: Any, n: int, d: int, x: Any) -> None:
 
 @inlined
 def take_product(K: Any, at: int, start: int, n: int, x: Any, d: int) -> None:
-    """Take off x, from d on, what a block of six by six, at a place of K, makes of x from `start` on."""
+    """Subtract the product of a 6 x 6 block at a place of K and x from `start` on, from x from d on."""
     own = load_six(x, start)
     for k in range(6):
         x[d + k] -= times_six(K, at + k * n, own)

@@ -6,10 +6,10 @@ the time that loops take.
 
 from typing import Any
 
-from urdfkit.sim.engine.arrays import WIDTH
 from urdfkit.sim.engine.compilation import compiled, inlined
 from urdfkit.sim.engine.kernel_world import KernelWorld
 from urdfkit.sim.engine.math.simd import load6, store
+from urdfkit.sim.engine.simulation_memory import WIDTH
 
 
 @inlined
@@ -82,7 +82,7 @@ def push_six(Y: Any, at: int, width: int, a: float, b: float, c: float, x: Any, 
 
 @compiled
 def push_contact(w: KernelWorld, k: int, a: float, b: float, c: float, x: Any) -> None:
-    """Add what the three rows of a contact exert to x, in the order of the blocks."""
+    """Add the impulses of a contact's three rows to x, in the order of the blocks."""
     width = w.sizes[WIDTH]
     of_a, of_b = w.of_a[k], w.of_b[k]
     if of_a == 6 and (of_b == 6 or of_b == 0):

@@ -1,6 +1,6 @@
 """Conjugate gradients for sweeps: after each pair of sweeps, impulses change further along the directions so far.
 
-What a pair of sweeps changes of the impulses is taken for the negative gradient of the energy that the law minimises.
+The change of the impulses in a pair of sweeps serves as the negative gradient of the energy that the law minimises.
 The share of the last direction in the next is the ratio of the squares of two gradients (Fletcher and Reeves); where
 that is no less than 1, as where contacts begin or cease to slide, directions begin again with the gradient. Impulses
 that this takes out of their cones are put right by the next sweep.
@@ -12,7 +12,7 @@ from urdfkit.sim.engine.compilation import compiled
 from urdfkit.sim.engine.kernel_world import KernelWorld
 
 KEPT = 9
-"""Numbers kept in A of a contact: the inverse of what its rows feel of the masses, and of what single rows feel."""
+"""Numbers kept in A for a contact: its effective mass matrix, and the effective masses of single rows."""
 
 
 @compiled
@@ -30,7 +30,7 @@ def note(w: KernelWorld, root: int, rows: int) -> None:
 
 @compiled
 def size_of_change(w: KernelWorld, rows: int) -> float:
-    """Return the square of what a pair of sweeps changed of the impulses, by what each row feels of the masses."""
+    """Return the squared change of the impulses in a pair of sweeps, weighted with the inverse masses of the rows."""
     total = 0.0
     k = 0
     while k < rows:

@@ -3,15 +3,15 @@
 Each contact gives way along its cone, softly first: the velocities minimise the energy of the change plus, for every
 row or contact, P(z)²/2D with z = x - D·(w + s), where x are the impulses so far, w the velocity of the row, D its
 stiffness and P the projection onto the impulses that the law allows. Newton's method with a line search does that; its
-matrix has the same blocks as that of the rows that hold. Then the impulses are P(z), and it goes on with these and a
+matrix has the same blocks as that of the rows that hold. The impulses are then P(z), and the next round uses them and a
 larger D (the augmented Lagrangian).
 
 A minimum alone would have what slides rise at mu times its slip, as cones and slips go together in a convex problem;
 that much, s, is taken from the normal's velocity (De Saxcé's correction), from the slip of the round before.
 
 Rows that contradict each other, as where a body is wedged where there is no room, are never met, and their impulses
-would grow with each round. Then what was to be taken back of penetrations in this step is left as it is: with nothing
-moving, all rows are met.
+would grow with each round. Then this step corrects no penetrations, so that all rows are met with nothing
+moving.
 
 Sources: A. Castro et al., arXiv:2110.10107 (contact as a convex problem of the velocities); V. Acary, F. Cadoux et al.,
 ZAMM 91 (2011) 155-175 (Coulomb's law as a sequence of convex problems). G. De Saxcé and Z.-Q. Feng, Math. Comput.
@@ -21,18 +21,18 @@ Modelling 28 (1998) 225-245 (the correction).
 import math
 from typing import Any
 
-from urdfkit.sim.engine.arrays import WIDTH
 from urdfkit.sim.engine.compilation import compiled, inlined
 from urdfkit.sim.engine.island_solver.block_assembly import assemble
 from urdfkit.sim.engine.island_solver.block_matrix import eliminate, substitute
 from urdfkit.sim.engine.island_solver.block_products import push_contact, push_row, row_speed, row_speeds, take_momentum
 from urdfkit.sim.engine.kernel_world import KernelWorld
+from urdfkit.sim.engine.simulation_memory import WIDTH
 from urdfkit.sim.engine.solver.row_states import AT_HIGH, AT_LOW, HOLDS, SLIDES
 
 STEPS = 30
 """Most steps of Newton's method in a round."""
 SEARCHES = 8
-"""Most places along a step that are looked at."""
+"""Most places along a step that the line search evaluates."""
 
 
 @inlined
@@ -110,7 +110,7 @@ def slope(w: KernelWorld, rows: int, share: float, ahead: int) -> float:
 def descend(w: KernelWorld, root: int, rows: int, n: int, balance: float) -> int:
     """Go to the minimum of a round, until but this part of the impulses is out of balance; return the steps taken.
 
-    Of each row y is the velocity, with the correction; what it exerts there is the impulse.
+    For each row, y is the velocity with the correction, and x the impulse at that velocity.
     """
     speeds, speed, rest, exerted, inertia = w.y, w.block_v, w.block_f, w.velocity, w.sum_v
     momentum = w.sum_s
@@ -204,24 +204,24 @@ def set_out(w: KernelWorld, rows: int, hardness: float, corrected: bool) -> None
     k = 0
     while k < rows:
         if w.mu[k] > 0.0:
-            least = w.felt[k]
+            least = w.row_stiffness[k]
             for j in range(k + 1, k + 3):
                 # A tangent along which nothing can move has none.
-                if w.felt[j] > 0.0:
-                    least = min(least, w.felt[j])
+                if w.row_stiffness[j] > 0.0:
+                    least = min(least, w.row_stiffness[j])
             stiffness[k] = stiffness[k + 1] = stiffness[k + 2] = hardness * least
             if corrected:
                 s[k] = w.mu[k] * math.sqrt(speeds[k + 1] * speeds[k + 1] + speeds[k + 2] * speeds[k + 2])
                 speeds[k] += s[k]
             k += 3
         else:
-            stiffness[k] = hardness * w.felt[k]
+            stiffness[k] = hardness * w.row_stiffness[k]
             k += 1
 
 
 @compiled
 def leave_wedged(w: KernelWorld, rows: int) -> None:
-    """Take back of penetrations, and of what joints are off, only what the velocities of now allow."""
+    """Limit the corrections of penetrations and joint errors to what the current velocities allow."""
     bias, speed = w.row_bias, w.block_v
     for k in range(rows):
         if w.high[k] < math.inf:

@@ -12,21 +12,21 @@ In ``near_x`` stand the stiffness of the damper across d, at the normal's row, a
 import math
 from typing import Any
 
-from urdfkit.sim.engine.arrays import WIDTH
 from urdfkit.sim.engine.compilation import compiled, inlined
 from urdfkit.sim.engine.island_solver.block_matrix import substitute
 from urdfkit.sim.engine.island_solver.block_products import push_contact, row_speed
 from urdfkit.sim.engine.kernel_world import KernelWorld
 from urdfkit.sim.engine.math.linear_systems import eliminate_and_solve
+from urdfkit.sim.engine.simulation_memory import WIDTH
 from urdfkit.sim.engine.solver.row_states import HOLDS, SLIDES
 
 STIFFNESS = 1e6
-"""Stiffness of a row that holds, over the inverse of what it feels of the masses."""
+"""Stiffness of a held row, over its effective mass."""
 
 
 @compiled
-def feel(w: KernelWorld, root: int, rows: int) -> None:
-    """Find, from what every row feels of the masses, the stiffness of one that holds, in ``felt``."""
+def compute_row_stiffness(w: KernelWorld, root: int, rows: int) -> None:
+    """Compute the stiffness of a row that holds from its effective mass, in ``row_stiffness``."""
     width = w.sizes[WIDTH]
     lightness = w.block_f
     tree = root
@@ -42,15 +42,15 @@ def feel(w: KernelWorld, root: int, rows: int) -> None:
         at, first = at + w.of_a[k], w.at_b[k]
         for d in range(w.of_b[k]):
             total += w.Y[at + d] * w.Y[at + d] * lightness[first + d]
-        w.felt[k] = STIFFNESS / total if total > 0.0 else 0.0
+        w.row_stiffness[k] = STIFFNESS / total if total > 0.0 else 0.0
 
 
 @inlined
 def stiffen(w: KernelWorld, rows: int) -> None:
-    """Give every row the stiffness of one that holds."""
+    """Give every row the stiffness of a held row."""
     stiffness = w.g
     for k in range(rows):
-        stiffness[k] = w.felt[k]
+        stiffness[k] = w.row_stiffness[k]
 
 
 @inlined
@@ -64,16 +64,16 @@ def slide(w: KernelWorld, k: int, first: float, second: float, speed: float, imp
 
 
 @inlined
-def strike(w: KernelWorld, k: int, normal: float, first: float, second: float, felt: float) -> None:
+def strike(w: KernelWorld, k: int, normal: float, first: float, second: float, inverse_mass: float) -> None:
     """Guess, from the velocities with which an open contact closes, whether it slides then.
 
-    What a row of it feels of the masses is about `felt` [1/kg].
+    The inverse of the effective mass of its rows is about `inverse_mass` [1/kg].
     """
     speed = math.sqrt(first * first + second * second)
     left = speed + w.mu[k] * normal
     w.state[k] = w.state[k + 1] = w.state[k + 2] = HOLDS
     if left > 0.0:
-        slide(w, k, first / speed, second / speed, left, -normal / felt if felt > 0.0 else 0.0)
+        slide(w, k, first / speed, second / speed, left, -normal / inverse_mass if inverse_mass > 0.0 else 0.0)
 
 
 @compiled

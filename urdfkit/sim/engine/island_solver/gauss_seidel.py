@@ -5,9 +5,9 @@ projected onto the law): held where its cone allows that, or else sliding, or op
 last step, so that what one step leaves the next continues; what rests is exact after a while. A sweep costs as much
 as there are contacts, and there are no more than `SWEEPS`.
 
-Sweeps alone carry a load from one contact to the next. What a tower lacks at its foot reaches its top some steps later,
-and it sways for ever, as if it stood on springs. So contacts are swept in their order and back, and the change of
-impulses that comes of this is the gradient of a method of conjugate gradients, see `conjugate`.
+Sweeps alone carry a load from one contact to the next. In a tower, a missing impulse at the foot reaches the top some
+steps later, and the tower sways for ever as if on springs. Therefore, contacts are swept in their order and back, and
+the resulting change of impulses is the gradient of a method of conjugate gradients, see `conjugate_gradient`.
 
 Penetrations that are to be taken back contradict each other where a body lies on more points than it needs: some sweeps
 later what could not be taken back is left, or impulses would grow with each sweep.
@@ -19,11 +19,11 @@ Jean, ibid. 155 (1998) 31-47 (Gauss-Seidel for Coulomb's law).
 import math
 from typing import Any
 
-from urdfkit.sim.engine.arrays import WIDTH
 from urdfkit.sim.engine.compilation import compiled, inlined
 from urdfkit.sim.engine.dynamics.mass_matrix import solve_transposed
 from urdfkit.sim.engine.island_solver.conjugate_gradient import KEPT, go_further, note
 from urdfkit.sim.engine.kernel_world import KernelWorld
+from urdfkit.sim.engine.simulation_memory import WIDTH
 
 SWEEPS = 60
 """Most sweeps of a step, each way counted."""
@@ -32,12 +32,12 @@ LEAVE_EVERY = 10
 STILL = 1e-9
 """Change of velocity [m/s or rad/s] in a sweep that ends them."""
 FLAT = 1e-9
-"""Determinant of what three rows of a contact feel of the masses, over the product of its diagonal, that is none."""
+"""Determinant of a contact's 3 x 3 Delassus block, over the product of its diagonal, that counts as singular."""
 
 
 @inlined
 def speed_of(w: KernelWorld, k: int) -> float:
-    """Return what the impulses so far make of a whitened row's velocity [m/s or rad/s]."""
+    """Return the velocity of a whitened row with the impulses so far [m/s or rad/s]."""
     total = w.g[k]
     at, tree = k * w.sizes[WIDTH], w.row_a[k]
     first, size = w.tree_dof[tree], w.tree_dof[tree + 1] - w.tree_dof[tree]
@@ -68,7 +68,7 @@ def give(w: KernelWorld, k: int, c: float) -> None:
 
 
 @inlined
-def felt(w: KernelWorld, i: int, j: int) -> float:
+def delassus_entry(w: KernelWorld, i: int, j: int) -> float:
     """Return the product of two whitened rows of the same trees."""
     a, b, width = w.row_a[i], w.row_b[i], w.sizes[WIDTH]
     size = w.tree_dof[a + 1] - w.tree_dof[a]
@@ -82,7 +82,7 @@ def felt(w: KernelWorld, i: int, j: int) -> float:
 
 @inlined
 def keep_inverse(A: Any, at: int, a: float, b: float, c: float, d: float, e: float, f: float) -> None:
-    """Keep the inverse of [[a, d, e], [d, b, f], [e, f, c]], and what single rows feel."""
+    """Store the inverse of [[a, d, e], [d, b, f], [e, f, c]], and the inverse masses of single rows."""
     aa, bb, cc = b * c - f * f, a * c - e * e, a * b - d * d
     determinant = a * aa + d * (e * f - d * c) + e * (d * f - b * e)
     A[at + 6], A[at + 7] = 1.0 / a, 1.0 / max(b, c) if max(b, c) > 0.0 else 0.0
@@ -100,7 +100,7 @@ def keep_inverse(A: Any, at: int, a: float, b: float, c: float, d: float, e: flo
 
 @compiled
 def prepare(w: KernelWorld, rows: int) -> None:
-    """Turn rows J into Y = J·L⁻¹, and find what contacts and rows feel of the masses: in A, `KEPT` for each row."""
+    """Turn rows J into Y = J·L⁻¹, and the inverse mass of each contact and row in A, `KEPT` for each row."""
     width = w.sizes[WIDTH]
     for k in range(rows):
         free = w.row_bias[k]
@@ -117,11 +117,11 @@ def prepare(w: KernelWorld, rows: int) -> None:
         w.g[k] = free
     k = 0
     while k < rows:
-        own, at = felt(w, k, k), KEPT * k // 3
+        own, at = delassus_entry(w, k, k), KEPT * k // 3
         if w.mu[k] > 0.0:
-            ss, tt = felt(w, k + 1, k + 1), felt(w, k + 2, k + 2)
-            ns, nt = felt(w, k, k + 1), felt(w, k, k + 2)
-            keep_inverse(w.A, at, own, ss, tt, ns, nt, felt(w, k + 1, k + 2))
+            ss, tt = delassus_entry(w, k + 1, k + 1), delassus_entry(w, k + 2, k + 2)
+            ns, nt = delassus_entry(w, k, k + 1), delassus_entry(w, k, k + 2)
+            keep_inverse(w.A, at, own, ss, tt, ns, nt, delassus_entry(w, k + 1, k + 2))
             k += 3
             continue
         w.A[3 * k] = 1.0 / own if own > 0.0 else 0.0
@@ -168,7 +168,7 @@ def put_right(w: KernelWorld, k: int) -> float:
 
 @inlined
 def leave_unmet(w: KernelWorld, rows: int) -> None:
-    """Take back of penetrations only what the velocities of now allow."""
+    """Limit the corrections of penetrations to what the current velocities allow."""
     for k in range(rows):
         if w.low[k] == 0.0 and w.high[k] == math.inf and w.row_bias[k] < 0.0:
             off = speed_of(w, k)

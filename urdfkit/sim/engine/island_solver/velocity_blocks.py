@@ -19,7 +19,7 @@ from urdfkit.sim.engine.island_solver.active_set_revision import first_hold
 from urdfkit.sim.engine.island_solver.augmented_lagrangian import go_round
 from urdfkit.sim.engine.island_solver.block_matrix import arrange
 from urdfkit.sim.engine.island_solver.block_products import row_speeds
-from urdfkit.sim.engine.island_solver.coulomb_direction import STIFFNESS, feel, stiffen
+from urdfkit.sim.engine.island_solver.coulomb_direction import STIFFNESS, compute_row_stiffness, stiffen
 from urdfkit.sim.engine.kernel_world import KernelWorld
 
 WILD = 30.0
@@ -32,7 +32,7 @@ LEAST = 2e-5
 def leave(w: KernelWorld, rows: int) -> bool:
     """Leave what little is to be taken back of penetrations, or closed of gaps, where a load is; return if any is.
 
-    What holds is then met where nothing moves, and contradicts nothing. What is left of each is kept in ``ahead``.
+    Held rows are then met where nothing moves, without contradictions. The remaining corrections are in ``ahead``.
     """
     bias, left = w.row_bias, w.ahead
     found = False
@@ -85,7 +85,7 @@ def hold(w: KernelWorld, root: int, rows: int) -> int:
     for k in range(rows):
         g[k] += w.row_bias[k]
         largest = max(largest, abs(g[k]))
-    feel(w, root, rows)
+    compute_row_stiffness(w, root, rows)
     stiffen(w, rows)
     first_hold(w, rows)
     # As `solve` has it.

@@ -7,9 +7,9 @@ import numpy as np
 
 from urdfkit.errors import SimulationError
 from urdfkit.linear_algebra import Array, matmul, vector_norm
-from urdfkit.sim.engine.arrays import Arrays
 from urdfkit.sim.engine.bodies import Body, Member
 from urdfkit.sim.engine.dynamics.mass_matrix import FREE, PLANAR, PRISMATIC, REVOLUTE
+from urdfkit.sim.engine.simulation_memory import Arrays
 
 KINDS = {1: (PRISMATIC, REVOLUTE), 3: (PLANAR, PLANAR), 6: (FREE, FREE)}
 """Number of dofs → kind of joint that only shifts, kind of any other."""

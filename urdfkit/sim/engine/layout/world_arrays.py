@@ -4,7 +4,6 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from urdfkit.sim.engine.arrays import Arrays, allocate
 from urdfkit.sim.engine.bodies import Body, Member
 from urdfkit.sim.engine.collision.collide_pair import MOST
 from urdfkit.sim.engine.collision.convex_hull import convex_hull
@@ -15,6 +14,7 @@ from urdfkit.sim.engine.contacts import ground_contacts
 from urdfkit.sim.engine.island_solver.conjugate_gradient import KEPT
 from urdfkit.sim.engine.layout.collision_shapes import box_of, still_box
 from urdfkit.sim.engine.layout.tree_arrays import fill_free, fill_member
+from urdfkit.sim.engine.simulation_memory import Arrays, allocate
 
 PAIRS, PAIRS_EACH = 32768, 64
 """Most pairs of shapes whose boxes may overlap at once, or so many for each shape that moves if that is more."""
@@ -84,7 +84,7 @@ def fill(
     arrays["tree_mimic"][1:] = np.cumsum(mimics)
     arrays["servo_effort"][:] = np.inf
     arrays["sleeps"][:] = sleep
-    arrays["asked_gravity"][:] = gravity
+    arrays["gravity_last_step"][:] = gravity
     arrays["tree_order"][:] = np.arange(len(joints))
     arrays["lower"][:], arrays["upper"][:] = -np.inf, np.inf
     entry = 0

@@ -18,7 +18,7 @@ from numba.extending import intrinsic, lower_builtin, register_model
 from urdfkit.sim.engine.compilation import inlined, of_kind
 
 LANES = 16
-"""How many rows are taken at a time. Their numbers have room for as many more, see `arrays.allocate`."""
+"""How many rows are taken at a time. Their numbers have room for as many more, see `simulation_memory.allocate`."""
 FLAGS = ("contract",)
 """As `compilation.OPTIONS` has it: a product and a sum may be one instruction."""
 

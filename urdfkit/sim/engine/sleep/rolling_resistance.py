@@ -1,14 +1,14 @@
-"""What rolls, and what resists its turning.
+"""Rolling and spinning resistance of round free bodies, so that heaps of them come to rest and can sleep.
 
-A rigid ball that rolls on a plane does so for ever, and here it does. In a heap of balls, cans and boxes that would
-keep everything awake, and so would a ball that turns on the spot, about the normal of its contact. A real one comes to
-rest, as surfaces yield a little where they touch. So a moment resists the turning of a round body
+A rigid ball on a plane rolls for ever, also in this engine. In a heap of balls, cans and boxes, that would keep all
+bodies awake, as would a ball that spins about the normal of its contact. Real bodies come to rest because surfaces
+deform where they touch. Therefore, a moment resists the rotation of a round body
 
-- about the normal of its contact, on whatever it lies,
-- about any axis, where it touches another free body,
+- about the normal of each of its contacts,
+- about any axis, if it touches another free body,
 
-as long as all that touch each other are free bodies that nothing pushes. What rolls by itself on the ground, or what a
-robot touches, rolls freely.
+provided that its island contains only free bodies to which no force is applied. A single body on the ground, and bodies
+that a robot touches, roll freely.
 """
 
 import math

@@ -1,24 +1,24 @@
 """Sleep: trees at rest are left as they are, with the forces they rest on, until something happens to them.
 
-An island falls asleep once all its trees have been at rest for `PATIENCE`, see `sleep_criteria`, with nothing asked of
-them. For an island of free bodies it is enough that their motion has died down, see `slow_motion`. The contacts of
-sleepers are kept from the end of their room on, so that they can be told and found again.
+An island falls asleep once all its trees have been at rest for `PATIENCE`, see `sleep_criteria`, without targets. For
+an island of free bodies it is enough that their motion has died down, see `slow_motion`. The contacts of sleepers are
+stored from the end of their array on, so that they can be reported and found again.
 """
 
-from urdfkit.sim.engine.arrays import CONTACTS, DT, LAST_PAIRS, OBSERVED, SLEEPING, TREES
 from urdfkit.sim.engine.compilation import compiled, inlined
 from urdfkit.sim.engine.contacts.broadphase import update_bounds
 from urdfkit.sim.engine.contacts.warm_start import copy_contact
 from urdfkit.sim.engine.dynamics.mass_matrix import place
 from urdfkit.sim.engine.kernel_world import KernelWorld
 from urdfkit.sim.engine.math.spatial_algebra import ZERO, store_spatial, store_vector
+from urdfkit.sim.engine.simulation_memory import CONTACTS, DT, LAST_PAIRS, OBSERVED, SLEEPING, TREES
 from urdfkit.sim.engine.sleep.sleep_criteria import (
-    ASKED,
     PATIENCE,
-    asked_of,
+    TARGETS,
     is_free_body,
     is_left_alone,
     is_quiet,
+    target_of,
 )
 from urdfkit.sim.engine.sleep.slow_motion import DIED_DOWN, observe
 
@@ -88,14 +88,14 @@ def lie_down(w: KernelWorld, root: int, contacts: int) -> None:
 
 @inlined
 def stop(w: KernelWorld, tree: int) -> None:
-    """Take the last of a tree's velocity and note where it lies and what is asked of it."""
+    """Set a tree's velocity to zero and store its positions and targets."""
     first = w.tree_s[tree]
     for k in range(first, w.tree_s[tree + 1]):
         w.s_ahead[k] = w.s[k]
     for d in range(w.tree_dof[tree], w.tree_dof[tree + 1]):
         w.v[d] = 0.0
-        for k in range(ASKED):
-            w.asked[ASKED * d + k] = asked_of(w, d, k)
+        for k in range(TARGETS):
+            w.targets_at_sleep[TARGETS * d + k] = target_of(w, d, k)
     if w.tree_floats[tree] != 0:
         store_vector(w.P, tree, (w.s[first], w.s[first + 1], w.s[first + 2]))
     place(w, tree, w.s, False)

@@ -1,20 +1,20 @@
-"""Whether a tree is at rest, and nothing is asked of it.
+"""Criteria for sleep: a tree is at rest, and neither targets nor forces act on it.
 
-At rest it stays where it is: in `PATIENCE`, or since it lies, it has gone no farther than it would at a speed of
-`QUIET` (`TURNING`), and was never faster than `LOUD`. What lies in a heap trembles a little where contacts come and go,
-and yet is at rest.
+A tree is at rest if it moved, in `PATIENCE` or since it came to rest, no farther than it would at a speed of `QUIET`
+(`TURNING`), and was never faster than `LOUD`. So a body in a heap is at rest even if it trembles a little where
+contacts open and close.
 """
 
-from urdfkit.sim.engine.arrays import DT, OBSERVED
 from urdfkit.sim.engine.compilation import inlined
 from urdfkit.sim.engine.kernel_world import KernelWorld
+from urdfkit.sim.engine.simulation_memory import DT, OBSERVED
 
 QUIET = 1e-4
 """Speed [m/s, rad/s] below which, on the whole, a dof counts as at rest: MuJoCo's ``sleep_tolerance``."""
 TURNING = 5e-3
 """The same for the turning of a free body, which nothing brakes where it lies on two points [rad/s].
 
-MuJoCo, too, allows what is small to turn faster, ODE 0.01 rad/s.
+MuJoCo, too, allows small bodies to turn faster, ODE 0.01 rad/s.
 """
 LOUD = 1e-2
 """Speed [m/s, rad/s] of a dof that is not at rest, however short: ODE's thresholds for bodies to be disabled."""
@@ -22,12 +22,12 @@ LOUD_TURNING = 5e-2
 """The same for the turning of a free body [rad/s]: a corner of a brick goes at a tenth of that [m/s]."""
 PATIENCE = 0.5
 """How long an island is at rest before it sleeps [s]."""
-ASKED = 8
+TARGETS = 8
 """Targets of each dof that are remembered."""
 
 
 @inlined
-def asked_of(w: KernelWorld, d: int, k: int) -> float:
+def target_of(w: KernelWorld, d: int, k: int) -> float:
     """Return the k-th of the targets of a dof."""
     if k == 0:
         return float(w.motor_velocity[d])
@@ -54,7 +54,7 @@ def is_free_body(w: KernelWorld, tree: int) -> bool:
 
 @inlined
 def is_left_alone(w: KernelWorld, tree: int) -> bool:
-    """Return whether a tree may sleep, and nothing is asked of it that could move it."""
+    """Return whether a tree may sleep, and no target or force acts on it that could move it."""
     if w.sleeps[tree] == 0:
         return False
     for d in range(w.tree_dof[tree], w.tree_dof[tree + 1]):

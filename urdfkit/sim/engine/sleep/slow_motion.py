@@ -18,10 +18,10 @@ A round body is an exception to the second condition, as nothing resists its rol
 
 from typing import Any
 
-from urdfkit.sim.engine.arrays import OBSERVED
 from urdfkit.sim.engine.compilation import inlined
 from urdfkit.sim.engine.kernel_world import KernelWorld
 from urdfkit.sim.engine.math.spatial_algebra import ZERO, add, dot, load_vector, scale, store_vector
+from urdfkit.sim.engine.simulation_memory import OBSERVED
 from urdfkit.sim.engine.sleep.rolling_resistance import is_round
 from urdfkit.sim.engine.sleep.sleep_criteria import PATIENCE, QUIET
 

@@ -1,39 +1,39 @@
 """Waking: an island that sleeps wakes as a whole.
 
-It does when what is awake comes within reach of a contact, or when what is asked of one of its trees, its place, its
-velocity or gravity is not what it was.
+It wakes when an awake body comes within reach of a contact, or when the targets, place or velocity of one of its trees,
+or gravity, changes.
 """
 
-from urdfkit.sim.engine.arrays import CONTACTS, OBSERVED, SLEEPING, TREES
 from urdfkit.sim.engine.compilation import compiled, inlined
 from urdfkit.sim.engine.contacts.warm_start import copy_contact, insert_pair, store_impulses
 from urdfkit.sim.engine.dynamics.tree_motion import begin_step
 from urdfkit.sim.engine.kernel_world import KernelWorld
-from urdfkit.sim.engine.sleep.sleep_criteria import ASKED, asked_of
+from urdfkit.sim.engine.simulation_memory import CONTACTS, OBSERVED, SLEEPING, TREES
+from urdfkit.sim.engine.sleep.sleep_criteria import TARGETS, target_of
 
 
 @inlined
 def is_disturbed(w: KernelWorld, tree: int) -> bool:
-    """Return whether somebody moved a sleeping tree or asks something new of it."""
+    """Return whether a sleeping tree was moved from outside or has new targets."""
     for k in range(w.tree_s[tree], w.tree_s[tree + 1]):
         if w.s[k] != w.s_ahead[k]:
             return True
     for d in range(w.tree_dof[tree], w.tree_dof[tree + 1]):
         if w.v[d] != 0.0:
             return True
-        for k in range(ASKED):
-            if w.asked[ASKED * d + k] != asked_of(w, d, k):
+        for k in range(TARGETS):
+            if w.targets_at_sleep[TARGETS * d + k] != target_of(w, d, k):
                 return True
     return False
 
 
 @compiled
-def rouse_disturbed(w: KernelWorld) -> None:
-    """Wake what has been disturbed since the last call; all, where gravity has changed."""
+def wake_disturbed(w: KernelWorld) -> None:
+    """Wake the islands disturbed since the last call, or all of them if gravity has changed."""
     turned = False
     for k in range(3):
-        turned = turned or w.gravity[k] != w.asked_gravity[k]
-        w.asked_gravity[k] = w.gravity[k]
+        turned = turned or w.gravity[k] != w.gravity_last_step[k]
+        w.gravity_last_step[k] = w.gravity[k]
     for tree in range(w.sizes[TREES]):
         if w.asleep[tree] != 0 and (turned or is_disturbed(w, tree)):
             wake(w, w.asleep[tree])
@@ -61,8 +61,8 @@ def wake(w: KernelWorld, label: int) -> None:
 
 
 @compiled
-def rouse_touched(w: KernelWorld, contacts: int) -> bool:
-    """Wake the sleepers that what is awake can touch within the step; return whether there were any."""
+def wake_touched(w: KernelWorld, contacts: int) -> bool:
+    """Wake the sleepers that an awake body can touch within the step; return whether there were any."""
     any_woken = False
     for k in range(contacts):
         if w.contact_other[k] < 0:

@@ -7,7 +7,16 @@ fast.
 import math
 from typing import Any
 
-from urdfkit.sim.engine.arrays import (
+from urdfkit.sim.engine.constraints.constraint_rows import joint_rows
+from urdfkit.sim.engine.constraints.contact_rows import contact_rows
+from urdfkit.sim.engine.constraints.joint_servos import SERVO_ATTEMPTS, account, limited, overloaded, smooth_motion
+from urdfkit.sim.engine.constraints.limit_crossings import passes_limits, whirls
+from urdfkit.sim.engine.contacts.friction_directions import orient_friction
+from urdfkit.sim.engine.contacts.ground_contacts import collide_with_plane, near_plane
+from urdfkit.sim.engine.dynamics.integration import move
+from urdfkit.sim.engine.dynamics.mass_matrix import place, solve_forward, terms
+from urdfkit.sim.engine.kernel_world import world
+from urdfkit.sim.engine.simulation_memory import (
     BODIES,
     CONTACTS,
     COORDINATES,
@@ -24,15 +33,6 @@ from urdfkit.sim.engine.arrays import (
     SLOTS,
     STEPS,
 )
-from urdfkit.sim.engine.constraints.constraint_rows import joint_rows
-from urdfkit.sim.engine.constraints.contact_rows import contact_rows
-from urdfkit.sim.engine.constraints.joint_limits import passes_limits, whirls
-from urdfkit.sim.engine.constraints.joint_servos import SERVO_ATTEMPTS, account, limited, overloaded, smooth_motion
-from urdfkit.sim.engine.contacts.friction_directions import orient_friction
-from urdfkit.sim.engine.contacts.ground_contacts import collide_with_plane, near_plane
-from urdfkit.sim.engine.dynamics.integration import move
-from urdfkit.sim.engine.dynamics.mass_matrix import place, solve_forward, terms
-from urdfkit.sim.engine.kernel_world import world
 from urdfkit.sim.engine.solver.active_set_newton import solve
 from urdfkit.sim.engine.solver.delassus import apply_impulses, build_delassus
 from urdfkit.sim.engine.stepping.ballistic import is_ballistic, rk4_step

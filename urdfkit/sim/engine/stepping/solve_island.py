@@ -1,6 +1,16 @@
 """Step of one island: smooth motion, rows, impulses, and new velocities."""
 
-from urdfkit.sim.engine.arrays import (
+from urdfkit.sim.engine.compilation import compiled
+from urdfkit.sim.engine.constraints.constraint_rows import joint_rows
+from urdfkit.sim.engine.constraints.contact_rows import contact_rows
+from urdfkit.sim.engine.constraints.joint_servos import SERVO_ATTEMPTS, limited, overloaded, smooth_motion
+from urdfkit.sim.engine.constraints.limit_crossings import passes_limits, whirls
+from urdfkit.sim.engine.dynamics.mass_matrix import solve_forward
+from urdfkit.sim.engine.dynamics.tree_motion import evaluate
+from urdfkit.sim.engine.island_solver.gauss_seidel import sweep
+from urdfkit.sim.engine.island_solver.velocity_blocks import hold
+from urdfkit.sim.engine.kernel_world import KernelWorld
+from urdfkit.sim.engine.simulation_memory import (
     CONTACTS,
     DOFS,
     DT,
@@ -13,16 +23,6 @@ from urdfkit.sim.engine.arrays import (
     SLOTS,
     WIDTH,
 )
-from urdfkit.sim.engine.compilation import compiled
-from urdfkit.sim.engine.constraints.constraint_rows import joint_rows
-from urdfkit.sim.engine.constraints.contact_rows import contact_rows
-from urdfkit.sim.engine.constraints.joint_limits import passes_limits, whirls
-from urdfkit.sim.engine.constraints.joint_servos import SERVO_ATTEMPTS, limited, overloaded, smooth_motion
-from urdfkit.sim.engine.dynamics.mass_matrix import solve_forward
-from urdfkit.sim.engine.dynamics.tree_motion import evaluate
-from urdfkit.sim.engine.island_solver.gauss_seidel import sweep
-from urdfkit.sim.engine.island_solver.velocity_blocks import hold
-from urdfkit.sim.engine.kernel_world import KernelWorld
 from urdfkit.sim.engine.sleep.rolling_resistance import resist_rolling
 from urdfkit.sim.engine.solver.active_set_newton import solve
 from urdfkit.sim.engine.solver.delassus import apply_impulses, build_delassus

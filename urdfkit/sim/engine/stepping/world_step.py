@@ -3,14 +3,14 @@
 import math
 from typing import Any
 
-from urdfkit.sim.engine.arrays import DT, FOUND_CONTACTS, FOUND_PAIRS, FOUND_ROWS, STEPS, TREES
 from urdfkit.sim.engine.constraints.joint_servos import account
 from urdfkit.sim.engine.contacts.contact_search import find_candidate_pairs, find_contacts
 from urdfkit.sim.engine.contacts.warm_start import store_impulses, store_pair_impulses
 from urdfkit.sim.engine.dynamics.tree_motion import begin_step, evaluate, integrate_tree, predict_poses
 from urdfkit.sim.engine.kernel_world import world
+from urdfkit.sim.engine.simulation_memory import DT, FOUND_CONTACTS, FOUND_PAIRS, FOUND_ROWS, STEPS, TREES
 from urdfkit.sim.engine.sleep.sleep import let_sleep
-from urdfkit.sim.engine.sleep.wake import rouse_disturbed, rouse_touched
+from urdfkit.sim.engine.sleep.wake import wake_disturbed, wake_touched
 from urdfkit.sim.engine.stepping.islands import build_islands
 from urdfkit.sim.engine.stepping.solve_island import solve_island
 
@@ -39,7 +39,7 @@ def advance(floats: Any, integers: Any, steps: int, only_terms: bool) -> int:
                 store_impulses(w, tree)
         store_pair_impulses(w)
         if done == 0:
-            rouse_disturbed(w)
+            wake_disturbed(w)
         awake = 0
         for tree in range(trees):
             if w.asleep[tree] == 0:
@@ -65,7 +65,7 @@ def advance(floats: Any, integers: Any, steps: int, only_terms: bool) -> int:
                 contacts = find_contacts(w, pairs)
                 if contacts < 0:
                     return done
-            if not rouse_touched(w, contacts):
+            if not wake_touched(w, contacts):
                 break
             for tree in range(trees):
                 if w.near[tree] != 0 and w.asleep[tree] == 0:

@@ -1,12 +1,12 @@
-"""Where two trees swap an impulse: `contacts.contact_point_correction` in numpy, for the reference."""
+"""Where two trees swap an impulse: `contacts.midstep_contact_points` in numpy, for the reference."""
 
 from __future__ import annotations
 
 import numpy as np
 from numpy.typing import NDArray
 
-from urdfkit.sim.engine.arrays import DT, Arrays
 from urdfkit.sim.engine.contacts.ground_contacts import CAPSULE, CYLINDER, SPHERE, WHEEL
+from urdfkit.sim.engine.simulation_memory import DT, Arrays
 
 Array = NDArray[np.float64]
 
