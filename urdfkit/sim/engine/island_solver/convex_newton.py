@@ -221,7 +221,7 @@ def set_out(w: KernelWorld, rows: int, hardness: float, corrected: bool) -> None
 
 @compiled
 def leave_wedged(w: KernelWorld, rows: int) -> None:
-    """Limit the corrections of penetrations and joint errors to what the current velocities allow."""
+    """Limit the corrections of penetrations and joint errors by the current velocities."""
     bias, speed = w.row_bias, w.block_v
     for k in range(rows):
         if w.high[k] < math.inf:

@@ -168,7 +168,7 @@ def put_right(w: KernelWorld, k: int) -> float:
 
 @inlined
 def leave_unmet(w: KernelWorld, rows: int) -> None:
-    """Limit the corrections of penetrations to what the current velocities allow."""
+    """Limit the corrections of penetrations by the current velocities."""
     for k in range(rows):
         if w.low[k] == 0.0 and w.high[k] == math.inf and w.row_bias[k] < 0.0:
             off = speed_of(w, k)
