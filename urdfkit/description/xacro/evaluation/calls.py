@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 
 from urdfkit.description.xacro.evaluation.elements import Elements
 from urdfkit.description.xacro.evaluation.expressions.limits import MAX_MACRO_CALLS, MAX_MACRO_DEPTH
@@ -24,7 +24,6 @@ from urdfkit.description.xml.source import Expansion
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     Steps = Iterator["Steps"]
-    from urdfkit.description.packages.resolver import Packages
 
 
 class Macro:
@@ -47,13 +46,9 @@ class Calls(Elements):
         macros: every macro that was defined, by name (the last definition).
     """
 
-    def __init__(
-        self, path: str, arguments: Mapping[str, str], packages: Packages, *, texts: Mapping[str, str] | None = None
-    ) -> None:
-        super().__init__(path, arguments, packages, texts=texts)
-        self.macros: dict[str, MacroDefinition] = {}
-        self._stack: list[Macro] = []
-        self._calls = 0
+    macros: dict[str, MacroDefinition]
+    _stack: list[Macro]
+    _calls = 0
 
     def _element(self, tag: Tag, macros: Scope, scope: Scope) -> Steps:
         raise NotImplementedError

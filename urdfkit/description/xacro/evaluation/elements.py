@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-
 from urdfkit.description.xacro.evaluation.expressions.limits import MAX_EXPANDED
 from urdfkit.description.xacro.evaluation.expressions.symbols import Scope
 from urdfkit.description.xacro.evaluation.failures import Failure, SourceElement, short
@@ -14,18 +12,12 @@ TYPE_CHECKING = False
 if TYPE_CHECKING:
     from typing import Any
 
-    from urdfkit.description.packages.resolver import Packages
-
 
 class Elements(Files):
     """Reads the attributes of directives and tidies up around them."""
 
-    def __init__(
-        self, path: str, arguments: Mapping[str, str], packages: Packages, *, texts: Mapping[str, str] | None = None
-    ) -> None:
-        super().__init__(path, arguments, packages, texts=texts)
-        self._expanded = 0
-        self._separator = Node(TEXT, "\n\n")
+    _expanded = 0
+    _separator: Node
 
     def count(self, copied: int) -> None:
         """Count elements and attributes that are copied.

@@ -24,13 +24,7 @@ from urdfkit.description.xacro.evaluation.failures import (
     short,
     undefined_block,
 )
-from urdfkit.description.xacro.evaluation.tree import (
-    COMMENT,
-    MORE,
-    TEXT,
-    Tag,
-    element_of,
-)
+from urdfkit.description.xacro.evaluation.tree import COMMENT, MORE, TEXT, Node, Tag, element_of
 from urdfkit.description.xacro.expanded import Expanded
 from urdfkit.errors import XmlError
 
@@ -69,6 +63,8 @@ class Evaluator(Calls):
         texts: Mapping[str, str] | None = None,
     ) -> None:
         super().__init__(path, arguments, packages, texts=texts)
+        self._separator = Node(TEXT, "\n\n")
+        self.macros, self._stack = {}, []
         self.properties: dict[str, Position] = {}
         self.open_blocks: list[str] = []
         self.top_scope, self.top_macros = Scope(self.globals, self), Scope({})
