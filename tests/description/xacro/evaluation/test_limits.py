@@ -11,6 +11,7 @@ import pytest
 from tests.description.xacro.evaluation.test_expression_limits import GROWING
 from urdfkit.description.packages.resolver import Packages
 from urdfkit.description.xacro.evaluation.evaluator import Evaluator
+from urdfkit.description.xacro.expand import expand_leniently
 from urdfkit.description.xacro.expanded import Expanded
 from urdfkit.errors import UrdfkitError
 
@@ -98,4 +99,12 @@ def test_a_hostile_file_is_refused(write: Write, name: str) -> None:
     start = time.process_time()
     with pytest.raises(UrdfkitError, match=cause):
         evaluated(path)
+    assert time.process_time() - start < 10
+
+
+def test_recovery_spends_no_more_on_files_that_are_refused(write: Write) -> None:
+    write("deep.yaml", "[" * 2_000 + "]" * 2_000)
+    path = write("m.xacro", "HEAD" + "<l a=\"${xacro.load_yaml('deep.yaml')}\"/>" * 1000 + "</robot>")
+    start = time.process_time()
+    assert "nested too deep" in expand_leniently(path).faults[0].message
     assert time.process_time() - start < 10

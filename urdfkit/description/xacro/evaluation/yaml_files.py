@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 
-from urdfkit.description.xacro.evaluation.expressions.limits import MAX_ELEMENTS, TooLarge
+from urdfkit.description.xacro.evaluation.expressions.limits import MAX_ELEMENTS, MAX_NESTING, TooLarge
 from urdfkit.description.xacro.evaluation.expressions.values import wrapped
 
 TYPE_CHECKING = False
@@ -38,11 +38,19 @@ def yaml_values(text: str, evaluate: Callable[[str], Any], spend: Callable[[int]
     class Loader(yaml.SafeLoader):
         """Loads plain values; counts what merge keys copy."""
 
-        merged = 0
+        merged = depth = 0
+
+        def fetch_more_tokens(self) -> None:
+            _check_depth(self.flow_level)  # here, because the scanner reads 1,024 brackets ahead
+            super().fetch_more_tokens()
 
         def compose_node(self, parent: Any, index: Any) -> Any:
             spend(4)
-            return super().compose_node(parent, index)
+            self.depth += 1
+            _check_depth(self.depth)
+            node = super().compose_node(parent, index)
+            self.depth -= 1
+            return node
 
         def flatten_mapping(self, node: Any) -> None:
             for key, value in node.value:
@@ -65,3 +73,8 @@ def yaml_values(text: str, evaluate: Callable[[str], Any], spend: Callable[[int]
         return wrapped(yaml.load(text, Loader))
     except RecursionError:
         raise TooLarge("the YAML file is nested too deep") from None
+
+
+def _check_depth(depth: int) -> None:
+    if depth > MAX_NESTING:
+        raise TooLarge("the YAML file is nested too deep")
