@@ -246,7 +246,7 @@ class RecoveringEvaluator(Evaluator):
             return Unknown(f"${{{name}}}")
 
     def _joined(self, parts: list[Any], text: str) -> str:
-        if not any(type(part) is Unknown for part in parts):
+        if Unknown not in map(type, parts):
             return super()._joined(parts, text)
         shown = list(map(str, parts))
         return Unknown("".join(shown) if sum(map(len, shown)) <= MAX_CHARACTERS else text)

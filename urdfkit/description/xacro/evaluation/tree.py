@@ -85,11 +85,13 @@ class Tag(Node):
         size: how many elements and attributes it has, itself and all below it included; valid unless `work` is `MORE`.
         height: how many elements are nested in it; valid unless `work` is `MORE`.
         expressions: what `expressions_of` found.
+        content: its text, None if that has expressions, and the elements in it; None until it is copied.
     """
 
     __slots__ = (
         "attributes",
         "chain",
+        "content",
         "expressions",
         "first",
         "height",
@@ -110,6 +112,7 @@ class Tag(Node):
         self.attributes, self.position, self.chain = attributes, position, chain
         self.work, self.size, self.height = MORE, 0, 0
         self.expressions: list[tuple[Position, str | None, str]] | None = None
+        self.content: tuple[str | None, list[Tag]] | None = None
 
     def append(self, node: Node) -> None:
         """Add a child that has no parent."""
@@ -189,6 +192,7 @@ class Copy(Tag):
         self.parent = self.before = self.after = None
         self.tag, self.name, self.position, self.chain = source.tag, source.name, source.position, chain
         self.work, self.size, self.height, self.expressions = source.work, source.size, source.height, None
+        self.content = None
         self.values: list[str] | None = None
         self._first: Node | None = None
         self._last: Node | None = None
@@ -308,13 +312,24 @@ def _copied(source: Tag, chain: Chain, values: Iterator[str]) -> Element:
         for name, value in attributes.items():
             if "$" in value:
                 attributes[name] = next(values)
-    children: list[Element] = []
-    text = ""
-    child = source.first
-    while child is not None:
-        if isinstance(child, Tag):
-            children.append(_copied(child, chain, values))
-        elif child.kind == TEXT or child.kind == CDATA:
-            text += next(values) if "$" in child.data and child.kind == TEXT else child.data
-        child = child.after
-    return Element(source.tag, attributes, children, text.strip(), Origin(source.position, chain))
+    if source.content is None:
+        source.content = _content(source)
+    text, tags = source.content
+    if text is not None:
+        children = [_copied(child, chain, values) for child in tags]
+    else:
+        children, text = [], ""
+        for child in source.children():
+            if isinstance(child, Tag):
+                children.append(_copied(child, chain, values))
+            elif child.kind in (TEXT, CDATA):
+                text += next(values) if "$" in child.data and child.kind == TEXT else child.data
+        text = text.strip()
+    return Element(source.tag, attributes, children, text, Origin(source.position, chain))
+
+
+def _content(tag: Tag) -> tuple[str | None, list[Tag]]:
+    """Return the text in an element, None if it has expressions, and the elements in it."""
+    texts = [child.data for child in tag.children() if child.kind == TEXT or child.kind == CDATA]
+    text = "".join(texts)
+    return None if "$" in text else text.strip(), list(tag.tags())
