@@ -43,7 +43,7 @@ def test_what_is_published_is_read_back(tmp_path: Path) -> None:
         t = 0.25
         bus.publish("/before", FLOAT, number(1.5))
         bus.publish("/late", TWIST, twist((1, 2, 3), (4, 5, 6)))
-        recorder.look()
+        recorder.subscribe_new_topics()
         t = 0.5
         bus.advertise("/late", TWIST).offer(lambda: twist((7, 0, 0), (0, 0, 0)))
         assert not path.exists()

@@ -92,7 +92,7 @@ def sized(page: Page) -> None:
     page.evaluate(
         """() => new Promise((done) => {
           const check = () => {
-            const { aspect, pane } = urdfkit.stage;
+            const { aspect, pane } = urdfkit.viewport;
             if (aspect === pane.clientWidth / pane.clientHeight) done();
             else requestAnimationFrame(check);
           };
@@ -106,7 +106,7 @@ def drawn(page: Page) -> None:
     sized(page)
     page.evaluate(
         """() => new Promise((done) => {
-          const look = () => (urdfkit.stage.viewer.needs_render ? requestAnimationFrame(look) : done());
+          const look = () => (urdfkit.viewport.viewer.needs_render ? requestAnimationFrame(look) : done());
           requestAnimationFrame(look);
         })"""
     )
@@ -116,10 +116,10 @@ def at(page: Page, link: str, local: tuple[float, float, float] = (0, 0, 0)) -> 
     """Return where a point of a link is in the window [pixels]."""
     sized(page)
     x, y = page.evaluate(
-        """([link, local]) => { const { labels, stage } = urdfkit.page;
-            stage.viewer.render();
+        """([link, local]) => { const { labels, viewport } = urdfkit.page;
+            viewport.viewer.render();
             const [x, y] = labels.screen(labels.at(link, local));
-            const { left, top } = stage.pane.getBoundingClientRect();
+            const { left, top } = viewport.pane.getBoundingClientRect();
             return [x + left, y + top]; }""",
         [link, list(local)],
     )

@@ -74,10 +74,10 @@ def spot(page, x: float, y: float, z: float = 0.0) -> tuple[float, float]:
     sized(page)
     found = page.evaluate(
         """([x, y, z]) => {
-          const { stage } = urdfkit;
-          const box = stage.pane.getBoundingClientRect();
-          stage.viewer.camera.updateMatrixWorld();
-          const at = stage.viewer.scene.localToWorld(new MeshCat.THREE.Vector3(x, y, z)).project(stage.viewer.camera);
+          const { viewport } = urdfkit, { viewer } = viewport;
+          const box = viewport.pane.getBoundingClientRect();
+          viewer.camera.updateMatrixWorld();
+          const at = viewer.scene.localToWorld(new MeshCat.THREE.Vector3(x, y, z)).project(viewer.camera);
           return [box.left + ((at.x + 1) / 2) * box.width, box.top + ((1 - at.y) / 2) * box.height];
         }""",
         [x, y, z],
@@ -88,12 +88,12 @@ def spot(page, x: float, y: float, z: float = 0.0) -> tuple[float, float]:
 def look_from_above(page, distance: float = 7.0) -> None:
     page.evaluate(
         """(distance) => {
-          const { stage } = urdfkit;
+          const { viewport } = urdfkit;
           urdfkit.page.following = false;
-          stage.viewer.controls.target.set(0, 0, 0);
-          stage.viewer.camera.position.set(-0.01, distance, 0.4 * distance);
-          stage.viewer.controls.update();
-          stage.dirty();
+          viewport.viewer.controls.target.set(0, 0, 0);
+          viewport.viewer.camera.position.set(-0.01, distance, 0.4 * distance);
+          viewport.viewer.controls.update();
+          viewport.dirty();
         }""",
         distance,
     )

@@ -675,8 +675,8 @@ def test_a_fault_in_an_order_is_answered_in_a_line(ride) -> None:
 def test_every_message_is_sent_to_a_page_that_requests_all(ride) -> None:
     odom = next(topic for topic in ride.simulator.bus.topics if topic.name == "/simpleton/odom")
     before = len(odom.subscribers)
-    keys = {f"{kind}:/simpleton/odom": [] for kind in ("times", "sizes", "every", "whole")}
-    ride.page.wanted |= {*keys, "every:/nowhere"}
+    keys = {f"{kind}:/simpleton/odom": [] for kind in ("times", "sizes", "messages", "full_messages")}
+    ride.page.wanted |= {*keys, "messages:/nowhere"}
     ride.tick()
     assert len(odom.subscribers) == before + 4
     count = odom.count
@@ -704,7 +704,7 @@ def test_messages_for_which_there_is_no_time_are_counted(ride, monkeypatch) -> N
 
     monkeypatch.setattr(topic_stream, "as_json", slowly)
     odom = next(topic for topic in ride.simulator.bus.topics if topic.name == "/simpleton/odom")
-    ride.page.wanted.add("whole:/simpleton/odom")
+    ride.page.wanted.add("full_messages:/simpleton/odom")
     ride.tick()
     begin, count = ride.wall.now, odom.count
     spend(ride, 4.0)

@@ -18,7 +18,7 @@ from urdfkit.app.simulation.features.sensor_views import MOST_POINTS, OPTICAL, S
 from urdfkit.description import load
 from urdfkit.scene.camera_model import Lens
 from urdfkit.sim import Simulator
-from urdfkit.sim.plugins.sensors.cameras.camera import Eye
+from urdfkit.sim.plugins.sensors.cameras.camera import Imager
 from urdfkit.sim.plugins.sensors.cameras.camera_optics import depth_image, image
 from urdfkit.sim.plugins.sensors.cameras.depth_points import points as depth_points
 from urdfkit.sim.plugins.sensors.cloud_messages import GZ, cloud, old_cloud
@@ -133,8 +133,10 @@ def test_what_one_camera_publishes_comes_of_one_small_look(monkeypatch: pytest.M
     sights = SensorViews(simulator, page, lambda: 0.0)  # type: ignore[arg-type]
     assert sights.find()
     names = [each["topic"] for each in page.declared[0]["sensors"]]
-    look = Eye.look
-    monkeypatch.setattr(Eye, "look", lambda self, *g, **k: looks.append(self.optics.lens.width) or look(self, *g, **k))
+    look = Imager.look
+    monkeypatch.setattr(
+        Imager, "look", lambda self, *g, **k: looks.append(self.optics.lens.width) or look(self, *g, **k)
+    )
     simulator.run(0.2)
     sights.show()
     assert [names[index] for index, *_ in page.sensed] == names[:3]
@@ -197,7 +199,7 @@ def test_the_page_shows_points_and_pictures(serve_for_all, visits, keep, until) 
     until(lambda: page.evaluate("urdfkit.sensors.frames") > 2)
     # The first scan of all may have met nothing.
     taken = """() => {
-      const cloud = new urdfkit.sensors.shown[0].cloud.constructor(urdfkit.page.stage, 0xff0000);
+      const cloud = new urdfkit.sensors.shown[0].cloud.constructor(urdfkit.page.viewport, 0xff0000);
       cloud.take(new ArrayBuffer(16), 16, false);
       return cloud.count;
     }"""

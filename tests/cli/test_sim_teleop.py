@@ -27,8 +27,8 @@ REMEMBER = """
 """Keep time, place and whether somebody drives as the simulation tells them, of one moment, however late heard."""
 IN_THE_WAY = """
   (() => {
-    const { scene, stage } = urdfkit, THREE = MeshCat.THREE;
-    const box = scene.bounds(), ray = new THREE.Raycaster(), eye = stage.viewer.camera.position;
+    const { scene, viewport } = urdfkit, THREE = MeshCat.THREE;
+    const box = scene.bounds(), ray = new THREE.Raycaster(), eye = viewport.viewer.camera.position;
     const others = [...scene.groups.visual.values()].filter((group) => !scene.own.includes(group.parent));
     const found = [];
     for (const to of [box.getCenter(new THREE.Vector3()), new THREE.Vector3(0, box.max.y, 0)]) {
@@ -197,8 +197,8 @@ def test_pause_and_reset(driving, keep, until) -> None:
 def test_the_camera_follows_and_time_keeps_pace(driving, until) -> None:
     _, page = driving
     until(lambda: 0.9 < float(page.locator("#rtf").inner_text().lstrip("×")) < 1.1)
-    offset = "[stage.viewer.controls.target, stage.viewer.camera.position].map((p) => p.x - link().position.x)"
-    offset = f"(({{ stage, link }}) => {offset})(urdfkit)"
+    offset = "[viewport.viewer.controls.target, viewport.viewer.camera.position].map((p) => p.x - link().position.x)"
+    offset = f"(({{ viewport, link }}) => {offset})(urdfkit)"
     before = page.evaluate(offset)
     page.keyboard.down("w")
     until(lambda: at(page)[0] > 0.3)
@@ -385,13 +385,13 @@ def test_the_view_is_of_the_robot_not_of_the_house_around_it(serve, visits, keep
     keep(page, "house")
     robot, everything = page.evaluate("[urdfkit.scene.own.length, urdfkit.scene.nodes.length]")
     assert robot == 7 < everything
-    assert 0.2 < page.evaluate("urdfkit.stage.radius") < 0.6
-    far = "urdfkit.stage.viewer.camera.position.distanceTo(urdfkit.stage.viewer.controls.target)"
+    assert 0.2 < page.evaluate("urdfkit.viewport.radius") < 0.6
+    far = "urdfkit.viewport.viewer.camera.position.distanceTo(urdfkit.viewport.viewer.controls.target)"
     assert page.evaluate(far) < 5.0
     assert page.evaluate(IN_THE_WAY) == []  # nothing of the house is between camera and robot
     # A wall that comes in between is seen through, until it is no longer in the way.
-    build = """([eye]) => { const { scene, stage, page } = urdfkit; page.following = false;
-      const THREE = MeshCat.THREE, { camera, controls } = stage.viewer;
+    build = """([eye]) => { const { scene, viewport, page } = urdfkit; page.following = false;
+      const THREE = MeshCat.THREE, { camera, controls } = viewport.viewer;
       const at = scene.own[0].getWorldPosition(new THREE.Vector3());
       const [x, , z] = at.clone().lerp(camera.position, 0.5).toArray();
       return page.connection.request("walls", { corners: [[x - 1, -z - 1], [x + 1, -z + 1]], thickness: 0.05 }); }"""

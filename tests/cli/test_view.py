@@ -125,7 +125,7 @@ def test_what_is_shown_can_be_chosen(arm_served, visits, keep, until) -> None:
     page.get_by_label("Origin").check()
     keep(page, "collision")
     page.get_by_label("Grid").uncheck()
-    assert not page.evaluate("urdfkit.stage.grid.visible")
+    assert not page.evaluate("urdfkit.viewport.grid.visible")
 
 
 @pytest.mark.browser
@@ -138,7 +138,7 @@ def test_saving_shows_the_change_and_keeps_joints_and_camera(serve, visits, keep
     page.mouse.down()
     page.mouse.move(500, 430, steps=4)
     page.mouse.up()
-    camera = page.evaluate("urdfkit.stage.viewer.camera.position.toArray()")
+    camera = page.evaluate("urdfkit.viewport.viewer.camera.position.toArray()")
     model = page.evaluate("urdfkit.scene.model")
 
     arm.write_text(ARM.format(length=0.3).replace('upper="1.5"', 'upper="1.2"'))
@@ -148,7 +148,7 @@ def test_saving_shows_the_change_and_keeps_joints_and_camera(serve, visits, keep
     upper = "urdfkit.scene.viewer.scene_tree.find(['robot', 'links', 'upper', 'visual', '0'])"
     depth = f"{upper}.object.children[0].geometry.parameters.depth"
     assert page.evaluate(depth) == 0.3
-    assert page.evaluate("urdfkit.stage.viewer.camera.position.toArray()") == pytest.approx(camera)
+    assert page.evaluate("urdfkit.viewport.viewer.camera.position.toArray()") == pytest.approx(camera)
     keep(page, "reloaded")
 
     arm.write_text(ARM.format(length=0.3).replace('<child link="finger"/>', '<child link="figner"/>'))

@@ -64,7 +64,7 @@ def test_a_point_is_published(page, lab_served, until, keep) -> None:
 def test_the_fixed_frame_stands_still(page, until, keep) -> None:
     panel(page, "camera")
     page.get_by_label("Fixed frame").select_option("lower")
-    place = "(link) => urdfkit.stage.viewer.scene.worldToLocal(urdfkit.page.labels.at(link)).toArray()"
+    place = "(link) => urdfkit.viewport.viewer.scene.worldToLocal(urdfkit.page.labels.at(link)).toArray()"
     assert page.evaluate(place, "lower") == pytest.approx([0, 0, 0], abs=1e-6)
     assert page.evaluate(place, "base") == pytest.approx([0, 0, -0.4], abs=1e-6)
     page.evaluate("urdfkit.page.setJoints({ bend: 1 })")
@@ -78,20 +78,22 @@ def test_the_fixed_frame_stands_still(page, until, keep) -> None:
 def test_the_camera_goes_after_the_target_frame(page, until) -> None:
     panel(page, "camera")
     page.get_by_label("Target frame").select_option("hand")
-    arm = "urdfkit.stage.viewer.camera.position.clone().sub(urdfkit.stage.viewer.controls.target).toArray()"
+    arm = "urdfkit.viewport.viewer.camera.position.clone().sub(urdfkit.viewport.viewer.controls.target).toArray()"
     drawn(page)
-    before, target = page.evaluate(arm), page.evaluate("urdfkit.stage.viewer.controls.target.toArray()")
+    before, target = page.evaluate(arm), page.evaluate("urdfkit.viewport.viewer.controls.target.toArray()")
     page.evaluate("urdfkit.page.setJoints({ bend: 1 })")
     moved = np.add(target, [0.3 * math.sin(1), 0.3 * math.cos(1) - 0.3, 0])
     until(
-        lambda: page.evaluate("urdfkit.stage.viewer.controls.target.toArray()") == pytest.approx(list(moved), abs=1e-5)
+        lambda: (
+            page.evaluate("urdfkit.viewport.viewer.controls.target.toArray()") == pytest.approx(list(moved), abs=1e-5)
+        )
     )
     assert page.evaluate(arm) == pytest.approx(before, abs=1e-5)
 
 
 def test_every_camera(page, until, keep) -> None:
     panel(page, "camera")
-    camera = "urdfkit.stage.viewer.camera"
+    camera = "urdfkit.viewport.viewer.camera"
     before = page.evaluate(f"{camera}.position.toArray()")
     page.get_by_label("Top down").check()
     assert page.evaluate(f"{camera}.type") == "OrthographicCamera"
@@ -112,7 +114,7 @@ def test_every_camera(page, until, keep) -> None:
     assert page.evaluate(f"{camera}.position.toArray()") == pytest.approx(before, abs=1e-6)
     page.locator("#pane").focus()
     page.keyboard.down("w")
-    target = "urdfkit.stage.viewer.controls.target.toArray()"
+    target = "urdfkit.viewport.viewer.controls.target.toArray()"
     until(lambda: math.dist(page.evaluate(f"{camera}.position.toArray()"), before) > 0.1)
     page.keyboard.up("w")
     ahead = np.array(page.evaluate(target)) - page.evaluate(f"{camera}.position.toArray()")
@@ -148,11 +150,11 @@ def test_every_camera(page, until, keep) -> None:
     for side in ("Front", "Left", "Above"):
         page.get_by_role("button", name=side).click()
     height = page.evaluate(f"{camera}.position.y - {target.replace('toArray()', 'y')}")
-    assert height > 0.9 * page.evaluate(f"{camera}.position.distanceTo(urdfkit.stage.viewer.controls.target)")
+    assert height > 0.9 * page.evaluate(f"{camera}.position.distanceTo(urdfkit.viewport.viewer.controls.target)")
 
 
-def test_the_stage_obeys_the_keyboard(page) -> None:
-    camera = "urdfkit.stage.viewer.camera.position.toArray()"
+def test_the_keyboard_moves_the_camera(page) -> None:
+    camera = "urdfkit.viewport.viewer.camera.position.toArray()"
     page.locator("#pane").focus()
     before = page.evaluate(camera)
     page.keyboard.press("ArrowLeft")

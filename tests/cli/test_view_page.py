@@ -46,7 +46,7 @@ def test_a_badge_leads_to_the_finding_and_its_fix_is_applied(serve, visits, unti
     card.get_by_text("Rule", exact=True).click()
     assert card.locator(".prose h3").first.inner_text() == "axis-not-normalised (J412)"
     keep(page, "finding")
-    camera = page.evaluate("urdfkit.stage.viewer.camera.position.toArray()")
+    camera = page.evaluate("urdfkit.viewport.viewer.camera.position.toArray()")
     model = page.evaluate("urdfkit.scene.model")
     before = path.read_text()
     card.get_by_role("button", name="Apply fix").click()
@@ -56,7 +56,7 @@ def test_a_badge_leads_to_the_finding_and_its_fix_is_applied(serve, visits, unti
     assert "fixed J412: Normalise the axis" in served.errors.read_text()
     assert page.evaluate("urdfkit.page.selected") == {"link": "lower"}
     assert values(page)["bend"] == 0.5
-    assert page.evaluate("urdfkit.stage.viewer.camera.position.toArray()") == pytest.approx(camera)
+    assert page.evaluate("urdfkit.viewport.viewer.camera.position.toArray()") == pytest.approx(camera)
     glow = "urdfkit.scene.shapes('lower', 'visual')[0].children[0].children[0].material.emissive.getHex()"
     until(lambda: page.evaluate(glow) != 0)  # what was selected still shines
     keep(page, "fixed")
@@ -80,7 +80,7 @@ def test_a_robot_that_outgrows_the_view_is_fitted_again_but_not_against_a_person
         path.write_text(f'<robot name="box"><link name="base">{shape}</link></robot>')
 
     def radius() -> float:
-        return float(page.evaluate("urdfkit.stage.radius"))
+        return float(page.evaluate("urdfkit.viewport.radius"))
 
     grow(1.0)
     page = visits.open(serve("view", str(path)).url)
@@ -101,7 +101,7 @@ def test_a_robot_that_outgrows_the_view_is_fitted_again_but_not_against_a_person
     assert radius() == pytest.approx(0.75**0.5 * 0.5)
     middle = page.locator("#pane").bounding_box()
     page.mouse.move(middle["x"] + middle["width"] / 2, middle["y"] + middle["height"] / 2)
-    place = "urdfkit.stage.viewer.camera.position.toArray()"
+    place = "urdfkit.viewport.viewer.camera.position.toArray()"
     before = page.evaluate(place)
     page.mouse.wheel(0, 300)
     until(lambda: page.evaluate(place) != before)
@@ -163,17 +163,19 @@ def test_a_screenshot_and_a_turn_are_kept(page, keep) -> None:
     picture = Path(download.value.path()).read_bytes()
     assert picture[:8] == b"\x89PNG\r\n\x1a\n"
     width, height = struct.unpack(">II", picture[16:24])
-    assert [width, height] == page.evaluate("[2 * urdfkit.stage.pane.clientWidth, 2 * urdfkit.stage.pane.clientHeight]")
+    assert [width, height] == page.evaluate(
+        "[2 * urdfkit.viewport.pane.clientWidth, 2 * urdfkit.viewport.pane.clientHeight]"
+    )
     panel(page, "camera")
     page.get_by_label("One turn takes").fill("1")
-    before = page.evaluate("urdfkit.stage.viewer.camera.position.toArray()")
+    before = page.evaluate("urdfkit.viewport.viewer.camera.position.toArray()")
     with page.expect_download() as download:
         page.get_by_role("button", name="Record a turn").click()
     film = Path(download.value.path()).read_bytes()
     assert re.fullmatch(r"lab\.(webm|mp4)", download.value.suggested_filename)
     assert film[:4] == b"\x1aE\xdf\xa3" or film[4:8] == b"ftyp"  # Matroska or MP4
     assert len(film) > 10_000
-    assert page.evaluate("urdfkit.stage.viewer.camera.position.toArray()") == pytest.approx(before, abs=1e-6)
+    assert page.evaluate("urdfkit.viewport.viewer.camera.position.toArray()") == pytest.approx(before, abs=1e-6)
     keep(page, "turned")
 
 

@@ -30,7 +30,7 @@ def test_a_click_selects_a_link_and_hovering_names_it(page, keep, until) -> None
     glow = "urdfkit.scene.shapes('upper', 'visual')[0].children[0].children[0].material.emissive.getHex()"
     assert page.evaluate(glow) != 0
     page.get_by_role("button", name="Centre the view").click()
-    target = page.evaluate("urdfkit.stage.viewer.controls.target.toArray()")
+    target = page.evaluate("urdfkit.viewport.viewer.controls.target.toArray()")
     assert target == pytest.approx([0, 0.25, 0], abs=1e-6)  # three.js has y up
     keep(page, "selected")
     page.mouse.click(150, 760)  # beside it

@@ -78,12 +78,12 @@ class Recorder:
         try:
             self._writer = Writer(folder, version=9, storage_plugin=StoragePlugin.MCAP)
             self._writer.open()
-            self.look()
+            self.subscribe_new_topics()
         except BaseException:
             self._files.close()
             raise
 
-    def look(self) -> None:
+    def subscribe_new_topics(self) -> None:
         """Subscribe to topics advertised since the last call, and record the last message of each."""
         if len(self._bus.topics) == len(self._seen):
             return

@@ -25,7 +25,7 @@ from urdfkit.sim.plugins.setup import Setup
 from urdfkit.sim.scene_view import Surroundings
 from urdfkit.sim.state.arguments import number, three
 from urdfkit.sim.state.notes import Notes
-from urdfkit.sim.state.ticks import Ticks
+from urdfkit.sim.state.periodic_steps import PeriodicSteps
 from urdfkit.sim.world.gazebo_services import ModelStates, listen
 from urdfkit.sim.world.live_world import LiveWorld
 from urdfkit.sim.world.scheduler import Scheduler
@@ -236,7 +236,7 @@ class Simulator:
     @property
     def command_period(self) -> float:
         """Period at which the drives read commands [s]; the time step if they read every step or none exists."""
-        return max((Ticks(drive.write_rate, self.dt).period for drive in self._drives), default=self.dt)
+        return max((PeriodicSteps(drive.write_rate, self.dt).period for drive in self._drives), default=self.dt)
 
     def command(self, linear: Sequence[float], angular: Sequence[float]) -> None:
         """Publish a velocity command [m/s, rad/s] to every drive of the robot.

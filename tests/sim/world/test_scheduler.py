@@ -10,8 +10,8 @@ import pytest
 
 from urdfkit.messages import FLOAT, TWIST, from_fields, twist
 from urdfkit.sim import Simulator
+from urdfkit.sim.state.periodic_steps import NEVER
 from urdfkit.sim.state.pid import Gains
-from urdfkit.sim.state.ticks import NEVER
 from urdfkit.sim.world.live_tuning import Tuning
 
 WHEN = 137

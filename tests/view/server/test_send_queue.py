@@ -146,16 +146,16 @@ def test_cut_ends_the_sender() -> None:
 
 def test_of_a_stream_of_large_frames_few_wait_and_the_newest_always_does() -> None:
     async def scenario(channel, browser, settle) -> None:
-        channel.subscribe(frozenset({"whole:/image"}))
+        channel.subscribe(frozenset({"full_messages:/image"}))
         for name in "abcd":
-            channel.send_chunk("whole:/image", name * (MAX_STREAM_BYTES // 3))
-        channel.send_chunk("whole:/image", "e" * (MAX_STREAM_BYTES // 4))
+            channel.send_chunk("full_messages:/image", name * (MAX_STREAM_BYTES // 3))
+        channel.send_chunk("full_messages:/image", "e" * (MAX_STREAM_BYTES // 4))
         browser.read(10)
         await settle()
         assert [frame[0] for frame in browser.frames] == ["c", "d", "e"]
         browser.frames.clear()
-        channel.send_chunk("whole:/image", "f")
-        channel.send_chunk("whole:/image", "g" * (MAX_STREAM_BYTES + 1))
+        channel.send_chunk("full_messages:/image", "f")
+        channel.send_chunk("full_messages:/image", "g" * (MAX_STREAM_BYTES + 1))
         await settle()
         assert [frame[0] for frame in browser.frames] == ["g"]
 

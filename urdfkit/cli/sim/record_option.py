@@ -62,9 +62,9 @@ def recording(simulator: Simulator, file: str | None, *, quiet: bool = False) ->
 
     recorder = Recorder(simulator.bus, file, lambda: simulator.t)
     try:
-        yield recorder.look
+        yield recorder.subscribe_new_topics
     finally:  # keep the recording after an error too
-        recorder.look()
+        recorder.subscribe_new_topics()
         recorder.close()
         if not quiet:
             print(f"urdfkit: recorded {recorder.count} messages of {recorder.topics} topics to {file}", file=sys.stderr)

@@ -115,7 +115,7 @@ async def messages(
 
     Args:
         client: the connection.
-        kind: the first part of the key: ``times``, ``sizes``, ``every`` or ``whole``.
+        kind: the first part of the key: ``times``, ``sizes``, ``messages`` or ``full_messages``.
         topic: name of the topic.
         every: yield an empty list after every such period [s]; None for never.
     """

@@ -44,7 +44,7 @@ async def run(client: Client, arguments: argparse.Namespace) -> int:
     # An entry of an array may be beyond the length at which the page cuts arrays.
     whole = arguments.full_length or "[" in (arguments.field or "")
     printed = 0
-    async with aclosing(messages(client, "whole" if whole else "every", row.name)) as received:
+    async with aclosing(messages(client, "full_messages" if whole else "messages", row.name)) as received:
         async for _, _, message in received:
             shown = message if arguments.field is None else part(message, arguments.field)
             print(json.dumps(shown, ensure_ascii=False) if arguments.json else f"{as_yaml(shown)}---", flush=True)

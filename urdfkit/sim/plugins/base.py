@@ -12,13 +12,13 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING, ClassVar
 
 from urdfkit.sim.plugins.periodic import Periodic, Publisher
-from urdfkit.sim.state.ticks import NEVER, Ticks
+from urdfkit.sim.state.periodic_steps import NEVER, PeriodicSteps
 
 if TYPE_CHECKING:
     from urdfkit.description.plugins import PluginSpec
     from urdfkit.description.urdf.robot import Plugin
     from urdfkit.sim.plugins.controllers.control_loop import ControlLoop
-    from urdfkit.sim.plugins.controllers.joint_handle import Follower
+    from urdfkit.sim.plugins.controllers.joint_handle import JointPid
     from urdfkit.sim.plugins.odometry import Pose
     from urdfkit.sim.plugins.setup import Setup
     from urdfkit.sim.state.joint_commands import Motors
@@ -72,7 +72,7 @@ class Drive(Commanding):
 
     def schedule(self, dt: float, motors: Motors) -> None:
         """Set the simulation's step [s] and the motors of the robot, after `configure`."""
-        self._ticks, self.motors = Ticks(self.write_rate, dt), motors
+        self._ticks, self.motors = PeriodicSteps(self.write_rate, dt), motors
 
     def next(self, step: int) -> int:
         """Return the first step from `step` on before which `write` is due."""
@@ -141,16 +141,16 @@ class Controller(Commanding):
 
     def schedule(self, dt: float, motors: Motors) -> None:
         """Set the simulation's step [s] and the motors of the robot, after `configure`."""
-        self._ticks, self.motors = Ticks(self.rate, dt), motors
+        self._ticks, self.motors = PeriodicSteps(self.rate, dt), motors
 
     def next(self, step: int) -> int:
         """Return the first step from `step` on before which `write` is due."""
         return self._ticks.next(step)
 
-    def followers(self) -> Iterator[tuple[str, Follower]]:
+    def joint_pids(self) -> Iterator[tuple[str, JointPid]]:
         """Yield each joint with a PID controller, with its path below the robot."""
         if self.loop is not None:
-            yield from self.loop.followers()
+            yield from self.loop.joint_pids()
 
     def wake(self) -> None:
         """Call `write` at the next opportunity, because a gain has changed."""

@@ -78,7 +78,7 @@ class Installed:
         """Whether a plugin or a controller publishes joint states."""
         loops = [controller.loop for controller in self.controllers if controller.loop is not None]
         return bool(self.joint_states) or any(
-            isinstance(law, JointStatePublisher) for loop in loops for law in loop.laws.values()
+            isinstance(controller, JointStatePublisher) for loop in loops for controller in loop.controllers.values()
         )
 
 

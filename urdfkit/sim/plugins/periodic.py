@@ -4,8 +4,8 @@ from abc import ABC, abstractmethod
 from collections.abc import Callable
 
 from urdfkit.bus import Topic
+from urdfkit.sim.state.periodic_steps import NEVER, PeriodicSteps
 from urdfkit.sim.state.robot_state import State
-from urdfkit.sim.state.ticks import NEVER, Ticks
 
 
 class Periodic(ABC):
@@ -40,7 +40,7 @@ class Timed(Periodic):
     """
 
     def __init__(
-        self, ticks: Ticks, call: Callable[[State], object], resting: Callable[[], bool] | None = None
+        self, ticks: PeriodicSteps, call: Callable[[State], object], resting: Callable[[], bool] | None = None
     ) -> None:
         self._ticks, self._call, self._resting = ticks, call, resting
 
@@ -82,7 +82,7 @@ class Publisher(Periodic):
 
     def schedule(self, dt: float, step: int = 0) -> None:
         """Start at a step of a simulation with steps of `dt` [s]."""
-        self._ticks = Ticks(self.rate, dt)
+        self._ticks = PeriodicSteps(self.rate, dt)
         self.reset(step)
         self.due = 0  # `act` gets the first state
 

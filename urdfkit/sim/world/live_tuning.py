@@ -14,7 +14,7 @@ from urdfkit.errors import SimulationError, UnknownNameError
 from urdfkit.kinematics.pinocchio_model import spatial_inertia
 from urdfkit.sim.construction.loading import valid_gravity
 from urdfkit.sim.engine import Surface
-from urdfkit.sim.plugins.controllers.joint_handle import Follower
+from urdfkit.sim.plugins.controllers.joint_handle import JointPid
 from urdfkit.sim.state.arguments import nearest, number
 from urdfkit.sim.state.pid import Gains
 from urdfkit.sim.world.live_world import LiveWorld
@@ -163,7 +163,7 @@ class Tuning:
     @property
     def gains(self) -> dict[str, Gains]:
         """``ROBOT/CONTROLLER/JOINT`` → gains, for every loaded controller with gains."""
-        return {path: followers[0].gains for path, followers in self._followers().items()}
+        return {path: joint_pids[0].gains for path, joint_pids in self._joint_pids().items()}
 
     def set_gains(self, path: str, gains: Gains) -> None:
         """Change the gains of a controller for one of its joints; its integral is reset.
@@ -171,26 +171,26 @@ class Tuning:
         Raises:
             SimulationError: unknown path, or a gain is invalid.
         """
-        followers = self._followers()
-        if path not in followers:
-            raise UnknownNameError(f"no gains `{path}`{nearest(path, followers)}")
+        joint_pids = self._joint_pids()
+        if path not in joint_pids:
+            raise UnknownNameError(f"no gains `{path}`{nearest(path, joint_pids)}")
         for letter, gain in (("p", gains.p), ("i", gains.i), ("d", gains.d)):
             if not (isfinite(gain) and gain >= 0):
                 raise SimulationError(f"gain `{letter}` is {gain:g}; it must be finite and not negative")
-        for follower in followers[path]:
-            follower.gains = follower.integral.gains = gains
-            follower.integral.reset()
+        for joint_pid in joint_pids[path]:
+            joint_pid.gains = joint_pid.integral.gains = gains
+            joint_pid.integral.reset()
         for robot in self._world.robots.values():
             for controller in robot.plugins.controllers:
                 controller.wake()
         self._world.scheduler.invalidate()
 
-    def _followers(self) -> dict[str, list[Follower]]:
-        found: dict[str, list[Follower]] = {}
+    def _joint_pids(self) -> dict[str, list[JointPid]]:
+        found: dict[str, list[JointPid]] = {}
         for robot in self._world.robots.values():
             for controller in robot.plugins.controllers:
-                for path, follower in controller.followers():
-                    found.setdefault(f"{robot.name}/{path}", []).append(follower)
+                for path, joint_pid in controller.joint_pids():
+                    found.setdefault(f"{robot.name}/{path}", []).append(joint_pid)
         return found
 
     def _mass(self, robot: SimulatedRobot, link: str) -> float | None:

@@ -4,8 +4,8 @@ import heapq
 from collections.abc import Callable
 
 from urdfkit.sim.plugins.builtin_publishers import Publication
+from urdfkit.sim.state.periodic_steps import NEVER
 from urdfkit.sim.state.robot_state import State
-from urdfkit.sim.state.ticks import NEVER
 from urdfkit.sim.world.world_builder import WorldBuilder
 
 

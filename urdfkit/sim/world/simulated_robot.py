@@ -21,8 +21,8 @@ from urdfkit.sim.plugins.namespaced_bus import OwnBus
 from urdfkit.sim.plugins.periodic import Periodic, Publisher, Timed
 from urdfkit.sim.plugins.setup import Setup
 from urdfkit.sim.state.joint_commands import Motors, Servos
+from urdfkit.sim.state.periodic_steps import PeriodicSteps
 from urdfkit.sim.state.robot_state import State
-from urdfkit.sim.state.ticks import Ticks
 
 SERVO_ARRAYS = (
     "position_target", "velocity_target", "kp", "kd", "servo_effort",
@@ -145,7 +145,7 @@ class SimulatedRobot:
             self.state = State(self.kinematics, engine, None if floats else self.base, articulation)
             self.state.step = engine.steps
             self.motors = Motors(self.kinematics, *handles)
-            motors, ticks = self.motors, Ticks(APPROACH_RATE, engine.dt)
+            motors, ticks = self.motors, PeriodicSteps(APPROACH_RATE, engine.dt)
             self.writes = [Timed(ticks, lambda state: motors.approach(state.position), lambda: not motors.has_goals)]
 
     def install(self, setup: Setup, *, seed: int, invalidate: Callable[[], None]) -> None:
@@ -175,7 +175,7 @@ class SimulatedRobot:
         self.writes = [*drives, *self.plugins.controllers, *self.writes]
         transforms = Transforms(bus, setup.dt, self.kinematics, setup.namespace)
         self._own_publishers = [*self.plugins.sensors, *self.plugins.joint_states, transforms]
-        self._drive_reads = [Timed(Ticks(drive.read_rate, setup.dt), drive.read) for drive in drives]
+        self._drive_reads = [Timed(PeriodicSteps(drive.read_rate, setup.dt), drive.read) for drive in drives]
         self.reads = ([*self._drive_reads, *self._own_publishers], *self.controllers.each_publications)
         for publisher in self._publishers:
             publisher.schedule(setup.dt, self.state.step)

@@ -66,10 +66,10 @@ class _Motions:
     def of(self, name: str) -> Motion | tuple[Array, Array] | None:
         if name not in self._computed:
             if name in self._links:
-                from urdfkit.sim.plugins.sensors.point_motion import Moment
+                from urdfkit.sim.plugins.sensors.point_motion import KinematicSnapshot
 
                 robot, link = self._links[name]
-                self._computed[name] = Moment(robot.kinematics, robot.state).motion(link, np.eye(4))
+                self._computed[name] = KinematicSnapshot(robot.kinematics, robot.state).motion(link, np.eye(4))
             elif name in self._free:
                 body = self._free[name]
                 self._computed[name] = np.array(body.pose[:3]), np.array(body.twist)

@@ -6,7 +6,7 @@ import { Page } from "./page/page.js";
 import { Panels } from "./page/panels.js";
 import { Scene } from "./viewport/scene_nodes.js";
 import { simFeatures } from "./simulation/simulation_features.js";
-import { Stage } from "./viewport/viewport.js";
+import { Viewport } from "./viewport/viewport.js";
 import { viewFeatures } from "./robot/robot_features.js";
 
 const PROTOCOL = 3;
@@ -17,17 +17,17 @@ if (drawnBy === null) {
   $("fault").textContent = "This browser does not support WebGL 2. Enable hardware acceleration in its settings, or use another browser.";
 }
 
-const stage = new Stage($("pane"));
-const scene = new Scene(stage);
-const page = new Page(stage, scene, new Panels($("panel"), $("rail")));
+const viewport = new Viewport($("pane"));
+const scene = new Scene(viewport);
+const page = new Page(viewport, scene, new Panels($("panel"), $("rail")));
 let root = 0;
 let fitted = false;
 let changed = false; // whether the robot has changed since the view was fitted
 let touched = false; // whether the user has moved the camera
-stage.viewer.controls.addEventListener("start", () => (touched = true));
+viewport.viewer.controls.addEventListener("start", () => (touched = true));
 
 // For tests and the console; features add to it with page.expose.
-Object.defineProperty(window, "urdfkit", { value: { page, stage, scene, link: (index) => scene.nodes[index ?? root] } });
+Object.defineProperty(window, "urdfkit", { value: { page, viewport, scene, link: (index) => scene.nodes[index ?? root] } });
 
 page.on("hello", (message) => {
   if (message.protocol !== PROTOCOL) return location.reload(); // the server has another version than this page
@@ -80,7 +80,7 @@ function applied(sequence, time) {
   page.send("ack", { sequence });
   const followed = scene.nodes[page.followed ?? root]; // the driven robot
   const { x, y, z } = page.mode === "sim" && followed ? followed.position : { x: 0, y: 0, z: 0 };
-  if (page.mode === "sim" || !fitted) stage.at(x, y, z, page.mode === "sim" && page.following !== false && !page.cameras.tracks);
+  if (page.mode === "sim" || !fitted) viewport.at(x, y, z, page.mode === "sim" && page.following !== false && !page.cameras.tracks);
   page.emit("poses", time);
   if (!fitted) {
     fitted = true;
@@ -89,7 +89,7 @@ function applied(sequence, time) {
     });
   } else if (changed && page.mode === "view") {
     scene.settled().then(() => {
-      if (stage.outgrown(scene.bounds())) page.fit(null);
+      if (viewport.outgrown(scene.bounds())) page.fit(null);
     });
   }
   changed = false;

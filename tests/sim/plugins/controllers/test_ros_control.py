@@ -15,8 +15,8 @@ from tests.sim import arm_package
 from urdfkit.errors import SimulationError, UrdfkitError
 from urdfkit.messages import FLOAT, FLOATS, JOINT_CONTROLLER_STATE, JOINT_STATE, TRAJECTORY, from_fields
 from urdfkit.sim import Simulator, Spawn
-from urdfkit.sim.plugins.controllers.controller import Law
-from urdfkit.sim.plugins.controllers.controller_types import ELSEWHERE, LAWS
+from urdfkit.sim.plugins.controllers.controller import RosController
+from urdfkit.sim.plugins.controllers.controller_types import ELSEWHERE, ROS_CONTROLLERS
 
 STATES = "  states: {type: joint_state_controller/JointStateController, publish_rate: 50}\n"
 PID = "{p: 100.0, i: 50.0, d: 10.0, i_clamp: 20.0}"
@@ -607,9 +607,9 @@ def test_every_law_is_in_its_tuple() -> None:
     found = set()
     for module in iter_modules(package.__path__):
         for value in vars(import_module(f"urdfkit.sim.plugins.controllers.{module.name}")).values():
-            if isinstance(value, type) and issubclass(value, Law) and value is not Law:
+            if isinstance(value, type) and issubclass(value, RosController) and value is not RosController:
                 found.add(value)
-    assert found == set(LAWS)
-    names = [name for law in LAWS for name in law.types]
+    assert found == set(ROS_CONTROLLERS)
+    names = [name for law in ROS_CONTROLLERS for name in law.types]
     assert len(names) == len(set(names))
     assert not set(names) & set(ELSEWHERE)

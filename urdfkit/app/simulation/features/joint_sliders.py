@@ -7,7 +7,7 @@ from typing import Any
 from urdfkit.app.simulation.features.feature import Done, Feature, Takes
 from urdfkit.errors import UnknownNameError, did_you_mean
 from urdfkit.messages import FLOAT, FLOATS, TRAJECTORY, from_fields
-from urdfkit.sim.plugins.controllers.controller import Law
+from urdfkit.sim.plugins.controllers.controller import RosController
 from urdfkit.sim.plugins.controllers.joint_handle import JointHandle
 from urdfkit.sim.plugins.controllers.joints.forward_command import Forward, ForwardGroup
 from urdfkit.sim.plugins.controllers.joints.gripper import Gripper
@@ -38,18 +38,18 @@ class ControllerSliders:
 
     Args:
         robot: the robot of the controller.
-        law: the controller.
+        controller: the controller.
 
     Attributes:
         name: ``ROBOT/CONTROLLER``.
         values: joint → last command.
     """
 
-    def __init__(self, robot: SimulatedRobot, law: Law) -> None:
-        self.robot, self.law = robot, law
-        self.name = f"{robot.name}/{law.name}"
-        self.of = _commanded(law)
-        self.handles: dict[str, JointHandle] = {output.handle.name: output.handle for output in law.outputs}
+    def __init__(self, robot: SimulatedRobot, controller: RosController) -> None:
+        self.robot, self.controller = robot, controller
+        self.name = f"{robot.name}/{controller.name}"
+        self.of = _commanded(controller)
+        self.handles: dict[str, JointHandle] = {output.handle.name: output.handle for output in controller.outputs}
         self.values = {name: self._now(name) for name in self.handles}
 
     def _now(self, joint: str) -> float:
@@ -72,7 +72,13 @@ class ControllerSliders:
                     "value": self.values[name],
                 }
             )
-        return {"name": self.name, "type": self.law.type, "of": self.of, "running": self.law.running, "joints": joints}
+        return {
+            "name": self.name,
+            "type": self.controller.type,
+            "of": self.of,
+            "running": self.controller.running,
+            "joints": joints,
+        }
 
     def _bounds(self, handle: JointHandle) -> tuple[float, float]:
         if self.of == "velocity":
@@ -94,19 +100,25 @@ class ControllerSliders:
         if joint not in self.values:
             raise UnknownNameError(f"unknown joint `{joint}` in `{self.name}`{did_you_mean(joint, self.values)}")
         self.values[joint] = value
-        law = self.law
-        if isinstance(law, ForwardGroup | PidGroup):
-            ending = "commands" if law.hardware.ros == 2 and isinstance(law, ForwardGroup) else "command"
-            bus.publish(law.topic(ending), FLOATS, from_fields(FLOATS, {"data": list(self.values.values())}))
-        elif isinstance(law, TrajectoryFollower):
-            bus.publish(law.topic("command" if law.hardware.ros == 1 else "joint_trajectory"), TRAJECTORY, self._way())
-        elif isinstance(law, Gripper):
-            place, ending = GOALS[law.hardware.ros]
-            kind = (law.kind if law.hardware.ros == 1 else law.kind.replace("/msg/", "/action/")) + ending
-            goal = {"goal": law.command(value)}
-            bus.publish(law.topic(f"gripper_cmd/{place}"), kind, from_fields(kind, goal))
+        controller = self.controller
+        if isinstance(controller, ForwardGroup | PidGroup):
+            ending = "commands" if controller.hardware.ros == 2 and isinstance(controller, ForwardGroup) else "command"
+            bus.publish(controller.topic(ending), FLOATS, from_fields(FLOATS, {"data": list(self.values.values())}))
+        elif isinstance(controller, TrajectoryFollower):
+            bus.publish(
+                controller.topic("command" if controller.hardware.ros == 1 else "joint_trajectory"),
+                TRAJECTORY,
+                self._way(),
+            )
+        elif isinstance(controller, Gripper):
+            place, ending = GOALS[controller.hardware.ros]
+            kind = (
+                controller.kind if controller.hardware.ros == 1 else controller.kind.replace("/msg/", "/action/")
+            ) + ending
+            goal = {"goal": controller.command(value)}
+            bus.publish(controller.topic(f"gripper_cmd/{place}"), kind, from_fields(kind, goal))
         else:
-            bus.publish(law.topic("command"), FLOAT, from_fields(FLOAT, {"data": value}))
+            bus.publish(controller.topic("command"), FLOAT, from_fields(FLOAT, {"data": value}))
 
     def _way(self) -> Any:
         """Return a trajectory from the current positions to those of the sliders, at half the maximum velocities."""
@@ -140,13 +152,13 @@ class JointSliders(Feature):
         """Publish the sliders."""
         before, self._arms = self._arms, {}
         for robot in self.simulator.world.robots.values():
-            for controller in robot.plugins.controllers:
-                if controller.loop is None:
+            for plugin in robot.plugins.controllers:
+                if plugin.loop is None:
                     continue
-                for law in controller.loop.laws.values():
-                    if _commanded(law) and law.outputs:
-                        arm = ControllerSliders(robot, law)
-                        if (previous := before.get(arm.name)) is not None and previous.law is law:
+                for controller in plugin.loop.controllers.values():
+                    if _commanded(controller) and controller.outputs:
+                        arm = ControllerSliders(robot, controller)
+                        if (previous := before.get(arm.name)) is not None and previous.controller is controller:
                             arm = previous
                         self._arms[arm.name] = arm
         self._declare()
@@ -186,9 +198,9 @@ class JointSliders(Feature):
     def _switch(self, request: Request) -> Done:
         arm = self._arm(request.values["controller"])
         if request.values["running"]:
-            arm.robot.controllers.start(arm.law.name)
+            arm.robot.controllers.start(arm.controller.name)
         else:
-            arm.robot.controllers.stop(arm.law.name)
+            arm.robot.controllers.stop(arm.controller.name)
         self._declare()
         return None
 
@@ -198,12 +210,12 @@ class JointSliders(Feature):
         return self._arms[name]
 
 
-def _commanded(law: Law) -> str:
+def _commanded(controller: RosController) -> str:
     """Return the quantity that a controller is commanded by: position, velocity or effort; "" if not by sliders."""
-    if isinstance(law, PidVelocity):
+    if isinstance(controller, PidVelocity):
         return "velocity"
-    if isinstance(law, PidPosition | PidGroup | TrajectoryFollower | Gripper):
+    if isinstance(controller, PidPosition | PidGroup | TrajectoryFollower | Gripper):
         return "position"
-    if isinstance(law, Forward) and law.outputs:
-        return law.outputs[0].interface
+    if isinstance(controller, Forward) and controller.outputs:
+        return controller.outputs[0].interface
     return ""

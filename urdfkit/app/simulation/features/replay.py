@@ -109,7 +109,7 @@ class Replay(Feature):
 
             folder = self._folder.enter_context(TemporaryDirectory())
             bus: Any = self.simulator.bus if request.values.get("pictures") else WithoutPictures(self.simulator.bus)
-            self._recorder = Recorder(bus, Path(folder) / "ride.mcap", lambda: self.simulator.t)
+            self._recorder = Recorder(bus, Path(folder) / "recording.mcap", lambda: self.simulator.t)
         self._recording = True
         self.show()
         return None
@@ -118,7 +118,7 @@ class Replay(Feature):
         self._recording = False
         self.server.broadcast("notice", text=f"the recording was stopped: {reason}", tone="")
         if self._recorder is not None:
-            self._leave(self._recorder, f"ride-{self.simulator.name}.mcap")
+            self._leave(self._recorder, f"recording-{self.simulator.name}.mcap")
         self.show()
 
     def _end_topics(self, request: Request) -> Done:
@@ -126,7 +126,7 @@ class Replay(Feature):
         if recorder is None:
             return None
         name = f"{self.simulator.name}.mcap"
-        recorder.look()
+        recorder.subscribe_new_topics()
         recorder.close()
         size = recorder.path.stat().st_size
         if size > MOST_HANDED:
@@ -140,7 +140,7 @@ class Replay(Feature):
         """Move a recording to the working directory under an unused name; return the name."""
         import shutil
 
-        recorder.look()
+        recorder.subscribe_new_topics()
         recorder.close()
         stem, k = Path(name).stem, 1
         while Path(name).exists():
@@ -200,7 +200,7 @@ class Replay(Feature):
     def tick(self) -> None:
         """Subscribe to new topics, and publish the state of the recording."""
         if self._recorder is not None:
-            self._recorder.look()
+            self._recorder.subscribe_new_topics()
         if self._recording and self.is_due(0.5):
             self.server.broadcast("recorder", **self._state())
 

@@ -20,7 +20,7 @@ from urdfkit.sim.plugins.sensors.cameras.camera import Camera
 from urdfkit.sim.plugins.sensors.cameras.camera_optics import IMAGE
 from urdfkit.sim.plugins.sensors.cameras.depth_camera import GzDepthCamera
 from urdfkit.sim.plugins.sensors.lidars.lidar import LASER_SCAN, Lidar
-from urdfkit.sim.plugins.sensors.ray_sensor import Mounted
+from urdfkit.sim.plugins.sensors.scene_sensor import SceneSensor
 from urdfkit.sim.simulator import Simulator
 from urdfkit.view.protocol.websocket_messages import COLORED, PICTURE, POINTS
 from urdfkit.view.server.server import Server
@@ -54,7 +54,7 @@ class SensorView:
     """
 
     topic: Topic
-    sensor: Mounted
+    sensor: SceneSensor
     kind: int
     exact: bool = False
     due: float = 0.0
@@ -96,7 +96,7 @@ class SensorViews:
         self._views = []
         for robot in self._simulator.world.robots.values():
             for sensor in robot.plugins.sensors:
-                if isinstance(sensor, Mounted):
+                if isinstance(sensor, SceneSensor):
                     shown = smaller(sensor) if isinstance(sensor, Camera) else sensor
                     exact = isinstance(sensor, GzSegmentationCamera)
                     self._views += [SensorView(topic, shown, kind, exact) for topic, kind in _shown(sensor)]
@@ -148,17 +148,17 @@ class SensorViews:
 def smaller(camera: Camera) -> Camera:
     """Return a copy of a camera with the image size of the page."""
     smaller_camera = copy(camera)
-    smaller_camera.eyes = []
-    for eye in camera.eyes:
-        lens = eye.optics.lens
+    smaller_camera.imagers = []
+    for imager in camera.imagers:
+        lens = imager.optics.lens
         part = min(1.0, WIDTH / lens.width)
         small = replace(lens, width=round(part * lens.width), height=max(1, round(part * lens.height)))
-        smaller_camera.eyes.append(replace(eye, optics=replace(eye.optics, lens=small)))
-    smaller_camera.optics = smaller_camera.eyes[0].optics
+        smaller_camera.imagers.append(replace(imager, optics=replace(imager.optics, lens=small)))
+    smaller_camera.optics = smaller_camera.imagers[0].optics
     return smaller_camera
 
 
-def _shown(sensor: Mounted) -> list[tuple[Topic, int]]:
+def _shown(sensor: SceneSensor) -> list[tuple[Topic, int]]:
     if isinstance(sensor, Lidar):
         return [(topic, POINTS) for topic in sensor.topics if topic.type in (LASER_SCAN, *CLOUDS)][:1]
     if isinstance(sensor, GzSegmentationCamera):

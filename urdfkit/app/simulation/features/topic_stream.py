@@ -9,9 +9,9 @@ from urdfkit.bus import Subscription, Topic
 from urdfkit.sim.simulator import Simulator
 from urdfkit.view.server.server import Server
 
-TIMES, SIZES, EVERY, WHOLE = "times:", "sizes:", "every:", "whole:"
+TIMES, SIZES, MESSAGES, FULL_MESSAGES = "times:", "sizes:", "messages:", "full_messages:"
 """Prefixes of the keys: times of messages; times and sizes; content with long arrays cut; full content."""
-KEYS = (TIMES, SIZES, EVERY, WHOLE)
+KEYS = (TIMES, SIZES, MESSAGES, FULL_MESSAGES)
 SOME = 128
 """Maximum entries of an array in a cut message; the default of ros2 topic echo."""
 ALL = 4_000_000
@@ -76,7 +76,7 @@ class _Stream:
 
             row.append(len(typestore().serialize_cdr(message, self._type)))
         elif self._kind != TIMES:
-            row.append(as_json(message, SOME if self._kind == EVERY else ALL))
+            row.append(as_json(message, SOME if self._kind == MESSAGES else ALL))
         self._rows.append(row)
         self._owed += self._part.clock() - begin
 

@@ -8,7 +8,7 @@ from abc import ABC, abstractmethod
 from math import inf
 from typing import ClassVar
 
-from urdfkit.sim.plugins.controllers.joint_handle import LOOK, NEAR, Follower, JointHandle
+from urdfkit.sim.plugins.controllers.joint_handle import LOOK, NEAR, JointHandle, JointPid
 from urdfkit.sim.plugins.controllers.joint_limits import JointLimits
 from urdfkit.sim.state.joint_commands import Motors
 from urdfkit.sim.state.pid import Gains
@@ -31,7 +31,7 @@ class Output(ABC):
         limits: limits of the commands, where they are enforced (ROS 1).
 
     Attributes:
-        follower: PID that follows the command; None for an interface without PID.
+        joint_pid: PID that follows the command; None for an interface without PID.
     """
 
     interface: ClassVar[str]
@@ -41,7 +41,7 @@ class Output(ABC):
         self.period = period
         self.limits = limits
         self.command = 0.0
-        self.follower: Follower | None = None
+        self.joint_pid: JointPid | None = None
 
     @property
     def claim(self) -> tuple[str, str]:
@@ -96,13 +96,13 @@ class VelocityOutput(Output):
         self, handle: JointHandle, period: float, gains: Gains | None = None, limits: JointLimits | None = None
     ) -> None:
         super().__init__(handle, period, limits)
-        self.follower = Follower(handle, gains) if gains is not None else None
+        self.joint_pid = JointPid(handle, gains) if gains is not None else None
 
     def start(self, state: State) -> None:
         """Set the command to zero."""
         super().start(state)
-        if self.follower is not None:
-            self.follower.integral.reset()
+        if self.joint_pid is not None:
+            self.joint_pid.integral.reset()
 
     def write(self, state: State, motors: Motors, command: float, velocity: float = 0.0) -> float:
         """Apply a command; return the time until the next update is needed [s]."""
@@ -110,11 +110,11 @@ class VelocityOutput(Output):
         soft = self.limits is not None and self.limits.soft is not None
         if self.limits is not None:
             command = self.limits.turning(command, state.position(self.handle.name))
-        if self.follower is None:
+        if self.joint_pid is None:
             self.handle.turn(motors, command)
             return 0.0 if soft else inf
-        self.follower.chase(state, motors, command, self.period)
-        return 0.0 if self.follower.gains.d or soft else self.follower.rest()
+        self.joint_pid.chase(state, motors, command, self.period)
+        return 0.0 if self.joint_pid.gains.d or soft else self.joint_pid.rest()
 
 
 class PositionOutput(Output):
@@ -129,18 +129,18 @@ class PositionOutput(Output):
         self, handle: JointHandle, period: float, gains: Gains | None = None, limits: JointLimits | None = None
     ) -> None:
         super().__init__(handle, period, limits)
-        self.follower = Follower(handle, gains) if gains is not None else None
+        self.joint_pid = JointPid(handle, gains) if gains is not None else None
 
     @property
     def has_gains(self) -> bool:
         """Whether a PID follows the position commands."""
-        return self.follower is not None
+        return self.joint_pid is not None
 
     def start(self, state: State) -> None:
         """Set the command to the present position."""
         self.command = self._granted = state.position(self.handle.name)
-        if self.follower is not None:
-            self.follower.integral.reset()
+        if self.joint_pid is not None:
+            self.joint_pid.integral.reset()
 
     def write(self, state: State, motors: Motors, command: float, velocity: float = 0.0) -> float:
         """Apply a command; return the time until the next update is needed [s]."""
@@ -154,10 +154,10 @@ class PositionOutput(Output):
                 command, velocity = self._granted, (self._granted - before) / self.period
             elif abs(self._granted - command) > NEAR:
                 command = self._granted
-        if self.follower is None:
+        if self.joint_pid is None:
             return inf if self.handle.place(motors, state, command, self.period) and not moving else 0.0
-        self.follower.follow(state, motors, command, velocity)
-        return 0.0 if moving else self.follower.rest()
+        self.joint_pid.follow(state, motors, command, velocity)
+        return 0.0 if moving else self.joint_pid.rest()
 
 
 class ProportionalOutput(Output):

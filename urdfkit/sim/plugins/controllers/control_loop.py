@@ -8,12 +8,12 @@ from urdfkit.description.control import Settings
 from urdfkit.errors import SimulationError, did_you_mean
 from urdfkit.sim.plugins.builtin_publishers import Publication
 from urdfkit.sim.plugins.controllers.command_output import Output
-from urdfkit.sim.plugins.controllers.controller import Hardware, Law
-from urdfkit.sim.plugins.controllers.controller_types import load_law
-from urdfkit.sim.plugins.controllers.joint_handle import Follower
+from urdfkit.sim.plugins.controllers.controller import Hardware, RosController
+from urdfkit.sim.plugins.controllers.controller_types import load_ros_controller
+from urdfkit.sim.plugins.controllers.joint_handle import JointPid
 from urdfkit.sim.state.joint_commands import Motors
+from urdfkit.sim.state.periodic_steps import NEVER, PeriodicSteps
 from urdfkit.sim.state.robot_state import State
-from urdfkit.sim.state.ticks import NEVER, Ticks
 
 STATES = {1: ("running", "stopped"), 2: ("active", "inactive")}
 """ROS version → names of the states of a running and of a loaded, stopped controller."""
@@ -52,12 +52,12 @@ class ControlLoop:
         self.namespace = namespace
         self.known = known
         self.hardware = hardware
-        self.laws: dict[str, Law] = {}
+        self.controllers: dict[str, RosController] = {}
         self.publications: list[Publication] = []
         self.halted = False
         self._hold = hold
         self._state: State | None = None
-        self._ticks = Ticks(1.0 / hardware.period, hardware.setup.dt)
+        self._ticks = PeriodicSteps(1.0 / hardware.period, hardware.setup.dt)
         self._wake = 0
         self._first: dict[str, Output] = {}
         for (joint, _), output in hardware.outputs.items():
@@ -73,14 +73,14 @@ class ControlLoop:
         """Request an update in the next control period."""
         self._wake = 0
 
-    def followers(self) -> Iterator[tuple[str, Follower]]:
+    def joint_pids(self) -> Iterator[tuple[str, JointPid]]:
         """Yield each PID with its path: ``CONTROLLER/JOINT``, or ``hardware/JOINT`` for a PID of the hardware."""
-        for law in self.laws.values():
-            for follower in law.followers:
-                yield f"{law.name}/{follower.handle.name}", follower
+        for controller in self.controllers.values():
+            for joint_pid in controller.joint_pids:
+                yield f"{controller.name}/{joint_pid.handle.name}", joint_pid
         for output in self.hardware.outputs.values():
-            if output.follower is not None:
-                yield f"hardware/{output.follower.handle.name}", output.follower
+            if output.joint_pid is not None:
+                yield f"hardware/{output.joint_pid.handle.name}", output.joint_pid
 
     def begin(self, state: State) -> None:
         """Start from the present state, and restart the running controllers."""
@@ -89,8 +89,8 @@ class ControlLoop:
         for output in self.hardware.outputs.values():
             output.handle.reset()
             output.start(state)
-        for law in self._running():
-            law.start(state)
+        for controller in self._running():
+            controller.start(state)
         self.wake()
 
     def update(self, state: State, motors: Motors) -> None:
@@ -98,9 +98,9 @@ class ControlLoop:
         rest = inf
         free = dict(self._first)
         if not self.halted:
-            for law in self._running():
-                rest = min(rest, law.update(state, motors))
-                for output in law.outputs:
+            for controller in self._running():
+                rest = min(rest, controller.update(state, motors))
+                for output in controller.outputs:
                     free.pop(output.handle.name, None)
         for output in free.values():
             if self._hold or self.halted:
@@ -118,8 +118,8 @@ class ControlLoop:
         self.halted = halted
         self.wake()
 
-    def _running(self) -> list[Law]:
-        return [law for law in self.laws.values() if law.running]
+    def _running(self) -> list[RosController]:
+        return [controller for controller in self.controllers.values() if controller.running]
 
     # The controller manager's services
 
@@ -128,9 +128,9 @@ class ControlLoop:
         found = []
         running, stopped = STATES[self.hardware.ros]
         for name, settings in self.known.items():
-            law = self.laws.get(name)
-            state = "unloaded" if law is None else running if law.running else stopped
-            claims = () if law is None else tuple("/".join(output.claim) for output in law.outputs)
+            controller = self.controllers.get(name)
+            state = "unloaded" if controller is None else running if controller.running else stopped
+            claims = () if controller is None else tuple("/".join(output.claim) for output in controller.outputs)
             found.append(ControllerStatus(name, self.namespace, settings.text("type", ""), state, claims))
         return tuple(found)
 
@@ -143,16 +143,16 @@ class ControlLoop:
         """
         if name not in self.known:
             raise SimulationError(f"no controller `{name}` in {self.namespace or '/'}{did_you_mean(name, self.known)}")
-        if name in self.laws:
+        if name in self.controllers:
             return True
-        law = load_law(name, self.known[name], self.hardware)
-        if law is None:
+        controller = load_ros_controller(name, self.known[name], self.hardware)
+        if controller is None:
             kind = self.known[name].text("type", "")
             place = self.known[name].group("type").position
             self.hardware.setup.note(f"{place}: controller `{name}`: {kind} is not simulated")
             return False
-        self.laws[name] = law
-        self.publications += law.publications
+        self.controllers[name] = controller
+        self.publications += controller.publications
         return True
 
     def unload(self, name: str) -> None:
@@ -161,12 +161,12 @@ class ControlLoop:
         Raises:
             SimulationError: the controller is running, unknown or not loaded.
         """
-        law = self._loaded(name)
-        if law.running:
+        controller = self._loaded(name)
+        if controller.running:
             raise SimulationError(f"controller `{name}` runs; stop it before it is unloaded")
-        for publication in law.publications:
+        for publication in controller.publications:
             self.publications.remove(publication)
-        del self.laws[name]
+        del self.controllers[name]
 
     def switch(self, start: Iterable[str] = (), stop: Iterable[str] = ()) -> None:
         """Stop some controllers and start others; after an error, all controllers are as before.
@@ -176,28 +176,29 @@ class ControlLoop:
         """
         stopping = [self._loaded(name) for name in stop]
         starting = [self._loaded(name) for name in start if self.load(name)]
-        after = [law for law in self._running() if law not in stopping]
-        after += [law for law in starting if law not in after]
-        owners: dict[str, Law] = {}
-        for law in after:
-            for output in law.outputs:
+        after = [controller for controller in self._running() if controller not in stopping]
+        after += [controller for controller in starting if controller not in after]
+        owners: dict[str, RosController] = {}
+        for controller in after:
+            for output in controller.outputs:
                 joint = output.handle.name
-                owner = owners.setdefault(joint, law)
-                if owner is not law:
+                owner = owners.setdefault(joint, controller)
+                if owner is not controller:
                     raise SimulationError(
-                        f"controller `{law.name}` needs joint `{joint}`, which `{owner.name}` has; stop one of them"
+                        f"controller `{controller.name}` needs joint `{joint}`, "
+                        f"which `{owner.name}` has; stop one of them"
                     )
-        for law in stopping:
-            law.stop()
-            law.running = False
-            for output in law.outputs:
+        for controller in stopping:
+            controller.stop()
+            controller.running = False
+            for output in controller.outputs:
                 if output.interface != "position" and self._state is not None:
                     output.start(self._state)
-        for law in starting:
-            if not law.running:
-                law.running = True
+        for controller in starting:
+            if not controller.running:
+                controller.running = True
                 if self._state is not None:
-                    law.start(self._state)
+                    controller.start(self._state)
         self.wake()
 
     def start_all(self) -> None:
@@ -206,13 +207,13 @@ class ControlLoop:
             try:
                 self.switch(start=[name])
             except SimulationError as error:
-                if name not in self.laws:
+                if name not in self.controllers:
                     raise
                 self.hardware.setup.note(f"not started: {error}")
 
-    def _loaded(self, name: str) -> Law:
-        if name not in self.laws:
+    def _loaded(self, name: str) -> RosController:
+        if name not in self.controllers:
             if name in self.known:
                 raise SimulationError(f"controller `{name}` is not loaded")
             raise SimulationError(f"no controller `{name}` in {self.namespace or '/'}{did_you_mean(name, self.known)}")
-        return self.laws[name]
+        return self.controllers[name]

@@ -1,4 +1,4 @@
-"""Law: base class of the controllers of ros_control and ros2_control. Hardware: the interfaces they command."""
+"""Base class of the controllers of ros_control and ros2_control, and the hardware interfaces that they command."""
 
 from __future__ import annotations
 
@@ -13,12 +13,12 @@ from urdfkit.description.control import Settings
 from urdfkit.errors import DescriptionError, did_you_mean
 from urdfkit.sim.plugins.builtin_publishers import Publication
 from urdfkit.sim.plugins.controllers.command_output import Output
-from urdfkit.sim.plugins.controllers.joint_handle import Follower
+from urdfkit.sim.plugins.controllers.joint_handle import JointPid
 from urdfkit.sim.plugins.odometry import Pose
 from urdfkit.sim.plugins.setup import Setup
 from urdfkit.sim.state.joint_commands import Motors
+from urdfkit.sim.state.periodic_steps import NEVER
 from urdfkit.sim.state.robot_state import State
-from urdfkit.sim.state.ticks import NEVER
 
 
 @dataclass
@@ -67,7 +67,7 @@ class Hardware:
         raise DescriptionError(message, position=entry.position)
 
 
-class Law(ABC):
+class RosController(ABC):
     """A controller, configured when it is loaded, and updated between `start` and `stop`.
 
     Args:
@@ -100,7 +100,7 @@ class Law(ABC):
         self.configure()
 
     @property
-    def followers(self) -> tuple[Follower, ...]:
+    def joint_pids(self) -> tuple[JointPid, ...]:
         """The controller's PIDs, one per joint."""
         return ()
 

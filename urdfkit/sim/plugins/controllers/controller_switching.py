@@ -35,13 +35,17 @@ class Controllers:
     @property
     def command_topics(self) -> dict[str, str]:
         """Topic → type, of the velocity commands that running controllers subscribe to."""
-        laws = [law for loop in self._loops for law in loop.laws.values() if law.running]
-        return {topic: kind for law in laws for topic, kind in law.commands.items()}
+        controllers = [
+            controller for loop in self._loops for controller in loop.controllers.values() if controller.running
+        ]
+        return {topic: kind for controller in controllers for topic, kind in controller.commands.items()}
 
     def odometry(self, state: State) -> dict[str, Pose]:
         """Return odometry frame → pose, as estimated by the running controllers."""
-        laws = [law for loop in self._loops for law in loop.laws.values() if law.running]
-        return {frame: pose for law in laws for frame, pose in law.estimate(state).items()}
+        controllers = [
+            controller for loop in self._loops for controller in loop.controllers.values() if controller.running
+        ]
+        return {frame: pose for controller in controllers for frame, pose in controller.estimate(state).items()}
 
     def list(self) -> tuple[ControllerStatus, ...]:
         """Return the state of each configured controller, loaded or not."""

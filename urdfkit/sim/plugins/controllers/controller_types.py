@@ -2,7 +2,7 @@
 
 from urdfkit.description.control import Settings
 from urdfkit.errors import DescriptionError, did_you_mean
-from urdfkit.sim.plugins.controllers.controller import Hardware, Law
+from urdfkit.sim.plugins.controllers.controller import Hardware, RosController
 from urdfkit.sim.plugins.controllers.joints.forward_command import Forward, ForwardGroup
 from urdfkit.sim.plugins.controllers.joints.gripper import Gripper
 from urdfkit.sim.plugins.controllers.joints.joint_state_broadcaster import JointStatePublisher
@@ -14,7 +14,7 @@ from urdfkit.sim.plugins.controllers.mobile_base.mecanum import MecanumControlle
 from urdfkit.sim.plugins.controllers.mobile_base.steering import SteeringController
 from urdfkit.sim.plugins.controllers.trajectory.joint_trajectory import TrajectoryFollower
 
-LAWS: tuple[type[Law], ...] = (
+ROS_CONTROLLERS: tuple[type[RosController], ...] = (
     JointStatePublisher,
     Forward,
     ForwardGroup,
@@ -49,17 +49,17 @@ ELSEWHERE = (
 """Controller types of ros2_controllers and ros_controllers that are not simulated."""
 
 
-def load_law(name: str, settings: Settings, hardware: Hardware) -> Law | None:
+def load_ros_controller(name: str, settings: Settings, hardware: Hardware) -> RosController | None:
     """Return a configured controller; None for a type that is not simulated or belongs to an unknown package.
 
     Raises:
         DescriptionError: unknown type in a known package, or an invalid parameter, with its position.
     """
     kind = settings.text("type")
-    known = [name for law in LAWS for name in law.types]
-    for law in LAWS:
-        if kind in law.types:
-            return law(name, settings, hardware)
+    known = [name for controller in ROS_CONTROLLERS for name in controller.types]
+    for controller in ROS_CONTROLLERS:
+        if kind in controller.types:
+            return controller(name, settings, hardware)
     if kind in ELSEWHERE:
         return None
     package, packages = kind.partition("/")[0], {name.partition("/")[0] for name in known}

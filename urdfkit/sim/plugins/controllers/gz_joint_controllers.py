@@ -15,14 +15,14 @@ from urdfkit.description.urdf.robot import Plugin
 from urdfkit.errors import SimulationError
 from urdfkit.messages import FLOAT
 from urdfkit.sim.plugins.base import Controller
-from urdfkit.sim.plugins.controllers.joint_handle import Follower, JointHandle
+from urdfkit.sim.plugins.controllers.joint_handle import JointHandle, JointPid
 from urdfkit.sim.plugins.parameters import Parameters
 from urdfkit.sim.plugins.setup import Setup
 from urdfkit.sim.plugins.topic_names import Topics
 from urdfkit.sim.state.joint_commands import Motors
+from urdfkit.sim.state.periodic_steps import NEVER
 from urdfkit.sim.state.pid import Gains
 from urdfkit.sim.state.robot_state import State
-from urdfkit.sim.state.ticks import NEVER
 
 
 class _GzJoint:
@@ -52,7 +52,7 @@ class _GzJoint:
                     f"<{read.tag(meaning)}> is {read.number(meaning):g}; a negative gain drives the joint away",
                     position=read.place(meaning),
                 )
-        self.followers = [Follower(handle, gains) for handle in self.handles]
+        self.joint_pids = [JointPid(handle, gains) for handle in self.handles]
         self.least, self.most = read.number("min_command"), read.number("max_command")
         self.offset = read.number("command_offset")
         if self.most < self.least:
@@ -102,14 +102,14 @@ class _Servo(Controller):
     def begin(self, state: State) -> None:
         """Return to the initial command."""
         self._wanted, self._wake = self._initial, 0
-        for follower in self._joint.followers:
-            follower.integral.reset()
+        for joint_pid in self._joint.joint_pids:
+            joint_pid.integral.reset()
 
-    def followers(self) -> Iterator[tuple[str, Follower]]:
+    def joint_pids(self) -> Iterator[tuple[str, JointPid]]:
         """Yield each PID with its path: ``joint_position_controller/JOINT``, ``joint_controller/JOINT``."""
         if self._by_effort:
-            for follower in self._joint.followers:
-                yield f"{self.kind}/{follower.handle.name}", follower
+            for joint_pid in self._joint.joint_pids:
+                yield f"{self.kind}/{joint_pid.handle.name}", joint_pid
 
     def wake(self) -> None:
         """Request an update in the next step."""
@@ -144,12 +144,12 @@ class JointPositionController(_Servo):
                 handle.turn(motors, min(joint.most, max(-joint.most, error / self._dt)))
             self._wake = state.step + 1
             return
-        for follower in joint.followers:
+        for joint_pid in joint.joint_pids:
             # The bounds of the command need not be symmetric about zero.
-            middle, half = joint.bounds(follower.handle)
-            follower.follow(state, motors, self._wanted, feedforward=joint.offset - middle, limit=half)
+            middle, half = joint.bounds(joint_pid.handle)
+            joint_pid.follow(state, motors, self._wanted, feedforward=joint.offset - middle, limit=half)
             if middle:
-                motors.exert(follower.handle.name, middle)
+                motors.exert(joint_pid.handle.name, middle)
         self._wake = NEVER
 
 
@@ -171,10 +171,10 @@ class JointController(_Servo):
         """Write the commands of the joints."""
         joint = self._joint
         rest = inf
-        for follower in joint.followers:
+        for joint_pid in joint.joint_pids:
             if not self._by_effort:
-                follower.handle.turn(motors, self._wanted)
+                joint_pid.handle.turn(motors, self._wanted)
                 continue
-            follower.chase(state, motors, self._wanted, self._dt, limit=joint.most)
-            rest = min(rest, 0.0 if follower.gains.d else follower.rest())
+            joint_pid.chase(state, motors, self._wanted, self._dt, limit=joint.most)
+            rest = min(rest, 0.0 if joint_pid.gains.d else joint_pid.rest())
         self._wake = NEVER if rest == inf else state.step + max(1, round(rest / self._dt))

@@ -179,7 +179,7 @@ class JointHandle:
         motors.release(self.name)
 
 
-class Follower:
+class JointPid:
     """PID of one joint: joint handle, gains and integral.
 
     Args:

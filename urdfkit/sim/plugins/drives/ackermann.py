@@ -20,9 +20,9 @@ from urdfkit.sim.plugins.setup import Setup
 from urdfkit.sim.plugins.topic_names import Topics
 from urdfkit.sim.plugins.wheel_geometry import steering_angles, wheel_centre, wheel_radius
 from urdfkit.sim.state.joint_commands import Motors, effort_limit
+from urdfkit.sim.state.periodic_steps import PeriodicSteps
 from urdfkit.sim.state.pid import Gains, GazeboPid
 from urdfkit.sim.state.robot_state import State
-from urdfkit.sim.state.ticks import Ticks
 
 JOINTS = (
     "front_right_joint",
@@ -58,7 +58,7 @@ class Ackermann(VelocityDrive):
         self._read_geometry(setup, read)
         self._read_gains(setup, read)
         self.write_rate = self.read_rate = read.number("update_rate")
-        self._ticks = Ticks(self.write_rate, setup.dt)
+        self._ticks = PeriodicSteps(self.write_rate, setup.dt)
         self.subscribe(setup, topics.resolve("cmd_vel"))
         self.wake()
         self.topics = odometry_topics(

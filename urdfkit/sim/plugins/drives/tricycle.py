@@ -16,8 +16,8 @@ from urdfkit.sim.plugins.setup import Setup
 from urdfkit.sim.plugins.topic_names import Topics
 from urdfkit.sim.plugins.wheel_odometry import DifferentialOdometry
 from urdfkit.sim.state.joint_commands import Motors
+from urdfkit.sim.state.periodic_steps import PeriodicSteps
 from urdfkit.sim.state.robot_state import State
-from urdfkit.sim.state.ticks import Ticks
 
 
 class Tricycle(VelocityDrive):
@@ -50,7 +50,7 @@ class Tricycle(VelocityDrive):
         self._steering_speed = read.number("steering_speed", unsigned=True)
         self._steering_tolerance = read.number("steering_tolerance", unsigned=True)
         self.write_rate = self.read_rate = read.number("update_rate")
-        self._period = Ticks(self.write_rate, setup.dt).period
+        self._period = PeriodicSteps(self.write_rate, setup.dt).period
         self.subscribe(setup, topics.resolve(read.text("command_topic", "cmd_vel")))
         separation = read.number("wheel_separation", positive=True)
         self.odometry = DifferentialOdometry(separation) if by_encoder(read) else None

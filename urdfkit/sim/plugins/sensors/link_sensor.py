@@ -15,7 +15,7 @@ from urdfkit.errors import SimulationError, did_you_mean
 from urdfkit.linear_algebra import Array
 from urdfkit.sim.plugins.base import Sensor
 from urdfkit.sim.plugins.parameters import Parameters
-from urdfkit.sim.plugins.sensors.point_motion import Moment, Motion
+from urdfkit.sim.plugins.sensors.point_motion import KinematicSnapshot, Motion
 from urdfkit.sim.plugins.sensors.sensor_values import pose_of, rate_of
 from urdfkit.sim.plugins.setup import Setup
 from urdfkit.sim.plugins.topic_names import Topics
@@ -24,7 +24,7 @@ from urdfkit.sim.state.robot_state import State
 
 
 @dataclass(frozen=True, eq=False)
-class Ride:
+class Sample:
     """Inputs of one reading.
 
     Attributes:
@@ -42,7 +42,7 @@ class Ride:
     random: np.random.Generator
 
 
-class Carried(Sensor):
+class LinkSensor(Sensor):
     """Sensor on a link; all its topics share one reading per measurement.
 
     With a `lead` of 1 the acceleration is that of the last step.
@@ -82,7 +82,7 @@ class Carried(Sensor):
         self.frame = (frame or read.text("body") or self.link).lstrip("/")
         self._kinematics = setup.kinematics
         self._key = int(setup.random.integers(1 << 62))
-        self._before: Moment | None = None
+        self._before: KinematicSnapshot | None = None
         element = None if sensor is None else sensor.element
         topics = Topics(self.plugin, self.spec, namespace=self._namespace(setup))
         self._prepare(setup, element, read, topics, surroundings)
@@ -98,7 +98,7 @@ class Carried(Sensor):
         """Read this kind of sensor from the ``<sensor>`` and the parameters, and fill `topics`."""
 
     @abstractmethod
-    def _feel(self, ride: Ride) -> Any:
+    def _measure(self, sample: Sample) -> Any:
         """Return the reading, noise included."""
 
     @abstractmethod
@@ -109,7 +109,7 @@ class Carried(Sensor):
         """Publish the messages that are due, and store this state for the next measurement."""
         super().act(state)
         if self.lead:
-            self._before = Moment(self._kinematics, state)
+            self._before = KinematicSnapshot(self._kinematics, state)
 
     def reset(self, step: int = 0) -> None:
         """Restart at a step."""
@@ -118,7 +118,7 @@ class Carried(Sensor):
 
     def measure(self, state: State, count: int) -> None:
         """Publish the reading of this state; computed only for a subscriber or a reader of `latest`."""
-        now, before, turn = Moment(self._kinematics, state), self._before, self.done
+        now, before, turn = KinematicSnapshot(self._kinematics, state), self._before, self.done
 
         @cache
         def felt() -> Any:
@@ -127,7 +127,7 @@ class Carried(Sensor):
                 gained = motion.linear - before.motion(self.link, self._mount).linear
                 acceleration = gained / (now.t - before.t)
             random = np.random.Generator(np.random.Philox(key=[self._key, turn]))
-            return self._feel(Ride(now.t, turn, motion, acceleration, random))
+            return self._measure(Sample(now.t, turn, motion, acceleration, random))
 
         def offer(topic: Any, message: Callable[[Any], Any]) -> None:
             topic.offer(lambda: message(felt()), count=count)

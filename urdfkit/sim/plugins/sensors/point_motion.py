@@ -26,7 +26,7 @@ class Motion:
     angular: Array
 
 
-class Moment:
+class KinematicSnapshot:
     """Stored state of the robot at one time; motions are computed on demand.
 
     Args:

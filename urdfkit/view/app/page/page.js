@@ -1,9 +1,9 @@
 // Page: the shared object of all features, with viewport, panels, messages, selection and shortcuts.
 
 export class Page {
-  /** @param stage the 3-D viewport; @param scene its scene; @param panels the panels */
-  constructor(stage, scene, panels) {
-    Object.assign(this, { stage, scene, panels });
+  /** @param viewport the 3-D viewport; @param scene its scene; @param panels the panels */
+  constructor(viewport, scene, panels) {
+    Object.assign(this, { viewport, scene, panels });
     this.mode = null; // "view" or "sim", set by the first message
     this.model = null; // the last message `model`
     this.selected = null; // {link} or {joint}, by name

@@ -8,7 +8,7 @@ const CLOSE = "M6 6l12 12M18 6L6 18";
 
 export function selection(page) {
   const strip = h("div#selection", { role: "group", "aria-label": "Selection", hidden: true });
-  document.getElementById("stage").append(strip);
+  document.getElementById("viewport").append(strip);
   page.on("select", show);
 
   function show(selected) {

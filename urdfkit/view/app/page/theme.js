@@ -23,7 +23,7 @@ export function theme(page) {
     button.replaceChildren(icon(path));
     button.title = `Colours: ${words.toLowerCase()}`;
     button.setAttribute("aria-label", button.title);
-    page.stage.theme(dark);
+    page.viewport.theme(dark);
     page.emit("theme", dark);
   }
 

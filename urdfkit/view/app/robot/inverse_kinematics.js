@@ -14,13 +14,13 @@ const SIZE = 0.14; // of the smaller of height and width of the viewport
 export class Dragging {
   constructor(page) {
     this.page = page;
-    this.viewer = page.stage.viewer;
+    this.viewer = page.viewport.viewer;
     this.gizmo = new Gizmo();
     this.viewer.scene.add(this.gizmo);
     this.drag = null;
     this.turn = false;
     this.label = null;
-    const { pane } = page.stage;
+    const { pane } = page.viewport;
     pane.addEventListener("pointerdown", (event) => this.#down(event), { capture: true });
     pane.addEventListener("pointermove", (event) => this.#move(event), { capture: true });
     for (const end of ["pointerup", "pointercancel"]) pane.addEventListener(end, (event) => this.#up(event), { capture: true });
@@ -28,7 +28,7 @@ export class Dragging {
     page.on("tool", () => this.show());
     page.on("select", () => this.show());
     page.on("robot", () => this.show());
-    page.on("poses", () => this.gizmo.visible && page.stage.dirty());
+    page.on("poses", () => this.gizmo.visible && page.viewport.dirty());
   }
 
   /** The link with the handle: the selected link, if a joint moves it. */
@@ -42,7 +42,7 @@ export class Dragging {
   show() {
     this.gizmo.visible = this.link !== null;
     this.gizmo.rings = this.turn;
-    this.page.stage.dirty();
+    this.page.viewport.dirty();
   }
 
   // The handle is at the frame of the link, or at the target while it is dragged; its size on the screen is constant.
@@ -53,7 +53,7 @@ export class Dragging {
     this.gizmo.position.copy(this.viewer.scene.worldToLocal(at.clone()));
     const { camera } = this.viewer;
     const height = camera.isOrthographicCamera ? (2 * camera.userData.halfHeight) / camera.zoom : 2 * camera.position.distanceTo(at) * Math.tan((camera.fov * Math.PI) / 360);
-    this.gizmo.scale.setScalar(SIZE * height * Math.min(1, this.page.stage.aspect));
+    this.gizmo.scale.setScalar(SIZE * height * Math.min(1, this.page.viewport.aspect));
   }
 
   #down(event) {
@@ -72,7 +72,7 @@ export class Dragging {
     this.drag.pose = page.robot.kinematics.forward(page.values).get(link);
     this.drag.from = this.#grip(event);
     this.drag.start = at.clone();
-    page.stage.pane.setPointerCapture(event.pointerId);
+    page.viewport.pane.setPointerCapture(event.pointerId);
     this.viewer.controls.enabled = false;
   }
 
@@ -109,7 +109,7 @@ export class Dragging {
     Object.assign(drag.values, found.values);
     page.setJoints(found.values);
     this.#showError(found);
-    page.stage.dirty();
+    page.viewport.dirty();
   }
 
   #turned(grip) {
@@ -156,7 +156,7 @@ export class Dragging {
     this.drag = null;
     this.#quiet();
     this.viewer.controls.enabled = this.page.cameras.way !== "first";
-    this.page.stage.dirty();
+    this.page.viewport.dirty();
   }
 }
 
@@ -164,7 +164,7 @@ export function ik(page) {
   const dragging = new Dragging(page);
   const hold = check("Keep the orientation, show rings", { id: "ik-turn", changed: (on) => ((dragging.turn = on), dragging.show()) });
   const strip = h("div#ik-strip", { hidden: true }, h("span.quiet"), hold.label);
-  document.getElementById("stage").append(strip);
+  document.getElementById("viewport").append(strip);
   page.tools.tool({ id: "ik", title: "Drag the selected link", icon: HAND, modes: ["view"], order: 40, clicks: false });
   page.shortcut({ key: "k", does: "drag the selected link", group: "Tools", run: () => page.tools.hold(page.tools.held === "ik" ? null : "ik") });
   const showHint = () => {

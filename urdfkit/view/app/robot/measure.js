@@ -20,14 +20,14 @@ class Points {
     for (const object of [this.dots, this.lines]) {
       object.frustumCulled = false;
       object.renderOrder = 30;
-      page.stage.viewer.scene.add(object);
+      page.viewport.viewer.scene.add(object);
     }
   }
 
   /** Current position of a point in the frame of the grid [m]; the last position if its link was removed. */
   at(point) {
     const world = point.link ? this.page.labels.at(point.link, point.local) : null;
-    if (world) point.point = this.page.stage.viewer.scene.worldToLocal(world).toArray();
+    if (world) point.point = this.page.viewport.viewer.scene.worldToLocal(world).toArray();
     return point.point;
   }
 
@@ -53,7 +53,7 @@ export function measure(page) {
 
   const taken = (held) => {
     first = null;
-    page.stage.pane.style.cursor = held ? "crosshair" : "";
+    page.viewport.pane.style.cursor = held ? "crosshair" : "";
     if (held && !page.panels.narrow.matches) page.panels.open("measure");
   };
   page.tools.tool({ id: "measure", title: "Measure between two points", icon: RULER, order: 20, take: taken });
@@ -66,13 +66,13 @@ export function measure(page) {
     if (page.tools.held === "point") publish(point);
   });
   page.on("draw", update);
-  page.on("robot", () => page.stage.dirty());
+  page.on("robot", () => page.viewport.dirty());
   page.expose("measures", { get items() { return items; } });
 
   function measured(point) {
     if (first === null) {
       first = point;
-      page.stage.dirty();
+      page.viewport.dirty();
       return;
     }
     add([first, point]);
@@ -113,7 +113,7 @@ export function measure(page) {
     list.append(item.row);
     items.push(item);
     clear.hidden = false;
-    page.stage.dirty();
+    page.viewport.dirty();
   }
 
   function remove(item) {
@@ -121,13 +121,13 @@ export function measure(page) {
     item.row.remove();
     items = items.filter((other) => other !== item);
     clear.hidden = items.length === 0;
-    page.stage.dirty();
+    page.viewport.dirty();
   }
 
   function middle(which) {
     const places = which.map((point) => points.at(point));
     const mean = [0, 1, 2].map((i) => places.reduce((sum, place) => sum + place[i], 0) / places.length);
-    return page.stage.viewer.scene.localToWorld(new THREE.Vector3(...mean));
+    return page.viewport.viewer.scene.localToWorld(new THREE.Vector3(...mean));
   }
 
   function update() {

@@ -10,8 +10,8 @@ const ROOM = 400;
 
 /** Many arrows in two draw calls with reused buffers. */
 class Arrows {
-  constructor(stage, colour) {
-    this.stage = stage;
+  constructor(viewport, colour) {
+    this.viewport = viewport;
     this.longest = 0;
     this.count = 0;
     const material = { color: colour, depthTest: false, transparent: true, opacity: 0.95 };
@@ -22,14 +22,14 @@ class Arrows {
     for (const object of [this.shafts, this.heads]) {
       object.frustumCulled = false;
       object.renderOrder = 25;
-      stage.viewer.scene.add(object);
+      viewport.viewer.scene.add(object);
     }
     this.show(false);
   }
 
   show(shown) {
     this.shafts.visible = this.heads.visible = shown;
-    this.stage.dirty();
+    this.viewport.dirty();
   }
 
   /** @param values x y z and a vector of each arrow; the longest arrow is as long as the robot */
@@ -39,7 +39,7 @@ class Arrows {
     for (let i = 0; i < this.count; i += 1) longest = Math.max(longest, Math.hypot(values[6 * i + 3], values[6 * i + 4], values[6 * i + 5]));
     this.longest = longest;
     this.measure = Math.max(longest, (this.measure ?? 0) * 0.98); // decreases slowly, so that the scale is steady
-    const reach = this.measure > 0 ? (0.9 * this.stage.radius) / this.measure : 0;
+    const reach = this.measure > 0 ? (0.9 * this.viewport.radius) / this.measure : 0;
     const at = this.shafts.geometry.getAttribute("position");
     const [up, from, along, turn, size] = [new THREE.Vector3(0, 1, 0), new THREE.Vector3(), new THREE.Vector3(), new THREE.Quaternion(), new THREE.Vector3()];
     const matrix = new THREE.Matrix4();
@@ -51,20 +51,20 @@ class Arrows {
       at.setXYZ(2 * i, from.x, from.y, from.z);
       at.setXYZ(2 * i + 1, end.x, end.y, end.z);
       turn.setFromUnitVectors(up, length > 0 ? along.divideScalar(length) : up);
-      size.setScalar(Math.min(0.3 * length, 0.16 * this.stage.radius) || 1e-9);
+      size.setScalar(Math.min(0.3 * length, 0.16 * this.viewport.radius) || 1e-9);
       this.heads.setMatrixAt(i, matrix.compose(end, turn, size));
     }
     at.needsUpdate = this.heads.instanceMatrix.needsUpdate = true;
     this.shafts.geometry.setDrawRange(0, 2 * this.count);
     this.heads.count = this.count;
-    this.stage.dirty();
+    this.viewport.dirty();
   }
 }
 
 export function arrows(page) {
   const all = [
-    { key: "contacts", arrows: new Arrows(page.stage, 0xd1453b), words: "Contact forces", unit: "N" },
-    { key: "slip", arrows: new Arrows(page.stage, 0xe08a00), words: "Wheel slip", unit: "m/s" },
+    { key: "contacts", arrows: new Arrows(page.viewport, 0xd1453b), words: "Contact forces", unit: "N" },
+    { key: "slip", arrows: new Arrows(page.viewport, 0xe08a00), words: "Wheel slip", unit: "m/s" },
   ];
   const rows = h("ul.bare-list.slips", { "aria-label": "Slip", hidden: true });
   const host = h("div.sim-layers", { "data-mode": "sim" });

@@ -12,13 +12,13 @@ export class Mover {
   constructor(page, moved) {
     this.page = page;
     this.moved = moved;
-    this.viewer = page.stage.viewer;
+    this.viewer = page.viewport.viewer;
     this.gizmo = new Gizmo();
     this.ghost = new THREE.Group();
     this.ghost.visible = false;
     this.viewer.scene.add(this.gizmo, this.ghost);
     this.drag = null;
-    const { pane } = page.stage;
+    const { pane } = page.viewport;
     pane.addEventListener("pointerdown", (event) => this.#down(event), { capture: true });
     pane.addEventListener("pointermove", (event) => this.#move(event), { capture: true });
     for (const end of ["pointerup", "pointercancel"]) pane.addEventListener(end, (event) => this.#up(event), { capture: true });
@@ -57,13 +57,13 @@ export class Mover {
   drop() {
     this.gizmo.visible = this.ghost.visible = false;
     this.drag = null;
-    this.page.stage.dirty();
+    this.page.viewport.dirty();
   }
 
   #follow() {
     this.gizmo.position.copy(this.ghost.position);
     this.#size();
-    this.page.stage.dirty();
+    this.page.viewport.dirty();
   }
 
   #size() {
@@ -88,7 +88,7 @@ export class Mover {
     this.drag = { pointer: event.pointerId, ...handle, at, world: axis, plane: new THREE.Plane().setFromNormalAndCoplanarPoint(normal, at) };
     Object.assign(this.drag, { from: this.#grip(event), position: this.ghost.position.clone(), turn: this.ghost.quaternion.clone() });
     this.ghost.visible = true;
-    this.page.stage.pane.setPointerCapture(event.pointerId);
+    this.page.viewport.pane.setPointerCapture(event.pointerId);
     this.viewer.controls.enabled = false;
   }
 
@@ -125,6 +125,6 @@ export class Mover {
     this.viewer.controls.enabled = true;
     const moved = this.ghost.position.distanceTo(drag.position) > 1e-6 || this.ghost.quaternion.angleTo(drag.turn) > 1e-6;
     if (moved) this.moved([...this.ghost.position.toArray(), ...this.ghost.quaternion.toArray()]);
-    this.page.stage.dirty();
+    this.page.viewport.dirty();
   }
 }

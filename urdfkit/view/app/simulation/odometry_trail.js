@@ -8,8 +8,8 @@ const ROOM = 6000; // maximum number of points of a trail; beyond this every sec
 const STEP = 0.005; // metres between two points
 
 class Trail {
-  constructor(stage, colour, height) {
-    this.stage = stage;
+  constructor(viewport, colour, height) {
+    this.viewport = viewport;
     this.height = height;
     this.count = 0;
     this.step = STEP;
@@ -18,7 +18,7 @@ class Trail {
     this.line = new THREE.Line(geometry, new THREE.LineBasicMaterial({ color: colour }));
     this.line.frustumCulled = false;
     this.clear();
-    stage.viewer.scene.add(this.line);
+    viewport.viewer.scene.add(this.line);
   }
 
   clear() {
@@ -40,25 +40,25 @@ class Trail {
     this.count += 1;
     at.needsUpdate = true;
     this.line.geometry.setDrawRange(0, this.count);
-    if (this.line.visible) this.stage.dirty();
+    if (this.line.visible) this.viewport.dirty();
   }
 
   show(shown) {
     this.line.visible = shown;
-    this.stage.dirty();
+    this.viewport.dirty();
   }
 }
 
 export function trails(page) {
-  const real = new Trail(page.stage, 0x3b7df5, 0.004);
-  const believed = new Trail(page.stage, 0xe0399b, 0.006);
+  const real = new Trail(page.viewport, 0x3b7df5, 0.004);
+  const believed = new Trail(page.viewport, 0xe0399b, 0.006);
   let last = 0;
   let from = null; // pose of the odometry frame in the world
   const clear = () => {
     real.clear();
     believed.clear();
     from = null;
-    page.stage.dirty();
+    page.viewport.dirty();
   };
   const box = h("div.sim-layers", { "data-mode": "sim" });
   const tick = (words, id, trail) => {

@@ -6,16 +6,16 @@ const ROOM = 1.5; // factor of spare space in a buffer
 const BACK = { light: "#e9edf2", dark: "#0f141b" };
 
 export class Cloud {
-  /** @param stage the 3-D viewport; @param colour of points without their own colour */
-  constructor(stage, colour, size = 4) {
-    this.stage = stage;
+  /** @param viewport the 3-D viewport; @param colour of points without their own colour */
+  constructor(viewport, colour, size = 4) {
+    this.viewport = viewport;
     this.colour = colour;
     this.count = 0;
     this.capacity = 0;
     this.colored = false;
     this.points = new THREE.Points(new THREE.BufferGeometry(), new THREE.PointsMaterial({ color: colour, size, sizeAttenuation: false }));
     this.points.frustumCulled = false;
-    stage.viewer.scene.add(this.points);
+    viewport.viewer.scene.add(this.points);
   }
 
   /** Read x y z (and red, green, blue, 255 if `colored`) of each point from a frame after its header. */
@@ -37,7 +37,7 @@ export class Cloud {
     }
     position.needsUpdate = true;
     this.points.geometry.setDrawRange(0, this.count);
-    this.stage.dirty();
+    this.viewport.dirty();
   }
 
   #allocate(capacity, colored) {
@@ -94,9 +94,9 @@ export class Cloud {
   }
 
   remove() {
-    this.stage.viewer.scene.remove(this.points);
+    this.viewport.viewer.scene.remove(this.points);
     this.points.geometry.dispose();
     this.points.material.dispose();
-    this.stage.dirty();
+    this.viewport.dirty();
   }
 }

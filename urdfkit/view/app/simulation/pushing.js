@@ -10,7 +10,7 @@ const PERIOD = 50; // ms between two requests during a drag
 export class Push {
   constructor(page) {
     this.page = page;
-    this.viewer = page.stage.viewer;
+    this.viewer = page.viewport.viewer;
     this.grip = null;
     this.torque = false;
     this.arrow = new THREE.ArrowHelper(new THREE.Vector3(0, 0, 1), new THREE.Vector3(), 1, 0xe0399b);
@@ -20,7 +20,7 @@ export class Push {
     this.viewer.scene.add(this.arrow);
     this.#panel();
     page.tools.tool({ id: "push", title: "Push a link", icon: PUSH, modes: ["sim"], order: 50, clicks: false, take: (held) => this.#held(held) });
-    const { pane } = page.stage;
+    const { pane } = page.viewport;
     pane.addEventListener("pointerdown", (event) => this.#down(event), { capture: true });
     pane.addEventListener("pointermove", (event) => this.#move(event), { capture: true });
     for (const end of ["pointerup", "pointercancel"]) pane.addEventListener(end, (event) => this.#up(event), { capture: true });
@@ -65,7 +65,7 @@ export class Push {
 
   #held(held) {
     if (!held) this.release();
-    this.page.stage.pane.classList.toggle("pushing", held);
+    this.page.viewport.pane.classList.toggle("pushing", held);
     document.getElementById("push-hold").textContent = held ? "Deactivate the tool" : "Activate the tool";
   }
 
@@ -79,7 +79,7 @@ export class Push {
     const at = node.localToWorld(new THREE.Vector3(...hit.local));
     const plane = new THREE.Plane().setFromNormalAndCoplanarPoint(this.viewer.camera.getWorldDirection(new THREE.Vector3()), at);
     this.grip = { pointer: event.pointerId, link: hit.link, node, local: hit.local, plane, event, sent: 0 };
-    this.page.stage.pane.setPointerCapture(event.pointerId);
+    this.page.viewport.pane.setPointerCapture(event.pointerId);
     this.viewer.controls.enabled = false;
     this.timer = setInterval(() => this.#send(), PERIOD);
     this.#pull();
@@ -106,7 +106,7 @@ export class Push {
     this.viewer.controls.enabled = true;
     this.now.textContent = "Drag a link to push it.";
     if (this.page.connection.open) this.page.connection.request("release").catch(() => {});
-    this.page.stage.dirty();
+    this.page.viewport.dirty();
   }
 
   // From the gripped point to the pointer, parallel to the screen, in world axes.
@@ -128,7 +128,7 @@ export class Push {
       this.arrow.setLength(length, Math.min(0.3 * length, 0.12), Math.min(0.18 * length, 0.07));
     }
     this.now.textContent = `${grip.link.replace("world/", "")}: ${short(grip.wrench.length(), 2)} ${this.torque ? "N·m" : "N"}`;
-    this.page.stage.dirty();
+    this.page.viewport.dirty();
   }
 
   #send() {

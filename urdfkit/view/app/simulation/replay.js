@@ -22,7 +22,7 @@ export function recorder(page) {
   const end = h("button", { type: "button", id: "replay-end" }, "End the replay");
   const replay = h("div.replay", { hidden: true }, h("h3", {}, "Replay"), slider, h("div.row", {}, play, speed, h("span.space"), end));
   const banner = h("p", { id: "replaying", role: "status", hidden: true }, "Replay: the simulation is paused");
-  document.getElementById("stage").append(banner);
+  document.getElementById("viewport").append(banner);
   panel.body.append(record, topics.label, pictures.label, words, replay);
   let state = { recording: false, frames: 0 };
   let grabbed = false;

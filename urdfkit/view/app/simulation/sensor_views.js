@@ -70,7 +70,7 @@ class Points extends Sight {
   kinds = [POINTS, COLORED];
   constructor(page, list, topic, options) {
     super(page, list, topic, options);
-    this.cloud = new Cloud(page.stage, options.colour);
+    this.cloud = new Cloud(page.viewport, options.colour);
     this.box.style.accentColor = `#${options.colour.toString(16).padStart(6, "0")}`;
     this.above = h("canvas.above", { width: 320, height: 200, role: "img", "aria-label": `${topic} from above` });
     this.item.append(this.above);
@@ -89,7 +89,7 @@ class Points extends Sight {
   show(on) {
     this.cloud.points.visible = on;
     this.above.hidden = !on;
-    this.page.stage.dirty();
+    this.page.viewport.dirty();
   }
 
   take(buffer, kind, shown) {

@@ -22,7 +22,7 @@ export class Walls {
     for (const object of [this.line, this.dots, this.gaps]) {
       object.renderOrder = 30;
       object.frustumCulled = false;
-      page.stage.viewer.scene.add(object);
+      page.viewport.viewer.scene.add(object);
     }
     const number = (id, words, value, min, max) => {
       const input = numberField({ id: `wall-${id}`, value, min, max, step: 0.05, unit: "m" });
@@ -145,7 +145,7 @@ export class Walls {
     });
     replace(this.gaps, ends);
     this.#showHint();
-    this.page.stage.dirty();
+    this.page.viewport.dirty();
   }
 }
 

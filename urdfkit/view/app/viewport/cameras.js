@@ -17,8 +17,8 @@ const SIDES = { Front: [1, 0, 0.02], Back: [-1, 0, 0.02], Left: [0, 1, 0.02], Ri
 export class Cameras {
   constructor(page) {
     this.page = page;
-    this.stage = page.stage;
-    this.viewer = page.stage.viewer;
+    this.viewport = page.viewport;
+    this.viewer = page.viewport.viewer;
     this.way = "orbit";
     this.target = ""; // a link; empty for none
     this.fixed = "";
@@ -43,8 +43,8 @@ export class Cameras {
     if (way === "first") this.first.use(true);
     if (way === "follow") this.#behind();
     this.was = this.#stand();
-    this.stage.haze();
-    this.stage.dirty();
+    this.viewport.haze();
+    this.viewport.dirty();
     this.page.emit("camera", way);
   }
 
@@ -53,15 +53,15 @@ export class Cameras {
     camera.userData.halfHeight = position.distanceTo(target) * Math.tan((this.eye.camera.fov * Math.PI) / 360);
     camera.up.set(0, 0, -1); // x to the right, y up
     camera.position.copy(target).add(new THREE.Vector3(0, 10, 0));
-    const controls = new this.eye.controls.constructor(camera, this.stage.pane);
+    const controls = new this.eye.controls.constructor(camera, this.viewport.pane);
     Object.assign(controls, { enableRotate: false, enableKeys: false, screenSpacePanning: true });
     controls.mouseButtons = { LEFT: THREE.MOUSE.PAN, MIDDLE: THREE.MOUSE.DOLLY, RIGHT: THREE.MOUSE.PAN };
     controls.touches = { ONE: THREE.TOUCH.PAN, TWO: THREE.TOUCH.DOLLY_PAN };
     controls.target.copy(target);
-    controls.addEventListener("change", () => this.stage.dirty());
+    controls.addEventListener("change", () => this.viewport.dirty());
     this.eye.controls.enabled = false;
     Object.assign(this.viewer, { camera, controls });
-    this.stage.resize();
+    this.viewport.resize();
   }
 
   #leaveTop(controls) {
@@ -71,7 +71,7 @@ export class Cameras {
     controls.dispose();
     own.enabled = true;
     Object.assign(this.viewer, this.eye);
-    this.stage.resize();
+    this.viewport.resize();
   }
 
   /** The link that is followed. */
@@ -94,7 +94,7 @@ export class Cameras {
     const stand = this.#stand();
     if (!stand) return;
     const { camera, controls } = this.viewer;
-    const away = 3.2 * this.stage.radius;
+    const away = 3.2 * this.viewport.radius;
     controls.target.copy(stand.at);
     camera.position.set(-Math.cos(stand.yaw) * away, 0.5 * away, Math.sin(stand.yaw) * away).add(stand.at);
   }
@@ -113,7 +113,7 @@ export class Cameras {
     if (this.way === "follow") arm.applyAxisAngle(new THREE.Vector3(0, 1, 0), now.yaw - before.yaw);
     controls.target.add(now.at.clone().sub(before.at));
     camera.position.copy(controls.target).add(arm);
-    this.stage.dirty();
+    this.viewport.dirty();
   }
 
   #hold() {
@@ -131,7 +131,7 @@ export class Cameras {
     this.fixed = link;
     this.#hold();
     this.was = this.#stand();
-    this.stage.dirty();
+    this.viewport.dirty();
     this.page.emit("fixed", link);
   }
 
@@ -146,15 +146,15 @@ export class Cameras {
   look(link) {
     const box = new THREE.Box3();
     for (const group of this.page.scene.shapes(link)) box.expandByObject(group);
-    const size = box.isEmpty() ? 0.2 * this.stage.radius : box.getSize(new THREE.Vector3()).length();
+    const size = box.isEmpty() ? 0.2 * this.viewport.radius : box.getSize(new THREE.Vector3()).length();
     const { camera, controls } = this.viewer;
     const at = box.isEmpty() ? this.page.labels.at(link) : box.getCenter(new THREE.Vector3());
     if (!at) return;
-    const arm = camera.position.clone().sub(controls.target).setLength(Math.max(2.2 * size, 0.6 * this.stage.radius));
+    const arm = camera.position.clone().sub(controls.target).setLength(Math.max(2.2 * size, 0.6 * this.viewport.radius));
     controls.target.copy(at);
     camera.position.copy(at).add(arm);
-    this.stage.haze();
-    this.stage.dirty();
+    this.viewport.haze();
+    this.viewport.dirty();
   }
 }
 
@@ -171,7 +171,7 @@ export function cameras(page) {
   }
   const sides = h("div.chips", { role: "group", "aria-label": "Look from " });
   for (const [words, direction] of Object.entries(SIDES)) {
-    sides.append(h("button.chip", { type: "button", onclick: () => page.stage.fit(page.scene.bounds(), direction) }, words));
+    sides.append(h("button.chip", { type: "button", onclick: () => page.viewport.fit(page.scene.bounds(), direction) }, words));
   }
   const target = frames("Target frame", "target-frame", "none", (link) => page.cameras.aim(link));
   const fixed = frames("Fixed frame", "fixed-frame", "the root link", (link) => page.cameras.fix(link));

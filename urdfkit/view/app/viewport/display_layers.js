@@ -12,7 +12,7 @@ const MARKS = [
 ];
 
 export function layers(page) {
-  const { scene, stage } = page;
+  const { scene, viewport } = page;
   const panel = page.panels.add({ id: "show", title: "Show", icon: LAYERS, order: 40 });
   const markers = new Markers(page);
   const boxes = h("div.checks");
@@ -33,8 +33,8 @@ export function layers(page) {
   }
   add("Names", { id: "show-names", key: "n", changed: (shown) => names(page, shown) });
   add("Wireframe", { id: "wireframe", key: "w", modes: both, changed: (wireframe) => scene.restyle({ wireframe }) });
-  add("Grid", { id: "show-grid", key: "g", modes: both, checked: true, changed: (shown) => stage.visible("Grid", shown) });
-  add("Origin", { id: "show-axes-world", modes: both, changed: (shown) => stage.visible("Axes", shown) });
+  add("Grid", { id: "show-grid", key: "g", modes: both, checked: true, changed: (shown) => viewport.visible("Grid", shown) });
+  add("Origin", { id: "show-axes-world", modes: both, changed: (shown) => viewport.visible("Axes", shown) });
   add("Follow robot", { id: "follow", modes: ["sim"], checked: true, changed: (on) => (page.following = on) });
 
   panel.body.append(
@@ -52,7 +52,7 @@ export function layers(page) {
     names(page, document.getElementById("show-names").checked);
   });
   page.on("fit", () => markers.update());
-  page.on("hover", () => shown.length && stage.dirty()); // whose name is in front
+  page.on("hover", () => shown.length && viewport.dirty()); // whose name is in front
   page.expose("markers", markers);
 }
 
@@ -74,5 +74,5 @@ let shown = [];
 function names(page, wanted) {
   for (const label of shown) page.labels.remove(label);
   shown = wanted ? [...page.robot.links.keys()].map((link) => page.labels.add(h("span.name-label", { "data-name": link }, link), () => page.labels.at(link))) : [];
-  page.stage.dirty();
+  page.viewport.dirty();
 }

@@ -8,7 +8,7 @@ const TURN = 0.004; // radians per pixel
 export class FirstPerson {
   constructor(page, camera, controls) {
     Object.assign(this, { page, camera, controls, on: false, held: new Set(), last: null });
-    const { pane } = page.stage;
+    const { pane } = page.viewport;
     pane.addEventListener("pointerdown", (event) => {
       if (!this.on) return;
       this.last = [event.clientX, event.clientY];
@@ -38,7 +38,7 @@ export class FirstPerson {
     at.phi = Math.max(0.05, Math.min(Math.PI - 0.05, at.phi + pitch));
     at.radius = Math.max(at.radius, controls.minDistance * 1.01);
     controls.target.copy(camera.position).add(new THREE.Vector3().setFromSpherical(at));
-    this.page.stage.dirty();
+    this.page.viewport.dirty();
   }
 
   #look(event) {
@@ -78,9 +78,9 @@ export class FirstPerson {
     const forward = controls.target.clone().sub(camera.position).normalize();
     const side = new THREE.Vector3(0, 1, 0).cross(forward).normalize();
     const move = forward.multiplyScalar(ahead).addScaledVector(side, left).add(new THREE.Vector3(0, up, 0));
-    move.multiplyScalar(distance * this.page.stage.radius);
+    move.multiplyScalar(distance * this.page.viewport.radius);
     camera.position.add(move);
     controls.target.add(move);
-    this.page.stage.dirty();
+    this.page.viewport.dirty();
   }
 }

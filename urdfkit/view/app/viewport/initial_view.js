@@ -9,7 +9,7 @@ const NEAR = 0.35; // of the robot's radius: nearer objects do not count as obst
 
 export class Sight {
   constructor(page) {
-    Object.assign(this, { page, scene: page.scene, stage: page.stage, ray: new THREE.Raycaster(), looked: 0 });
+    Object.assign(this, { page, scene: page.scene, viewport: page.viewport, ray: new THREE.Raycaster(), looked: 0 });
     page.on("drawn", () => this.#soon());
   }
 
@@ -18,7 +18,7 @@ export class Sight {
     const sphere = box.getBoundingSphere(new THREE.Sphere());
     const points = this.#points(box);
     const others = this.#others(null);
-    this.stage.viewer.scene.updateMatrixWorld(); // the scene may not have been drawn yet
+    this.viewport.viewer.scene.updateMatrixWorld(); // the scene may not have been drawn yet
     let best = { seen: -1, direction: wanted, part: 1 };
     for (const rise of others.length ? RISES : [0]) {
       for (const turn of TURNS) {
@@ -48,7 +48,7 @@ export class Sight {
 
   #hits(from, to, objects) {
     const way = to.clone().sub(from);
-    Object.assign(this.ray, { near: NEAR * this.stage.radius, far: way.length() });
+    Object.assign(this.ray, { near: NEAR * this.viewport.radius, far: way.length() });
     this.ray.set(from, way.normalize());
     return this.ray.intersectObjects(objects, true);
   }
@@ -63,14 +63,14 @@ export class Sight {
     const other = this.page.followed === undefined ? null : this.page.driven;
     const node = this.scene.nodes[this.page.followed ?? this.page.model?.root ?? 0];
     if (!node || this.page.cameras.way === "first") return this.scene.fade(new Set());
-    const { camera } = this.stage.viewer;
+    const { camera } = this.viewport.viewer;
     const others = this.#others(other);
     const hidden = new Set();
     for (const height of [0.3, 1]) {
       const point = node.getWorldPosition(new THREE.Vector3());
-      point.y += height * this.stage.radius;
+      point.y += height * this.viewport.radius;
       const eye = camera.isOrthographicCamera ? camera.getWorldDirection(new THREE.Vector3()).multiplyScalar(-100).add(point) : camera.position;
-      const near = point.distanceTo(eye) - NEAR * this.stage.radius;
+      const near = point.distanceTo(eye) - NEAR * this.viewport.radius;
       this.ray.near = 0;
       this.ray.far = Math.max(0, near);
       this.ray.set(eye, point.clone().sub(eye).normalize());

@@ -6,7 +6,7 @@ const STEP = Math.PI / 24;
 const ARROWS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] };
 
 export function steering(page) {
-  const { pane, viewer } = page.stage;
+  const { pane, viewer } = page.viewport;
   pane.addEventListener("keydown", (event) => {
     if (page.mode !== "view" || event.ctrlKey || event.metaKey || event.altKey) return;
     if (event.key in ARROWS) {
@@ -18,8 +18,8 @@ export function steering(page) {
     else return;
     event.preventDefault();
     event.stopPropagation();
-    page.stage.haze();
-    page.stage.dirty();
+    page.viewport.haze();
+    page.viewport.dirty();
   });
   for (const [key, does] of [["← →", "rotate the view; with Shift, pan it"], ["+ -", "zoom"]]) {
     page.shortcut({ key, does: `${does} (viewport focused)`, group: "View", run: () => false });
@@ -36,7 +36,7 @@ export function steering(page) {
 
   function move(x, y) {
     const { camera, controls } = viewer;
-    const step = 0.12 * page.stage.radius;
+    const step = 0.12 * page.viewport.radius;
     const [right, up] = [new THREE.Vector3(), new THREE.Vector3()];
     camera.matrixWorld.extractBasis(right, up, new THREE.Vector3());
     const by = right.multiplyScalar(x * step).addScaledVector(up, -y * step);

@@ -8,13 +8,13 @@ const THREE = MeshCat.THREE;
 export class Labels {
   constructor(page) {
     this.page = page;
-    this.stage = page.stage;
+    this.viewport = page.viewport;
     this.layer = h("div#labels");
-    this.stage.pane.after(this.layer);
+    this.viewport.pane.after(this.layer);
     this.tipBox = h("div#tip", { role: "tooltip", hidden: true });
     this.layer.after(this.tipBox);
     this.kept = new Map(); // element → function that returns where it is, a Vector3 in the world, or null
-    const { viewer } = this.stage;
+    const { viewer } = this.viewport;
     const render = viewer.render.bind(viewer);
     viewer.render = () => {
       page.emit("draw", null);
@@ -29,7 +29,7 @@ export class Labels {
     element.classList.add("label");
     this.kept.set(element, where);
     this.layer.append(element);
-    this.stage.dirty();
+    this.viewport.dirty();
     return element;
   }
 
@@ -40,14 +40,14 @@ export class Labels {
 
   /** Project a point of the world to the viewport [pixels]; also whether it is in front of the camera. */
   screen(point) {
-    const { clientWidth: width, clientHeight: height } = this.stage.pane;
-    const at = point.clone().project(this.stage.viewer.camera);
+    const { clientWidth: width, clientHeight: height } = this.viewport.pane;
+    const at = point.clone().project(this.viewport.viewer.camera);
     return [((at.x + 1) / 2) * width, ((1 - at.y) / 2) * height, at.z < 1 && at.z > -1];
   }
 
   place() {
     const names = [];
-    const { camera } = this.stage.viewer;
+    const { camera } = this.viewport.viewer;
     for (const [element, where] of this.kept) {
       const point = where();
       const [x, y, seen] = point ? this.screen(point) : [0, 0, false];
@@ -80,7 +80,7 @@ export class Labels {
   tip(words, event) {
     this.tipBox.hidden = !words;
     if (!words || !event) return;
-    const { left, top, width } = this.stage.pane.getBoundingClientRect();
+    const { left, top, width } = this.viewport.pane.getBoundingClientRect();
     this.tipBox.textContent = words;
     const x = Math.min(event.clientX - left + 14, width - this.tipBox.offsetWidth - 6);
     this.tipBox.style.transform = `translate(${x}px, ${event.clientY - top + 16}px)`;

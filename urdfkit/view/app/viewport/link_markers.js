@@ -128,7 +128,7 @@ export class Markers {
   }
 
   update() {
-    const radius = this.page.stage.radius * this.size;
+    const radius = this.page.viewport.radius * this.size;
     const sizes = { frames: 0.22 * radius, axes: 0.24 * radius, com: 0.035 * radius };
     for (const [kind, marks] of Object.entries(this.made)) {
       for (const mark of marks) {
@@ -137,6 +137,6 @@ export class Markers {
         if (!mark.userData.own) mark.scale.setScalar(sizes[kind]);
       }
     }
-    this.page.stage.dirty();
+    this.page.viewport.dirty();
   }
 }

@@ -8,7 +8,7 @@ const SNAP = 9; // pixels within which a click snaps to a corner
 export class Pick {
   constructor(page) {
     this.page = page;
-    this.pane = page.stage.pane;
+    this.pane = page.viewport.pane;
     this.ray = new THREE.Raycaster();
     this.down = null;
     this.hovered = null;
@@ -25,7 +25,7 @@ export class Pick {
   aim({ clientX, clientY }) {
     const { left, top, width, height } = this.pane.getBoundingClientRect();
     const at = new THREE.Vector2(((clientX - left) / width) * 2 - 1, 1 - ((clientY - top) / height) * 2);
-    this.ray.setFromCamera(at, this.page.stage.viewer.camera);
+    this.ray.setFromCamera(at, this.page.viewport.viewer.camera);
     return this.ray.ray;
   }
 
@@ -48,7 +48,7 @@ export class Pick {
   }
 
   #placed(link, world) {
-    const point = this.page.stage.viewer.scene.worldToLocal(world.clone()).toArray();
+    const point = this.page.viewport.viewer.scene.worldToLocal(world.clone()).toArray();
     const local = link ? this.page.scene.byLink.get(link).worldToLocal(world.clone()).toArray() : point;
     return { local, point };
   }
@@ -117,11 +117,11 @@ export class Pick {
   #look(event) {
     const hit = this.at(event, { ground: true });
     if (!hit) return;
-    const { camera, controls } = this.page.stage.viewer;
-    const target = this.page.stage.viewer.scene.localToWorld(new THREE.Vector3(...hit.point));
+    const { camera, controls } = this.page.viewport.viewer;
+    const target = this.page.viewport.viewer.scene.localToWorld(new THREE.Vector3(...hit.point));
     camera.position.add(target.clone().sub(controls.target));
     controls.target.copy(target);
-    this.page.stage.dirty();
+    this.page.viewport.dirty();
   }
 }
 
@@ -139,7 +139,7 @@ function glow(page) {
     const { select, hover } = glowing;
     if (hover && hover !== select) paint(hover, shades.hover);
     if (select) paint(select, shades.select);
-    page.stage.dirty();
+    page.viewport.dirty();
   }
   page.on("select", (selected) => update("select", selected?.link ?? page.childOf?.(selected?.joint) ?? null));
   page.on("hover", (link) => update("hover", link));

@@ -7,9 +7,9 @@ const FAINT = 0.14; // opacity of obstacles in front of the robot
 const STILL = 1e-6; // [m] and quaternion components: smaller motions do not trigger a new frame
 
 export class Scene {
-  constructor(stage) {
-    this.stage = stage;
-    this.viewer = stage.viewer;
+  constructor(viewport) {
+    this.viewport = viewport;
+    this.viewer = viewport.viewer;
     this.meshes = new Map(); // content hash → promise of a BufferGeometry
     this.used = new Set(); // meshes of the current robot
     this.waiting = new Set();
@@ -30,7 +30,7 @@ export class Scene {
   }
 
   command(bytes) {
-    this.stage.dirty();
+    this.viewport.dirty();
     this.viewer.handle_command_bytearray(bytes);
   }
 
@@ -80,7 +80,7 @@ export class Scene {
   restyle(look) {
     Object.assign(this.look, look);
     for (const groups of Object.values(this.groups)) for (const group of groups.values()) this.#style(group);
-    this.stage.dirty();
+    this.viewport.dirty();
   }
 
   /** Make these meshes transparent, and restore all others. */
@@ -89,13 +89,13 @@ export class Scene {
     const changed = [...meshes, ...before].filter((mesh) => meshes.has(mesh) !== before.has(mesh));
     this.faded = meshes;
     for (const mesh of changed) this.#style(mesh);
-    if (changed.length) this.stage.dirty();
+    if (changed.length) this.viewport.dirty();
   }
 
   show(role, shown) {
     this.shown[role] = shown;
     for (const group of this.groups[role].values()) group.visible = shown;
-    this.stage.dirty();
+    this.viewport.dirty();
   }
 
   #shared(path, object, name) {
@@ -111,7 +111,7 @@ export class Scene {
         const node = this.byLink.get(this.owner(mesh));
         if (node) delete node.userData.middle; // its centre has changed
         this.arrived?.(mesh);
-        this.stage.dirty();
+        this.viewport.dirty();
       })
       .catch((error) => console.warn(`mesh ${name.slice(0, 8)}: ${error.message}`))
       .finally(() => this.waiting.delete(task));
@@ -218,7 +218,7 @@ export class Scene {
       node.position.set(values[at], values[at + 1], values[at + 2]);
       node.quaternion.set(values[at + 3], values[at + 4], values[at + 5], values[at + 6]);
     });
-    this.stage.dirty();
+    this.viewport.dirty();
   }
 }
 

@@ -21,21 +21,21 @@ function stem(page) {
 
 /** Take a screenshot as a PNG blob. */
 export function picture(page) {
-  const { renderer } = page.stage.viewer;
+  const { renderer } = page.viewport.viewer;
   const before = renderer.getPixelRatio();
   renderer.setPixelRatio(SCALE);
-  page.stage.resize();
-  page.stage.viewer.render();
+  page.viewport.resize();
+  page.viewport.viewer.render();
   // Read before the next frame is drawn, because the buffer is not preserved.
   const taken = new Promise((resolve, reject) => renderer.domElement.toBlob((blob) => (blob ? resolve(blob) : reject(new Error("the screenshot failed"))), "image/png"));
   renderer.setPixelRatio(before);
-  page.stage.resize();
+  page.viewport.resize();
   return taken;
 }
 
 /** Record one turn around the target of the camera as a WebM blob. `progress` is called with 0..1; it stops by returning false. */
 export function turntable(page, seconds, progress = () => true) {
-  const { viewer } = page.stage;
+  const { viewer } = page.viewport;
   const { camera, controls } = viewer;
   const kind = ["video/webm;codecs=vp9", "video/webm;codecs=vp8", "video/webm", "video/mp4"].find((each) => MediaRecorder.isTypeSupported(each));
   if (!kind) return Promise.reject(new Error("this browser cannot record video"));
@@ -52,7 +52,7 @@ export function turntable(page, seconds, progress = () => true) {
     recorder.addEventListener("stop", () => {
       stream.getTracks().forEach((track) => track.stop());
       camera.position.copy(target).add(arm);
-      page.stage.dirty();
+      page.viewport.dirty();
       if (stopped) reject(new Error("stopped"));
       else resolve(new Blob(parts, { type: kind.split(";")[0] }));
     });
@@ -61,7 +61,7 @@ export function turntable(page, seconds, progress = () => true) {
     const turn = (now) => {
       const done = Math.min(1, (now - start) / (1000 * seconds));
       camera.position.copy(target).add(arm.clone().applyAxisAngle(up, done * 2 * Math.PI));
-      page.stage.dirty();
+      page.viewport.dirty();
       stopped = progress(done) === false;
       if (done < 1 && !stopped) requestAnimationFrame(turn);
       else requestAnimationFrame(() => recorder.stop());

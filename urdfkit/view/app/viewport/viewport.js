@@ -13,7 +13,7 @@ const FOV = 42;
 const ROOM = 1.3; // factor by which a robot may outgrow the fitted view
 const PATIENCE = 2500; // ms after which an incomplete scene is drawn
 
-export class Stage {
+export class Viewport {
   constructor(pane) {
     this.pane = pane;
     this.viewer = sparing(() => new MeshCat.Viewer(pane));

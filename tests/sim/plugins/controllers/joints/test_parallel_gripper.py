@@ -111,7 +111,7 @@ def test_a_slider_tells_it(rig: Callable[..., Rig]) -> None:
     made = rig(gravity=(0, 0, 0))
     (robot,) = made.simulator.world.robots.values()
     (controller,) = (each for each in robot.plugins.controllers if each.loop is not None)
-    arm = ControllerSliders(robot, controller.loop.laws["grip"])
+    arm = ControllerSliders(robot, controller.loop.controllers["grip"])
     assert arm.of == "position"
     arm.command(made.simulator.bus, "elbow", 0.3)
     made.simulator.run(2.0)

@@ -13,7 +13,7 @@ from urdfkit.sim.plugins.controllers.actions.action_topics import (
     Goal,
     RclAction,
 )
-from urdfkit.sim.plugins.controllers.controller import Law, Report
+from urdfkit.sim.plugins.controllers.controller import Report, RosController
 from urdfkit.sim.state.robot_state import State
 
 __all__ = ["ABORTED", "SUCCEEDED", "Action", "RefusalError"]
@@ -39,7 +39,7 @@ class Action:
     """Action server of a controller; a new goal preempts the active one.
 
     Args:
-        law: the controller.
+        controller: the controller.
         name: name of the action, relative to the controller's.
         kind: type of its messages without ``ActionGoal``, such as ``control_msgs/msg/GripperCommand``.
         pursue: called with each goal; raises `RefusalError` to reject it.
@@ -54,7 +54,7 @@ class Action:
 
     def __init__(
         self,
-        law: Law,
+        controller: RosController,
         name: str,
         kind: str,
         *,
@@ -64,16 +64,18 @@ class Action:
         rate: float,
         clock: Callable[[], float],
     ) -> None:
-        self._clock, self._law = clock, law
+        self._clock, self._controller = clock, controller
         self._pursue, self._stop, self._feedback = pursue, stop, feedback
         self.goal: Goal | None = None
         self._last: Goal | None = None
-        topics = Actionlib if law.hardware.ros == 1 else RclAction
-        self._topics = topics(law, name, kind, take=self._take, cancel=self._cancel, clock=clock)
-        told, dt = self._topics.feedback, law.hardware.setup.dt
-        law.publications.append(Report(told, rate, dt, lambda: law.running and self.goal is not None, self._tell))
+        topics = Actionlib if controller.hardware.ros == 1 else RclAction
+        self._topics = topics(controller, name, kind, take=self._take, cancel=self._cancel, clock=clock)
+        told, dt = self._topics.feedback, controller.hardware.setup.dt
+        controller.publications.append(
+            Report(told, rate, dt, lambda: controller.running and self.goal is not None, self._tell)
+        )
         if self._topics.repeats:
-            law.report(self._topics.states, STATUS_RATE, self._list)
+            controller.report(self._topics.states, STATUS_RATE, self._list)
 
     def end(self, state: int, text: str = "", /, **result: Any) -> None:
         """End the active goal with a state and publish its result; without an active goal, do nothing."""
@@ -89,7 +91,7 @@ class Action:
         try:
             self._pursue(wanted)
         except RefusalError as refusal:
-            self._law.note(f"refused a goal: {refusal}")
+            self._controller.note(f"refused a goal: {refusal}")
             self._close(goal, REJECTED, str(refusal), refusal.result, last=self.goal is None)
             return
         self.give_up("another goal has taken its place")

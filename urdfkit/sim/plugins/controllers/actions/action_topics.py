@@ -13,7 +13,7 @@ from typing import Any
 from urdfkit.bus import Topic
 from urdfkit.messages import from_fields, header, message_type, stamp
 from urdfkit.messages.control import GOAL_ID, GOAL_STATUSES
-from urdfkit.sim.plugins.controllers.controller import Law
+from urdfkit.sim.plugins.controllers.controller import RosController
 
 ACTIVE, PREEMPTED, SUCCEEDED, ABORTED, REJECTED = 1, 2, 3, 4, 5
 """States of a goal (actionlib_msgs/GoalStatus)."""
@@ -53,7 +53,7 @@ class ActionTopics(ABC):
     """The topics of an action.
 
     Args:
-        law: the controller.
+        controller: the controller.
         name: name of the action, relative to the controller's.
         kind: type of its messages without ``ActionGoal``, such as ``control_msgs/msg/GripperCommand``.
         take: called with each goal and its message.
@@ -74,7 +74,7 @@ class ActionTopics(ABC):
 
     def __init__(
         self,
-        law: Law,
+        controller: RosController,
         name: str,
         kind: str,
         *,
@@ -82,7 +82,7 @@ class ActionTopics(ABC):
         cancel: Callable[[str, float], None],
         clock: Callable[[], float],
     ) -> None:
-        self._law, self._kind, self._base = law, kind, law.topic(name)
+        self._controller, self._kind, self._base = controller, kind, controller.topic(name)
         self._take, self._cancel, self._clock = take, cancel, clock
         self._count = 0
         self.configure()
@@ -111,16 +111,16 @@ class Actionlib(ActionTopics):
 
     def configure(self) -> None:
         """Advertise and subscribe."""
-        law, base, kind, bus = self._law, self._base, self._kind, self._law.hardware.setup.bus
-        law.listen(f"{base}/goal", f"{kind}ActionGoal", self._goal)
-        law.listen(f"{base}/cancel", GOAL_ID, lambda m: self._cancel(m.id, seconds(m.stamp)))
+        controller, base, kind, bus = self._controller, self._base, self._kind, self._controller.hardware.setup.bus
+        controller.listen(f"{base}/goal", f"{kind}ActionGoal", self._goal)
+        controller.listen(f"{base}/cancel", GOAL_ID, lambda m: self._cancel(m.id, seconds(m.stamp)))
         self.results = bus.advertise(f"{base}/result", f"{kind}ActionResult")
         self.states = bus.advertise(f"{base}/status", GOAL_STATUSES)
         self.feedback = bus.advertise(f"{base}/feedback", f"{kind}ActionFeedback")
 
     def _goal(self, message: Any) -> None:
         self._count += 1
-        name = message.goal_id.id or f"{self._law.name}-{self._count}"
+        name = message.goal_id.id or f"{self._controller.name}-{self._count}"
         sent = message.goal_id.stamp if seconds(message.goal_id.stamp) else stamp(self._clock())
         self._take(Goal(message_type(GOAL_ID)(sent, name), name, sent), message.goal)
 
@@ -156,11 +156,11 @@ class RclAction(ActionTopics):
 
     def configure(self) -> None:
         """Advertise and subscribe."""
-        law, bus = self._law, self._law.hardware.setup.bus
+        controller, bus = self._controller, self._controller.hardware.setup.bus
         base, kind = f"{self._base}/_action", self._kind.replace("/msg/", "/action/")
         self._progress, self._answer = f"{kind}_FeedbackMessage", f"{kind}_GetResult_Response"
-        law.listen(f"{base}/send_goal", f"{kind}_SendGoal_Request", self._goal)
-        law.listen(f"{base}/cancel_goal", CANCEL_2, self._end)
+        controller.listen(f"{base}/send_goal", f"{kind}_SendGoal_Request", self._goal)
+        controller.listen(f"{base}/cancel_goal", CANCEL_2, self._end)
         self.results = bus.advertise(f"{base}/get_result", self._answer)
         self.states = bus.advertise(f"{base}/status", STATES_2)
         self.feedback = bus.advertise(f"{base}/feedback", self._progress)

@@ -10,12 +10,12 @@ from typing import ClassVar
 from urdfkit.errors import DescriptionError, did_you_mean
 from urdfkit.messages import FLOAT, FLOATS
 from urdfkit.sim.plugins.controllers.command_output import INTERFACES, PositionOutput
-from urdfkit.sim.plugins.controllers.controller import Law
+from urdfkit.sim.plugins.controllers.controller import RosController
 from urdfkit.sim.state.joint_commands import Motors
 from urdfkit.sim.state.robot_state import State
 
 
-class Forward(Law):
+class Forward(RosController):
     """Forwards commands to one joint: ``command`` (Float64)."""
 
     types: ClassVar[dict[str, str]] = {

@@ -8,8 +8,8 @@ from typing import Any, ClassVar
 
 from urdfkit.errors import DescriptionError
 from urdfkit.sim.plugins.controllers.actions.action_goal import ABORTED, SUCCEEDED, Action, RefusalError
-from urdfkit.sim.plugins.controllers.controller import Law
-from urdfkit.sim.plugins.controllers.joint_handle import Follower
+from urdfkit.sim.plugins.controllers.controller import RosController
+from urdfkit.sim.plugins.controllers.joint_handle import JointPid
 from urdfkit.sim.state.joint_commands import Motors
 from urdfkit.sim.state.pid import read_gains
 from urdfkit.sim.state.robot_state import State
@@ -18,7 +18,7 @@ MONITOR_RATE = 20.0
 """Default ``action_monitor_rate`` [Hz]."""
 
 
-class Gripper(Law):
+class Gripper(RosController):
     """Gripper with goals on ``gripper_cmd``: position commands, or a PID (``gains/JOINT``) within ``max_effort``."""
 
     types: ClassVar[dict[str, str]] = {
@@ -40,7 +40,7 @@ class Gripper(Law):
         output = self.hardware.output(entry, self.types[self.type])
         self.outputs = (output,)
         self._name = output.handle.name
-        self._follower: Follower | None = None
+        self._joint_pid: JointPid | None = None
         self._usual = abs(read.number("max_effort", 0.0))
         if output.interface == "effort":
             gains = read_gains(read, f"gains/{self._name}", self.hardware.setup.note)
@@ -48,7 +48,7 @@ class Gripper(Law):
                 raise DescriptionError(
                     f"`{self.name}` has no `gains/{self._name}`, which it needs", position=read.place
                 )
-            self._follower = Follower(output.handle, gains, output.limits)
+            self._joint_pid = JointPid(output.handle, gains, output.limits)
             if self._usual == 0.0:
                 self.note("`max_effort` is 0 when left out: without a goal the gripper is limp")
         self._near = abs(read.number("goal_tolerance", 0.01))
@@ -62,17 +62,17 @@ class Gripper(Law):
         )  # fmt: skip
 
     @property
-    def followers(self) -> tuple[Follower, ...]:
+    def joint_pids(self) -> tuple[JointPid, ...]:
         """The PID of the joint, for the effort interface."""
-        return () if self._follower is None else (self._follower,)
+        return () if self._joint_pid is None else (self._joint_pid,)
 
     def start(self, state: State) -> None:
         """Hold the present position."""
         super().start(state)
         self._present = state
         self._action.give_up("the controller was started anew")
-        if self._follower is not None:
-            self._follower.integral.reset()
+        if self._joint_pid is not None:
+            self._joint_pid.integral.reset()
         self._hold()
 
     def stop(self) -> None:
@@ -99,12 +99,12 @@ class Gripper(Law):
         goal = self._action.goal
         if goal is not None:
             self._judge(state)
-        if self._follower is None:
+        if self._joint_pid is None:
             rest = self.outputs[0].write(state, motors, self._wanted)
         else:
-            position = self._follower.handle.target(self._wanted, state.position(self._name))
-            self._follower.follow(state, motors, position, limit=self._most)
-            rest = self._follower.rest()
+            position = self._joint_pid.handle.target(self._wanted, state.position(self._name))
+            self._joint_pid.follow(state, motors, position, limit=self._most)
+            rest = self._joint_pid.rest()
         return 0.0 if goal is not None else rest
 
     def _judge(self, state: State) -> None:

@@ -7,11 +7,11 @@ import numpy as np
 
 from urdfkit.errors import DescriptionError
 from urdfkit.messages import JOINT_STATE, header, message_type
-from urdfkit.sim.plugins.controllers.controller import Law
+from urdfkit.sim.plugins.controllers.controller import RosController
 from urdfkit.sim.state.robot_state import State
 
 
-class JointStatePublisher(Law):
+class JointStatePublisher(RosController):
     """Publishes positions, velocities and efforts of all joints of the hardware.
 
     ROS 1: at the required ``publish_rate``, in alphabetical order of the joints (joint_state_controller.cpp). ROS 2: at

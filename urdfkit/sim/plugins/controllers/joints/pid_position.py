@@ -12,8 +12,8 @@ import numpy as np
 
 from urdfkit.errors import DescriptionError
 from urdfkit.messages import FLOAT, FLOATS, JOINT_CONTROLLER_STATE, header, message_type
-from urdfkit.sim.plugins.controllers.controller import Law
-from urdfkit.sim.plugins.controllers.joint_handle import Follower
+from urdfkit.sim.plugins.controllers.controller import RosController
+from urdfkit.sim.plugins.controllers.joint_handle import JointPid
 from urdfkit.sim.state.joint_commands import Motors
 from urdfkit.sim.state.pid import Gains, read_gains
 from urdfkit.sim.state.robot_state import State
@@ -22,7 +22,7 @@ STATES_EVERY = 10
 """Control periods between messages on ``state``."""
 
 
-class PidPosition(Law):
+class PidPosition(RosController):
     """PID on position with effort or velocity output: ``command`` (Float64), ``state`` (JointControllerState)."""
 
     types: ClassVar[dict[str, str]] = {
@@ -44,26 +44,26 @@ class PidPosition(Law):
         if gains is None:
             raise DescriptionError(f"`{self.name}` has no `pid`, which it needs", position=self.settings.place)
         limits = output.limits if output.interface == "effort" else None
-        self.follower = Follower(output.handle, gains, limits)
+        self.joint_pid = JointPid(output.handle, gains, limits)
         self._wanted = 0.0
         self.listen(self.topic("command"), FLOAT, self._take)
         state = self.hardware.setup.bus.advertise(self.topic("state"), JOINT_CONTROLLER_STATE)
         self.report(state, 1.0 / (STATES_EVERY * self.hardware.period), self._state)
 
     @property
-    def followers(self) -> tuple[Follower, ...]:
+    def joint_pids(self) -> tuple[JointPid, ...]:
         """The PID of the joint."""
-        return (self.follower,)
+        return (self.joint_pid,)
 
     def start(self, state: State) -> None:
         """Start from the present state."""
         super().start(state)
-        self.follower.integral.reset()
+        self.joint_pid.integral.reset()
         self._wanted = self.measured(state)
 
     def measured(self, state: State) -> float:
         """Return the present value of the controlled variable."""
-        return state.position(self.follower.handle.name)
+        return state.position(self.joint_pid.handle.name)
 
     def _take(self, message: Any) -> None:
         if isfinite(message.data):
@@ -73,19 +73,19 @@ class PidPosition(Law):
 
     def update(self, state: State, motors: Motors) -> float:
         """Write the command of the joint."""
-        handle, gains = self.follower.handle, self.follower.gains
+        handle, gains = self.joint_pid.handle, self.joint_pid.gains
         now = self.measured(state)
         position = handle.target(self._wanted, now)
         if self.outputs[0].interface == "effort":
-            self.follower.follow(state, motors, position)
-            return self.follower.rest()
-        part = self.follower.integral.update(state.t, position - now)
+            self.joint_pid.follow(state, motors, position)
+            return self.joint_pid.rest()
+        part = self.joint_pid.integral.update(state.t, position - now)
         velocity = gains.p * (position - now) + part - gains.d * state.velocity(handle.name)
         self.outputs[0].write(state, motors, velocity)
         return 0.0
 
     def _state(self, state: State) -> Callable[[], Any]:
-        handle, gains = self.follower.handle, self.follower.gains
+        handle, gains = self.joint_pid.handle, self.joint_pid.gains
         t, now, speed = state.t, self.measured(state), state.velocity(handle.name)
         effort = state.effort(handle.name)
         wanted, error = self._wanted, self.error(now)
@@ -96,7 +96,7 @@ class PidPosition(Law):
 
     def error(self, now: float) -> float:
         """Return the error for a measured value."""
-        return self.follower.handle.target(self._wanted, now) - now
+        return self.joint_pid.handle.target(self._wanted, now) - now
 
 
 class PidVelocity(PidPosition):
@@ -111,19 +111,19 @@ class PidVelocity(PidPosition):
 
     def measured(self, state: State) -> float:
         """Return the present value of the controlled variable."""
-        return state.velocity(self.follower.handle.name)
+        return state.velocity(self.joint_pid.handle.name)
 
     def update(self, state: State, motors: Motors) -> float:
         """Write the command of the joint."""
-        self.follower.chase(state, motors, self._wanted, self.hardware.period)
-        return 0.0 if self.follower.gains.d else self.follower.rest()
+        self.joint_pid.chase(state, motors, self._wanted, self.hardware.period)
+        return 0.0 if self.joint_pid.gains.d else self.joint_pid.rest()
 
     def error(self, now: float) -> float:
         """Return the error for a measured value."""
         return self._wanted - now
 
 
-class PidGroup(Law):
+class PidGroup(RosController):
     """PID on joint positions with effort output: ``command`` (Float64MultiArray), gains in ``<joint>/pid``."""
 
     types: ClassVar[dict[str, str]] = {"effort_controllers/JointGroupPositionController": "effort"}
@@ -138,27 +138,27 @@ class PidGroup(Law):
         if not joints:
             self.settings.text("joints")
         self.outputs = tuple(self.hardware.output(entry, "effort") for entry in joints)
-        followers = []
+        joint_pids = []
         for entry, output in zip(joints, self.outputs, strict=True):
             gains: Gains | None = read_gains(self.settings, f"{entry.value}/pid", self.hardware.setup.note)
             if gains is None:
                 raise DescriptionError(
                     f"`{self.name}` has no `{entry.value}/pid`, which it needs", position=entry.position
                 )
-            followers.append(Follower(output.handle, gains, output.limits))
-        self._followers = tuple(followers)
+            joint_pids.append(JointPid(output.handle, gains, output.limits))
+        self._joint_pids = tuple(joint_pids)
         self.listen(self.topic("command"), FLOATS, self._take)
 
     @property
-    def followers(self) -> tuple[Follower, ...]:
+    def joint_pids(self) -> tuple[JointPid, ...]:
         """The PIDs of the joints, in order."""
-        return self._followers
+        return self._joint_pids
 
     def start(self, state: State) -> None:
         """Start from the present state."""
         super().start(state)
-        for follower in self._followers:
-            follower.integral.reset()
+        for joint_pid in self._joint_pids:
+            joint_pid.integral.reset()
         self._wanted = np.array([state.position(output.handle.name) for output in self.outputs])
 
     def _take(self, message: Any) -> None:
@@ -171,7 +171,7 @@ class PidGroup(Law):
     def update(self, state: State, motors: Motors) -> float:
         """Write the commands of the joints."""
         rest = inf
-        for follower, wanted in zip(self._followers, self._wanted.tolist(), strict=True):
-            follower.follow(state, motors, follower.handle.target(wanted, state.position(follower.handle.name)))
-            rest = min(rest, follower.rest())
+        for joint_pid, wanted in zip(self._joint_pids, self._wanted.tolist(), strict=True):
+            joint_pid.follow(state, motors, joint_pid.handle.target(wanted, state.position(joint_pid.handle.name)))
+            rest = min(rest, joint_pid.rest())
         return rest

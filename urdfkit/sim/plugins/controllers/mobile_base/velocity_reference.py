@@ -4,7 +4,7 @@ from math import inf, isfinite
 from typing import Any
 
 from urdfkit.messages import TWIST, TWIST_STAMPED
-from urdfkit.sim.plugins.controllers.controller import Law
+from urdfkit.sim.plugins.controllers.controller import RosController
 from urdfkit.sim.plugins.wheel_odometry import Twist
 
 
@@ -12,7 +12,7 @@ class Reference:
     """Subscribes to a topic and stores the last twist, which is valid until a timeout.
 
     Args:
-        law: the controller.
+        controller: the controller.
         timeout: greatest age of a twist [s].
         topic: name of the topic, relative to the controller's.
         stamped: whether messages are of type TwistStamped.
@@ -24,13 +24,20 @@ class Reference:
     """
 
     def __init__(
-        self, law: Law, timeout: float, *, topic: str, stamped: bool, dated: bool = False, once: bool = False
+        self,
+        controller: RosController,
+        timeout: float,
+        *,
+        topic: str,
+        stamped: bool,
+        dated: bool = False,
+        once: bool = False,
     ) -> None:
-        self._law, self._dated, self._once = law, dated, once
+        self._controller, self._dated, self._once = controller, dated, once
         self.timeout = timeout
-        name = law.topic(topic)
-        law.commands[name] = TWIST_STAMPED if stamped else TWIST
-        law.listen(name, law.commands[name], self._receive)
+        name = controller.topic(topic)
+        controller.commands[name] = TWIST_STAMPED if stamped else TWIST
+        controller.listen(name, controller.commands[name], self._receive)
         self.clear()
 
     def clear(self) -> None:
@@ -44,7 +51,7 @@ class Reference:
         plain = getattr(message, "twist", message)
         target = (float(plain.linear.x), float(plain.linear.y), float(plain.angular.z))
         if not all(map(isfinite, target)):
-            self._law.note("dropped a command that is not finite")
+            self._controller.note("dropped a command that is not finite")
             return
         given = stamp.stamp.sec + 1e-9 * stamp.stamp.nanosec if self._dated and stamp is not None else 0.0
         self._target, self._given, self._fresh = target, given or None, True
@@ -72,15 +79,15 @@ class Reference:
         return max(0.0, self._given + self.timeout - t)
 
 
-def usual_reference(law: Law, timeout: float) -> Reference:
+def usual_reference(controller: RosController, timeout: float) -> Reference:
     """Return the reference on ``reference`` (ROS 2) or ``cmd_vel`` (ROS 1).
 
     In ROS 2, the age is measured from the message's stamp, and a timeout of 0 limits the validity to one control period
     (steering_controllers_library.cpp, mecanum_drive_controller.cpp).
     """
-    ros2 = law.hardware.ros == 2
+    ros2 = controller.hardware.ros == 2
     if once := ros2 and timeout == 0.0:
-        law.note("`reference_timeout` is 0: a reference is valid for one control period")
-    if ros2 and not law.settings.flag("use_stamped_vel", True):
-        return Reference(law, timeout, topic="reference_unstamped", stamped=False, dated=True, once=once)
-    return Reference(law, timeout, topic="reference" if ros2 else "cmd_vel", stamped=ros2, dated=True, once=once)
+        controller.note("`reference_timeout` is 0: a reference is valid for one control period")
+    if ros2 and not controller.settings.flag("use_stamped_vel", True):
+        return Reference(controller, timeout, topic="reference_unstamped", stamped=False, dated=True, once=once)
+    return Reference(controller, timeout, topic="reference" if ros2 else "cmd_vel", stamped=ros2, dated=True, once=once)

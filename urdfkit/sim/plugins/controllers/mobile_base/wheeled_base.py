@@ -11,7 +11,7 @@ from typing import Any
 from urdfkit.description.control import Settings
 from urdfkit.errors import DescriptionError
 from urdfkit.sim.plugins.controllers.command_output import Output
-from urdfkit.sim.plugins.controllers.controller import Law
+from urdfkit.sim.plugins.controllers.controller import RosController
 from urdfkit.sim.plugins.controllers.mobile_base.velocity_reference import Reference
 from urdfkit.sim.plugins.odometry import Estimate, OdometryTopics, Pose, planar
 from urdfkit.sim.plugins.speed_limits import SpeedLimiter, SpeedLimits
@@ -29,7 +29,7 @@ DIAGONAL = (0.0, 7.0, 14.0, 21.0, 28.0, 35.0)
 """Default covariances of the steering and mecanum controllers, from the parameter files of ros2_controllers."""
 
 
-class WheeledBase(Law):
+class WheeledBase(RosController):
     """Base class of the controllers of wheeled robots; publishes odometry.
 
     Attributes:

@@ -15,8 +15,8 @@ from urdfkit.linear_algebra import Array
 from urdfkit.messages import TRAJECTORY, TRAJECTORY_STATE, from_fields, header
 from urdfkit.sim.plugins.controllers.actions.action_goal import ABORTED, SUCCEEDED, Action, RefusalError
 from urdfkit.sim.plugins.controllers.command_output import INTERFACES, Output
-from urdfkit.sim.plugins.controllers.controller import Law
-from urdfkit.sim.plugins.controllers.joint_handle import Follower
+from urdfkit.sim.plugins.controllers.controller import RosController
+from urdfkit.sim.plugins.controllers.joint_handle import JointPid
 from urdfkit.sim.plugins.controllers.trajectory.spline import ROUNDING, Trajectory, Waypoint
 from urdfkit.sim.plugins.controllers.trajectory.tolerances import Tolerances
 from urdfkit.sim.plugins.controllers.trajectory.trajectory_message import INVALID_JOINTS, TrajectoryReader, point_of
@@ -29,7 +29,7 @@ OFF_PATH, OFF_GOAL = -4, -5
 """Error codes of FollowJointTrajectory: PATH_TOLERANCE_VIOLATED, GOAL_TOLERANCE_VIOLATED."""
 
 
-class TrajectoryFollower(Law):
+class TrajectoryFollower(RosController):
     """Moves joints along a trajectory from ``command`` (ROS 1), ``joint_trajectory`` (ROS 2) or a goal.
 
     Position interfaces receive the desired positions. Velocity and effort interfaces use a PID with feedforward. A new
@@ -58,7 +58,7 @@ class TrajectoryFollower(Law):
         self._interface = self.types[self.type] or self._chosen()
         self.outputs = tuple(hardware.output(entry, self._interface) for entry in joints)
         self._names = [output.handle.name for output in self.outputs]
-        self._followers = [self._follower(output) for output in self.outputs]
+        self._joint_pids = [self._joint_pid(output) for output in self.outputs]
         self._ros1 = ros1 = hardware.ros == 1
         self._stop_time = settings.number("stop_trajectory_duration", 0.0) if ros1 else 0.0
         newest = hardware.setup.distro.name not in ("foxy", "galactic", "humble", "iron")
@@ -104,7 +104,7 @@ class TrajectoryFollower(Law):
             raise DescriptionError("accelerations cannot be commanded alone", position=asked[0].position)
         return chosen
 
-    def _follower(self, output: Output) -> Follower | None:
+    def _joint_pid(self, output: Output) -> JointPid | None:
         if self._interface == "position":
             return None
         name = output.handle.name
@@ -115,12 +115,12 @@ class TrajectoryFollower(Law):
                     f"`{self.name}` has no `gains/{name}`, which it needs", position=self.settings.place
                 )
             gains = Gains(0.0)
-        return Follower(output.handle, gains, output.limits if self._interface == "effort" else None)
+        return JointPid(output.handle, gains, output.limits if self._interface == "effort" else None)
 
     @property
-    def followers(self) -> tuple[Follower, ...]:
+    def joint_pids(self) -> tuple[JointPid, ...]:
         """The PIDs of the joints, in order; empty for position interfaces."""
-        return tuple(follower for follower in self._followers if follower is not None)
+        return tuple(joint_pid for joint_pid in self._joint_pids if joint_pid is not None)
 
     def start(self, state: State) -> None:
         """Hold the present position."""
@@ -129,9 +129,9 @@ class TrajectoryFollower(Law):
         self._trajectory = Trajectory([Waypoint(state.t, positions)])
         self._present, self._watched = state, False
         self._action.give_up("the controller was started anew")
-        for follower in self._followers:
-            if follower is not None:
-                follower.integral.reset()
+        for joint_pid in self._joint_pids:
+            if joint_pid is not None:
+                joint_pid.integral.reset()
 
     def stop(self) -> None:
         """Cancel the goal."""
@@ -199,21 +199,21 @@ class TrajectoryFollower(Law):
             rest = 0.0 if self._watched else float("inf")
         for k, output in enumerate(self.outputs):
             position, velocity = float(goal[0][k]), float(goal[1][k])
-            rest = min(rest, self._command(output, self._followers[k], state, motors, position, velocity))
+            rest = min(rest, self._command(output, self._joint_pids[k], state, motors, position, velocity))
         return rest
 
     def _command(
-        self, output: Output, follower: Follower | None, state: State, motors: Motors, position: float, velocity: float
+        self, output: Output, joint_pid: JointPid | None, state: State, motors: Motors, position: float, velocity: float
     ) -> float:
-        if follower is None:
+        if joint_pid is None:
             return output.write(state, motors, position, velocity)
         wanted = output.handle.within(position)
         if self._interface == "effort":
-            follower.follow(state, motors, wanted, velocity)
-            return follower.rest()
-        gains, name = follower.gains, output.handle.name
+            joint_pid.follow(state, motors, wanted, velocity)
+            return joint_pid.rest()
+        gains, name = joint_pid.gains, output.handle.name
         error = wanted - state.position(name)
-        part = follower.integral.update(state.t, error)
+        part = joint_pid.integral.update(state.t, error)
         command = velocity + gains.p * error + part + gains.d * (velocity - state.velocity(name))
         output.write(state, motors, command)
         return 0.0

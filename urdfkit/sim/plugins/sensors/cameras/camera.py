@@ -30,7 +30,7 @@ from urdfkit.sim.plugins.sensors.cameras.camera_optics import (
     optics_of,
 )
 from urdfkit.sim.plugins.sensors.noise import Noise, noise_of
-from urdfkit.sim.plugins.sensors.ray_sensor import Mounted
+from urdfkit.sim.plugins.sensors.scene_sensor import SceneSensor
 from urdfkit.sim.plugins.sensors.sensor_values import pose_of
 from urdfkit.sim.plugins.setup import Setup
 from urdfkit.sim.plugins.topic_names import Topics
@@ -61,7 +61,7 @@ class Sight:
 
 
 @dataclass(frozen=True, eq=False)
-class Eye:
+class Imager:
     """One camera of a sensor.
 
     Attributes:
@@ -98,11 +98,11 @@ class Eye:
         return Sight(t, picture, view.table.shapes, placed)
 
 
-class Camera(Mounted):
+class Camera(SceneSensor):
     """Sensor with one or more cameras; its subclass defines the topics.
 
     Attributes:
-        eyes: cameras of the sensor.
+        imagers: cameras of the sensor.
         deep: whether it renders depths and shape indices.
         sensor_frame: frame id of the sensor, whose x axis points forward; `frame` may be an optical frame.
     """
@@ -114,14 +114,14 @@ class Camera(Mounted):
         several = cameras_of(sensor)
         if sensor_type(setup) not in SEVERAL:
             several = several[:1]
-        self.eyes = [self._eye(each, setup, read) for each in several]
-        self.optics = self.eyes[0].optics
+        self.imagers = [self._imager(each, setup, read) for each in several]
+        self.optics = self.imagers[0].optics
         self.sensor_frame = self.frame
         if (optical := self.optics.element.find("optical_frame_id")) is not None and optical.text:
             self.frame = optical.text
         self._advertise(setup, read, topics)
 
-    def _eye(self, camera: Element, setup: Setup, read: Parameters) -> Eye:
+    def _imager(self, camera: Element, setup: Setup, read: Parameters) -> Imager:
         optics = optics_of(camera)
         written = Distortion(*(read.number(meaning) for meaning in ("k1", "k2", "p1", "p2", "k3")))
         if written and not optics.lens.distortion:
@@ -130,7 +130,7 @@ class Camera(Mounted):
             place = (camera.find("distortion") or camera).origin.position
             setup.note(f"{place}: through this distortion nothing gets to {lost:.0%} of the picture, which stays empty")
         lens, gz = optics.lens, self.spec.generation == "gz"
-        return Eye(
+        return Imager(
             camera.get("name") or "",
             pose_of(camera),
             optics,
@@ -147,18 +147,20 @@ class Camera(Mounted):
 
     def _look(self, t: float, layout: Layout, frame: Array, random: np.random.Generator) -> Any:
         painter = self._surroundings.view(layout).painter(layout)
-        return self.eyes[0].look(t, painter, frame, random, deep=self.deep)
+        return self.imagers[0].look(t, painter, frame, random, deep=self.deep)
 
     def _image(self, sight: Sight) -> Any:
         return image(sight.t, self.frame, sight.picture.rgb, self.optics.encoding)
 
     def info(self, t: float) -> Any:
         """Return the CameraInfo of the first camera."""
-        return self.eyes[0].info(self.frame, t)
+        return self.imagers[0].info(self.frame, t)
 
-    def topic_of(self, read: Parameters, topics: Topics, meaning: str, name: str, eye: str = "") -> str:
+    def topic_of(self, read: Parameters, topics: Topics, meaning: str, name: str, imager: str = "") -> str:
         """Return a topic below the camera's name: the parameter `meaning` if it is written, else `name`."""
-        return topics.resolve(f"{read.text('camera')}/{eye}/{read.text(meaning, name)}".replace("//", "/").lstrip("/"))
+        return topics.resolve(
+            f"{read.text('camera')}/{imager}/{read.text(meaning, name)}".replace("//", "/").lstrip("/")
+        )
 
 
 class GzCamera(Camera):

@@ -13,7 +13,7 @@ from urdfkit.messages import header, message_type
 from urdfkit.messages.sensors import GZ_LOGICAL_IMAGE, GZ_LOGICAL_MODEL
 from urdfkit.scene.placement import pose_matrices
 from urdfkit.sim.plugins.parameters import Parameters
-from urdfkit.sim.plugins.sensors.ray_sensor import Mounted
+from urdfkit.sim.plugins.sensors.scene_sensor import SceneSensor
 from urdfkit.sim.plugins.sensors.sensor_values import number
 from urdfkit.sim.plugins.setup import Setup
 from urdfkit.sim.plugins.topic_names import Topics
@@ -24,7 +24,7 @@ Sight = tuple[float, Array, list[tuple[str, Array]]]
 """Time [s], placement of the camera, shape (4, 4), and name and placement of each model in the world."""
 
 
-class GzLogicalCamera(Mounted):
+class GzLogicalCamera(SceneSensor):
     """Logical camera that looks along the x axis of its link."""
 
     kind = "gz_logical_camera"

@@ -16,7 +16,7 @@ import numpy as np
 from urdfkit.errors import SimulationError
 from urdfkit.linear_algebra import Array
 from urdfkit.sim.plugins.parameters import Parameters
-from urdfkit.sim.plugins.sensors.cameras.camera import Camera, Eye, Sight
+from urdfkit.sim.plugins.sensors.cameras.camera import Camera, Imager, Sight
 from urdfkit.sim.plugins.sensors.cameras.camera_optics import CAMERA_INFO, IMAGE, image
 from urdfkit.sim.plugins.setup import Setup
 from urdfkit.sim.plugins.topic_names import Topics
@@ -32,16 +32,16 @@ class MultiCamera(Camera):
     kind = "multicamera"
 
     def _advertise(self, setup: Setup, read: Parameters, topics: Topics) -> None:
-        named = [(side, eye) for eye in self.eyes if (side := self._side(eye))]
+        named = [(side, imager) for imager in self.imagers if (side := self._side(imager))]
         if not named:
             element = self.optics.element
             raise SimulationError(
                 "gazebo_ros_multicamera knows cameras by `left` and `right` in their names; here are "
-                + ", ".join(f"`{eye.name}`" for eye in self.eyes),
+                + ", ".join(f"`{imager.name}`" for imager in self.imagers),
                 position=element.origin.position,
             )
         ros1 = self.spec.generation == "ros1"
-        self.eyes = [replace(eye, baseline=0.0) if ros1 and side == "left" else eye for side, eye in named]
+        self.imagers = [replace(imager, baseline=0.0) if ros1 and side == "left" else imager for side, imager in named]
         bus = setup.bus
 
         def topic(type: str, name: str, meaning: str) -> list[Any]:
@@ -50,10 +50,10 @@ class MultiCamera(Camera):
         images = topic(IMAGE, "image_raw", "image_topic")
         self.topics = (*images, *topic(CAMERA_INFO, "camera_info", "info_topic"))
 
-    def _side(self, eye: Eye) -> str:
+    def _side(self, imager: Imager) -> str:
         if self.spec.generation != "ros1":
-            return eye.name
-        return next((side for side in ("left", "right") if side in eye.name), "")
+            return imager.name
+        return next((side for side in ("left", "right") if side in imager.name), "")
 
     def _look(self, t: float, layout: Layout, frame: Array, random: np.random.Generator) -> Looks:
         @cache
@@ -61,18 +61,18 @@ class MultiCamera(Camera):
             # Each camera has its own random stream: subscribers of other cameras do not change its noise.
             own = np.random.Generator(random.bit_generator.jumped(number))  # type: ignore[attr-defined]
             painter = self._surroundings.view(layout).painter(layout)
-            return self.eyes[number].look(t, painter, frame, own, deep=False)
+            return self.imagers[number].look(t, painter, frame, own, deep=False)
 
         return look
 
     def messages(self) -> tuple[Callable[[Any], Any], ...]:
         """Return the functions that build the image of each camera."""
-        return tuple(partial(self._image_of, number) for number in range(len(self.eyes)))
+        return tuple(partial(self._image_of, number) for number in range(len(self.imagers)))
 
     def remarks(self) -> tuple[Callable[[float], Any], ...]:
         """Return the functions that build the CameraInfo of each camera."""
-        return tuple(partial(eye.info, self.frame) for eye in self.eyes)
+        return tuple(partial(imager.info, self.frame) for imager in self.imagers)
 
     def _image_of(self, number: int, looks: Looks) -> Any:
         sight = looks(number)
-        return image(sight.t, self.frame, sight.picture.rgb, self.eyes[number].optics.encoding)
+        return image(sight.t, self.frame, sight.picture.rgb, self.imagers[number].optics.encoding)

@@ -28,8 +28,8 @@ from urdfkit.sim.plugins.sensors.sensor_values import rate_of
 from urdfkit.sim.plugins.setup import Setup
 from urdfkit.sim.plugins.topic_names import Topics
 from urdfkit.sim.scene_view import Layout
+from urdfkit.sim.state.periodic_steps import NEVER
 from urdfkit.sim.state.robot_state import State
-from urdfkit.sim.state.ticks import NEVER
 
 
 class Contacts(Sensor):

@@ -21,7 +21,7 @@ from urdfkit.sim.plugins.base import Sensor
 from urdfkit.sim.plugins.parameters import Parameters
 from urdfkit.sim.plugins.sensors.contact.joint_load import Wrench, below, lumps_of, momentum, weight
 from urdfkit.sim.plugins.sensors.noise import Noise, noise_of
-from urdfkit.sim.plugins.sensors.point_motion import Moment
+from urdfkit.sim.plugins.sensors.point_motion import KinematicSnapshot
 from urdfkit.sim.plugins.sensors.sensor_values import pose_of, rate_of
 from urdfkit.sim.plugins.setup import Setup
 from urdfkit.sim.plugins.topic_names import Topics
@@ -45,8 +45,8 @@ class Step:
         pushes: force [N], torque [N·m] and point of application [m] of each external wrench on the links, in the world.
     """
 
-    now: Moment
-    before: Moment | None
+    now: KinematicSnapshot
+    before: KinematicSnapshot | None
     contacts: tuple[Contact, ...]
     pushes: tuple[tuple[Array, Array, Array], ...]
 
@@ -80,7 +80,7 @@ class ForceTorque(Sensor):
         self._prefix = f"{setup.model}::" if setup.namespace else ""
         self._model, self._surroundings = setup.model, setup.surroundings
         self._key = int(setup.random.integers(1 << 62))
-        self._before: Moment | None = None
+        self._before: KinematicSnapshot | None = None
         self._mount = np.eye(4)
         self._prepare(setup)
         self._links = below(setup.kinematics.robot, self._child)
@@ -107,7 +107,7 @@ class ForceTorque(Sensor):
     def act(self, state: State) -> None:
         """Publish the messages that are due, and store this state for the next measurement."""
         super().act(state)
-        self._before = Moment(self._kinematics, state)
+        self._before = KinematicSnapshot(self._kinematics, state)
 
     def reset(self, step: int = 0) -> None:
         """Restart at a step."""
@@ -116,7 +116,7 @@ class ForceTorque(Sensor):
 
     def measure(self, state: State, count: int) -> None:
         """Publish the measurement of this state."""
-        now = Moment(self._kinematics, state)
+        now = KinematicSnapshot(self._kinematics, state)
         pushes = self._surroundings.pushes_on(self._model, self._links)
         step = Step(now, self._before, state.contacts, pushes)
         self.topics[0].offer(partial(self._message, step, self.done), count=count)
@@ -132,7 +132,7 @@ class ForceTorque(Sensor):
         return message_type(WRENCH)(header(step.now.t, self.frame), wrench)
 
     @abstractmethod
-    def _axes(self, now: Moment) -> Array:
+    def _axes(self, now: KinematicSnapshot) -> Array:
         """Return the axes of the published wrench in the world; shape (3, 3)."""
 
     def _measured(self, step: Step) -> Wrench:
@@ -192,7 +192,7 @@ class JointForceTorque(ForceTorque):
         name = Topics(self.plugin, self.spec).resolve(read.text("topic") or "wrench")
         self.topics = (setup.bus.advertise(name, WRENCH),)
 
-    def _axes(self, now: Moment) -> Array:
+    def _axes(self, now: KinematicSnapshot) -> Array:
         return now.motion(self._child, self._mount).rotation
 
 
@@ -237,7 +237,7 @@ class GzForceTorque(ForceTorque):
             )
         return text or default
 
-    def _axes(self, now: Moment) -> Array:
+    def _axes(self, now: KinematicSnapshot) -> Array:
         if self._axes_of == "parent":
             return now.motion(self._parent, np.eye(4)).rotation
         return now.motion(self._child, self._mount if self._axes_of == "sensor" else np.eye(4)).rotation

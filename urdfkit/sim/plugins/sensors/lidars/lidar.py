@@ -20,7 +20,7 @@ from urdfkit.scene import Role
 from urdfkit.sim.plugins.parameters import Parameters
 from urdfkit.sim.plugins.sensors.lidars.scan_pattern import scan_of
 from urdfkit.sim.plugins.sensors.noise import noise_of
-from urdfkit.sim.plugins.sensors.ray_sensor import Mounted
+from urdfkit.sim.plugins.sensors.scene_sensor import SceneSensor
 from urdfkit.sim.plugins.setup import Setup
 from urdfkit.sim.plugins.topic_names import Topics
 from urdfkit.sim.scene_view import Layout
@@ -48,7 +48,7 @@ class Reading:
     random: np.random.Generator
 
 
-class Lidar(Mounted):
+class Lidar(SceneSensor):
     """Lidar; its subclass defines the topics."""
 
     def _prepare(self, setup: Setup, sensor: SensorTag, read: Parameters, topics: Topics) -> None:

@@ -14,9 +14,9 @@ from urdfkit.messages import header, message_type
 from urdfkit.messages.sensors import GZ_ALTIMETER, HECTOR_ALTIMETER
 from urdfkit.sim.plugins.parameters import Parameters
 from urdfkit.sim.plugins.sensors.hector_drift import drifting
-from urdfkit.sim.plugins.sensors.link_sensor import Carried, Ride
+from urdfkit.sim.plugins.sensors.link_sensor import LinkSensor, Sample
 from urdfkit.sim.plugins.sensors.noise import Noise, noise_of
-from urdfkit.sim.plugins.sensors.point_motion import Moment
+from urdfkit.sim.plugins.sensors.point_motion import KinematicSnapshot
 from urdfkit.sim.plugins.sensors.sensor_values import number
 from urdfkit.sim.plugins.setup import Setup
 from urdfkit.sim.plugins.topic_names import Topics
@@ -43,7 +43,7 @@ def pressure(height: float) -> float:
     return SEA_LEVEL * exp(-EXPONENT * log(SEA_LEVEL_TEMPERATURE / (SEA_LEVEL_TEMPERATURE - LAPSE * geopotential)))
 
 
-class OneTopic(Carried):
+class OneTopic(LinkSensor):
     """Sensor of the new Gazebo with one topic, which publishes without a plugin."""
 
     type: str
@@ -79,10 +79,10 @@ class GzAirPressure(OneTopic):
         self._above = number(inside, "reference_altitude", 0.0)
         self._noise = noise_of(None if inside is None else inside.find("pressure"), setup.random)
 
-    def _feel(self, ride: Ride) -> Any:
-        found = pressure(self._above + float(ride.motion.position[2]))
-        found = float(self._noise.on(np.array(found), ride.random))
-        return message_type(FLUID_PRESSURE)(header(ride.t, self.frame), found, self._noise.deviation**2)
+    def _measure(self, sample: Sample) -> Any:
+        found = pressure(self._above + float(sample.motion.position[2]))
+        found = float(self._noise.on(np.array(found), sample.random))
+        return message_type(FLUID_PRESSURE)(header(sample.t, self.frame), found, self._noise.deviation**2)
 
 
 class GzAltimeter(OneTopic):
@@ -103,21 +103,21 @@ class GzAltimeter(OneTopic):
     def act(self, state: State) -> None:
         """Publish the messages that are due; the first state is the reference height."""
         if self._start is None:
-            self._start = float(Moment(self._kinematics, state).motion(self.link, self._mount).position[2])
+            self._start = float(KinematicSnapshot(self._kinematics, state).motion(self.link, self._mount).position[2])
         super().act(state)
 
     def stop(self, step: int) -> int:
         """Return the next step at which the simulation has to stop for the sensor; the first step is one of them."""
         return step if self._start is None else super().stop(step)
 
-    def _feel(self, ride: Ride) -> Any:
+    def _measure(self, sample: Sample) -> Any:
         start = self._start or 0.0
-        height = float(self._height_noise.on(ride.motion.position[2] - start, ride.random))
-        climb = float(self._climb_noise.on(ride.motion.linear[2], ride.random))
-        return message_type(GZ_ALTIMETER)(header(ride.t, self.frame), height, climb, start)
+        height = float(self._height_noise.on(sample.motion.position[2] - start, sample.random))
+        climb = float(self._climb_noise.on(sample.motion.linear[2], sample.random))
+        return message_type(GZ_ALTIMETER)(header(sample.t, self.frame), height, climb, start)
 
 
-class HectorBaro(Carried):
+class HectorBaro(LinkSensor):
     """hector_gazebo_ros_baro of ROS 1: height in the world, and the corresponding air pressure."""
 
     kind = "hector_baro"
@@ -132,8 +132,8 @@ class HectorBaro(Carried):
             setup.bus.advertise(topics.resolve(read.text("altimeter_topic")), HECTOR_ALTIMETER),
         )
 
-    def _feel(self, ride: Ride) -> tuple[float, float]:
-        return ride.t, float(ride.motion.position[2]) + float(self._error.at(ride.turn)[0])
+    def _measure(self, sample: Sample) -> tuple[float, float]:
+        return sample.t, float(sample.motion.position[2]) + float(self._error.at(sample.turn)[0])
 
     def messages(self) -> tuple[Callable[[Any], Any], ...]:
         """Return the function that builds the message of each topic in `topics`."""

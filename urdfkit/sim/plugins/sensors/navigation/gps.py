@@ -16,7 +16,7 @@ from urdfkit.linear_algebra import Array
 from urdfkit.messages import header, message_type, vector
 from urdfkit.sim.plugins.parameters import Parameters
 from urdfkit.sim.plugins.sensors.hector_drift import drifting
-from urdfkit.sim.plugins.sensors.link_sensor import Carried, Ride
+from urdfkit.sim.plugins.sensors.link_sensor import LinkSensor, Sample
 from urdfkit.sim.plugins.sensors.navigation.geodesy import A, Earth, earth_of
 from urdfkit.sim.plugins.sensors.noise import noise_of
 from urdfkit.sim.plugins.setup import Setup
@@ -45,7 +45,7 @@ class Fix:
     velocity: Array
 
 
-class Gps(Carried):
+class Gps(LinkSensor):
     """gazebo_ros_gps_sensor of ROS 2."""
 
     kind = "gps"
@@ -76,17 +76,17 @@ class Gps(Carried):
         self._noises = noise_of(level, setup.random), noise_of(level, setup.random), noise_of(upright, setup.random)
         self._variances = np.array([noise.deviation**2 for noise in self._noises])
 
-    def _feel(self, ride: Ride) -> Fix:
-        east, north, up = (float(noise.on(np.zeros(()), ride.random)) for noise in self._noises)
-        return self._fix(ride, (east, north, up), np.zeros(3))
+    def _measure(self, sample: Sample) -> Fix:
+        east, north, up = (float(noise.on(np.zeros(()), sample.random)) for noise in self._noises)
+        return self._fix(sample, (east, north, up), np.zeros(3))
 
-    def _fix(self, ride: Ride, off: tuple[float, float, float], drift: Array) -> Fix:
+    def _fix(self, sample: Sample, off: tuple[float, float, float], drift: Array) -> Fix:
         """Return the reading with the position error `off`, east, north and up [m], and the velocity error `drift`."""
-        latitude, longitude, altitude = self._earth.locate(ride.motion.position)
+        latitude, longitude, altitude = self._earth.locate(sample.motion.position)
         longitude += degrees(off[0] / (A * max(cos(radians(latitude)), 1e-9)))
         latitude += degrees(off[1] / A)
-        east, north, up = self._earth.compass(ride.motion.linear)
-        return Fix(ride.t, (latitude, longitude, altitude + off[2]), np.array([north, -east, up]) + drift)
+        east, north, up = self._earth.compass(sample.motion.linear)
+        return Fix(sample.t, (latitude, longitude, altitude + off[2]), np.array([north, -east, up]) + drift)
 
     def messages(self) -> tuple[Callable[[Fix], Any], ...]:
         """Return the function that builds the message of each topic in `topics`."""
@@ -137,9 +137,9 @@ class HectorGps(Gps):
         self._speed = errors("velocity_", 3)
         self._variances = self._position.variance
 
-    def _feel(self, ride: Ride) -> Fix:
-        east, north, up = self._earth.compass(self._position.at(ride.turn))
-        return self._fix(ride, (east, north, up), self._speed.at(ride.turn))
+    def _measure(self, sample: Sample) -> Fix:
+        east, north, up = self._earth.compass(self._position.at(sample.turn))
+        return self._fix(sample, (east, north, up), self._speed.at(sample.turn))
 
     def messages(self) -> tuple[Callable[[Fix], Any], ...]:
         """Return the function that builds the message of each topic in `topics`."""

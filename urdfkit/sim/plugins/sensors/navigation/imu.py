@@ -18,9 +18,9 @@ from urdfkit.linear_algebra import Array, matmul, vector_norm
 from urdfkit.messages import header, message_type, vector
 from urdfkit.sim.plugins.parameters import Parameters
 from urdfkit.sim.plugins.sensors.hector_drift import drifting
-from urdfkit.sim.plugins.sensors.link_sensor import Carried, Ride
+from urdfkit.sim.plugins.sensors.link_sensor import LinkSensor, Sample
 from urdfkit.sim.plugins.sensors.noise import Noise, noise_of
-from urdfkit.sim.plugins.sensors.point_motion import Moment
+from urdfkit.sim.plugins.sensors.point_motion import KinematicSnapshot
 from urdfkit.sim.plugins.sensors.sensor_values import rotation_matrix
 from urdfkit.sim.plugins.setup import Setup
 from urdfkit.sim.plugins.topic_names import Topics
@@ -53,7 +53,7 @@ class Felt:
     pulled: Array
 
 
-class Imu(Carried):
+class Imu(LinkSensor):
     """Inertial measurement unit; its subclass defines the topic and the errors."""
 
     lead = 1
@@ -78,30 +78,30 @@ class Imu(Carried):
         """Read the error model, and fill `_variances`."""
 
     @abstractmethod
-    def _err(self, felt: Felt, ride: Ride) -> Felt:
+    def _err(self, felt: Felt, sample: Sample) -> Felt:
         """Return a reading with errors added."""
 
     def act(self, state: State) -> None:
         """Publish the messages that are due; the first orientation is the reference if `_relative` is set."""
         if self._reference is None and self._relative:
-            self._reference = Moment(self._kinematics, state).motion(self.link, self._mount).rotation
+            self._reference = KinematicSnapshot(self._kinematics, state).motion(self.link, self._mount).rotation
         super().act(state)
 
     def messages(self) -> tuple[Callable[[Felt], Any], ...]:
         """Return the function that builds the message of each topic in `topics`."""
         return (self._message,)
 
-    def _feel(self, ride: Ride) -> Felt:
-        R = ride.motion.rotation
+    def _measure(self, sample: Sample) -> Felt:
+        R = sample.motion.rotation
         rotation = matmul(self._offset, R if self._reference is None else matmul(self._reference.T, R))
         true = Felt(
-            ride.t,
+            sample.t,
             rotation,
             np.zeros(4),
-            matmul(R.T, ride.motion.angular),
-            matmul(R.T, ride.acceleration - self._gravity),
+            matmul(R.T, sample.motion.angular),
+            matmul(R.T, sample.acceleration - self._gravity),
         )
-        return self._err(true, ride)
+        return self._err(true, sample)
 
     def _message(self, felt: Felt) -> Any:
         quaternion = from_matrix(felt.rotation) + felt.shaken
@@ -128,10 +128,10 @@ class PlainImu(Imu):
         )
         self._variances = np.full(3, self._compass**2), gyro, accelerometer
 
-    def _err(self, felt: Felt, ride: Ride) -> Felt:
-        pulled = self._plugin.on(_noisy(felt.pulled, self._accelerometer, ride.random), ride.random)
-        turning = self._plugin.on(_noisy(felt.turning, self._gyro, ride.random), ride.random)
-        shaken = self._compass * ride.random.standard_normal(4) if self._compass else felt.shaken
+    def _err(self, felt: Felt, sample: Sample) -> Felt:
+        pulled = self._plugin.on(_noisy(felt.pulled, self._accelerometer, sample.random), sample.random)
+        turning = self._plugin.on(_noisy(felt.turning, self._gyro, sample.random), sample.random)
+        shaken = self._compass * sample.random.standard_normal(4) if self._compass else felt.shaken
         return Felt(felt.t, felt.rotation, shaken, turning, pulled)
 
 
@@ -220,9 +220,9 @@ class HectorImu(Imu):
             self._accelerometer.noise**2,
         )
 
-    def _err(self, felt: Felt, ride: Ride) -> Felt:
-        heading = float(self._heading.at(ride.turn)[0])
-        turning, pulled = felt.turning + self._gyro.at(ride.turn), felt.pulled + self._accelerometer.at(ride.turn)
+    def _err(self, felt: Felt, sample: Sample) -> Felt:
+        heading = float(self._heading.at(sample.turn)[0])
+        turning, pulled = felt.turning + self._gyro.at(sample.turn), felt.pulled + self._accelerometer.at(sample.turn)
         return Felt(felt.t, matmul(felt.rotation, rotation_matrix(0.0, 0.0, heading)), felt.shaken, turning, pulled)
 
 

@@ -11,7 +11,7 @@ from urdfkit.linear_algebra import matmul
 from urdfkit.messages import header, message_type, vector
 from urdfkit.sim.plugins.parameters import Parameters
 from urdfkit.sim.plugins.sensors.hector_drift import drifting
-from urdfkit.sim.plugins.sensors.link_sensor import Carried, Ride
+from urdfkit.sim.plugins.sensors.link_sensor import LinkSensor, Sample
 from urdfkit.sim.plugins.sensors.navigation.altimeter_and_barometer import OneTopic, itself
 from urdfkit.sim.plugins.sensors.navigation.geodesy import Earth, earth_of
 from urdfkit.sim.plugins.sensors.noise import noise_of
@@ -35,14 +35,14 @@ class GzMagnetometer(OneTopic):
         axes = [None if inside is None else inside.find(axis) for axis in "xyz"]
         self._noises = [noise_of(axis, setup.random) for axis in axes]
 
-    def _feel(self, ride: Ride) -> Any:
-        true = matmul(ride.motion.rotation.T, self._field)
-        found = [float(noise.on(value, ride.random)) for noise, value in zip(self._noises, true, strict=True)]
+    def _measure(self, sample: Sample) -> Any:
+        true = matmul(sample.motion.rotation.T, self._field)
+        found = [float(noise.on(value, sample.random)) for noise, value in zip(self._noises, true, strict=True)]
         spread = np.diag([noise.deviation**2 for noise in self._noises]).ravel()
-        return message_type(MAGNETIC_FIELD)(header(ride.t, self.frame), vector(found), spread)
+        return message_type(MAGNETIC_FIELD)(header(sample.t, self.frame), vector(found), spread)
 
 
-class HectorMagnetic(Carried):
+class HectorMagnetic(LinkSensor):
     """hector_gazebo_ros_magnetic of ROS 1: field from magnitude, declination and inclination."""
 
     kind = "hector_magnetic"
@@ -63,11 +63,11 @@ class HectorMagnetic(Carried):
         kind = MAGNETIC_FIELD if self._is_field else VECTOR
         self.topics = (setup.bus.advertise(topics.resolve(read.text("topic")), kind),)
 
-    def _feel(self, ride: Ride) -> Any:
-        found = vector((matmul(ride.motion.rotation.T, self._field) + self._error.at(ride.turn)).tolist())
+    def _measure(self, sample: Sample) -> Any:
+        found = vector((matmul(sample.motion.rotation.T, self._field) + self._error.at(sample.turn)).tolist())
         if self._is_field:
-            return message_type(MAGNETIC_FIELD)(header(ride.t, self.frame), found, np.zeros(9))
-        return message_type(VECTOR)(header(ride.t, self.frame), found)
+            return message_type(MAGNETIC_FIELD)(header(sample.t, self.frame), found, np.zeros(9))
+        return message_type(VECTOR)(header(sample.t, self.frame), found)
 
     def messages(self) -> tuple[Callable[[Any], Any], ...]:
         """Return the function that builds the message of the topic: the reading is the message."""

@@ -13,7 +13,7 @@ from urdfkit.linear_algebra import matmul
 from urdfkit.messages import ODOMETRY, header, message_type, twist
 from urdfkit.sim.plugins.base import Sensor
 from urdfkit.sim.plugins.parameters import Parameters
-from urdfkit.sim.plugins.sensors.point_motion import Moment, Motion
+from urdfkit.sim.plugins.sensors.point_motion import KinematicSnapshot, Motion
 from urdfkit.sim.plugins.setup import Setup
 from urdfkit.sim.plugins.topic_names import Topics
 from urdfkit.sim.state.quaternion import from_matrix, from_rpy, product
@@ -64,9 +64,9 @@ class P3d(Sensor):
 
     def measure(self, state: State, count: int) -> None:
         """Publish the measurement of this state."""
-        self.topics[0].offer(partial(self._message, Moment(self._kinematics, state), self.done), count=count)
+        self.topics[0].offer(partial(self._message, KinematicSnapshot(self._kinematics, state), self.done), count=count)
 
-    def _seen_from_there(self, now: Moment, motion: Motion) -> Motion:
+    def _seen_from_there(self, now: KinematicSnapshot, motion: Motion) -> Motion:
         """Return a motion relative to the reference frame."""
         if self._frame in WORLD:
             return motion
@@ -81,7 +81,7 @@ class P3d(Sensor):
             matmul(back, motion.angular - there.angular),
         )
 
-    def _message(self, now: Moment, turn: int) -> Any:
+    def _message(self, now: KinematicSnapshot, turn: int) -> Any:
         motion = self._seen_from_there(now, now.motion(self._link, np.eye(4)))
         random = np.random.Generator(np.random.Philox(key=[self._key, turn]))
         shaken = self._noise * random.standard_normal((2, 3))

@@ -1,4 +1,4 @@
-"""Ticks: the steps at which periodic work is due, as integers, so that periods do not drift."""
+"""Steps at which periodic work is due, as integers, so that periods do not drift."""
 
 from math import ceil, floor
 
@@ -9,7 +9,7 @@ _ROUNDING = 1e-6
 """Tolerance of rounding, as a fraction of a tick: 0.01 / 0.001 is not exactly 10 in floating point."""
 
 
-class Ticks:
+class PeriodicSteps:
     """The steps at which work with a rate is due: the n-th tick is the first step at or after n periods.
 
     Args:

@@ -23,7 +23,7 @@ from urdfkit.sim.scene_view import Layout
 from urdfkit.sim.state.robot_state import State
 
 
-class Mounted(Sensor):
+class SceneSensor(Sensor):
     """Sensor on a link that observes the scene; all its topics share one observation per measurement.
 
     Attributes:
