@@ -57,7 +57,7 @@ def test_labels_are_where_things_are(post) -> None:
     assert len(np.unique(colors.reshape(-1, 3), axis=0)) == 3
     assert (colors[found[..., 0] == 0] == 0).all()
     assert {t.name for t in simulator.bus.topics} >= {"/seg/camera_info"}
-    assert not notes
+    assert not [note for note in notes if not note.startswith("compiling")]
 
 
 def test_instances_are_counted_for_each_label(post) -> None:
