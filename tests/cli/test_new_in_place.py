@@ -360,7 +360,7 @@ def test_a_package_that_an_edited_file_names_is_kept_whole(place, capsys):
 
 @pytest.mark.slow
 def test_extensions_for_the_other_gazebo_are_reported(place, capsys):
-    """A camera that `new sensor` had written for the new Gazebo was dead in Gazebo Classic, and nobody said so."""
+    """A camera that `new sensor` had written for gz sim was dead in Gazebo Classic, and nobody said so."""
     assert main(["new", "robot", "scout", "--no-picture", "--yes", "-q"]) == 0
     assert main(["new", "sensor", "camera", "--into", "scout_description", "-q"]) == 0
     capsys.readouterr()

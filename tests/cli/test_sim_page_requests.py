@@ -320,9 +320,9 @@ def test_objects_come_move_and_go(ride) -> None:
         ("remove", {"name": "simpleton"}, "cannot be removed"),
         ("remove", {"name": "crait"}, "did you mean"),
         ("spawn", {"model": "crait"}, "did you mean `crate`"),
-        ("spawn", {"model": "../../etc/passwd"}, "is not the name of a model"),
-        ("spawn", {"model": "model://crate"}, "is not the name of a model"),
-        ("spawn", {"model": "/etc"}, "is not the name of a model"),
+        ("spawn", {"model": "../../etc/passwd"}, "unknown model or robot"),
+        ("spawn", {"model": "model://crate"}, "unknown model or robot"),
+        ("spawn", {"model": "/etc"}, "unknown model or robot"),
     ):
         with pytest.raises(SimulationError, match=line):
             do(ride, order, **values)

@@ -329,4 +329,4 @@ def test_ros_distributions_swap_sides_as_they_did(capsys: Capture) -> None:
 
 def test_ros_distributions_that_never_were(capsys: Capture) -> None:
     assert main(["sim", "run", "simpleton", "--for", "1", "--ros-distro", "kinetc"]) == 2
-    assert "no ROS distribution `kinetc`; did you mean `kinetic`?" in capsys.readouterr().err
+    assert "unknown ROS distribution `kinetc`; did you mean `kinetic`?" in capsys.readouterr().err

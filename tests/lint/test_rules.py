@@ -197,7 +197,7 @@ def test_of_a_link_that_is_there_twice_no_shapes_are_compared(tmp_path):
     assert {finding.code for finding in lint(tmp_path) if finding.severity != "note"} == {"T206"}
 
 
-def test_sensors_of_the_new_gazebo_are_none_of_the_classic_one():
+def test_sensors_of_gz_sim_are_none_of_the_classic_one():
     good = HERE / "sensor-type-unknown" / "good.urdf"
     found = [(f.code, f.line) for f in lint(good, target="classic")]
     assert found == [("Z827", 5)]

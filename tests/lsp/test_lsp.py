@@ -209,8 +209,8 @@ def test_renaming_changes_every_place_and_nothing_else(cart, mark, name, words):
     ("file", "mark", "name", "message"),
     [
         ("cart.urdf.xacro", "<leftJoint>left|_joint<", "l", "made by the expression `${side}_joint`"),
-        ("cart.urdf.xacro", '<link name="ma|st"/>', "base", "there is a link `base` already"),
-        ("cart.urdf.xacro", '<link name="ma|st"/>', 'a"b', "is no name for a link"),
+        ("cart.urdf.xacro", '<link name="ma|st"/>', "base", "link `base` already exists"),
+        ("cart.urdf.xacro", '<link name="ma|st"/>', 'a"b', "is not a valid name for a link"),
         ("cart.urdf.xacro", "<?xml ver|sion", "x", "nothing to rename here"),
         ("wheel.xacro", '"0 ${|y} 0"', "z", "is the parameter of a macro"),
     ],

@@ -39,7 +39,7 @@ def test_the_lidar_can_be_left_out(generation):
 @pytest.mark.slow
 @pytest.mark.parametrize(("speed", "steer"), [(2.0, 0.2), (2.0, -0.4), (-1.5, 0.3), (5.0, 0.05), (3.0, 0.0)])
 def test_it_goes_in_circles(robot, generation, speed, steer):
-    """In Gazebo Classic angular.z is the steering angle, in the new Gazebo the yaw rate."""
+    """In Gazebo Classic angular.z is the steering angle, in gz sim the yaw rate."""
     simulator = Simulator(robot, note=lambda _: None)
     classic = generation == "classic"
     # The one of Gazebo Classic steers to the other side when it backs up, and holds the speed of the right rear wheel.

@@ -236,7 +236,7 @@ def test_wrong_targets_are_refused(make: Make) -> None:
     simulator = make()
     with pytest.raises(KinematicsError, match=r"no movable joint `left_joit`.*did you mean `left_joint`"):
         simulator.motors.drive("left_joit", 1.0)
-    with pytest.raises(SimulationError, match="is no motor target"):
+    with pytest.raises(SimulationError, match="invalid motor target"):
         simulator.motors.drive("left_joint", math.nan)
     with pytest.raises(SimulationError, match="must be a finite number"):
         simulator.motors.hold("left_joint", math.inf)

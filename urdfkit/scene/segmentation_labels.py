@@ -1,4 +1,4 @@
-"""Labels of segmentation and bounding-box cameras, by the label system of the new Gazebo."""
+"""Labels of segmentation and bounding-box cameras, by the label system of gz sim."""
 
 from collections.abc import Iterable
 

@@ -111,7 +111,9 @@ class Simulator:
         for line in found.notes:
             self.note(line)
         if (wish := found.physics.max_step_size) not in (dt, Physics().max_step_size):
-            self.note(f"world `{found.name}` asks for steps of {wish:g} s; they are {dt:g} s, as asked for here")
+            self.note(
+                f"world `{found.name}` requests steps of {wish:g} s; they are {dt:g} s, as requested by the caller"
+            )
         self.name = name or self.robot.name or "robot"
         first = SimulatedRobot(
             self.robot,
@@ -173,7 +175,9 @@ class Simulator:
             SimulationError: the simulation diverged, or `n` is not a valid number of steps.
         """
         if not isinstance(n, int) or n < 0:
-            raise SimulationError(f"`{n}` is no number of steps: a whole number, zero or more; `run` takes seconds")
+            raise SimulationError(
+                f"invalid number of steps `{n}`: use an integer, zero or greater; for seconds, use `run`"
+            )
         state, scheduler, world = self.state, self._scheduler, self.world
         end = state.step + n
         while (step := state.step) < end:

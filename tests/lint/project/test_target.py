@@ -88,7 +88,7 @@ def test_targets_may_name_a_release(name):
         ("ros2-noetic", "did you mean `ros1-noetic`"),
         ("xyz", "one of ros1, ros2, gz, "),
         ("isaac-5", "did you mean `isaac`"),
-        ("Gazebo", "`gz`, the new Gazebo, or `classic`"),
+        ("Gazebo", "`gz` \\(gz sim\\) or `classic`"),
         ("ros", "`ros1` or `ros2`"),
         ("Humbel", "did you mean `humble`"),
         ("gz8", "gz has citadel, "),

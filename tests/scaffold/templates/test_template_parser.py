@@ -85,7 +85,7 @@ def test_errors_have_their_line(tmp_path, old, new, message):
 @pytest.mark.parametrize(
     ("more", "message"),
     [
-        ('default = "= 2 *"', "14: `2 *` is not an expression"),
+        ('default = "= 2 *"', "14: invalid expression `2 *`"),
         ('default = "= 2*size"', "14: no earlier question `size`"),
         ('default = "= 1/0"', "14: `1/0` divides by zero"),
         ("default = 3", '14: `default` must be a text: default = "3"'),

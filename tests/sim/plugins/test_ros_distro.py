@@ -14,7 +14,7 @@ def test_distributions_are_ordered() -> None:
 
 
 def test_unknown_distributions_are_named_with_the_nearest() -> None:
-    with pytest.raises(UsageError, match="no ROS distribution `humbel`; did you mean `humble`"):
+    with pytest.raises(UsageError, match="unknown ROS distribution `humbel`; did you mean `humble`"):
         Distro("humbel")
     with pytest.raises(UsageError):
         Distro("")

@@ -248,5 +248,5 @@ def test_what_comes_where_a_robot_is_does_not_blow_it_away() -> None:
 
 @pytest.mark.parametrize("steps", [1.5, -1])
 def test_a_step_is_a_whole_number(steps: float) -> None:
-    with pytest.raises(SimulationError, match="is no number of steps"):
+    with pytest.raises(SimulationError, match="invalid number of steps"):
         Simulator("simpleton", note=lambda _: None).step(steps)  # type: ignore[arg-type]

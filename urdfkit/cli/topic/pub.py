@@ -23,7 +23,7 @@ FASTEST = 1000.0
 def configure(parser: argparse.ArgumentParser, _name: str) -> None:
     """Add the arguments."""
     parser.add_argument("topic", metavar="TOPIC", help="name of the topic")
-    parser.add_argument("type", nargs="?", metavar="TYPE", help="type of the message (default: the topic's)")
+    parser.add_argument("type", nargs="?", metavar="TYPE", help="message type (default: type of the topic)")
     parser.add_argument(
         "message",
         nargs="*",

@@ -61,7 +61,7 @@ def gazebo_ros_2(kind: str, library: str, *parameters: Parameter, source: str = 
 
 
 def gz_system(kind: str, name: str, *parameters: Parameter) -> PluginSpec:
-    """Return the table of a system of the new Gazebo, whose libraries and source file have the name of its class."""
+    """Return the table of a system of Gazebo (gz sim), whose libraries and source file have the name of its class."""
     snake = "".join(f"_{letter.lower()}" if letter.isupper() else letter for letter in name)[1:]
     libraries = tuple(f"{prefix}-{snake.replace('_', '-')}-system" for prefix in ("gz-sim", "ignition-gazebo"))
     classes = (f"gz::sim::systems::{name}", f"ignition::gazebo::systems::{name}")

@@ -9,7 +9,7 @@ if TYPE_CHECKING:
     from typing import Literal
 
     Generation = Literal["ros1", "ros2", "gz"]
-    """ROS 1 with Gazebo Classic, ROS 2 with Gazebo Classic, and the new Gazebo."""
+    """ROS 1 with Gazebo Classic, ROS 2 with Gazebo Classic, and gz sim."""
 
     Names = Literal["joint", "link", "frame", "topic"]
 
@@ -45,7 +45,7 @@ class PluginSpec:
         kind: kind of the plugin in the simulator, e.g. ``diff_drive``.
         generation: generation of Gazebo and ROS.
         filenames: stems of the plugin's libraries (without directory, ``lib`` and ``.so``).
-        class_names: C++ classes that its ``name`` may contain (new Gazebo only).
+        class_names: C++ classes that its ``name`` may contain (gz sim only).
         parameters: all XML children that the plugin reads.
         source: source file of the plugin that defines these parameters.
     """

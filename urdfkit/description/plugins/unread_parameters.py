@@ -11,7 +11,7 @@ from urdfkit.description.urdf.robot import Plugin
 from urdfkit.description.xml.element import Element
 from urdfkit.record import record
 
-GENERATIONS = {"ros1": "ROS 1", "ros2": "ROS 2", "gz": "the new Gazebo"}
+GENERATIONS = {"ros1": "ROS 1", "ros2": "ROS 2", "gz": "Gazebo (gz sim)"}
 
 READ_TOO = {
     "gazebo_ros_camera": ("P_cx", "P_cy", "P_fx", "P_fy", "Tx", "Ty", "rectification_matrix", "trigger_topic_name"),

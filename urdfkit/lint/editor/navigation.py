@@ -140,15 +140,15 @@ def rename(models: Sequence[Model], cursor: Cursor, name: str) -> list[Edit]:
             raise UsageError("nothing to rename here: no symbol, or its name is computed by an expression")
         pattern = r"[A-Za-z_]\w*" if one.kind in ("property", "macro", "argument") else r"[^\s\"'<>&$]+"
         if not re.fullmatch(pattern, name):
-            raise UsageError(f"`{name}` is no name for a {one.kind}")
+            raise UsageError(f"`{name}` is not a valid name for a {one.kind}")
         every = of_model(model)
         if any(other.defines and (other.kind, other.name) == (one.kind, name) for other in every):
-            raise UsageError(f"there is a {one.kind} `{name}` already")
+            raise UsageError(f"{one.kind} `{name}` already exists")
         if one.kind == "property" and _is_parameter(model, one.name):
             raise UsageError(f"`{one.name}` is the parameter of a macro too: rename it by hand")
         same = [other for other in (*every, *in_settings(model)) if (other.kind, other.name) == (one.kind, one.name)]
         if not any(other.defines for other in same):
-            raise UsageError(f"{one.kind} `{one.name}` is defined nowhere in these files")
+            raise UsageError(f"{one.kind} `{one.name}` is not defined in these files")
         for other in same:
             if other.written != one.name:
                 at = f"{other.span.file}:{other.span.line}"

@@ -66,7 +66,7 @@ class Guess:
 def guess(path: Path) -> Guess:
     """Guess the target of a description file from the package.xml above it.
 
-    A package that depends on the new Gazebo, and not on Gazebo classic, has the target ``gz``; otherwise the build tool
+    A package that depends on gz sim, and not on Gazebo classic, has the target ``gz``; otherwise the build tool
     distinguishes ROS 1 from ROS 2.
     """
     above = (folder / "package.xml" for folder in path.absolute().parents)
@@ -158,7 +158,7 @@ _SAME = {
 }
 """Aliases of targets."""
 
-_SEVERAL = {"gazebo": "`gz`, the new Gazebo, or `classic`", "ros": "`ros1` or `ros2`"}
+_SEVERAL = {"gazebo": "`gz` (gz sim) or `classic`", "ros": "`ros1` or `ros2`"}
 """Ambiguous names, which a release resolves."""
 
 

@@ -78,7 +78,7 @@ def _parsed(text: str) -> ast.expr:
     try:
         return ast.parse(text.strip(), mode="eval").body
     except SyntaxError as error:
-        raise ResourceError(f"`{text}` is not an expression: {error.msg}") from error
+        raise ResourceError(f"invalid expression `{text}`: {error.msg}") from error
 
 
 def _value(node: ast.expr, names: Mapping[str, float], text: str) -> float:

@@ -74,7 +74,7 @@ class Engine(Articulation):
         sleep: bool = True,
     ) -> None:
         if not (math.isfinite(dt) and dt > 0.0):
-            raise SimulationError(f"a step of {dt:g} s is no step; it must be positive")
+            raise SimulationError(f"invalid time step {dt:g} s; it must be positive")
         self.ground = ground
         self.dt = float(dt)
         root_pose = AT_ORIGIN if base is None else base

@@ -40,7 +40,9 @@ class Distro:
         self.name = (name or "").strip().lower()
         if name is not None and self.name not in (*ROS_1, *ROS_2):
             known = (*ROS_1, *ROS_2)
-            raise UsageError(f"no ROS distribution `{name}`{did_you_mean(self.name, known)} (it is {', '.join(known)})")
+            raise UsageError(
+                f"unknown ROS distribution `{name}`{did_you_mean(self.name, known)} (known: {', '.join(known)})"
+            )
 
     def before(self, other: str) -> bool:
         """Whether this is a distribution of ROS 1 older than `other`."""

@@ -1,6 +1,6 @@
 """Limits of velocity, acceleration and jerk.
 
-They follow the drives of the new Gazebo (gz-math, SpeedLimiter.cc) and ROS 2's diff_drive_controller
+They follow the drives of gz sim (gz-math, SpeedLimiter.cc) and ROS 2's diff_drive_controller
 (control_toolbox, rate_limiter.hpp).
 """
 

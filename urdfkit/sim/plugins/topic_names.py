@@ -8,14 +8,14 @@ from urdfkit.description.urdf.robot import Plugin
 from urdfkit.errors import SimulationError
 
 _TOPIC = re.compile(r"^/[A-Za-z0-9_./:~-]*$")
-"""Valid topic names. ROS allows fewer characters; the new Gazebo makes topics of entity names with any of these."""
+"""Valid topic names. ROS allows fewer characters; gz sim makes topics of entity names with any of these."""
 
 
 class Topics:
     """Resolves the topic names of one plugin to absolute names.
 
     ROS 1: relative names go below ``<robotNamespace>``. ROS 2: below ``<ros><namespace>``, after ``<remapping>`` (and
-    the older ``<argument>``); ``~`` is the plugin's node. The new Gazebo has no namespaces.
+    the older ``<argument>``); ``~`` is the plugin's node. gz sim has no namespaces.
 
     Args:
         plugin: the plugin as written.
@@ -51,7 +51,7 @@ class Topics:
         if not _TOPIC.match(found):
             written = (each for each in self._element.walk() if each.text and found.endswith(each.text.strip()))
             raise SimulationError(
-                f"`{found}` is no name of a topic: it is made of letters, digits, _ and /",
+                f"`{found}` is not a valid topic name: use letters, digits, _ and /",
                 position=next(written, self._element).origin.position,
             )
         return found

@@ -101,7 +101,7 @@ class DifferentialOdometry(WheelOdometry):
 class BicycleOdometry(WheelOdometry):
     """Odometry of the middle of the driven axle, from one or two wheels on it and the steering angle [rad], the last.
 
-    The heading changes by distance·tan(angle)/base, as in the new Gazebo's AckermannSteering. Gazebo integrates every
+    The heading changes by distance·tan(angle)/base, as in gz sim's AckermannSteering. Gazebo integrates every
     step with the heading at its end. Here each update follows the exact arc of its mean steering angle, which is the
     limit for short steps regardless of the time between updates.
 

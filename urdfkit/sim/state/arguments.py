@@ -82,5 +82,5 @@ def nearest(name: str, known: Any, *, most: int = 12) -> str:
     if inside:
         return f"; did you mean `{min(inside, key=len)}`?"
     if not names:
-        return "; there is none"
+        return "; none exists"
     return f" (there are {', '.join(names[:most])}{', …' * (len(names) > most)})"

@@ -134,7 +134,7 @@ class Motors:
         """
         index = self._checked(joint)
         if not isfinite(effort):
-            raise SimulationError(f"joint `{joint}`: {effort} is no effort; it must be a finite number")
+            raise SimulationError(f"joint `{joint}`: invalid effort {effort}; it must be a finite number")
         self._applied[index] = effort
 
     def servo(
@@ -234,7 +234,7 @@ class Motors:
     def _set(self, joint: str, velocity: float, effort: float) -> None:
         index = self._checked(joint)
         if not isfinite(velocity) or effort != effort or effort < 0:
-            raise SimulationError(f"joint `{joint}`: {velocity} with effort {effort} is no motor target")
+            raise SimulationError(f"joint `{joint}`: invalid motor target: velocity {velocity} with effort {effort}")
         self._velocity[index] = velocity
         self._effort[index] = effort
         self._servos.stiffness[index] = self._servos.damping[index] = self._servos.integral_gain[index] = 0.0

@@ -690,7 +690,7 @@ def test_two_buildings_and_ten_objects() -> None:
     ("name", "text", "said"),
     [
         ("house.world", None, "No such file or directory; did you mean the bundled world `house`?"),
-        ("cart.urdf", "<robot/>", "is a robot, not a world; give it as ROBOT"),
+        ("cart.urdf", "<robot/>", "is a robot, not a world; pass it as ROBOT"),
         ("cart.sdf", "<robot/>", "cart.sdf:1:1: this is a robot; an SDF world starts with <sdf>"),
         ("", None, "is a folder; a world is a .world or .sdf file"),
         ("large.sdf", "<sphere><radius>1e300</radius></sphere>", "<sphere> is 1e+300 m large; at most 1e+06 m"),

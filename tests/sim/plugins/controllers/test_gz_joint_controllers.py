@@ -1,4 +1,4 @@
-"""The new Gazebo's JointPositionController and JointController."""
+"""JointPositionController and JointController of gz sim."""
 
 from __future__ import annotations
 
@@ -104,7 +104,7 @@ def test_velocity_by_force(tmp_path: Path) -> None:
     ("kind", "parameters", "message"),
     [
         ("position", "<p_gain>-1</p_gain>", "<p_gain> is -1; a negative gain"),
-        ("position", "<cmd_max>-1</cmd_max><cmd_min>1</cmd_min>", "commands from 1 to -1 leave nothing"),
+        ("position", "<cmd_max>-1</cmd_max><cmd_min>1</cmd_min>", "commands from 1 to -1 are an empty range"),
         ("velocity", "<joint_name>elbo</joint_name>", "no joint `elbo` in robot `arm`; did you mean `elbow`?"),
     ],
 )

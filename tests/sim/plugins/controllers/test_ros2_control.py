@@ -235,7 +235,7 @@ def test_only_the_first_of_two_that_want_a_joint_is_started(make: Make) -> None:
     [
         ("elbow]", "elbo]", "arm.yaml:10:24: no joint `elbo` in robot `arm`; did you mean `elbow`?"),
         ("[position]\n", "[velocity]\n", "arm.yaml:10:14: joint `shoulder` takes position, not velocity"),
-        ("[position]\n", "[positon]\n", "arm.yaml:11:26: no interface `positon`; did you mean `position`?"),
+        ("[position]\n", "[positon]\n", "arm.yaml:11:26: unknown interface `positon`; did you mean `position`?"),
         ("    joints: [shoulder, elbow]\n", "", "arm.yaml:8:1: `arm_controller` has no `joints`"),
         ("JointTrajectoryController\n", "JointTrajectoryControler\n", "did you mean `joint_trajectory_controller/J"),
         ("update_rate: 100", "update_rate: fast", "arm.yaml:3:18: `update_rate` is `fast`"),

@@ -281,8 +281,8 @@ def test_a_trajectory_that_cannot_be_followed_is_dropped_with_a_note(make: Make)
         simulator.bus.publish("/arm/t/command", TRAJECTORY, message)
     simulator.run(1.5)
     assert positions(simulator) == pytest.approx((0, 0), abs=1e-9)
-    assert any("no joint `elbw` here; did you mean `elbow`?" in note for note in notes)
-    assert any("point 2 is not later than the one before" in note for note in notes)
+    assert any("unknown joint `elbw`; did you mean `elbow`?" in note for note in notes)
+    assert any("point 2 must be later than the previous point" in note for note in notes)
 
 
 # Limits (joint_limits_interface)

@@ -1,4 +1,4 @@
-"""Ackermann steering in ROS 2 (angular.z is the angle) and in the new Gazebo (angular.z is the yaw rate)."""
+"""Ackermann steering in ROS 2 (angular.z is the angle) and in gz sim (angular.z is the yaw rate)."""
 
 from __future__ import annotations
 
@@ -243,19 +243,19 @@ def test_wrong_parameters_are_named_with_their_place(
     assert "car.urdf:" in str(caught.value)
 
 
-# The new Gazebo
+# gz sim
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize(("v", "w"), [(0.6, 0.4), (0.6, -0.5), (-0.4, 0.3)])
-def test_the_new_gazebo_turns_at_the_rate_it_is_told(make: Make, v: float, w: float) -> None:
+def test_gz_sim_turns_at_the_rate_it_is_told(make: Make, v: float, w: float) -> None:
     simulator = make(GZ, SYSTEM)
     settle(simulator, v, w)
     assert turn_rate(simulator) == pytest.approx(w, rel=0.02)
     assert math.hypot(*simulator.state.base_velocity[:2]) == pytest.approx(abs(v), rel=0.01)
 
 
-def test_the_new_gazebo_drives_its_wheels_as_a_differential(make: Make) -> None:
+def test_gz_sim_drives_its_wheels_as_a_differential(make: Make) -> None:
     simulator = make(GZ, SYSTEM)
     settle(simulator, 0.5, 0.4)
     for side, sign in (("left", -1), ("right", 1)):
@@ -266,7 +266,7 @@ def test_the_new_gazebo_drives_its_wheels_as_a_differential(make: Make) -> None:
         assert simulator.state.position(f"{side}_steering_joint") == pytest.approx(angle, abs=1e-4)
 
 
-def test_the_new_gazebo_steers_no_tighter_than_its_limit(make: Make) -> None:
+def test_gz_sim_steers_no_tighter_than_its_limit(make: Make) -> None:
     simulator = make(GZ, SYSTEM)
     settle(simulator, 0.2, 3.0)
     tightest = BASE / math.sin(0.6)
@@ -293,7 +293,7 @@ def test_steering_approaches_as_its_gain_says(make: Make) -> None:
 
 
 @pytest.mark.slow
-def test_odometry_of_the_new_gazebo_follows_the_bicycle(make: Make) -> None:
+def test_odometry_of_gz_sim_follows_the_bicycle(make: Make) -> None:
     simulator = make(GZ, SYSTEM, name="c")
     settle(simulator, 0.5, 0.3, 5.0)
     position, quaternion = simulator.odometry()["c/odom"]
@@ -314,7 +314,7 @@ def test_odometry_of_the_new_gazebo_follows_the_bicycle(make: Make) -> None:
     assert counts["/model/c/odometry"] == counts["/model/c/tf"] == round(simulator.t * 50)
 
 
-def test_limits_of_the_new_gazebo(make: Make) -> None:
+def test_limits_of_gz_sim(make: Make) -> None:
     simulator = make(GZ + "<max_velocity>0.3</max_velocity>", SYSTEM)
     simulator.command((1.0, 0, 0), (0, 0, 0))
     simulator.run(0.1)
@@ -354,7 +354,7 @@ def test_steering_only_takes_angles(make: Make) -> None:
     ("parameters", "topic"),
     [("", "/model/car/cmd_vel"), ("<sub_topic>go</sub_topic>", "/model/car/go"), ("<topic>go</topic>", "/go")],
 )
-def test_topics_of_the_new_gazebo(make: Make, parameters: str, topic: str) -> None:
+def test_topics_of_gz_sim(make: Make, parameters: str, topic: str) -> None:
     assert make(GZ + parameters, SYSTEM).command_topics == (topic,)
 
 
@@ -366,7 +366,7 @@ def test_topics_of_the_new_gazebo(make: Make, parameters: str, topic: str) -> No
         (JOINTS + "<use_actuator_msg>true</use_actuator_msg>", "steering by actuator messages is not simulated"),
     ],
 )
-def test_wrong_parameters_of_the_new_gazebo(make: Make, parameters: str, said: str) -> None:
+def test_wrong_parameters_of_gz_sim(make: Make, parameters: str, said: str) -> None:
     with pytest.raises(SimulationError) as caught:
         make(parameters, SYSTEM)
     assert said in str(caught.value)

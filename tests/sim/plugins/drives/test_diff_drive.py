@@ -232,7 +232,7 @@ def test_torque_limit(make: Make) -> None:
     assert strong.state.base_velocity[0] == pytest.approx(1.0, abs=0.05)
 
 
-def test_limits_of_the_new_gazebo(make: Make) -> None:
+def test_limits_of_gz_sim(make: Make) -> None:
     limits = "<max_linear_acceleration>0.5</max_linear_acceleration><max_velocity>0.4</max_velocity>"
     simulator = make("gz", limits, fixed_base=True, spawn=Spawn(z=1.0))
     simulator.command((1.0, 0, 0), (0, 0, 0))
@@ -242,7 +242,7 @@ def test_limits_of_the_new_gazebo(make: Make) -> None:
     assert simulator.state.velocity("left_joint") * 0.1 == pytest.approx(0.4)
 
 
-def test_the_new_gazebo_can_be_disabled(make: Make) -> None:
+def test_gz_sim_can_be_disabled(make: Make) -> None:
     simulator = make("gz")
     simulator.command((0.3, 0, 0), (0, 0, 0))
     simulator.run(0.5)

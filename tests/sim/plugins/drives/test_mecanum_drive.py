@@ -1,4 +1,4 @@
-"""The mecanum drive and the odometry publisher of the new Gazebo."""
+"""The mecanum drive and the odometry publisher of gz sim."""
 
 from __future__ import annotations
 

@@ -120,7 +120,7 @@ def test_ros_1_and_2_know_no_height(make: Make) -> None:
         assert simulator.state.base_velocity == pytest.approx((0,) * 6, abs=1e-9)
 
 
-def test_the_new_gazebo_moves_in_all_six_directions(make: Make) -> None:
+def test_gz_sim_moves_in_all_six_directions(make: Make) -> None:
     simulator = make("gz", world="void", gravity=(0, 0, 0), spawn=Spawn(z=1.0, yaw=math.pi / 2))
     simulator.command((0.1, 0.2, 0.3), (0, 0, 0))
     simulator.run(1.0)
@@ -130,7 +130,7 @@ def test_the_new_gazebo_moves_in_all_six_directions(make: Make) -> None:
     assert simulator.state.base_velocity[3:] == pytest.approx((0, 0.4, 0), abs=1e-9)
 
 
-def test_the_new_gazebo_may_move_from_the_start(make: Make) -> None:
+def test_gz_sim_may_move_from_the_start(make: Make) -> None:
     initial = "<initial_linear>0.3 0 0</initial_linear><initial_angular>0 0 -0.1</initial_angular>"
     simulator = make("gz", initial, world="void", gravity=(0, 0, 0), spawn=FLOATING)
     simulator.run(1.0)
@@ -233,7 +233,7 @@ def test_ros_2_may_publish_nothing(make: Make) -> None:
     assert "/odom" not in {topic.name for topic in simulator.bus.topics}
 
 
-def test_the_new_gazebo_publishes_nothing(make: Make) -> None:
+def test_gz_sim_publishes_nothing(make: Make) -> None:
     simulator = make("gz", name="s")
     assert simulator.command_topics == ("/model/s/cmd_vel",)
     assert simulator.odometry() == {}

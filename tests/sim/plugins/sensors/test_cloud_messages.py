@@ -158,7 +158,7 @@ def test_the_rangefinders_own_rate_slows_it(post) -> None:
     assert len(heard(post(sensor(plugin("gazebo_ros_range", inside), rate=50)), "/sonar", 1.0)) == 5
 
 
-def test_the_new_gazebos_lidar_needs_no_plugin(post) -> None:
+def test_gz_sims_lidar_needs_no_plugin(post) -> None:
     text = sensor(
         inside=RINGS.replace("ray>", "lidar>"),
         type="gpu_lidar",

@@ -96,7 +96,7 @@ def test_a_message_nobody_waited_for_can_be_had(brick) -> None:
     assert three(felt) == pytest.approx((0, 0, -simulator.world.description.gravity[2]), abs=1e-6)
 
 
-def test_the_new_gazebos_orientation_is_relative_to_the_start(brick) -> None:
+def test_gz_sims_orientation_is_relative_to_the_start(brick) -> None:
     simulator = brick(imu(), gravity=(0, 0, 0), spawn=Spawn(z=5.0, yaw=0.7, twist=(0, 0, 0, 0, 0, 1.0)))
     topic = "/world/void/model/brick/link/corner/sensor/imu/imu"
     messages = heard(simulator, topic, 0.5)
@@ -162,7 +162,7 @@ def test_p3d_tells_poses_as_another_link_sees_them(brick) -> None:
 @pytest.mark.parametrize(
     ("plugin", "said"),
     [
-        ("<bodyName>cornr</bodyName><topicName>t</topicName>", "`cornr`, which is no link; did you mean `corner`?"),
+        ("<bodyName>cornr</bodyName><topicName>t</topicName>", "`cornr`, which is not a link; did you mean `corner`?"),
         ("<bodyName>base</bodyName>", "gazebo_ros_p3d lacks its <topicName>"),
         (
             "<bodyName>base</bodyName><topicName>t</topicName><frameName>bse</frameName>",

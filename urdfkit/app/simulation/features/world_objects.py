@@ -73,7 +73,7 @@ class WorldObjects(Feature):
 
     def _require_plain(self, model: str) -> None:
         if "/" in model or "\\" in model or "." in model or ":" in model:
-            raise SimulationError(f"`{model}` is not the name of a model or robot of the library")
+            raise SimulationError(f"unknown model or robot `{model}`")
 
     def _place(self, request: Request) -> Done:
         name, pose = request.values["name"], request.values["pose"]

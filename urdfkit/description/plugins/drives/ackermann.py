@@ -1,4 +1,4 @@
-"""Ackermann steering: gazebo_ros_ackermann_drive (ROS 2) and the new Gazebo's AckermannSteering. Not in ROS 1."""
+"""Ackermann steering: gazebo_ros_ackermann_drive (ROS 2) and gz sim's AckermannSteering. Not in ROS 1."""
 
 from urdfkit.description.plugins.common_parameters import GZ_LIMITS, GZ_ODOMETRY, gazebo_ros_2, gz_system
 from urdfkit.description.plugins.spec import Parameter

@@ -1,4 +1,4 @@
-"""Differential drive: ROS 1, ROS 2 and the new Gazebo."""
+"""Differential drive: ROS 1, ROS 2 and gz sim."""
 
 from urdfkit.description.plugins.common_parameters import (
     GZ_LIMITS,

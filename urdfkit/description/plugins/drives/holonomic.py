@@ -1,4 +1,4 @@
-"""Mecanum wheels and the odometry publisher, which only the new Gazebo has."""
+"""Mecanum wheels and the odometry publisher, which only gz sim has."""
 
 from urdfkit.description.plugins.common_parameters import GZ_LIMITS, GZ_ODOMETRY, GZ_SEPARATE_LIMITS, gz_system
 from urdfkit.description.plugins.spec import Parameter

@@ -1,4 +1,4 @@
-"""Plugins that move the base itself: planar move (ROS 1, ROS 2) and the new Gazebo's velocity control."""
+"""Plugins that move the base itself: planar move (ROS 1, ROS 2) and gz sim's velocity control."""
 
 from urdfkit.description.plugins.common_parameters import (
     gazebo_ros_1,

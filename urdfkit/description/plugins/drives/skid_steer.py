@@ -23,4 +23,4 @@ SKID_STEER_ROS_1 = gazebo_ros_1(
     Parameter("covariance_y", "covariance_y", "0.0001", "[m²]"),
     Parameter("covariance_yaw", "covariance_yaw", "0.01", "[rad²]"),
 )
-"""In ROS 2 and the new Gazebo, skid steering uses the differential drive with several wheel pairs."""
+"""In ROS 2 and gz sim, skid steering uses the differential drive with several wheel pairs."""

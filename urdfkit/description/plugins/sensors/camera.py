@@ -1,4 +1,4 @@
-"""Cameras: the plugins of Gazebo Classic's camera and depth sensors, and the cameras of the new Gazebo.
+"""Cameras: the plugins of Gazebo Classic's camera and depth sensors, and the cameras of gz sim.
 
 Placeholders in defaults are replaced per model: ``{world}``, ``{model}``, ``{link}`` and ``{sensor}`` are names.
 """

@@ -1,4 +1,4 @@
-"""Motion and position sensors: IMU, ground-truth pose (p3d), GPS and other sensors of the new Gazebo."""
+"""Motion and position sensors: IMU, ground-truth pose (p3d), GPS and other sensors of gz sim."""
 
 from urdfkit.description.plugins.common_parameters import gazebo_ros_1, gazebo_ros_2
 from urdfkit.description.plugins.spec import Parameter, PluginSpec
@@ -87,7 +87,7 @@ GPS_ROS_2 = gazebo_ros_2(
 
 
 def _bare(kind: str, topic: str, source: str) -> PluginSpec:
-    """Return the table of a sensor of the new Gazebo, which needs no plugin and is configured in the ``<sensor>``."""
+    """Return the table of a sensor of gz sim, which needs no plugin and is configured in the ``<sensor>``."""
     scoped = "/world/{world}/model/{model}/link/{link}/sensor/{sensor}/"
     return PluginSpec(
         kind=kind,

@@ -1,4 +1,4 @@
-"""Lidars and rangefinders: the plugins of Gazebo Classic's ray sensors, and the lidars of the new Gazebo.
+"""Lidars and rangefinders: the plugins of Gazebo Classic's ray sensors, and the lidars of gz sim.
 
 The scan (angles, samples, ranges, noise) is configured in the ``<sensor>`` that contains the plugin. Placeholders in
 defaults are replaced per model: ``{world}``, ``{model}``, ``{link}`` and ``{sensor}`` are names.

@@ -46,7 +46,7 @@ BARE: dict[str, PluginSpec] = {
     "boundingbox": BOUNDING_BOX_CAMERA_GZ,
     "boundingbox_camera": BOUNDING_BOX_CAMERA_GZ,
 }
-"""Type of a ``<sensor>`` without a plugin → its table; sensors of the new Gazebo need no plugin."""
+"""Type of a ``<sensor>`` without a plugin → its table; sensors of gz sim need no plugin."""
 
 SENSOR_TYPES = tuple(
     dict.fromkeys(

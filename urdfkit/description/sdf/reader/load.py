@@ -54,7 +54,7 @@ def load_world(world: str | Path, *, package_path: Iterable[str | Path] = ()) ->
     path = world_file(str(world)) or Path(world)
     names = world_names()
     if path.suffix in _ROBOT_SUFFIXES:
-        raise ResourceError(f"`{world}` is a robot, not a world; give it as ROBOT, or include it in a world")
+        raise ResourceError(f"`{world}` is a robot, not a world; pass it as ROBOT, or include it in a world")
     if path.is_dir():
         raise ResourceError(f"`{world}` is a folder; a world is a .world or .sdf file (worlds: {', '.join(names)})")
     if path.suffix in _SUFFIXES and not path.exists():

@@ -39,7 +39,7 @@ _GZ = {
     "lidar": ("", "/points"),
     "ray": ("", "/points"),
 }
-"""Sensor type of the new Gazebo → suffixes of its topics (gz-sensors)."""
+"""Sensor type of gz sim → suffixes of its topics (gz-sensors)."""
 
 
 @record(eq=False)
@@ -60,7 +60,7 @@ class Published:
 
 
 def published(model: Model) -> Iterator[Published]:
-    """Yield the topics of the robot's sensors; sensors without a Gazebo classic plugin publish as in the new Gazebo."""
+    """Yield the topics of the robot's sensors; sensors without a Gazebo classic plugin publish as in gz sim."""
     classic: set[int] = set()
     for plugin, block, sensor in plugins(model.robot):
         spec = spec_of(plugin, model.target)

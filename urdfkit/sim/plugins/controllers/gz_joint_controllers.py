@@ -1,4 +1,4 @@
-"""The new Gazebo's JointPositionController and JointController.
+"""JointPositionController and JointController of gz sim.
 
 Sources: gz-sim main, src/systems/joint_position_controller/JointPositionController.cc and
 src/systems/joint_controller/JointController.cc; gz-math PID.
@@ -34,7 +34,7 @@ class _GzJoint:
         names = read.texts("joints")
         if not names:
             raise SimulationError(
-                f"<{read.tag('joints')}> is missing: it says which joint to control", position=read.place("joints")
+                f"<{read.tag('joints')}> is missing: it names the joint to control", position=read.place("joints")
             )
         place = read.place("joints")
         joints = setup.kinematics.robot.joint_by_name
@@ -57,7 +57,7 @@ class _GzJoint:
         self.offset = read.number("command_offset")
         if self.most < self.least:
             raise SimulationError(
-                f"commands from {self.least:g} to {self.most:g} leave nothing", position=read.place("max_command")
+                f"commands from {self.least:g} to {self.most:g} are an empty range", position=read.place("max_command")
             )
         topics = Topics(plugin, spec)
         topic = read.text("command_topic").replace("{joint}", names[0])

@@ -121,6 +121,6 @@ def read_limits(joint: Joint, settings: Settings, note: Callable[[str], None]) -
             raise DescriptionError(f"`{name}` is {value:g}; it must be zero or greater", position=group.position)
     if found.upper < found.lower:
         raise DescriptionError(
-            f"positions from {found.lower:g} to {found.upper:g} leave nothing", position=group.position
+            f"positions from {found.lower:g} to {found.upper:g} are an empty range", position=group.position
         )
     return found

@@ -110,7 +110,8 @@ class Ros2Control(ControlLoopPlugin):
             kind = interface.get("name") or ""
             if kind not in INTERFACES:
                 raise SimulationError(
-                    f"no command interface `{kind}`{did_you_mean(kind, INTERFACES)} (it is {', '.join(INTERFACES)})",
+                    f"unknown command interface `{kind}`{did_you_mean(kind, INTERFACES)} "
+                    f"(known: {', '.join(INTERFACES)})",
                     position=interface.origin.position,
                 )
             if joint in setup.kinematics.mimic_names:
@@ -129,7 +130,7 @@ class Ros2Control(ControlLoopPlugin):
                     value = number(parameter.text)
                     if value is None:
                         raise SimulationError(
-                            f"initial_value `{parameter.text}` of joint `{joint}` is no number",
+                            f"initial_value `{parameter.text}` of joint `{joint}` is not a number",
                             position=parameter.origin.position,
                         )
                     if joint not in setup.kinematics.mimic_names:

@@ -1,4 +1,4 @@
-"""Ackermann steering: the new Gazebo's AckermannSteering. The command's angular.z is the yaw rate.
+"""Ackermann steering: gz sim's AckermannSteering. The command's angular.z is the yaw rate.
 
 Source: gz-sim main, src/systems/ackermann_steering/AckermannSteering.cc.
 """

@@ -1,4 +1,4 @@
-"""Differential drive: gazebo_ros_diff_drive (ROS 1, ROS 2) and the new Gazebo's DiffDrive system.
+"""Differential drive: gazebo_ros_diff_drive (ROS 1, ROS 2) and gz sim's DiffDrive system.
 
 Sources: gazebo_ros_pkgs noetic-devel and ros2, gazebo_plugins/src/gazebo_ros_diff_drive.cpp; gz-sim main,
 src/systems/diff_drive/DiffDrive.cc. Until Lunar, ROS 1 swapped left and right (``legacyMode``); urdfkit emulates this
@@ -51,7 +51,7 @@ class DiffDrive(VelocityDrive):
         topics = self._topic_names(setup)
         self._setup = setup
         self._read_wheels(setup, read)
-        # The new Gazebo has no torque parameter: the joints' <limit effort> applies.
+        # gz sim has no torque parameter: the joints' <limit effort> applies.
         self._torque = None if self._gz else read.number("max_wheel_torque", unsigned=True)
         self._acceleration = read.number("max_wheel_acceleration", unsigned=True)
         self._instructed = [0.0] * (2 * len(self._pairs))
@@ -90,7 +90,7 @@ class DiffDrive(VelocityDrive):
             radii: tuple[float, ...] = read.numbers("wheel_radius", positive=True)
         else:
             radii = tuple(diameter / 2 for diameter in read.numbers("wheel_diameter", positive=True))
-        # Defaults of missing values: the first value in the new Gazebo, the parameter's default in ROS 2.
+        # Defaults of missing values: the first value in gz sim, the parameter's default in ROS 2.
         rest = (separations[0], radii[0]) if self._gz else (0.34, 0.075)
         self._separations = (separations + (rest[0],) * pairs)[:pairs]
         self._radii = (radii + (rest[1],) * pairs)[:pairs]

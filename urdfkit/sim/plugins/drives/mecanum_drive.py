@@ -1,4 +1,4 @@
-"""Mecanum drive: the new Gazebo's MecanumDrive, four wheels with rollers at 45° (friction along ``<fdir1>`` only).
+"""Mecanum drive: gz sim's MecanumDrive, four wheels with rollers at 45° (friction along ``<fdir1>`` only).
 
 Source: gz-sim main, src/systems/mecanum_drive/MecanumDrive.cc.
 """

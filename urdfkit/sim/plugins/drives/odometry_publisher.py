@@ -1,4 +1,4 @@
-"""Odometry publisher: the new Gazebo's OdometryPublisher, for robots whose drive has no odometry.
+"""Odometry publisher: gz sim's OdometryPublisher, for robots whose drive has no odometry.
 
 Source: gz-sim main, src/systems/odometry_publisher/OdometryPublisher.cc. Gazebo publishes the mean velocity of ten
 steps; urdfkit publishes the velocity of the present state.

@@ -1,4 +1,4 @@
-"""Skid steer: gazebo_ros_skid_steer_drive (ROS 1). ROS 2 and the new Gazebo use the differential drive with more pairs.
+"""Skid steer: gazebo_ros_skid_steer_drive (ROS 1). ROS 2 and gz sim use the differential drive with more pairs.
 
 Source: gazebo_ros_pkgs noetic-devel, gazebo_plugins/src/gazebo_ros_skid_steer_drive.cpp.
 """

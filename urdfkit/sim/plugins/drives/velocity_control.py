@@ -1,4 +1,4 @@
-"""Velocity control: the new Gazebo's VelocityControl, which sets the linear and angular velocity of the model.
+"""Velocity control: gz sim's VelocityControl, which sets the linear and angular velocity of the model.
 
 Source: gz-sim main, src/systems/velocity_control/VelocityControl.cc. It publishes no odometry.
 """

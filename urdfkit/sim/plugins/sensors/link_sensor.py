@@ -73,7 +73,7 @@ class LinkSensor(Sensor):
             self.link = read.text("body") or setup.kinematics.root
             if self.link not in (links := setup.kinematics.link_names):
                 raise SimulationError(
-                    f"<{read.tag('body')}> is `{self.link}`, which is no link{did_you_mean(self.link, links)}",
+                    f"<{read.tag('body')}> is `{self.link}`, which is not a link{did_you_mean(self.link, links)}",
                     position=read.place("body"),
                 )
             self._mount = np.eye(4)
@@ -148,8 +148,11 @@ def carrier(setup: Setup) -> str:
         return setup.link
     place = setup.sensor.element.origin.position
     if not setup.link:
-        raise SimulationError("a sensor stands in <gazebo reference=…> of a link; here is no reference", position=place)
+        raise SimulationError(
+            "a sensor must be in the <gazebo reference=…> of a link; this <gazebo> has no reference", position=place
+        )
     raise SimulationError(
-        f"a sensor stands in <gazebo reference=…> of a link; `{setup.link}` is none{did_you_mean(setup.link, links)}",
+        "a sensor must be in the <gazebo reference=…> of a link; "
+        f"`{setup.link}` is not a link{did_you_mean(setup.link, links)}",
         position=place,
     )

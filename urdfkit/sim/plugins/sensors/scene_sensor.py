@@ -45,9 +45,7 @@ class SceneSensor(Sensor):
         """
         sensor = setup.sensor
         if sensor is None or setup.surroundings is None:
-            raise SimulationError(
-                "this plugin stands in a <sensor>, and in none here", position=self.plugin.element.origin.position
-            )
+            raise SimulationError("this plugin must be in a <sensor>", position=self.plugin.element.origin.position)
         link = carrier(setup)
         self.name = sensor.name or "sensor"
         names = {**setup.names, "link": setup.link, "sensor": self.name}

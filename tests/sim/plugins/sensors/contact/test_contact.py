@@ -71,7 +71,7 @@ def test_at_rest_the_ground_carries_the_weight(crate, plugin: str, topic: str, f
     assert "my geom:crate::base::base_collision" in state.info
 
 
-def test_in_the_air_nothing_is_told_by_the_bumpers_and_nothing_said_by_the_new_gazebos(crate) -> None:
+def test_in_the_air_nothing_is_told_by_the_bumpers_and_nothing_said_by_gz_sims(crate) -> None:
     simulator = crate(bumper(ROS_1.format("")) + bumper(inside="<topic>touches</topic>"), spawn=Spawn(z=5.0))
     messages = heard(simulator, "/bump", 0.2)
     assert len(messages) == 10
@@ -142,7 +142,7 @@ def test_which_collision_of_a_body_was_touched_is_told(crate, tmp_path: Path) ->
     assert {state.collision2_name for state in heard(simulator, "/bump", 0.1)[-1].states} == {"mat::l::under"}
 
 
-def test_the_new_gazebo_tells_contacts_with_both_wrenches(crate) -> None:
+def test_gz_sim_tells_contacts_with_both_wrenches(crate) -> None:
     simulator = crate(bumper())
     simulator.run(0.5)
     messages = heard(simulator, "/world/empty/model/crate/link/base/sensor/s/contact", 0.01)

@@ -98,7 +98,7 @@ def test_a_fixed_joint_further_out_tells_in_the_axes_of_its_child(arm) -> None:
         ("<pose>0 0 0 0 0 0.5</pose><force_torque><frame>sensor</frame></force_torque>", -1.0, "sensor"),
     ],
 )
-def test_the_new_gazebo_has_directions_and_frames(arm, inside: str, sign: float, turn: str) -> None:
+def test_gz_sim_has_directions_and_frames(arm, inside: str, sign: float, turn: str) -> None:
     message = heard(arm(sensor=GZ.format(inside), joint="wrist"), "/ft", 0.05)[-1]
     force, torque = wrench(message)
     angle = {"child": 0.0, "parent": -np.pi / 2, "sensor": 0.5}[turn]
@@ -169,7 +169,7 @@ def test_noise_is_on_all_six(arm) -> None:
         (ROS_1.replace("<topicName>ft</topicName>", ""), "", "wrist", "gazebo_ros_ft_sensor lacks its <topicName>"),
         (ROS_1.replace("<jointName>{joint}</jointName>", ""), "", "wrist", "lacks its <jointName>"),
         (ROS_2.replace("joint_name", "body_name"), "", "hand", "on a link (<body_name>) is not simulated"),
-        ("", GZ.format(""), "hand", "stands in <gazebo reference=…> of a joint; `hand` is a link"),
+        ("", GZ.format(""), "hand", "must be in the <gazebo reference=…> of a joint; `hand` is a link"),
         ("", GZ.format("<force_torque><frame>chidl</frame></force_torque>"), "wrist", "did you mean `child`?"),
     ],
 )

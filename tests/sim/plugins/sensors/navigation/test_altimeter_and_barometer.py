@@ -1,4 +1,4 @@
-"""Altimeters, air pressure, magnetometers and logical cameras of the new Gazebo, and hector's sensors."""
+"""Altimeters, air pressure, magnetometers and logical cameras of gz sim, and hector's sensors."""
 
 from __future__ import annotations
 
@@ -87,7 +87,7 @@ def test_an_altimeter_tells_height_over_where_it_started_and_climb(drone) -> Non
     ("type", "topic"),
     [("altimeter", "altimeter"), ("air_pressure", "air_pressure"), ("magnetometer", "magnetometer")],
 )
-def test_topics_of_the_new_gazebo_are_scoped(drone, type: str, topic: str) -> None:
+def test_topics_of_gz_sim_are_scoped(drone, type: str, topic: str) -> None:
     simulator = drone(bare(type, topic=""))
     assert heard(simulator, f"/world/w/model/drone/link/eye/sensor/s/{topic}", 0.1)
 
@@ -234,7 +234,7 @@ def test_hectors_sonar_is_the_nearest_of_its_rays(post) -> None:
 @pytest.mark.parametrize(
     ("sensors", "plugins", "said"),
     [
-        ("", hector("gps", "<bodyName>bse</bodyName>"), "<bodyName> is `bse`, which is no link; did you mean `base`?"),
+        ("", hector("gps", "<bodyName>bse</bodyName>"), "`bse`, which is not a link; did you mean `base`?"),
         ("", hector("gps", "<drift>-1</drift>"), "<drift> is `-1`; it must be 0 or greater"),
         ("", hector("gps", "<drift>1 2</drift>"), "<drift> is `1 2`; it must be 3 finite numbers"),
         ("", '<plugin name="p" filename="libgazebo_ros_imu.so"/>', "gazebo_ros_imu lacks its <bodyName>"),

@@ -79,7 +79,8 @@ class ForwardGroup(Forward):
         interface = self.types[self.type] or self.settings.text("interface_name")
         if interface not in INTERFACES:
             raise DescriptionError(
-                f"no interface `{interface}`{did_you_mean(interface, INTERFACES)} (it is {', '.join(INTERFACES)})",
+                f"unknown interface `{interface}`{did_you_mean(interface, INTERFACES)} "
+                f"(known: {', '.join(INTERFACES)})",
                 position=self.settings.group("interface_name").position,
             )
         joints = self.settings.texts("joints")

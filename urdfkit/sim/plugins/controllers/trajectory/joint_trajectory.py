@@ -95,7 +95,7 @@ class TrajectoryFollower(RosController):
         for entry in asked:
             if entry.value not in (*INTERFACES, "acceleration"):
                 raise DescriptionError(
-                    f"no interface `{entry.value}`{did_you_mean(entry.value or '', INTERFACES)}",
+                    f"unknown interface `{entry.value}`{did_you_mean(entry.value or '', INTERFACES)}",
                     position=entry.position,
                 )
         named = [entry.value for entry in asked]

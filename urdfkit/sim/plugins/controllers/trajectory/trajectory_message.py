@@ -56,7 +56,7 @@ class TrajectoryReader:
         names = list(message.joint_names)
         for name in names:
             if name not in self.names:
-                raise refuse(f"no joint `{name}` here{did_you_mean(name, self.names)}", INVALID_JOINTS)
+                raise refuse(f"unknown joint `{name}`{did_you_mean(name, self.names)}", INVALID_JOINTS)
         missing = [name for name in self.names if name not in names]
         if len(set(names)) != len(names) or (missing and not self.partial):
             raise refuse(f"it must name each joint once; `{(missing or names)[0]}` is not", INVALID_JOINTS)
@@ -75,7 +75,7 @@ class TrajectoryReader:
         for number, point in enumerate(message.points):
             after = point.time_from_start.sec + 1e-9 * point.time_from_start.nanosec
             if after <= last and number:
-                raise refuse(f"point {number + 1} is not later than the one before")
+                raise refuse(f"point {number + 1} must be later than the previous point")
             last = after
             try:
                 given, *given_rates = (

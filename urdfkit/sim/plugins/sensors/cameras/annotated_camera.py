@@ -1,4 +1,4 @@
-"""Segmentation and bounding-box cameras of the new Gazebo.
+"""Segmentation and bounding-box cameras of gz sim.
 
 A visual gets its label from a label system (``gz-sim-label-system``) in the visual or in its model; a visual without
 a label is background. All visuals of one model with the same label are one instance.

@@ -1,4 +1,4 @@
-"""Base class of camera sensors, and the colour camera of the new Gazebo.
+"""Base class of camera sensors, and the colour camera of gz sim.
 
 The camera looks along the x axis of its link, as in Gazebo. The frame id is the one configured in the plugin, by
 convention an optical frame. The principal point in Gazebo Classic's CameraInfo is one pixel off the one it renders
@@ -164,7 +164,7 @@ class Camera(SceneSensor):
 
 
 class GzCamera(Camera):
-    """Colour camera of the new Gazebo, which publishes without a plugin."""
+    """Colour camera of gz sim, which publishes without a plugin."""
 
     kind = "gz_camera"
     deep = False

@@ -35,7 +35,7 @@ ENCODINGS = {
     "BAYER_GBRG8": "bayer_gbrg8",
     "BAYER_GRBG8": "bayer_grbg8",
 }
-"""SDF image format → sensor_msgs encoding (gazebo_ros_camera_utils.cpp). Depth cameras of the new Gazebo are configured
+"""SDF image format → sensor_msgs encoding (gazebo_ros_camera_utils.cpp). Depth cameras of gz sim are configured
 with R_FLOAT32, which is the format of their depth images in any case."""
 
 MAX_PIXELS = 16_000_000
@@ -112,8 +112,7 @@ def _encoding(image: Element | None) -> str:
     name = "R8G8B8" if written is None or not written.text else written.text
     if name not in ENCODINGS:
         raise SimulationError(
-            f"pictures of format `{name}` are not taken{did_you_mean(name, ENCODINGS)} (there are "
-            f"{', '.join(ENCODINGS)})",
+            f"unsupported image format `{name}`{did_you_mean(name, ENCODINGS)} (supported: {', '.join(ENCODINGS)})",
             position=None if written is None else written.origin.position,
         )
     return ENCODINGS[name]

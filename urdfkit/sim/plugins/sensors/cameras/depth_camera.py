@@ -1,4 +1,4 @@
-"""Depth cameras: gazebo_ros_openni_kinect and _depth_camera of ROS 1, depth and RGB-D cameras of the new Gazebo."""
+"""Depth cameras: gazebo_ros_openni_kinect and _depth_camera of ROS 1, depth and RGB-D cameras of gz sim."""
 
 from __future__ import annotations
 
@@ -62,7 +62,7 @@ class OpenniKinect(DepthCamera):
 
 
 class GzDepthCamera(Camera):
-    """Depth camera of the new Gazebo: depths beyond the limit are +inf; its points are in the sensor's axes."""
+    """Depth camera of gz sim: depths beyond the limit are +inf; its points are in the sensor's axes."""
 
     kind = "gz_depth_camera"
 
@@ -91,7 +91,7 @@ class GzDepthCamera(Camera):
 
 
 class GzRgbdCamera(GzDepthCamera):
-    """RGB-D camera of the new Gazebo: depth camera with colour images; all topics are below its own."""
+    """RGB-D camera of gz sim: depth camera with colour images; all topics are below its own."""
 
     kind = "gz_rgbd_camera"
 

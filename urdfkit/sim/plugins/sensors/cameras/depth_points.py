@@ -9,7 +9,7 @@ from urdfkit.scene.camera_model import Lens
 from urdfkit.sim.plugins.sensors.cloud_messages import XYZ, Layout, cloud
 
 COLORED: Layout = ((*XYZ, ("rgb", "f4", 16)), 32)
-"""sensor_msgs/point_cloud2_iterator.h: setPointCloud2FieldsByString of xyz and rgb; also the new Gazebo's layout."""
+"""sensor_msgs/point_cloud2_iterator.h: setPointCloud2FieldsByString of xyz and rgb; also gz sim's layout."""
 
 Depths = NDArray[np.float32]
 

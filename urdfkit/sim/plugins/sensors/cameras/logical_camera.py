@@ -1,4 +1,4 @@
-"""The new Gazebo's logical camera: reports the models whose origin is in its frustum, without occlusion."""
+"""Logical camera of gz sim: reports the models whose origin is in its frustum, without occlusion."""
 
 from collections.abc import Callable
 from math import tan

@@ -1,4 +1,4 @@
-"""Contact sensors: gazebo_ros_bumper of ROS 1 and ROS 2, and the new Gazebo's contact system.
+"""Contact sensors: gazebo_ros_bumper of ROS 1 and ROS 2, and gz sim's contact system.
 
 A sensor reports the contacts of the collisions named in its ``<contact>``: position, normal (towards the sensor's
 link), depth and force. All vectors are in the world's axes, regardless of ``frameName``, as in the plugin's source;
@@ -46,7 +46,7 @@ class Contacts(Sensor):
         sensor = setup.sensor
         if sensor is None or setup.surroundings is None:
             raise SimulationError(
-                "a contact sensor stands in a <sensor> of a link, and in none here",
+                "a contact sensor plugin must be in the <sensor> of a link",
                 position=self.plugin.element.origin.position,
             )
         link = carrier(setup)
@@ -102,7 +102,7 @@ class Bumper(Contacts):
 
 
 class GzContact(Contacts):
-    """Contact sensor of the new Gazebo: publishes Contacts in steps with a contact only."""
+    """Contact sensor of gz sim: publishes Contacts in steps with a contact only."""
 
     kind = "gz_contact"
 
@@ -164,7 +164,7 @@ def _joint_wrench(touch: Touch, point: Point, t: float) -> Any:
 
 
 class GzTouch(Sensor):
-    """TouchPlugin of the new Gazebo: publishes true once the model has touched a target for a given time.
+    """TouchPlugin of gz sim: publishes true once the model has touched a target for a given time.
 
     Only the collisions of the model's contact sensors count. After the message, the plugin is disabled until a message
     on ``NAMESPACE/enable`` enables it.

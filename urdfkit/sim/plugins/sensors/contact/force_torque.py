@@ -1,8 +1,8 @@
-"""Force and torque at a joint: gazebo_ros_ft_sensor of ROS 1 and ROS 2, and the new Gazebo's force_torque sensors.
+"""Force and torque at a joint: gazebo_ros_ft_sensor of ROS 1 and ROS 2, and gz sim's force_torque sensors.
 
 The wrench is the mean over the step that ends with the measurement, so the simulation also stops one step earlier.
 Without subscribers it does not stop, and the mean covers the time since its last stop. The wrench is about the origin
-of the joint (of the sensor in the new Gazebo), along the axes of the child link unless configured otherwise.
+of the joint (of the sensor in gz sim), along the axes of the child link unless configured otherwise.
 """
 
 from abc import abstractmethod
@@ -197,7 +197,7 @@ class JointForceTorque(ForceTorque):
 
 
 class GzForceTorque(ForceTorque):
-    """Sensor of type force_torque of the new Gazebo, in the ``<gazebo reference=…>`` of a joint."""
+    """Sensor of type force_torque of gz sim, in the ``<gazebo reference=…>`` of a joint."""
 
     kind = "gz_force_torque"
 
@@ -208,7 +208,7 @@ class GzForceTorque(ForceTorque):
         if setup.link in setup.kinematics.link_names or not setup.link:
             here = f"`{setup.link}` is a link" if setup.link else "here is no reference"
             raise SimulationError(
-                f"a force_torque sensor stands in <gazebo reference=…> of a joint; {here}", position=place
+                f"a force_torque sensor must be in the <gazebo reference=…> of a joint; {here}", position=place
             )
         self._read_joint(setup, setup.link, place)
         self._mount = pose_of(sensor.element)

@@ -1,4 +1,4 @@
-"""Lidars with PointCloud2 output: gazebo_ros_ray_sensor of ROS 2, the Velodyne plugins and the new Gazebo's lidar."""
+"""Lidars with PointCloud2 output: gazebo_ros_ray_sensor of ROS 2, the Velodyne plugins and gz sim's lidar."""
 
 from collections.abc import Callable
 from typing import Any
@@ -116,7 +116,7 @@ class Velodyne(Lidar):
 
 
 class GzLidar(Lidar):
-    """Lidar of the new Gazebo without a plugin: publishes a LaserScan, and a PointCloud2 ordered by ring."""
+    """Lidar of gz sim without a plugin: publishes a LaserScan, and a PointCloud2 ordered by ring."""
 
     kind = "gpu_lidar"
 

@@ -44,7 +44,7 @@ def pressure(height: float) -> float:
 
 
 class OneTopic(LinkSensor):
-    """Sensor of the new Gazebo with one topic, which publishes without a plugin."""
+    """Sensor of gz sim with one topic, which publishes without a plugin."""
 
     type: str
 
@@ -69,7 +69,7 @@ def itself(message: Any) -> Any:
 
 
 class GzAirPressure(OneTopic):
-    """Air pressure sensor of the new Gazebo."""
+    """Air pressure sensor of gz sim."""
 
     kind = "gz_air_pressure"
     type = FLUID_PRESSURE
@@ -86,7 +86,7 @@ class GzAirPressure(OneTopic):
 
 
 class GzAltimeter(OneTopic):
-    """Altimeter of the new Gazebo: height above its initial position, and vertical velocity."""
+    """Altimeter of gz sim: height above its initial position, and vertical velocity."""
 
     kind = "gz_altimeter"
     type = GZ_ALTIMETER

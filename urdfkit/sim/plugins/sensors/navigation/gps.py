@@ -1,6 +1,6 @@
-"""GPS: gazebo_ros_gps_sensor of ROS 2, the new Gazebo's navsat and hector_gazebo_ros_gps, on WGS 84.
+"""GPS: gazebo_ros_gps_sensor of ROS 2, gz sim's navsat and hector_gazebo_ros_gps, on WGS 84.
 
-Noise is in metres along east, north and up; the new Gazebo's source adds the same numbers to degrees.
+Noise is in metres along east, north and up; gz sim's source adds the same numbers to degrees.
 """
 
 from collections.abc import Callable
@@ -100,7 +100,7 @@ class Gps(LinkSensor):
 
 
 class GzNavSat(Gps):
-    """Sensor of type navsat of the new Gazebo, which publishes without a plugin."""
+    """Sensor of type navsat of gz sim, which publishes without a plugin."""
 
     kind = "gz_navsat"
 

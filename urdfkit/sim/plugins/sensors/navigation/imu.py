@@ -150,7 +150,7 @@ class ImuSensor(PlainImu):
     def _errors(self, setup: Setup, element: Element | None, read: Parameters) -> None:
         if element is None:
             raise SimulationError(
-                "an IMU stands in a <sensor> of a link, and in none here", position=self.plugin.element.origin.position
+                "an IMU plugin must be in the <sensor> of a link", position=self.plugin.element.origin.position
             )
         self._relative = read.flag("initial_orientation")
         self._gyro, self._accelerometer = _written(element, setup.random)
@@ -162,7 +162,7 @@ class ImuSensor(PlainImu):
 
 
 class GzImu(PlainImu):
-    """IMU of the new Gazebo, which publishes without a plugin."""
+    """IMU of gz sim, which publishes without a plugin."""
 
     kind = "gz_imu"
     _relative = True

@@ -24,7 +24,7 @@ VECTOR = "geometry_msgs/msg/Vector3Stamped"
 
 
 class GzMagnetometer(OneTopic):
-    """Magnetometer of the new Gazebo: measures the world's ``<magnetic_field>`` [T]."""
+    """Magnetometer of gz sim: measures the world's ``<magnetic_field>`` [T]."""
 
     kind = "gz_magnetometer"
     type = MAGNETIC_FIELD
