@@ -212,8 +212,8 @@ def test_a_private_attribute_of_another_package_is_found(tmp_path: Path, use: st
 
 AMBIGUOUS = {
     *("Ground", "Surface"),  # of SDF, and of the engine
-    *("Frame", "Node", "Parameter", "Scope", "Tag", "TooLarge", "_Reader", "_Text"),  # of xacro, and others
-    *("Collision", "Fix", "Motion", "Ros2Control"),  # of descriptions, findings and commands, and of plugins
+    *("Node", "Scope", "Tag", "TooLarge"),  # of xacro, and others
+    *("Collision", "Fix", "Ros2Control"),  # of descriptions, findings and commands, and of plugins
 }
 """Names of classes that have two meanings."""
 

@@ -6,7 +6,7 @@ import numpy as np
 
 from urdfkit.linear_algebra import Array, matmul, vector_norm
 from urdfkit.sim.engine import Contact
-from urdfkit.sim.plugins.sensors.point_motion import Motion
+from urdfkit.sim.plugins.sensors.point_motion import PointMotion
 from urdfkit.sim.world.live_world import LiveWorld
 from urdfkit.sim.world.simulated_robot import SimulatedRobot
 
@@ -61,9 +61,9 @@ class _Motions:
             for link in robot.kinematics.link_names:
                 self._links[f"{robot.name}::{link}" if k else link] = robot, link
         self._free = world.builder.free_bodies
-        self._computed: dict[str, Motion | tuple[Array, Array]] = {}
+        self._computed: dict[str, PointMotion | tuple[Array, Array]] = {}
 
-    def of(self, name: str) -> Motion | tuple[Array, Array] | None:
+    def of(self, name: str) -> PointMotion | tuple[Array, Array] | None:
         if name not in self._computed:
             if name in self._links:
                 from urdfkit.sim.plugins.sensors.point_motion import KinematicSnapshot
@@ -78,7 +78,7 @@ class _Motions:
         return self._computed[name]
 
 
-def _at(motion: Motion | tuple[Array, Array], point: Array) -> Array:
+def _at(motion: PointMotion | tuple[Array, Array], point: Array) -> Array:
     """Return the velocity of a point that moves with a link or body [m/s]."""
     if isinstance(motion, tuple):
         origin, twist = motion

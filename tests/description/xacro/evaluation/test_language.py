@@ -11,7 +11,7 @@ import xacro
 from tests.description.xacro.evaluation.stock import by_stock_xacro
 from urdfkit.description.packages.resolver import Packages
 from urdfkit.description.xacro.evaluation.evaluator import Evaluator, is_identifier
-from urdfkit.description.xacro.evaluation.parameters import Parameter, parameters
+from urdfkit.description.xacro.evaluation.parameters import MacroParameter, parameters
 
 Write = Callable[[str, str], Path]
 
@@ -61,16 +61,16 @@ def test_a_file_expands(write: Write, text: str, expected: str) -> None:
 @pytest.mark.parametrize(
     ("text", "expected"),
     [
-        ("a b", [Parameter("a"), Parameter("b")]),
-        ("a:=1 *b", [Parameter("a", True, False, "1"), Parameter("*b")]),
-        ("a := 1", [Parameter("a", True, False, "1")]),
-        ("a:=^", [Parameter("a", True, True, None)]),
-        ("a:=^|${x + 1} b", [Parameter("a", True, True, "${x + 1}"), Parameter("b")]),
-        ("a:='x y' b", [Parameter("a", True, False, "'x y'"), Parameter("b")]),
-        ("a:=", [Parameter("a", True, False, None)]),
+        ("a b", [MacroParameter("a"), MacroParameter("b")]),
+        ("a:=1 *b", [MacroParameter("a", True, False, "1"), MacroParameter("*b")]),
+        ("a := 1", [MacroParameter("a", True, False, "1")]),
+        ("a:=^", [MacroParameter("a", True, True, None)]),
+        ("a:=^|${x + 1} b", [MacroParameter("a", True, True, "${x + 1}"), MacroParameter("b")]),
+        ("a:='x y' b", [MacroParameter("a", True, False, "'x y'"), MacroParameter("b")]),
+        ("a:=", [MacroParameter("a", True, False, None)]),
     ],
 )
-def test_parameters_are_read(text: str, expected: list[Parameter]) -> None:
+def test_parameters_are_read(text: str, expected: list[MacroParameter]) -> None:
     assert list(parameters(text)) == expected
 
 

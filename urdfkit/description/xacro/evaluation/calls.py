@@ -15,7 +15,7 @@ from urdfkit.description.xacro.evaluation.failures import (
     undefined_macro,
     undefined_property,
 )
-from urdfkit.description.xacro.evaluation.parameters import Parameter, parameters
+from urdfkit.description.xacro.evaluation.parameters import MacroParameter, parameters
 from urdfkit.description.xacro.evaluation.texts import visible
 from urdfkit.description.xacro.evaluation.tree import Tag
 from urdfkit.description.xacro.faults import MacroDefinition
@@ -36,7 +36,7 @@ class Macro:
 
     def __init__(self) -> None:
         self.body: Tag | None = None
-        self.parameters: list[Parameter] = []
+        self.parameters: list[MacroParameter] = []
 
 
 class Calls(Elements):

@@ -12,7 +12,7 @@ _WORD = re.compile(r"[^\s'\"]+").match
 
 
 @record
-class Parameter:
+class MacroParameter:
     """One parameter.
 
     Attributes:
@@ -28,7 +28,7 @@ class Parameter:
     default: str | None = None
 
 
-def parameters(text: str) -> Iterator[Parameter]:
+def parameters(text: str) -> Iterator[MacroParameter]:
     """Yield the parameters of a macro.
 
     Raises:
@@ -39,12 +39,12 @@ def parameters(text: str) -> Iterator[Parameter]:
         parsed = _default(text, found.end()) if found else None
         if found and parsed is not None:
             is_forwarded, default, text = parsed
-            yield Parameter(found[1], True, is_forwarded, default or None)
+            yield MacroParameter(found[1], True, is_forwarded, default or None)
             continue
         words = text.split(None, 1)
         if not words:
             raise ValueError("the list of parameters ends with white space")
-        yield Parameter(words[0])
+        yield MacroParameter(words[0])
         text = words[1] if len(words) > 1 else ""
 
 

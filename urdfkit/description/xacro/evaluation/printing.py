@@ -89,7 +89,7 @@ def _error(node: Node, message: str) -> XacroError:
 _TO_ESCAPE = re.compile(r'[&<>"\r\n\t]').search
 
 
-class _Text(list[str]):
+class _PrintedText(list[str]):
     """What minidom writes to."""
 
     write = list.append
@@ -99,7 +99,7 @@ def _escaped(text: str, *, attr: bool = False) -> str:
     """Return a text with the characters replaced that this version of Python's minidom replaces."""
     if not text or _TO_ESCAPE(text) is None:
         return text
-    parts = _Text()
+    parts = _PrintedText()
     write_data: Any = minidom._write_data  # type: ignore[attr-defined]
     try:
         write_data(parts, text, attr=attr)

@@ -41,10 +41,10 @@ def read_tree(source: Source, *, namespaces: bool = True) -> Tag:
         XmlError: it is not well-formed, or hostile.
     """
     parser = expat.ParserCreate(namespace_separator=" ") if namespaces else expat.ParserCreate()
-    return _Reader(source, parser).read(namespaces)
+    return _TreeReader(source, parser).read(namespaces)
 
 
-class _Reader:
+class _TreeReader:
     """Builds the tree of one file from the events of a parser."""
 
     def __init__(self, source: Source, parser: Any) -> None:

@@ -15,7 +15,7 @@ from urdfkit.errors import SimulationError, did_you_mean
 from urdfkit.linear_algebra import Array
 from urdfkit.sim.plugins.base import Sensor
 from urdfkit.sim.plugins.parameters import Parameters
-from urdfkit.sim.plugins.sensors.point_motion import KinematicSnapshot, Motion
+from urdfkit.sim.plugins.sensors.point_motion import KinematicSnapshot, PointMotion
 from urdfkit.sim.plugins.sensors.sensor_values import pose_of, rate_of
 from urdfkit.sim.plugins.setup import Setup
 from urdfkit.sim.plugins.topic_names import Topics
@@ -37,7 +37,7 @@ class Sample:
 
     t: float
     turn: int
-    motion: Motion
+    motion: PointMotion
     acceleration: Array
     random: np.random.Generator
 

@@ -10,7 +10,7 @@ from urdfkit.sim.state.robot_state import Snapshot, State
 
 
 @dataclass(frozen=True, eq=False)
-class Motion:
+class PointMotion:
     """Pose and velocity of a frame in the world.
 
     Attributes:
@@ -40,7 +40,7 @@ class KinematicSnapshot:
         self._snapshot: Snapshot = state.snapshot()
         self._v = state.v.copy()
 
-    def motion(self, link: str, mount: Array) -> Motion:
+    def motion(self, link: str, mount: Array) -> PointMotion:
         """Return the motion of a frame fixed to a link.
 
         Args:
@@ -58,6 +58,6 @@ class KinematicSnapshot:
         R = np.array(pin.Quaternion(pose[3:].copy()).matrix())
         angular = matmul(R, local.angular)
         arm = matmul(R, mount[:3, 3])
-        return Motion(
+        return PointMotion(
             matmul(R, mount[:3, :3]), pose[:3] + arm, matmul(R, local.linear) + np.cross(angular, arm), angular
         )

@@ -14,7 +14,7 @@ from urdfkit.description.xacro.evaluation.expressions.attributes import Attribut
 from urdfkit.description.xacro.evaluation.expressions.budget import SIZED, Budget
 from urdfkit.description.xacro.evaluation.expressions.formats import Formats
 from urdfkit.description.xacro.evaluation.expressions.limits import MAX_DEPTH, MAX_EXPRESSION, TooLarge
-from urdfkit.description.xacro.evaluation.expressions.loops import Frame, Loops, checked_name
+from urdfkit.description.xacro.evaluation.expressions.loops import LoopFrame, Loops, checked_name
 from urdfkit.description.xacro.evaluation.expressions.symbols import Namespace
 from urdfkit.description.xacro.evaluation.expressions.values import Function
 
@@ -22,7 +22,7 @@ TYPE_CHECKING = False
 if TYPE_CHECKING:
     from typing import Any
 
-    Compute = Callable[[Frame], Any]
+    Compute = Callable[[LoopFrame], Any]
 
 _UNARY: dict[type[ast.unaryop], Callable[[Any], Any]] = {
     ast.UAdd: operator.pos,
@@ -106,7 +106,7 @@ class Expressions(Loops):
             found = self._compiled[expression] = self.compile(expression.strip())
         compute, size = found
         self.budget.spend(size >> 4)
-        return self.budget.checked(compute(Frame(symbols)))
+        return self.budget.checked(compute(LoopFrame(symbols)))
 
     def compile(self, expression: str) -> tuple[Compute, int]:
         """Return a function that computes an expression, and the number of its parts.
@@ -164,8 +164,8 @@ class Expressions(Loops):
         if not any(name in names for names in self._bound):
             return lambda frame: symbol(frame.symbols, name)
 
-        def variable(frame: Frame) -> Any:
-            at: Frame | None = frame
+        def variable(frame: LoopFrame) -> Any:
+            at: LoopFrame | None = frame
             while at is not None:
                 if name in at.variables:
                     return at.variables[name]
@@ -178,7 +178,7 @@ class Expressions(Loops):
         owner, name, read = self._compute(node.value), checked_name(node.attr), self._attributes.read
         symbol = self.symbol
 
-        def attribute(frame: Frame) -> Any:
+        def attribute(frame: LoopFrame) -> Any:
             value = owner(frame)
             if isinstance(value, Namespace):
                 return symbol(value, name)
@@ -199,7 +199,7 @@ class Expressions(Loops):
         parts = [self._compute(value) for value in node.values]
         stops_at = isinstance(node.op, ast.Or)
 
-        def decide(frame: Frame) -> Any:
+        def decide(frame: LoopFrame) -> Any:
             value: Any = None
             for part in parts:
                 value = part(frame)
@@ -216,7 +216,7 @@ class Expressions(Loops):
         ]
         budget = self.budget
 
-        def compare(frame: Frame) -> Any:
+        def compare(frame: LoopFrame) -> Any:
             left, result = first(frame), None
             for operation, side in rest:
                 right = side(frame)
@@ -238,7 +238,7 @@ class Expressions(Loops):
     def _subscript(self, node: ast.Subscript) -> Compute:
         owner, index, budget = self._compute(node.value), self._compute(node.slice), self.budget
 
-        def item(frame: Frame) -> Any:
+        def item(frame: LoopFrame) -> Any:
             value, at = owner(frame), index(frame)
             if isinstance(value, Function):
                 raise TypeError(f"'{value.name}' object is not subscriptable")
@@ -257,7 +257,7 @@ class Expressions(Loops):
         named = [(keyword.arg, self._compute(keyword.value)) for keyword in node.keywords]
         call = self.call
 
-        def called(frame: Frame) -> Any:
+        def called(frame: LoopFrame) -> Any:
             target = function(frame)
             values = [args(frame)] if consumes else args(frame)
             if not named:
@@ -272,7 +272,7 @@ class Expressions(Loops):
 
         return called
 
-    def _items(self, nodes: list[ast.expr]) -> Callable[[Frame], list[Any]]:
+    def _items(self, nodes: list[ast.expr]) -> Callable[[LoopFrame], list[Any]]:
         """Return a function that computes the items of a display or the arguments of a call."""
         if not any(isinstance(node, ast.Starred) for node in nodes):
             parts = [self._compute(node) for node in nodes]
@@ -283,7 +283,7 @@ class Expressions(Loops):
         ]
         each = self.budget.each
 
-        def items(frame: Frame) -> list[Any]:
+        def items(frame: LoopFrame) -> list[Any]:
             found: list[Any] = []
             for part, is_starred in mixed:
                 if is_starred:
@@ -305,7 +305,7 @@ class Expressions(Loops):
         ]
         checked = self.budget.checked
 
-        def display(frame: Frame) -> Any:
+        def display(frame: LoopFrame) -> Any:
             found: dict[Any, Any] = {}
             for key, value in pairs:
                 if key is None:

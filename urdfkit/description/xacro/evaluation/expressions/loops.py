@@ -14,15 +14,15 @@ TYPE_CHECKING = False
 if TYPE_CHECKING:
     from typing import Any
 
-    Compute = Callable[["Frame"], Any]
+    Compute = Callable[["LoopFrame"], Any]
 
 
-class Frame:
+class LoopFrame:
     """The names an expression can see: the scope, and the variables of loops and functions around."""
 
     __slots__ = ("outer", "symbols", "variables")
 
-    def __init__(self, symbols: Any, outer: Frame | None = None) -> None:
+    def __init__(self, symbols: Any, outer: LoopFrame | None = None) -> None:
         self.symbols, self.outer = symbols, outer
         self.variables: dict[str, Any] = {}
 
@@ -45,7 +45,7 @@ class Loops:
     def _assignment(self, node: ast.NamedExpr) -> Compute:
         name, value, nested = checked_name(node.target.id), self._compute(node.value), bool(self._bound)
 
-        def assign(frame: Frame) -> Any:
+        def assign(frame: LoopFrame) -> Any:
             result = value(frame)
             if not isinstance(frame.symbols, Scope):
                 raise TypeError("$(eval …) does not support assignment")
@@ -69,13 +69,13 @@ class Loops:
         self._bound.pop()
         cost = 1 + (self._size - start >> 4)
 
-        def function(frame: Frame) -> Any:
+        def function(frame: LoopFrame) -> Any:
             by_default = dict(
                 zip(names[len(names) - len(defaults) :], [value(frame) for value in defaults], strict=True)
             )
 
             def call(*values: Any, **named: Any) -> Any:
-                inner = Frame(frame.symbols, frame)
+                inner = LoopFrame(frame.symbols, frame)
                 inner.variables = _arguments(names, by_default, values, named)
                 self.budget.spend(cost)
                 if self._calls >= MAX_CALLS_DEEP:
@@ -90,7 +90,7 @@ class Loops:
 
         return function
 
-    def _generator(self, node: ast.GeneratorExp | ast.ListComp | ast.SetComp) -> Callable[[Frame], Iterator[Any]]:
+    def _generator(self, node: ast.GeneratorExp | ast.ListComp | ast.SetComp) -> Callable[[LoopFrame], Iterator[Any]]:
         return self._loop(node.generators, [node.elt], lambda frame, parts: parts[0](frame))
 
     def _collected(
@@ -104,8 +104,8 @@ class Loops:
         return lambda frame: checked(dict(run(frame)))
 
     def _loop(
-        self, generators: list[ast.comprehension], results: list[ast.expr], result: Callable[[Frame, Any], Any]
-    ) -> Callable[[Frame], Iterator[Any]]:
+        self, generators: list[ast.comprehension], results: list[ast.expr], result: Callable[[LoopFrame, Any], Any]
+    ) -> Callable[[LoopFrame], Iterator[Any]]:
         outermost = self._compute(generators[0].iter)
         bound: set[str] = set()
         self._bound.append(bound)
@@ -114,7 +114,7 @@ class Loops:
                 raise SyntaxError("asynchronous loops are not supported in expressions")
             bound.update(child.id for child in ast.walk(generator.target) if isinstance(child, ast.Name))
         start = self._size
-        steps: list[tuple[Compute | None, Callable[[Frame, Any], None], list[Compute]]] = []
+        steps: list[tuple[Compute | None, Callable[[LoopFrame, Any], None], list[Compute]]] = []
         for number, generator in enumerate(generators):
             items = self._compute(generator.iter) if number else None
             steps.append((items, self._target(generator.target), [self._compute(test) for test in generator.ifs]))
@@ -123,7 +123,7 @@ class Loops:
         cost = 1 + (self._size - start >> 4)
         spend = self.budget.spend
 
-        def turn(frame: Frame, number: int, items: Any) -> Iterator[Any]:
+        def turn(frame: LoopFrame, number: int, items: Any) -> Iterator[Any]:
             _, store, tests = steps[number]
             for item in items:
                 spend(cost)
@@ -135,9 +135,9 @@ class Loops:
                 else:
                     yield from turn(frame, number + 1, steps[number + 1][0](frame))  # type: ignore[misc]
 
-        return lambda frame: turn(Frame(frame.symbols, frame), 0, outermost(frame))
+        return lambda frame: turn(LoopFrame(frame.symbols, frame), 0, outermost(frame))
 
-    def _target(self, node: ast.expr) -> Callable[[Frame, Any], None]:
+    def _target(self, node: ast.expr) -> Callable[[LoopFrame, Any], None]:
         """Return a function that stores an item in the variables of a loop."""
         if isinstance(node, ast.Name):
             name = checked_name(node.id)
@@ -146,7 +146,7 @@ class Loops:
             raise SyntaxError("loops assign to names only")
         targets = [self._target(part) for part in node.elts]
 
-        def unpack(frame: Frame, value: Any) -> None:
+        def unpack(frame: LoopFrame, value: Any) -> None:
             values = list(self.budget.each(value))
             if len(values) != len(targets):
                 few = "not enough" if len(values) < len(targets) else "too many"
@@ -157,7 +157,7 @@ class Loops:
         return unpack
 
 
-def _pair(frame: Frame, parts: list[Compute]) -> tuple[Any, Any]:
+def _pair(frame: LoopFrame, parts: list[Compute]) -> tuple[Any, Any]:
     key, value = parts
     return key(frame), value(frame)
 

@@ -13,7 +13,7 @@ import numpy as np
 from urdfkit.description.urdf.robot import Robot
 from urdfkit.linear_algebra import Array, matmul
 from urdfkit.scene.placement import pose_matrix
-from urdfkit.sim.plugins.sensors.point_motion import Motion
+from urdfkit.sim.plugins.sensors.point_motion import PointMotion
 
 Wrench = tuple[Array, Array]
 """Force [N] and torque [N·m], along the world's axes."""
@@ -59,7 +59,7 @@ def lumps_of(robot: Robot, links: Sequence[str]) -> tuple[Lump, ...]:
     return tuple(found)
 
 
-def momentum(lumps: Sequence[Lump], motions: Sequence[Motion], about: Array) -> Wrench:
+def momentum(lumps: Sequence[Lump], motions: Sequence[PointMotion], about: Array) -> Wrench:
     """Return linear momentum [kg·m/s] and angular momentum [kg·m²/s] about a fixed point.
 
     Args:
@@ -76,7 +76,7 @@ def momentum(lumps: Sequence[Lump], motions: Sequence[Motion], about: Array) -> 
     return linear, angular
 
 
-def weight(lumps: Sequence[Lump], motions: Sequence[Motion], gravity: Array, about: Array) -> Wrench:
+def weight(lumps: Sequence[Lump], motions: Sequence[PointMotion], gravity: Array, about: Array) -> Wrench:
     """Return the wrench of gravity on links, about a point.
 
     Args:

@@ -13,7 +13,7 @@ from urdfkit.linear_algebra import matmul
 from urdfkit.messages import ODOMETRY, header, message_type, twist
 from urdfkit.sim.plugins.base import Sensor
 from urdfkit.sim.plugins.parameters import Parameters
-from urdfkit.sim.plugins.sensors.point_motion import KinematicSnapshot, Motion
+from urdfkit.sim.plugins.sensors.point_motion import KinematicSnapshot, PointMotion
 from urdfkit.sim.plugins.setup import Setup
 from urdfkit.sim.plugins.topic_names import Topics
 from urdfkit.sim.state.quaternion import from_matrix, from_rpy, product
@@ -66,7 +66,7 @@ class P3d(Sensor):
         """Publish the measurement of this state."""
         self.topics[0].offer(partial(self._message, KinematicSnapshot(self._kinematics, state), self.done), count=count)
 
-    def _seen_from_there(self, now: KinematicSnapshot, motion: Motion) -> Motion:
+    def _seen_from_there(self, now: KinematicSnapshot, motion: PointMotion) -> PointMotion:
         """Return a motion relative to the reference frame."""
         if self._frame in WORLD:
             return motion
@@ -74,7 +74,7 @@ class P3d(Sensor):
         back, arm = there.rotation.T, motion.position - there.position
         # Velocity of a moving point in a rotating frame.
         linear = motion.linear - there.linear - np.cross(there.angular, arm)
-        return Motion(
+        return PointMotion(
             matmul(back, motion.rotation),
             matmul(back, arm),
             matmul(back, linear),
