@@ -12,7 +12,6 @@ import pytest
 from tests.robot_content import content
 from urdfkit.description.urdf.parser import parse
 from urdfkit.description.xacro.memory import Memory
-from urdfkit.description.xml.element import Element
 from urdfkit.description.xml.reader import document_of
 from urdfkit.description.xml.source import Source
 from urdfkit.errors import XmlError
@@ -108,12 +107,6 @@ def test_random_edits_are_seen_as_a_fresh_look_sees_them(name: str) -> None:
             assert seen(analysis.model, analysis.findings) == seen(model, merged(found.findings))
 
 
-def reread(memory: Memory, source: Source) -> Element:
-    root = document_of(source)
-    memory.settle(root)
-    return root
-
-
 @pytest.mark.parametrize("seed", range(20))
 def test_a_plain_text_is_remembered_as_it_is_read(seed: int) -> None:
     dice = random.Random(seed)
@@ -125,23 +118,23 @@ def test_a_plain_text_is_remembered_as_it_is_read(seed: int) -> None:
             wanted = document_of(source)
         except XmlError:
             continue
-        got = reread(memory, source)
+        got = memory.element(source)
         assert [(repr(e), e.origin) for e in got.walk()] == [(repr(e), e.origin) for e in wanted.walk()]
         assert content(parse(got, known=memory.parts)) == content(parse(wanted))
 
 
 def test_what_is_not_edited_is_the_same_object() -> None:
     memory = Memory()
-    before = reread(memory, Source("a.urdf", PLAIN))
-    after = reread(memory, Source("a.urdf", PLAIN.replace('value="1"', 'value="2"')))
+    before = memory.element(Source("a.urdf", PLAIN))
+    after = memory.element(Source("a.urdf", PLAIN.replace('value="1"', 'value="2"')))
     assert [a is b for a, b in zip(before.children, after.children, strict=True)] == [True, False, True]
     assert after.children[1].find("inertial").find("mass").get("value") == "2"  # type: ignore[union-attr]
 
 
 def test_an_edit_that_moves_lines_is_read_as_a_whole(tmp_path: Path) -> None:
     memory = Memory()
-    reread(memory, Source("a.urdf", PLAIN))
+    memory.element(Source("a.urdf", PLAIN))
     moved = PLAIN.replace('<link name="a"/>', '<link\n name="a"/>')
-    assert [e.origin for e in reread(memory, Source("a.urdf", moved)).walk()] == [
+    assert [e.origin for e in memory.element(Source("a.urdf", moved)).walk()] == [
         e.origin for e in document_of(Source("a.urdf", moved)).walk()
     ]

@@ -79,12 +79,10 @@ def expand_leniently(
     if is_xacro(path) if run_xacro is None else run_xacro:
         from urdfkit.description.xacro.evaluation.recovery import expand_with_recovery
 
-        expanded = expand_with_recovery(str(path), arguments or {}, packages, add_prefixes=add_prefixes, texts=texts)
-    else:
-        expanded = _read_plain_leniently(path, packages, texts)
-    if memory is not None:
-        memory.settle(expanded.root)
-    return expanded
+        return expand_with_recovery(
+            str(path), arguments or {}, packages, add_prefixes=add_prefixes, texts=texts, memory=memory
+        )
+    return _read_plain_leniently(path, packages, texts, memory)
 
 
 def is_xacro(path: str | Path) -> bool:
@@ -92,11 +90,13 @@ def is_xacro(path: str | Path) -> bool:
     return not str(path).lower().endswith(".urdf")
 
 
-def _read_plain(path: str | Path, packages: Packages, texts: Mapping[str, str] | None = None) -> Expanded:
+def _read_plain(
+    path: str | Path, packages: Packages, texts: Mapping[str, str] | None = None, memory: Memory | None = None
+) -> Expanded:
     source = read_source(Path(path), shown_as=shown_path(path), texts=texts)
     return Expanded(
         path=Path(path),
-        root=document_of(source),
+        root=document_of(source) if memory is None else memory.element(source),
         files=(absolute(path),),
         sources={source.file: source},
         packages=packages,
@@ -104,11 +104,13 @@ def _read_plain(path: str | Path, packages: Packages, texts: Mapping[str, str] |
     )
 
 
-def _read_plain_leniently(path: str | Path, packages: Packages, texts: Mapping[str, str] | None) -> Expanded:
+def _read_plain_leniently(
+    path: str | Path, packages: Packages, texts: Mapping[str, str] | None, memory: Memory | None
+) -> Expanded:
     from urdfkit.description.xacro.faults import Fault
 
     try:
-        return _read_plain(path, packages, texts)
+        return _read_plain(path, packages, texts, memory)
     except XmlError as error:
         if error.position is None:
             raise

@@ -32,10 +32,14 @@ class Commands:
         expressions: evaluates ``$(eval …)``.
         arguments: values of ``$(arg …)``; ``<xacro:arg>`` adds defaults to it.
         find: returns the folder of a package.
+
+    Attributes:
+        log: the values of commands that were evaluated; None if there is none, or it may change.
     """
 
     def __init__(self, expressions: Expressions, arguments: dict[str, str], find: Callable[[str], str]) -> None:
         self._expressions, self.arguments, self._find = expressions, arguments, find
+        self.log: dict[str, Any] = {}
         self._names: dict[str, Any] | None = None
         self._builtins: dict[str, Any] = {}
 
@@ -46,6 +50,8 @@ class Commands:
             Failure: an argument has no value.
             ValueError: it is not a command.
         """
+        if command == "cwd" or command.startswith("eval "):
+            self.log[command] = None
         if command == "cwd":
             return str(Path.cwd())
         text = f"$({command})"
@@ -58,11 +64,23 @@ class Commands:
                 if words[0] not in _COMMANDS:
                     raise ValueError(f"Unknown substitution command [{content}]. Valid commands are {list(_COMMANDS)}")
                 if words[0] in commands:
-                    resolved = resolved.replace(f"$({content})", str(self._value(content, words[0], words[1:])))
+                    resolved = resolved.replace(f"$({content})", str(self.value(content)))
                     if len(resolved) > MAX_CHARACTERS:
                         raise excess("a text", MAX_CHARACTERS, "characters")
             text = resolved
         return text
+
+    def value(self, content: str) -> Any:
+        """Return the value of ``find …``, ``arg …`` and the like.
+
+        Raises:
+            Failure: it has none.
+            ValueError: its words are not those of such a command.
+        """
+        command, *words = [word for word in content.split(" ") if word]
+        self.log[content] = None
+        value = self.log[content] = self._value(content, command, words)
+        return value
 
     def _value(self, content: str, command: str, words: list[str]) -> Any:
         if command == "dirname":

@@ -13,7 +13,6 @@ from contextlib import contextmanager
 from pathlib import Path
 from types import MappingProxyType
 
-from urdfkit.description.xacro.evaluation.calls import Calls
 from urdfkit.description.xacro.evaluation.expressions.limits import MAX_MACRO_DEPTH, MAX_PROPERTY_DEPTH
 from urdfkit.description.xacro.evaluation.expressions.symbols import Namespace, Scope
 from urdfkit.description.xacro.evaluation.failures import (
@@ -24,8 +23,10 @@ from urdfkit.description.xacro.evaluation.failures import (
     short,
     undefined_block,
 )
+from urdfkit.description.xacro.evaluation.reuse import Reuse
 from urdfkit.description.xacro.evaluation.tree import COMMENT, MORE, TEXT, Node, Tag, element_of
 from urdfkit.description.xacro.expanded import Expanded
+from urdfkit.description.xacro.memory import Memory, Root
 from urdfkit.errors import XmlError
 
 TYPE_CHECKING = False
@@ -38,7 +39,7 @@ if TYPE_CHECKING:
     from urdfkit.description.xml.source import Position
 
 
-class Evaluator(Calls):
+class Evaluator(Reuse):
     """One expansion of one file.
 
     Args:
@@ -46,6 +47,7 @@ class Evaluator(Calls):
         arguments: values of ``$(arg …)``.
         packages: resolves ``$(find …)``.
         texts: contents to read instead of those on disk, by absolute path.
+        memory: what earlier expansions of the file read.
 
     Attributes:
         properties: where each property was defined (the last definition).
@@ -61,8 +63,10 @@ class Evaluator(Calls):
         packages: Packages,
         *,
         texts: Mapping[str, str] | None = None,
+        memory: Memory | None = None,
     ) -> None:
         super().__init__(path, arguments, packages, texts=texts)
+        self._memory = memory
         self._separator = Node(TEXT, "\n\n")
         self.macros, self._stack = {}, []
         self.properties: dict[str, Position] = {}
@@ -148,8 +152,11 @@ class Evaluator(Calls):
         """Evaluate the attributes of an element and all below it."""
         if tag.work < MORE:
             self._values(tag, scope)
-            return
+            return iter(())
         self._attributes(tag, scope)
+        return self._remembered(tag, macros, scope) if type(tag) is Root else self._below(tag, macros, scope)
+
+    def _below(self, tag: Tag, macros: Scope, scope: Scope) -> Steps:
         node = tag.first
         evaluates_comments = False
         while node is not None:
@@ -301,9 +308,10 @@ class Evaluator(Calls):
         is_lazy = self._boolean(self.text(lazy or "true", scope), lazy)
         target: Any = scope
         if reach == "global":
+            self.untraced += 1
             target, is_lazy = scope.top(), False
         elif reach == "parent":
-            target, is_lazy = scope.parent, False
+            target, is_lazy = scope.outer, False
             if not isinstance(scope, Namespace):
                 while isinstance(target, Namespace):
                     target = target.parent
@@ -316,6 +324,7 @@ class Evaluator(Calls):
         target.set(name, stored, is_lazy=is_lazy)
 
     def _argument(self, node: Tag, macros: Scope, scope: Scope) -> None:
+        self.untraced += 1
         name, default = self._checked(node, ("name", "default"), ())
         if name not in self.commands.arguments:
             self.at = (node, "default")

@@ -40,6 +40,7 @@ class Files(Texts):
         sources: the text of every XML file that was read, by the name shown.
         file_stack: the files that are open, outermost first.
         warnings: of directives, and messages of the file.
+        untraced: how often something was read or done that a memory cannot repeat.
         globals: the names that every expression can use.
     """
 
@@ -53,11 +54,11 @@ class Files(Texts):
         self.sources: dict[str, Source] = {}
         self.file_stack: list[str] = [path]
         self.warnings: list[Warned] = []
-        self._opened = 0
+        self._opened = self.untraced = 0
         host: dict[str, Any] = {
             "load_yaml": self._load_yaml,
             "abs_filename": self._absolute,
-            "arg": self.commands.argument,
+            "arg": self._argument_value,
             "message": lambda *words, **_: self._record_message("message", words),
             "warning": lambda *words, **_: self._record_message("warning", words),
             "error": lambda *words, **_: self._record_message("error", words),
@@ -88,6 +89,9 @@ class Files(Texts):
         source = self.sources.get(shown)
         if source is None:
             source = self.sources[shown] = read_source(path, shown_as=shown, texts=self._texts)
+        return self._document(source)
+
+    def _document(self, source: Source) -> Tag:
         return self._read(source)
 
     def _read(self, source: Source) -> Tag:
@@ -164,6 +168,7 @@ class Files(Texts):
         return printed(document, self.path)
 
     def _absolute(self, name: str) -> str:
+        self.untraced += 1
         folder = os.path.dirname(self.file_stack[-1])  # noqa: PTH120 - the text that stock xacro makes
         path = os.path.join(folder, name)  # noqa: PTH118
         check_length(path)
@@ -187,6 +192,10 @@ class Files(Texts):
         finally:
             self.file_stack.pop()
 
+    def _argument_value(self, name: str) -> str:
+        self.untraced += 1
+        return self.commands.argument(name)
+
     def _find(self, name: str) -> str:
         try:
             return str(self.packages.find(name))
@@ -194,6 +203,7 @@ class Files(Texts):
             raise Failure("package-not-found", error.message, name=name) from None
 
     def _record_message(self, level: Any, words: tuple[object, ...]) -> str:
+        self.untraced += 1
         tag, _ = self.at
         position = tag.position if tag is not None else Position(shown_path(self.path), 1, 1)
         self.warnings.append(Warned(" ".join(map(str, words)), position, tag.chain if tag is not None else (), level))

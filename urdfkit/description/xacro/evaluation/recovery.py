@@ -15,12 +15,14 @@ from urdfkit.description.xacro.evaluation.evaluator import Evaluator, deep_calls
 from urdfkit.description.xacro.evaluation.expressions.limits import MAX_CHARACTERS, MAX_EXPRESSIONS
 from urdfkit.description.xacro.evaluation.expressions.symbols import Scope
 from urdfkit.description.xacro.evaluation.failures import Failure, definition, undefined_property
+from urdfkit.description.xacro.evaluation.reuse import MixedContent
 from urdfkit.description.xacro.evaluation.texts import EXPRESSION, visible
 from urdfkit.description.xacro.evaluation.tree import Tag, element_of
 from urdfkit.description.xacro.evaluation.tree_reader import read_tree
 from urdfkit.description.xacro.evaluation.unknown_values import Arguments, Recorded, Unknown
 from urdfkit.description.xacro.expanded import Expanded
 from urdfkit.description.xacro.faults import Fault, Unprefixed
+from urdfkit.description.xacro.memory import Memory
 from urdfkit.description.xacro.missing_prefix import add_missing_prefixes, looks_like_a_call, rename
 from urdfkit.description.xacro.misspelt_directives import repair_spelling
 from urdfkit.description.xml.reader import shown_path
@@ -46,6 +48,7 @@ def expand_with_recovery(
     *,
     add_prefixes: bool,
     texts: Mapping[str, str] | None = None,
+    memory: Memory | None = None,
 ) -> Expanded:
     """Expand a file as far as possible; the failures are in `Expanded.faults`.
 
@@ -55,13 +58,30 @@ def expand_with_recovery(
         packages: resolves ``$(find …)``.
         add_prefixes: read directives and macro calls without ``xacro:`` as if they had it.
         texts: contents to read instead of those on disk, by absolute path.
+        memory: what earlier expansions of the file read.
 
     Raises:
         ResourceError: the file cannot be read.
     """
+    try:
+        return _expanded(path, arguments, packages, add_prefixes, texts, memory)
+    except MixedContent:
+        return _expanded(path, arguments, packages, add_prefixes, texts, None)
+
+
+def _expanded(
+    path: str,
+    arguments: Mapping[str, str],
+    packages: Packages,
+    add_prefixes: bool,
+    texts: Mapping[str, str] | None,
+    memory: Memory | None,
+) -> Expanded:
     late = LateDefinitions()
     for number in range(_PASSES):
-        evaluator = RecoveringEvaluator(path, arguments, packages, late, add_prefixes=add_prefixes, texts=texts)
+        evaluator = RecoveringEvaluator(
+            path, arguments, packages, late, add_prefixes=add_prefixes, texts=texts, memory=memory
+        )
         evaluator.run_all()
         if number == _PASSES - 1 or not evaluator.learn():
             break
@@ -91,7 +111,10 @@ class RecoveringEvaluator(Evaluator):
         late: definitions that earlier passes found.
         add_prefixes: read directives and macro calls without ``xacro:`` as if they had it.
         texts: contents to read instead of those on disk, by absolute path.
+        memory: what earlier expansions of the file read.
     """
+
+    _collections = (*Evaluator._collections, "_uncalled")
 
     def __init__(
         self,
@@ -102,8 +125,9 @@ class RecoveringEvaluator(Evaluator):
         *,
         add_prefixes: bool,
         texts: Mapping[str, str] | None = None,
+        memory: Memory | None = None,
     ) -> None:
-        super().__init__(path, arguments, packages, texts=texts)
+        super().__init__(path, arguments, packages, texts=texts, memory=memory)
         self._late, self._adds_prefixes = late, add_prefixes
         self.commands.arguments = Arguments(arguments)
         self.expressions.symbol = self._symbol
@@ -190,11 +214,13 @@ class RecoveringEvaluator(Evaluator):
             self._keep(fault)
 
     def _keep(self, fault: Fault) -> None:
+        self.untraced += 1
         key = (fault.kind, fault.position, fault.attribute, fault.name, fault.message, fault.expansions)
         self._faults.setdefault(key, fault)
 
     def _recovers(self, failure: Failure | XmlError, node: Tag) -> bool:
         """Record a failure and drop its element, unless the element that a person wrote is further out."""
+        self.untraced += 1
         if isinstance(failure, Failure):
             if failure.loop == "file":
                 files = [shown_path(file) for file in self.file_stack]
@@ -213,6 +239,15 @@ class RecoveringEvaluator(Evaluator):
 
     def _has_unknown_attribute(self, node: Tag) -> bool:
         return any((node.position, name) in self._unresolved for name in node.attributes)
+
+    # Reuse
+
+    def _can_repeat(self) -> bool:
+        late = self._late
+        return not (late.properties or late.macros or self._loops or self._exceeded or self._is_exhausted)
+
+    def _is_clean(self, document: Tag) -> bool:
+        return not (self._adds_prefixes and (any(repair_spelling(document)) or any(add_missing_prefixes(document))))
 
     # Values
 
@@ -234,6 +269,7 @@ class RecoveringEvaluator(Evaluator):
         if type(value) is Unknown and not self.resolving:
             tag, attribute = self.at
             if tag is not None:
+                self.untraced += 1
                 self._unresolved.add((tag.position, attribute))
         return value
 
@@ -309,6 +345,7 @@ class RecoveringEvaluator(Evaluator):
             for fault in repair_spelling(document):
                 self._keep(fault)
             for unprefixed in add_missing_prefixes(document):
+                self.untraced += 1
                 self._unprefixed.setdefault(unprefixed)
         return document
 
@@ -330,6 +367,7 @@ class RecoveringEvaluator(Evaluator):
             if macro is None:
                 self._uncalled.add(node.tag)
             elif looks_like_a_call(node, [parameter.name for parameter in macro.parameters]):
+                self.untraced += 1
                 self._unprefixed.setdefault(Unprefixed("call", node.tag, node.position, node.chain))
                 rename(node)
         return super()._child(node, macros, scope)

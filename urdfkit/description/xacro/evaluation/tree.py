@@ -262,6 +262,20 @@ class Copy(Tag):
         self._last = node
 
 
+class Made(Tag):
+    """Stands for elements that are expanded already.
+
+    Attributes:
+        elements: the elements; nested less than half as deep as is allowed.
+    """
+
+    __slots__ = ("elements",)
+
+    def __init__(self, elements: list[Element], position: Position) -> None:
+        super().__init__("", {}, position, ())
+        self.elements = elements
+
+
 def expressions_of(tag: Tag) -> list[tuple[Position, str | None, str]]:
     """Return the texts with expressions in an element and below, in order: element, attribute and text."""
     found = tag.expressions
@@ -296,7 +310,12 @@ def element_of(tag: Tag, depth: int = 0) -> Element:
     text = ""
     child = tag.first
     while child is not None:
-        if isinstance(child, Tag):
+        if type(child) is Made:
+            if depth >= MAX_MADE_DEPTH // 2:
+                for element in child.elements:
+                    _check_all(element, depth + 1)
+            children += child.elements
+        elif isinstance(child, Tag):
             children.append(element_of(child, depth + 1))
         elif child.kind == TEXT or child.kind == CDATA:
             text += child.data
@@ -333,3 +352,9 @@ def _content(tag: Tag) -> tuple[str | None, list[Tag]]:
     texts = [child.data for child in tag.children() if child.kind == TEXT or child.kind == CDATA]
     text = "".join(texts)
     return None if "$" in text else text.strip(), list(tag.tags())
+
+
+def _check_all(element: Element, depth: int) -> None:
+    check_depth(depth, element.origin.position)
+    for child in element.children:
+        _check_all(child, depth + 1)

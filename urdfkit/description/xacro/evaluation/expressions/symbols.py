@@ -95,6 +95,11 @@ class Scope:
             scope.values.pop(name, None)
             scope = scope.parent
 
+    @property
+    def outer(self) -> Any:
+        """The scope around it, or the global names."""
+        return self.parent
+
     def top(self) -> Scope:
         """Return the outermost scope: that of the file that is expanded."""
         scope = self
