@@ -45,6 +45,8 @@ class Rule:
         fix: ``safe`` if ``--fix`` fixes its findings, ``unsafe`` if ``--unsafe-fixes`` is needed, else ``none``.
         not_for: targets that the rule does not apply to.
         only_for: if not empty, the only targets the rule applies to; such a rule does not run without ``--target``.
+        checks_each_alone: whether it finds something in a child of the root element exactly if it finds something in a
+            robot that has no other links and joints; see `urdfkit.lint.engine.clean_elements`.
     """
 
     code: ClassVar[str]
@@ -53,6 +55,7 @@ class Rule:
     fix: ClassVar[Literal["safe", "unsafe", "none"]] = "none"
     not_for: ClassVar[frozenset[str]] = frozenset()
     only_for: ClassVar[tuple[str, ...]] = ()
+    checks_each_alone: ClassVar[bool] = False
 
     def at(
         self,

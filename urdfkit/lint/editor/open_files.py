@@ -9,6 +9,7 @@ from urdfkit.description.packages.resolver import Packages
 from urdfkit.description.xacro.memory import Memory
 from urdfkit.errors import UrdfkitError, bug
 from urdfkit.lint.engine.checker import Checker, model_of
+from urdfkit.lint.engine.clean_elements import CleanElements
 from urdfkit.lint.engine.run import merged
 from urdfkit.lint.finding import Finding
 from urdfkit.lint.model.model import Model
@@ -53,7 +54,7 @@ class Project:
         self._last: dict[Entry, Model] = {}
         self._checker: Checker | None = None
         self._packages = Packages(options.package_path)
-        self._memories: dict[Entry, Memory] = {}
+        self._memories: dict[Entry, tuple[Memory, CleanElements]] = {}
 
     def set_text(self, path: Path, text: str | None) -> None:
         """Set the editor's text of a file; None to read the file from disk again."""
@@ -135,7 +136,7 @@ class Project:
                     self._checker = Checker(options, keep_going=True)
                 checker = self._checker
                 checker.options, checker.packages = options, self._packages
-                checker.memory = self._memories.setdefault(entry, Memory())
+                checker.memory, checker.clean = self._memories.setdefault(entry, (Memory(), CleanElements()))
                 checker.sources.clear()
                 found, model = checker.examine(entry)
                 files = {name: Path(path) for name, path in found.files.items()}

@@ -20,20 +20,29 @@ from urdfkit.lint.rules import fault_rules, related_file_rules, robot_rules, sou
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
+    from collections.abc import Callable, Iterable, Iterator
     from typing import Any
 
     from urdfkit.description.urdf.robot import Robot
     from urdfkit.description.xacro.memory import Memory
     from urdfkit.description.xml.source import Source
     from urdfkit.lint.engine.cache import Cache
+    from urdfkit.lint.engine.clean_elements import CleanElements
     from urdfkit.lint.facts.suppressions import Suppression
+    from urdfkit.lint.model.placement import Extent
 
 _EVERYWHERE = ("xml", "encoding", "misspelt-directive", "directive-attribute", "too-large", "too-many")
 """Fault kinds reported in included files too; other faults may come from definitions in the including file."""
 
 
-def model_of(path: Path, options: Options, *, packages: Packages | None = None, memory: Memory | None = None) -> Model:
+def model_of(
+    path: Path,
+    options: Options,
+    *,
+    packages: Packages | None = None,
+    memory: Memory | None = None,
+    extents: dict[Element, Extent] | None = None,
+) -> Model:
     """Expand a file with error recovery and parse the robot in it.
 
     Args:
@@ -41,6 +50,7 @@ def model_of(path: Path, options: Options, *, packages: Packages | None = None, 
         options: how to expand it.
         packages: package resolver; by default for packages near the file and in the environment.
         memory: parsed files of earlier calls.
+        extents: see `Model.known_extents`.
 
     Raises:
         ResourceError: the file cannot be read.
@@ -68,7 +78,8 @@ def model_of(path: Path, options: Options, *, packages: Packages | None = None, 
         raise ModelError(f"<{root.tag}> is not a robot description", position=root.origin.position)
     parsed = memory.parts if memory is not None else None
     robot = parse(root if root is not None else _empty_root(path), known=parsed)
-    return Model(expanded, robot, family_of(options.target), as_written, release_of(options.target), options.texts)
+    target, release = family_of(options.target), release_of(options.target)
+    return Model(expanded, robot, target, as_written, release, options.texts, extents if extents is not None else {})
 
 
 class Checker:
@@ -83,6 +94,7 @@ class Checker:
     def __init__(self, options: Options, *, cached: bool = False, keep_going: bool = False) -> None:
         self.options, self.keep_going = options, keep_going
         self.memory: Memory | None = None
+        self.clean: CleanElements | None = None
         self.sources: dict[str, Source] = {}
         self.packages = Packages(options.package_path)
         self.foreign = _third_party()
@@ -138,7 +150,8 @@ class Checker:
             if guessed.target is not None and guessed.manifest is not None:
                 options = Options(**{**options.__dict__, "target": guessed.target})
                 note = f"linted for {guessed.target}: {guessed.manifest.parent.name} {guessed.why}"
-        model = model_of(entry.path, options, packages=self.packages.near_file(entry.path), memory=self.memory)
+        packages, extents = self.packages.near_file(entry.path), self.clean.extents if self.clean is not None else None
+        model = model_of(entry.path, options, packages=packages, memory=self.memory, extents=extents)
         self.sources.update(model.expanded.sources)
         self._failures: list[str] = []
         findings = list(self._run_source_rules(model))
@@ -146,9 +159,12 @@ class Checker:
         if model.expanded.root is not None and not entry.is_library:
             foreign = [rule for rule in self.foreign if issubclass(rule, RobotRule)]
             outside = related_file_rules() if model.related_files else ()
-            for rule in (*robot_rules(model.robot, model.target), *outside, *foreign):
+            if self.clean is not None:
+                self.clean.begin(model)
+            known = self.clean.features if self.clean is not None else None
+            for rule in (*robot_rules(model.robot, model.target, known), *outside, *foreign):
                 if self._applies(rule, model.target):
-                    findings += self._run(rule, entry.path, model)
+                    findings += self._run_robot_rule(rule, entry.path, model)
         used: tuple[tuple[str, str], ...] = ()
         unused: tuple[tuple[str, tuple[str, ...]], ...] = ()
         if any("urdfkit:" in source.text for source in model.expanded.sources.values()):
@@ -181,6 +197,15 @@ class Checker:
             for rule in rules:
                 if rule.claims(fault) and self._applies(type(rule), model.target):
                     yield from self._run(type(rule), entry.path, fault, model)
+
+    def _run_robot_rule(self, rule: type[Any], file: Path, model: Model) -> Iterable[Finding]:
+        if self.clean is None or not rule.checks_each_alone:
+            return self._run(rule, file, model)
+        failures = len(self._failures)
+        found = self.clean.check(rule, lambda part: list(self._run(rule, file, part)))
+        if len(self._failures) > failures:
+            self.clean.forget(rule)
+        return found
 
     def _run(self, rule: type[Any], file: Path | str, *subject: Any) -> Iterator[Finding]:
         """Yield the findings of a rule; if the rule raises an exception, record the failure and continue."""

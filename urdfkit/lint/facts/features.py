@@ -28,20 +28,29 @@ _FAR = 2.0 * pi
 """[rad]: larger limits and angles are suspicious."""
 
 
-def features_of(robot: Robot) -> set[str]:
-    """Return the features of a robot: tags, joint types, and suspicious properties, which end with ``!``."""
-    found = _of_elements(robot.element)
+def features_of(robot: Robot, known: dict[Element, frozenset[str]] | None = None) -> set[str]:
+    """Return the features of a robot: tags, joint types, and suspicious properties, which end with ``!``.
+
+    Args:
+        robot: the robot.
+        known: the features of each child of the root element from an earlier call; updated by this function.
+    """
+    root = robot.element
+    found = _of_elements(Element(root.tag, root.attributes, [], root.text, root.origin))
+    parts: dict[Element, Link | Joint] = {link.element: link for link in robot.links}
+    parts.update((joint.element, joint) for joint in robot.joints)
+    earlier, features = known or {}, {}
+    for child in root.children:
+        features[child] = earlier.get(child) or _of_child(child, parts.get(child))
+    found.update(*features.values())
+    if known is not None:
+        known.clear()
+        known.update(features)
     found.update(f"{problem.kind}!" for problem in robot.problems)
     if robot.element.tag != "robot" or not robot.element.get("name"):
         found.add("unnamed!")
-    parts: tuple[Link | Joint, ...] = (*robot.links, *robot.joints)
-    for part in parts:
-        plain = part.name.replace("_", "").replace("-", "").replace(".", "")
-        if not (plain.isalnum() and plain.isascii()) or part.name[:1] == "_" or part.name == "world":
-            found.add("name!")
     tensors: dict[tuple[float, ...], int] = {}
     for link in robot.links:
-        _of_link(link, found)
         inertia = link.inertial.inertia if link.inertial is not None else None
         if inertia is not None:
             values = (inertia.ixx, inertia.ixy, inertia.ixz, inertia.iyy, inertia.iyz, inertia.izz)
@@ -50,6 +59,20 @@ def features_of(robot: Robot) -> set[str]:
         found.add("copied!")
     _of_tree(robot, found)
     return found
+
+
+def _of_child(element: Element, part: Link | Joint | None) -> frozenset[str]:
+    """Return the features of a child of the root element, and of the link or joint read from it."""
+    found = _of_elements(element)
+    if part is not None:
+        plain = part.name.replace("_", "").replace("-", "").replace(".", "")
+        if not (plain.isalnum() and plain.isascii()) or part.name[:1] == "_" or part.name == "world":
+            found.add("name!")
+        if isinstance(part, Link):
+            _of_link(part, found)
+        else:
+            _of_joint(part, found)
+    return frozenset(found)
 
 
 def _of_elements(root: Element) -> set[str]:
@@ -129,7 +152,6 @@ def _of_tree(robot: Robot, found: set[str]) -> None:
     if len({*links, *robot.joint_by_name}) < len(robot.links) + len(robot.joints):
         found.add("same-name!")
     for joint in robot.joints:
-        _of_joint(joint, found)
         child, parent = joint.child, joint.parent
         if parent not in links or child not in links:
             found.add("dangling!")

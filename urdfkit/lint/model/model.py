@@ -53,6 +53,7 @@ class Model:
         expand_as_written: expands the robot without adding missing prefixes; see `as_written`.
         release: release of the target (``jazzy``); empty if unspecified.
         texts: absolute path → content that replaces the file on disk.
+        known_extents: extents of links without meshes from an earlier check, by element; updated by `extents`.
     """
 
     expanded: Expanded
@@ -61,6 +62,7 @@ class Model:
     expand_as_written: Callable[[], Robot] | None = field(default=None, repr=False)
     release: str = ""
     texts: Mapping[str, str] = field(default_factory=dict, repr=False)
+    known_extents: dict[Element, Extent] = field(default_factory=dict, repr=False)
 
     @cached_property
     def as_written(self) -> Robot:
@@ -231,13 +233,22 @@ class Model:
     @cached_property
     def extents(self) -> dict[str, Extent]:
         """Link name → extent of its shapes; without links that have no shapes or a shape of unknown size."""
-        from urdfkit.lint.model.placement import extent
+        from urdfkit.description.urdf.robot import Mesh
+        from urdfkit.lint.model.placement import extent, shapes_of
 
         counts = Counter(link.name for link in self.robot.links)
         # Which shapes of a duplicate link apply is undefined.
         once = (link for link in self.robot.links if counts[link.name] == 1)
-        found = ((link.name, extent(link, self.box_of)) for link in once)
-        return {name: filled for name, filled in found if filled is not None}
+        earlier = dict(self.known_extents)
+        self.known_extents.clear()
+        found = {}
+        for link in once:
+            filled = earlier.get(link.element) or extent(link, self.box_of)
+            if filled is not None:
+                found[link.name] = filled
+                if not any(isinstance(shape.geometry, Mesh) for shape in shapes_of(link)):
+                    self.known_extents[link.element] = filled
+        return found
 
     def box_of(self, mesh: Mesh) -> tuple[Vector, Vector] | None:
         """Return centre and size of a mesh's bounding box [m], scale included; None if it cannot be read."""
@@ -252,11 +263,17 @@ class Model:
         return {}
 
     @cached_property
+    def documents_read(self) -> list[str]:
+        """The files whose source tags were requested, in order: what is found then depends on more than the robot."""
+        return []
+
+    @cached_property
     def _documents(self) -> dict[str, Document]:
         return {}
 
     def document(self, file: str) -> Document:
         """Return the source tags of one file."""
+        self.documents_read.append(file)
         if file not in self._documents:
             self._documents[file] = Document(self.expanded.sources.get(file) or Source(file, ""))
         return self._documents[file]
@@ -267,10 +284,16 @@ class Model:
 
     def span(self, position: Position, attribute: str | None = None) -> Span:
         """Return the span of an attribute of the tag at `position`; else of the tag; else the position itself."""
-        tag = self.tag(position)
+        document = self.document(position.file)
+        at = position.line, position.column
+        tag = document.tag_at(*at) if self._has_syntax_errors else document.start_tag_at(*at)
         if tag is not None:
-            return self.document(position.file).span_of(tag, attribute)
+            return document.span_of(tag, attribute)
         return Span(position.file, position.line, position.column, position.line, position.column + 1)
+
+    @cached_property
+    def _has_syntax_errors(self) -> bool:
+        return any(fault.kind == "xml" for fault in self.expanded.faults)
 
     def is_unresolved(self, element: Element, attribute: str | None = None) -> bool:
         """Return whether xacro failed to evaluate the attribute or text, which a fault reports already."""

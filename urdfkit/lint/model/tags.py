@@ -147,6 +147,16 @@ class Document:
         """Return the tag whose ``<`` is at that line and column."""
         return self._read[2].get(self.source.offset(line, column))
 
+    def start_tag_at(self, line: int, column: int) -> Tag | None:
+        """Return the tag at the place of an element, without its children unless all tags have been parsed."""
+        if "_read" in self.__dict__:
+            return self.tag_at(line, column)
+        text = self.source.text
+        token = re.compile(_TOKEN, re.DOTALL).match(text, self.source.offset(line, column))
+        if token is None or token["name"] is None or token["close"]:
+            return None
+        return Tag(text, token["name"], token.start(), token.end(), bool(token["empty"]), None)
+
     def span_of(self, tag: Tag, attribute: str | None = None) -> Span:
         """Return the span of an attribute with its value, or of the start tag if it has no such attribute."""
         written = tag.attributes.get(attribute) if attribute is not None else None

@@ -6,6 +6,7 @@ the fault rules, and a robot without ``<gazebo>`` needs no rules for Gazebo.
 
 from __future__ import annotations
 
+import re
 from importlib import import_module
 
 from urdfkit.lint.table import FAULTS, RELATED_FILES, ROBOT, SOURCE, SUPPRESSION, TARGETED
@@ -16,6 +17,7 @@ if TYPE_CHECKING:
     from typing import Any
 
     from urdfkit.description.urdf.robot import Robot
+    from urdfkit.description.xml.element import Element
     from urdfkit.description.xml.source import Source
     from urdfkit.lint.rule import FaultRule, RobotRule, Rule, SourceRule
     from urdfkit.lint.table import Row
@@ -32,12 +34,15 @@ def source_rules(sources: Mapping[str, Source] | None = None) -> tuple[type[Sour
     if sources is None:
         return tuple(_rules(SOURCE))
 
-    def has(word: str) -> bool:
-        if word.startswith("*"):
-            return any(file.endswith(word[1:]) for file in sources)
-        return any(word in source.text for source in sources.values())
+    def has(words: str) -> bool:
+        if words.startswith("*"):
+            return any(file.endswith(words[1:]) for file in sources)
+        if " " not in words:
+            return any(words in source.text for source in sources.values())
+        pattern = "|".join(map(re.escape, words.split()))
+        return any(re.search(pattern, source.text) for source in sources.values())
 
-    return tuple(_rules(row for row in SOURCE if not row[0] or any(map(has, row[0].split()))))
+    return tuple(_rules(row for row in SOURCE if not row[0] or has(row[0])))
 
 
 def fault_rules() -> tuple[type[FaultRule], ...]:
@@ -50,18 +55,21 @@ def related_file_rules() -> tuple[type[RobotRule], ...]:
     return tuple(_rules(RELATED_FILES))
 
 
-def robot_rules(robot: Robot | None = None, target: str | None = None) -> tuple[type[RobotRule], ...]:
+def robot_rules(
+    robot: Robot | None = None, target: str | None = None, known: dict[Element, frozenset[str]] | None = None
+) -> tuple[type[RobotRule], ...]:
     """Return the rules for the expanded robot.
 
     Args:
         robot: skip the rules that cannot apply to this robot; None returns all rules.
         target: with a robot, None skips the rules that apply only to some targets.
+        known: see `urdfkit.lint.facts.features.features_of`.
     """
     if robot is None:
         return tuple(_rules((*ROBOT, *RELATED_FILES, *TARGETED)))
     from urdfkit.lint.facts.features import features_of
 
-    features = features_of(robot)
+    features = features_of(robot, known)
     rows = ROBOT if target is None else (*ROBOT, *TARGETED)
     return tuple(_rules(row for row in rows if not row[0] or not features.isdisjoint(row[0].split())))
 

@@ -58,6 +58,7 @@ class DuplicateSingletonElement(RobotRule):
     code = "E013"
     name = "duplicate-singleton-element"
     fix = "unsafe"
+    checks_each_alone = True
 
     def check(self, model: Model) -> Findings:
         """Yield a finding for each duplicate element."""

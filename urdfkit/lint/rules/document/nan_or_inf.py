@@ -55,6 +55,7 @@ class NanOrInf(RobotRule):
 
     code = "E012"
     name = "nan-or-inf"
+    checks_each_alone = True
 
     def check(self, model: Model) -> Findings:
         """Yield a finding for each value that is not finite or implausibly large."""

@@ -102,7 +102,7 @@ def _has_quotes_outside(text: str) -> bool:
     """Whether a quote follows a tag or precedes an end tag."""
     if any(piece.rstrip().endswith(('"', "'")) for piece in text.split("</")[:-1]):
         return True
-    return any(piece.lstrip().startswith(('"', "'")) for piece in text.split(">")[1:])
+    return re.search(r">\s*[\"']", text) is not None
 
 
 def _cleaned(value: str) -> str | None:

@@ -67,6 +67,7 @@ class UnknownAttribute(RobotRule):
     name = "unknown-attribute"
     severity = "warning"
     fix = "unsafe"
+    checks_each_alone = True
 
     def check(self, model: Model) -> Findings:
         """Yield a finding for each unknown attribute."""

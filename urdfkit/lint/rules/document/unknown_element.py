@@ -62,6 +62,7 @@ class UnknownElement(RobotRule):
     name = "unknown-element"
     severity = "warning"
     fix = "unsafe"
+    checks_each_alone = True
 
     def check(self, model: Model) -> Findings:
         """Yield a finding for each unknown element."""

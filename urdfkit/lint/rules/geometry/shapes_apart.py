@@ -58,6 +58,7 @@ class ShapesApart(RobotRule):
     code = "G617"
     name = "shapes-apart"
     severity = "warning"
+    checks_each_alone = True
 
     def check(self, model: Model) -> Findings:
         """Yield a finding for each shape that is far from the other shapes of its link, or far larger."""

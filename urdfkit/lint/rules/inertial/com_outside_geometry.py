@@ -64,6 +64,7 @@ class ComOutsideGeometry(RobotRule):
     code = "I513"
     name = "com-outside-geometry"
     severity = "warning"
+    checks_each_alone = True
 
     def check(self, model: Model) -> Findings:
         """Yield a finding for each centre of mass outside the shapes."""

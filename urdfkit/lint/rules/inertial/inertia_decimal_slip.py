@@ -55,6 +55,7 @@ class InertiaDecimalSlip(RobotRule):
     name = "inertia-decimal-slip"
     severity = "warning"
     fix = "unsafe"
+    checks_each_alone = True
 
     def check(self, model: Model) -> Findings:
         """Yield a finding for each moment that is off by a power of ten."""

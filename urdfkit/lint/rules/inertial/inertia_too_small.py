@@ -64,6 +64,7 @@ class InertiaTooSmall(RobotRule):
     name = "inertia-vs-geometry-too-small"
     severity = "warning"
     fix = "unsafe"
+    checks_each_alone = True
 
     def check(self, model: Model) -> Findings:
         """Yield a finding for each tensor that is too small for the shapes."""

@@ -50,6 +50,7 @@ class MassVsVolume(RobotRule):
     code = "I514"
     name = "mass-vs-volume-density"
     severity = "warning"
+    checks_each_alone = True
 
     def check(self, model: Model) -> Findings:
         """Yield a finding for each link with an implausible density."""

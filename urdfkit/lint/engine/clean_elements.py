@@ -1,0 +1,87 @@
+"""Clean elements: after a change, a rule that checks each element alone checks only those that are new.
+
+A rule that found nothing is run on a model of the new elements alone. If it finds something there, or found something
+before, it is run on the whole model, so that its findings are those of a fresh check.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Callable
+
+from urdfkit.lint.model.model import Model
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from urdfkit.description.xml.element import Element
+    from urdfkit.lint.finding import Finding
+    from urdfkit.lint.model.placement import Extent
+    from urdfkit.lint.rule import Rule
+
+_MAX_NEW = 0.25
+"""Proportion of new elements above which a rule is run on the whole model."""
+
+
+class CleanElements:
+    """The children of the root element in which rules found nothing at the last check of one entry file.
+
+    Attributes:
+        features: of each link, joint and other child, for `urdfkit.lint.facts.features.features_of`.
+        extents: for `urdfkit.lint.model.model.Model.known_extents`.
+    """
+
+    def __init__(self) -> None:
+        self.features: dict[Element, frozenset[str]] = {}
+        self.extents: dict[Element, Extent] = {}
+        self._surroundings: object = None
+        self._clean: dict[str, frozenset[Element]] = {}
+
+    def begin(self, model: Model) -> None:
+        """Begin a check."""
+        robot = model.robot
+        surroundings = model.target, model.release, robot.element.tag, [one.element for one in robot.materials]
+        is_unique = len(robot.link_by_name) == len(robot.links)  # the shapes of duplicate links are not checked
+        if surroundings != self._surroundings or not is_unique:
+            self._clean.clear()
+        self._surroundings = surroundings if is_unique else None
+        self._model, self._every = model, frozenset(robot.element.children)
+        self._parts: dict[int, Model | None] = {}
+
+    def check(self, rule: type[Rule], check: Callable[[Model], list[Finding]]) -> list[Finding]:
+        """Return the findings of a rule.
+
+        Args:
+            rule: checks each element alone.
+            check: returns the findings of the rule in a model.
+        """
+        clean = self._clean.pop(rule.code, None)
+        part = self._part(clean) if clean is not None else None
+        model = self._model if part is None else part
+        before = len(model.documents_read)
+        found = check(model)
+        if found and part is not None:
+            found = check(self._model)
+        if not found and self._surroundings is not None and len(model.documents_read) == before:
+            self._clean[rule.code] = self._every
+        return found
+
+    def forget(self, rule: type[Rule]) -> None:
+        """Run a rule on the whole model at the next check."""
+        self._clean.pop(rule.code, None)
+
+    def _part(self, clean: frozenset[Element]) -> Model | None:
+        """Return a model of the elements that are not clean; None if there are many."""
+        if id(clean) not in self._parts:
+            self._parts[id(clean)] = self._without(clean)
+        return self._parts[id(clean)]
+
+    def _without(self, clean: frozenset[Element]) -> Model | None:
+        model = self._model
+        robot, new = model.robot, self._every - clean
+        if len(new) > _MAX_NEW * len(self._every):
+            return None
+        root = dataclasses.replace(robot.element, children=[one for one in robot.element.children if one in new])
+        links = tuple([link for link in robot.links if link.element in new])
+        joints = tuple([joint for joint in robot.joints if joint.element in new])
+        part = dataclasses.replace(robot, element=root, links=links, joints=joints)
+        return Model(model.expanded, part, model.target, None, model.release, model.texts)
