@@ -61,7 +61,7 @@ def _compare(path: str, arguments: dict[str, str], packages: Packages) -> int:
     Raises:
         UrdfkitError: neither can expand the file.
     """
-    from urdfkit.description.xacro.evaluation.comparison import first_difference, text_of_xacro, version
+    from urdfkit.description.xacro.comparison import first_difference, text_of_xacro, version
     from urdfkit.description.xacro.expand import expand
 
     stock = f"xacro {version()}"

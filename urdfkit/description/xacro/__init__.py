@@ -1,4 +1,4 @@
-"""Expand xacro with stock xacro, traced: a file goes in, a tree whose elements know their source comes out.
+"""Xacro: a file goes in, an `Expanded` whose elements know their place in the source comes out.
 
-After a fault the expansion continues where it can, and each fault is recorded for the linter.
+`expand` stops at the first error. `expand_leniently` records each fault for the linter and continues.
 """

@@ -77,7 +77,7 @@ def expand_leniently(
     _check_exists(path)
     packages = packages if packages is not None else Packages(near=path)
     if is_xacro(path) if run_xacro is None else run_xacro:
-        from urdfkit.description.xacro.evaluation.recovery import expand_with_recovery
+        from urdfkit.description.xacro.recovery.expansion import expand_with_recovery
 
         return expand_with_recovery(
             str(path), arguments or {}, packages, add_prefixes=add_prefixes, texts=texts, memory=memory

@@ -17,9 +17,30 @@ if TYPE_CHECKING:
     from typing import Any
 
     from urdfkit.description.urdf.values import Part
-    from urdfkit.description.xacro.evaluation.reuse import Record
 
     Read = Callable[[Source], Any]
+
+
+class Record:
+    """What one child read and did.
+
+    Args:
+        reads: whether a macro was looked up, the name, and what `_current` returned.
+        commands: ``find …``, ``arg …`` and the like, with their values.
+        collected: for each collection of the evaluator that grows, what was added.
+        counts: for each limit of the evaluator, what was used.
+    """
+
+    __slots__ = ("collected", "commands", "counts", "reads")
+
+    def __init__(
+        self,
+        reads: list[tuple[bool, Any, Any]],
+        commands: dict[str, Any],
+        collected: list[tuple[str, Any]],
+        counts: list[int],
+    ) -> None:
+        self.reads, self.commands, self.collected, self.counts = reads, commands, collected, counts
 
 
 class Child:

@@ -5,8 +5,8 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
-from urdfkit.description.xacro.missing_prefix import FOREIGN as FOREIGN
-from urdfkit.description.xacro.missing_prefix import is_directive, may_be_directive_inside
+from urdfkit.description.xacro.recovery.missing_prefix import FOREIGN as FOREIGN
+from urdfkit.description.xacro.recovery.missing_prefix import is_directive, may_be_directive_inside
 from urdfkit.description.xml.element import Element
 from urdfkit.lint.finding import Edit
 from urdfkit.lint.model.tags import Document, Tag

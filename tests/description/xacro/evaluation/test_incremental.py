@@ -10,8 +10,8 @@ from typing import Any
 import pytest
 
 from urdfkit.description.packages.resolver import Packages
-from urdfkit.description.xacro.evaluation.recovery import expand_with_recovery
 from urdfkit.description.xacro.memory import Memory
+from urdfkit.description.xacro.recovery.expansion import expand_with_recovery
 from urdfkit.errors import UrdfkitError
 
 ENTRY = """<?xml version="1.0"?>

@@ -1,6 +1,4 @@
-"""Evaluate xacro without Python's `eval`: expressions over plain values, documents into elements with their origins.
+"""Evaluation: expands documents and computes expressions over plain values, without Python's `eval`.
 
 A xacro file goes in; an `Expanded` comes out, or an error with its place.
 """
-
-from __future__ import annotations

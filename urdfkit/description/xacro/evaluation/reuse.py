@@ -12,8 +12,8 @@ from urdfkit.description.xacro.evaluation.calls import Calls, Macro
 from urdfkit.description.xacro.evaluation.expressions.limits import MAX_EXPANDED, MAX_EXPRESSIONS, MAX_MACRO_CALLS
 from urdfkit.description.xacro.evaluation.expressions.symbols import Scope
 from urdfkit.description.xacro.evaluation.failures import Failure
-from urdfkit.description.xacro.evaluation.tree import CDATA, TEXT, Made, Tag, element_of
-from urdfkit.description.xacro.memory import Child, Memory, Root, adopted
+from urdfkit.description.xacro.evaluation.tree import CDATA, TEXT, ExpandedElements, Tag, element_of
+from urdfkit.description.xacro.memory import Child, Memory, Record, Root, adopted
 from urdfkit.description.xml.element import Element
 from urdfkit.description.xml.reader import MAX_MADE_DEPTH
 from urdfkit.description.xml.source import Source
@@ -39,28 +39,6 @@ class _Holder(Tag):
     """A root element while one of its children is evaluated."""
 
     __slots__ = ()
-
-
-class Record:
-    """What one child read and did.
-
-    Args:
-        reads: whether a macro was looked up, the name, and what `_current` returned.
-        commands: ``find …``, ``arg …`` and the like, with their values.
-        collected: for each collection of the evaluator that grows, what was added.
-        counts: for each limit of the evaluator, what was used.
-    """
-
-    __slots__ = ("collected", "commands", "counts", "reads")
-
-    def __init__(
-        self,
-        reads: list[tuple[bool, Any, Any]],
-        commands: dict[str, Any],
-        collected: list[tuple[str, Any]],
-        counts: list[int],
-    ) -> None:
-        self.reads, self.commands, self.collected, self.counts = reads, commands, collected, counts
 
 
 class _Reads(dict[object, object]):
@@ -135,7 +113,7 @@ class Reuse(Calls):
         for child in root.remembered:
             can_repeat = has_own_names and self._can_repeat()
             if can_repeat and child.record is not None and self._holds(child.record, macros, scope):
-                root.append(Made(child.elements, root.position))
+                root.append(ExpandedElements(child.elements, root.position))
             else:
                 child.record = None
                 yield self._evaluate(child, root, macros, scope, is_traced=can_repeat)
@@ -187,7 +165,7 @@ class Reuse(Calls):
         used = [now - then for now, then in zip(self._counts(), counts, strict=True)]
         child.record = Record(reads, log, [one for one in added if one[1]], used)
         holder.first = holder.last = None
-        holder.append(Made(elements, holder.position))
+        holder.append(ExpandedElements(elements, holder.position))
 
     def _holds(self, record: Record, macros: Scope, scope: Scope) -> bool:
         """Return whether a record holds; if so, do what the child did."""
@@ -232,7 +210,7 @@ def _elements(holder: Tag) -> list[Element] | None:
     """Return the elements that a child expanded to; None if they are nested very deep."""
     found: list[Element] = []
     for node in holder.children():
-        if type(node) is Made:
+        if type(node) is ExpandedElements:
             return None
         if isinstance(node, Tag):
             try:

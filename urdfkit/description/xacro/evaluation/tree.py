@@ -262,7 +262,7 @@ class Copy(Tag):
         self._last = node
 
 
-class Made(Tag):
+class ExpandedElements(Tag):
     """Stands for elements that are expanded already.
 
     Attributes:
@@ -310,7 +310,7 @@ def element_of(tag: Tag, depth: int = 0) -> Element:
     text = ""
     child = tag.first
     while child is not None:
-        if type(child) is Made:
+        if type(child) is ExpandedElements:
             if depth >= MAX_MADE_DEPTH // 2:
                 for element in child.elements:
                     _check_all(element, depth + 1)

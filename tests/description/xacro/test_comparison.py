@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from urdfkit.description.packages.resolver import Packages
-from urdfkit.description.xacro.evaluation.comparison import LineDifference, first_difference, text_of_xacro
+from urdfkit.description.xacro.comparison import LineDifference, first_difference, text_of_xacro
 from urdfkit.description.xacro.expand import expand
 from urdfkit.errors import XacroError
 

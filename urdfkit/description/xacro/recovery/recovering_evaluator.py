@@ -1,30 +1,29 @@
 """Expand a file and continue after failures: each is recorded, its element dropped or repaired, and the rest expanded.
 
 A value that cannot be computed becomes `Unknown`, which holds its expression. What is computed from an unknown value is
-unknown too and causes no second fault. If a property or macro is defined after its use, the file is expanded again with
-the definitions that the first pass found.
+unknown too and causes no second fault.
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 
-from urdfkit.description.xacro.evaluation.call_repairs import fit, is_call_of, near_macros
 from urdfkit.description.xacro.evaluation.calls import Macro, found_macro
 from urdfkit.description.xacro.evaluation.evaluator import Evaluator, deep_calls
 from urdfkit.description.xacro.evaluation.expressions.limits import MAX_CHARACTERS, MAX_EXPRESSIONS
 from urdfkit.description.xacro.evaluation.expressions.symbols import Scope
 from urdfkit.description.xacro.evaluation.failures import Failure, definition, undefined_property
-from urdfkit.description.xacro.evaluation.reuse import MixedContent
 from urdfkit.description.xacro.evaluation.texts import EXPRESSION, visible
 from urdfkit.description.xacro.evaluation.tree import Tag, element_of
 from urdfkit.description.xacro.evaluation.tree_reader import read_tree
-from urdfkit.description.xacro.evaluation.unknown_values import Arguments, Recorded, Unknown
 from urdfkit.description.xacro.expanded import Expanded
 from urdfkit.description.xacro.faults import Fault, Unprefixed
 from urdfkit.description.xacro.memory import Memory
-from urdfkit.description.xacro.missing_prefix import add_missing_prefixes, looks_like_a_call, rename
-from urdfkit.description.xacro.misspelt_directives import repair_spelling
+from urdfkit.description.xacro.recovery.call_repairs import fit, is_call_of, near_macros
+from urdfkit.description.xacro.recovery.late_definitions import LateDefinitions
+from urdfkit.description.xacro.recovery.missing_prefix import add_missing_prefixes, looks_like_a_call, rename
+from urdfkit.description.xacro.recovery.misspelt_directives import repair_spelling
+from urdfkit.description.xacro.recovery.unknown_values import Arguments, Recorded, Unknown
 from urdfkit.description.xml.reader import shown_path
 from urdfkit.description.xml.source import Position, Source
 from urdfkit.description.xml.vocabulary import TAGS
@@ -36,69 +35,6 @@ if TYPE_CHECKING:
 
     from urdfkit.description.packages.resolver import Packages
     from urdfkit.description.xacro.evaluation.evaluator import Steps
-
-_PASSES = 3
-"""Expansions of one file, each with the late definitions that the one before found."""
-
-
-def expand_with_recovery(
-    path: str,
-    arguments: Mapping[str, str],
-    packages: Packages,
-    *,
-    add_prefixes: bool,
-    texts: Mapping[str, str] | None = None,
-    memory: Memory | None = None,
-) -> Expanded:
-    """Expand a file as far as possible; the failures are in `Expanded.faults`.
-
-    Args:
-        path: as the user named it.
-        arguments: values of ``$(arg …)``.
-        packages: resolves ``$(find …)``.
-        add_prefixes: read directives and macro calls without ``xacro:`` as if they had it.
-        texts: contents to read instead of those on disk, by absolute path.
-        memory: what earlier expansions of the file read.
-
-    Raises:
-        ResourceError: the file cannot be read.
-    """
-    try:
-        return _expanded(path, arguments, packages, add_prefixes, texts, memory)
-    except MixedContent:
-        return _expanded(path, arguments, packages, add_prefixes, texts, None)
-
-
-def _expanded(
-    path: str,
-    arguments: Mapping[str, str],
-    packages: Packages,
-    add_prefixes: bool,
-    texts: Mapping[str, str] | None,
-    memory: Memory | None,
-) -> Expanded:
-    late = LateDefinitions()
-    for number in range(_PASSES):
-        evaluator = RecoveringEvaluator(
-            path, arguments, packages, late, add_prefixes=add_prefixes, texts=texts, memory=memory
-        )
-        evaluator.run_all()
-        if number == _PASSES - 1 or not evaluator.learn():
-            break
-    return evaluator.outcome()
-
-
-class LateDefinitions:
-    """What earlier passes found defined after its use.
-
-    Attributes:
-        properties: name → value and place of the definition.
-        macros: name → macro.
-    """
-
-    def __init__(self) -> None:
-        self.properties: dict[str, tuple[Any, Position | None]] = {}
-        self.macros: dict[str, Macro] = {}
 
 
 class RecoveringEvaluator(Evaluator):

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from urdfkit.description.xacro.evaluation.failures import macro_arguments, near_in_length
-from urdfkit.description.xacro.evaluation.unknown_values import Unknown
+from urdfkit.description.xacro.recovery.unknown_values import Unknown
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from functools import lru_cache
 
 from urdfkit.description.xacro.faults import Fault
-from urdfkit.description.xacro.missing_prefix import FOREIGN, is_directive, names_above, rename, tags_below
+from urdfkit.description.xacro.recovery.missing_prefix import FOREIGN, is_directive, names_above, rename, tags_below
 from urdfkit.description.xml.vocabulary import TAGS
 
 TYPE_CHECKING = False

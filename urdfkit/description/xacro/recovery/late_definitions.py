@@ -1,0 +1,23 @@
+"""Definitions that come after their first use, as earlier passes over a file found them."""
+
+from __future__ import annotations
+
+from urdfkit.description.xacro.evaluation.calls import Macro
+from urdfkit.description.xml.source import Position
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from typing import Any
+
+
+class LateDefinitions:
+    """What earlier passes found defined after its use.
+
+    Attributes:
+        properties: name → value and place of the definition.
+        macros: name → macro.
+    """
+
+    def __init__(self) -> None:
+        self.properties: dict[str, tuple[Any, Position | None]] = {}
+        self.macros: dict[str, Macro] = {}
