@@ -408,7 +408,7 @@ def is_noticed_by(copy: Path, mutant: Mutant, tests: list[str], number: int) -> 
     """Return the test that fails with the change, or None.
 
     Args:
-        number: a number of this mutant alone, for the time of the file, by which Python tells whether to compile again.
+        number: differs between mutants; becomes the time of the file, so that Python compiles it again.
     """
     target = copy / mutant.file
     source, status = target.read_bytes(), target.stat()
