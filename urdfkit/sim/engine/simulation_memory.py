@@ -20,8 +20,11 @@ from urdfkit.sim.engine.math.simd import LANES
 
 Size = tuple[str, ...]
 
-OBSERVED = 5
-"""Numbers that are kept of each tree to decide whether it sleeps: the time at rest, and those of `slow_motion`."""
+OBSERVED = 7
+"""Numbers that are kept of each tree to decide whether it sleeps."""
+AT_REST, WINDOW, FASTEST, SLOWEST, FASTEST_BEFORE, DIED_DOWN, RESISTED = range(OBSERVED)
+"""Places in ``still`` of a tree: the time at rest, and for `slow_motion` the time in this window, the greatest and the
+least speed in it, the greatest in the window before, and the results: motion has died down, rolling is resisted."""
 
 
 def _sizes(*rows: str) -> dict[str, Size]:

@@ -5,10 +5,10 @@ bodies awake, as would a ball that spins about the normal of its contact. Real b
 deform where they touch. Therefore, a moment resists the rotation of a round body
 
 - about the normal of each of its contacts,
-- about any axis, if it touches another free body,
+- about any axis, if it touches another free body, or if it rolls slowly at a constant speed, see `slow_motion`,
 
-provided that its island contains only free bodies to which no force is applied. A single body on the ground, and bodies
-that a robot touches, roll freely.
+provided that its island contains only free bodies to which no force is applied. A single body that rolls faster than
+50 mm/s or on a slope, and bodies that a robot touches, roll freely.
 """
 
 import math
@@ -17,6 +17,7 @@ from urdfkit.sim.engine.collision.support_points import CAPSULE, CYLINDER, SPHER
 from urdfkit.sim.engine.compilation import compiled, inlined
 from urdfkit.sim.engine.kernel_world import KernelWorld
 from urdfkit.sim.engine.math.spatial_algebra import dot, load_spatial, load_vector, scale
+from urdfkit.sim.engine.simulation_memory import OBSERVED, RESISTED
 from urdfkit.sim.engine.sleep.sleep_criteria import is_free_body
 
 COEFFICIENT = 0.01
@@ -77,7 +78,7 @@ def resist(w: KernelWorld, k: int, shape: int, dt: float) -> None:
         return
     first = w.tree_dof[tree] + 3
     turning = (w.v[first], w.v[first + 1], w.v[first + 2])
-    if touches_free[tree] == 0:
+    if touches_free[tree] == 0 and w.still[OBSERVED * tree + RESISTED] == 0.0:
         # A free body's velocities are written in its own axes.
         normal = load_vector(w.contact_frame, 3 * k + 2)
         i, j, m = load_spatial(w.S, first - 3)[0], load_spatial(w.S, first - 2)[0], load_spatial(w.S, first - 1)[0]

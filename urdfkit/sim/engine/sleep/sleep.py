@@ -11,7 +11,7 @@ from urdfkit.sim.engine.contacts.warm_start import copy_contact
 from urdfkit.sim.engine.dynamics.mass_matrix import place
 from urdfkit.sim.engine.kernel_world import KernelWorld
 from urdfkit.sim.engine.math.spatial_algebra import ZERO, store_spatial, store_vector
-from urdfkit.sim.engine.simulation_memory import CONTACTS, DT, LAST_PAIRS, OBSERVED, SLEEPING, TREES
+from urdfkit.sim.engine.simulation_memory import CONTACTS, DIED_DOWN, DT, LAST_PAIRS, OBSERVED, SLEEPING, TREES
 from urdfkit.sim.engine.sleep.sleep_criteria import (
     PATIENCE,
     TARGETS,
@@ -20,7 +20,7 @@ from urdfkit.sim.engine.sleep.sleep_criteria import (
     is_quiet,
     target_of,
 )
-from urdfkit.sim.engine.sleep.slow_motion import DIED_DOWN, observe
+from urdfkit.sim.engine.sleep.slow_motion import observe
 
 
 @compiled
@@ -39,7 +39,7 @@ def let_sleep(w: KernelWorld, contacts: int) -> None:
             rests = w.still[OBSERVED * tree] >= PATIENCE
             at_rest = at_rest and lies and rests
             died_down = died_down and lies and is_free_body(w, tree)
-            died_down = died_down and (rests or w.still[OBSERVED * tree + DIED_DOWN] != 0.0)
+            died_down = died_down and (rests or w.still[OBSERVED * tree + DIED_DOWN] == 1.0)
             tree = w.island_next[tree]
         if at_rest or died_down:
             lie_down(w, root, contacts)

@@ -13,7 +13,11 @@ The speed of a box of height h that tips over an edge grows as exp(t·√(3g/2h)
 window for h up to 7.6 m. A block that slides from rest at more than 1.4 mm/s² is above `CREEP` before its speed less
 than doubles from one window to the next.
 
-A round body is an exception to the second condition, as nothing resists its rolling on the ground.
+A round body that rolls evenly through a window, slower than `ROLLS_ON` and by no more than `EVEN` faster or slower, is
+driven by nothing. Rolling resistance acts on it from then on, until a window in which it was faster than in the one
+before. So a ball comes to rest on level ground, and not on a slope of 0.01°. To keep a ball that turns back on a slope,
+the conditions must hold for it in two windows in turn. Where a round body touches another free body, rolling resistance
+acts anyway, and the second condition does not apply.
 """
 
 from typing import Any
@@ -21,7 +25,15 @@ from typing import Any
 from urdfkit.sim.engine.compilation import inlined
 from urdfkit.sim.engine.kernel_world import KernelWorld
 from urdfkit.sim.engine.math.spatial_algebra import ZERO, add, dot, load_vector, scale, store_vector
-from urdfkit.sim.engine.simulation_memory import OBSERVED
+from urdfkit.sim.engine.simulation_memory import (
+    DIED_DOWN,
+    FASTEST,
+    FASTEST_BEFORE,
+    OBSERVED,
+    RESISTED,
+    SLOWEST,
+    WINDOW,
+)
 from urdfkit.sim.engine.sleep.rolling_resistance import is_round
 from urdfkit.sim.engine.sleep.sleep_criteria import PATIENCE, QUIET
 
@@ -35,8 +47,11 @@ CREEP = 1e-3
 """Average speed [m/s] in a window above which a point of a body slides or glides on."""
 GROWTH = 2.0
 """Ratio of the greatest speeds in two windows above which a motion grows; those below `QUIET` count as `QUIET`."""
-WINDOW, FASTEST, FASTEST_BEFORE, DIED_DOWN = 1, 2, 3, 4
-"""Places in ``still`` of a tree: time in this window, greatest speed in it and in the one before, and the result."""
+ROLLS_ON = 0.1
+"""Speed [m/s] of a point of a round body that rolls without resistance: of a ball that rolls at 50 mm/s, the
+``sleepThreshold`` of Box2D 3."""
+EVEN = 1e-3
+"""Difference [m/s] of the greatest and least speed in a window of a body that rolls evenly: of a ball, 1 mm/s²."""
 
 
 @inlined
@@ -57,23 +72,32 @@ def observe(w: KernelWorld, tree: int, dt: float) -> None:
         reach = max(reach, w.shape_radius[k] + dot(centre, centre) ** 0.5)
         rolls = rolls or is_round(w, k)
     speed = point_speed(linear, angular, reach)
-    if not speed < SLOW:
-        still[at + WINDOW] = still[at + DIED_DOWN] = 0.0
+    if not speed < (ROLLS_ON if rolls else SLOW):
+        still[at + WINDOW] = still[at + DIED_DOWN] = still[at + RESISTED] = 0.0
         still[at + FASTEST_BEFORE] = SLOW
         return
     if still[at + WINDOW] == 0.0:
         still[at + FASTEST] = 0.0
+        still[at + SLOWEST] = speed
         store_vector(w.displaced, 2 * tree, ZERO)
         store_vector(w.displaced, 2 * tree + 1, ZERO)
     still[at + WINDOW] += dt
     still[at + FASTEST] = max(still[at + FASTEST], speed)
+    still[at + SLOWEST] = min(still[at + SLOWEST], speed)
     moved = add(load_vector(w.displaced, 2 * tree), scale(dt, linear))
     turned = add(load_vector(w.displaced, 2 * tree + 1), scale(dt, angular))
     store_vector(w.displaced, 2 * tree, moved)
     store_vector(w.displaced, 2 * tree + 1, turned)
     if still[at + WINDOW] >= PATIENCE:
-        grows = still[at + FASTEST] > GROWTH * max(still[at + FASTEST_BEFORE], QUIET)
-        creeps = not rolls and point_speed(moved, turned, reach) > CREEP * still[at + WINDOW]
-        still[at + DIED_DOWN] = 0.0 if grows or creeps else 1.0
-        still[at + FASTEST_BEFORE] = still[at + FASTEST]
+        fastest, before = still[at + FASTEST], still[at + FASTEST_BEFORE]
+        grows = fastest > GROWTH * max(before, QUIET)
+        alone = w.island[tree] == tree and w.island_next[tree] < 0
+        creeps = (alone or not rolls) and point_speed(moved, turned, reach) > CREEP * still[at + WINDOW]
+        share = 0.5 if rolls and alone else 1.0
+        died_down = fastest < SLOW and not (grows or creeps)
+        still[at + DIED_DOWN] = min(still[at + DIED_DOWN] + share, 1.0) if died_down else 0.0
+        even = still[at + SLOWEST] >= QUIET and fastest - still[at + SLOWEST] <= EVEN
+        slows = still[at + RESISTED] != 0.0 and fastest <= before
+        still[at + RESISTED] = 1.0 if rolls and (even or slows) else 0.0
+        still[at + FASTEST_BEFORE] = fastest
         still[at + WINDOW] = 0.0
