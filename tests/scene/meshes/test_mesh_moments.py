@@ -2,17 +2,17 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import numpy as np
 import pinocchio as pin
 import pytest
 import trimesh
 
 from urdfkit.description.urdf.robot import Box, Capsule, Cylinder, Pose, Sphere
-from urdfkit.lint.engine.checker import model_of
-from urdfkit.lint.facts.inertia.link_solids import Moments, of_primitive, placed, union
-from urdfkit.lint.facts.inertia.mesh_moments import moments
-from urdfkit.lint.model.mesh_files import meshes
-from urdfkit.lint.project.options import Options
+from urdfkit.description.urdf.volume_moments import Moments, of_primitive, placed, union
+from urdfkit.scene import MeshLoader
+from urdfkit.scene.meshes.mesh_moments import moments
 
 
 def entries(matrix: np.ndarray) -> list[float]:
@@ -81,34 +81,34 @@ def test_moving_there_and_back_changes_nothing():
     assert isinstance(back, Moments)
 
 
-def of_mesh(write, mesh: trimesh.Trimesh, scale: str = "1 1 1"):
-    shape = f'<collision><geometry><mesh filename="m.stl" scale="{scale}"/></geometry></collision>'
-    path = write("r.urdf", f'<robot name="r"><link name="a">{shape}</link></robot>')
-    path.with_name("m.stl").write_bytes(mesh.export(file_type="stl"))
-    model = model_of(path, Options())
-    return moments(next(meshes(model.robot))[0], model.expanded)
+def of_mesh(folder: Path, mesh: trimesh.Trimesh, scale: tuple[float, float, float] = (1.0, 1.0, 1.0)):
+    path = folder / "m.stl"
+    path.write_bytes(mesh.export(file_type="stl"))
+    return moments(MeshLoader().load(path, scale), path.name)
 
 
-def test_a_closed_mesh_is_summed_up_and_may_be_mirrored(write):
+def test_a_closed_mesh_is_summed_up_and_may_be_mirrored(tmp_path):
     box = trimesh.creation.box((0.1, 0.2, 0.3))
     box.apply_transform(trimesh.transformations.rotation_matrix(0.7, (1, 2, 3), (0.1, 0, 0)))
     box.apply_translation((0.3, 0.1, 0))
-    for scale, factor in (("1 1 1", (1, 1, 1)), ("-2 1 1", (-2, 1, 1))):
-        found, note = of_mesh(write, box, scale)
+    for scale in ((1.0, 1.0, 1.0), (-2.0, 1.0, 1.0)):
+        found, note = of_mesh(tmp_path, box, scale)
         theirs = box.copy()
-        theirs.apply_transform(np.diag((*factor, 1.0)))
+        theirs.apply_transform(np.diag((*scale, 1.0)))
         theirs.density = 5.0 / theirs.volume
         assert note == ""
         np.testing.assert_allclose(found.middle, theirs.center_mass, atol=1e-6)
         np.testing.assert_allclose(found.tensor(5.0), entries(theirs.moment_inertia), rtol=1e-5, atol=1e-7)
 
 
-def test_an_open_mesh_is_taken_as_its_hull_and_a_flat_one_has_no_volume(write):
+def test_an_open_mesh_is_taken_as_its_hull_and_a_flat_one_has_no_volume(tmp_path):
     pytest.importorskip("scipy")
     box = trimesh.creation.box((0.1, 0.2, 0.3))
-    found, note = of_mesh(write, trimesh.Trimesh(box.vertices, box.faces[:-1]))
+    found, note = of_mesh(tmp_path, trimesh.Trimesh(box.vertices, box.faces[:-1]))
     assert "m.stl is not closed" in note
     assert found.volume == pytest.approx(0.006, rel=1e-6)
-    flat, note = of_mesh(write, trimesh.Trimesh([[0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 1, 0]], [[0, 1, 2], [1, 3, 2]]))
+    flat, note = of_mesh(
+        tmp_path, trimesh.Trimesh([[0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 1, 0]], [[0, 1, 2], [1, 3, 2]])
+    )
     assert flat.volume == 0.0
     assert "flat" in note

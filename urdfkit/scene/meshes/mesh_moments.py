@@ -2,33 +2,30 @@
 
 from __future__ import annotations
 
-from urdfkit.lint.facts.inertia.link_solids import Moments
+import numpy as np
+
+from urdfkit.description.urdf.volume_moments import Moments
+from urdfkit.errors import MissingDependencyError
+from urdfkit.scene.meshes.loader import TriMesh
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     from typing import Any
 
-    from urdfkit.description.urdf.robot import Mesh
-    from urdfkit.description.xacro.expanded import Expanded
 
-
-def moments(mesh: Mesh, expanded: Expanded) -> tuple[Moments, str]:
-    """Return the moments of a mesh in its own frame, scale included, and the assumption made about an open surface.
+def moments(triangles: TriMesh, name: str) -> tuple[Moments, str]:
+    """Return the moments of a mesh in its own frame, and the assumption made about an open surface.
 
     A closed surface is integrated over the tetrahedra between its triangles and the origin (integrals: Mirtich 1996).
-    An open surface is replaced by its convex hull, or by its bounding box if scipy is not installed.
+    An open surface is replaced by its convex hull.
+
+    Args:
+        triangles: the mesh, scale included.
+        name: name of the file, for the message.
 
     Raises:
-        ResourceError: the mesh file does not exist or cannot be read.
-        MissingDependencyError: trimesh is not installed.
+        MissingDependencyError: the surface is open, and scipy is not installed.
     """
-    import numpy as np
-
-    from urdfkit.errors import MissingDependencyError
-    from urdfkit.scene.meshes.loader import MeshLoader
-
-    path = expanded.packages.resolve(mesh.uri.strip(), expanded.path)
-    triangles = MeshLoader().load(path, mesh.scale)
     points, indices = np.unique(triangles.vertices.astype(float), axis=0, return_inverse=True)
     faces = indices.reshape(-1)[triangles.faces]
     note = ""
@@ -36,17 +33,15 @@ def moments(mesh: Mesh, expanded: Expanded) -> tuple[Moments, str]:
     a, b, c = (points[faces[:, corner]] for corner in range(3))
     filled = abs(float(np.einsum("ij,ij", a, np.cross(b, c)))) / 6.0
     if not _is_closed(faces) or filled < 1e-6 * box:
-        note = f"the surface of {path.name} is not closed: its convex hull is taken"
+        note = f"the surface of {name} is not closed: its convex hull is taken"
         try:
             import trimesh
 
             hull = trimesh.convex.convex_hull(trimesh.Trimesh(points, faces, process=False))
         except ImportError as error:
-            raise MissingDependencyError(
-                f"{path.name} is not closed, its hull needs scipy: pip install scipy"
-            ) from error
+            raise MissingDependencyError(f"{name} is not closed, its hull needs scipy: pip install scipy") from error
         except Exception:
-            return Moments(0.0, (0.0, 0.0, 0.0), (0.0,) * 6), f"{path.name} is flat: it has no volume"
+            return Moments(0.0, (0.0, 0.0, 0.0), (0.0,) * 6), f"{name} is flat: it has no volume"
         points, faces = np.asarray(hull.vertices, dtype=float), np.asarray(hull.faces)
     a, b, c = (points[faces[:, corner]] for corner in range(3))
     volumes = np.einsum("ij,ij->i", a, np.cross(b, c)) / 6.0
@@ -63,8 +58,6 @@ def moments(mesh: Mesh, expanded: Expanded) -> tuple[Moments, str]:
 
 def _is_closed(faces: Any) -> bool:
     """Return whether every edge of a surface occurs once in each direction."""
-    import numpy as np
-
     faces = faces[(faces[:, 0] != faces[:, 1]) & (faces[:, 1] != faces[:, 2]) & (faces[:, 2] != faces[:, 0])]
     edges = np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]]).astype(np.int64)
     size = int(edges.max(initial=0)) + 1
