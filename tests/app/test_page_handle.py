@@ -107,7 +107,7 @@ def test_errors_reach_the_caller_and_leave_no_server(tmp_path: Path) -> None:
         urdfkit.teleop("simpleton", world="hause")
     (tmp_path / "arm.urdf").write_text(ARM)
     with pytest.raises(urdfkit.UrdfkitError, match="link `hand` has no <inertial>"):
-        urdfkit.teleop(tmp_path / "arm.urdf")
+        urdfkit.teleop(tmp_path / "arm.urdf", strict=True)
 
 
 def test_an_error_of_the_loop_is_raised_by_wait() -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import os
 import re
 import signal
@@ -154,12 +155,48 @@ def test_models_that_cannot_be_simulated_are_refused_with_place_and_value(
     text, said = REFUSED[what]
     monkeypatch.chdir(tmp_path)
     Path("probe.urdf").write_text(text)
-    assert main(["sim", "run", "probe.urdf", "--for", "0.1"]) == 2
+    assert main(["sim", "run", "probe.urdf", "--for", "0.1", "--strict"]) == 2
     out, err = capsys.readouterr()
     assert out == ""
     assert err.startswith("urdfkit: probe.urdf:")
     assert err.count("\n") == 1, err
     assert said in err
+
+
+REPAIRED = {
+    "massless": ("mass", "I511", ":9:3: link `arm` has no <inertial>, but joint `elbow` moves it; simulated with 8 kg"),
+    "no mass": ("mass", "I501", ":9:30: link `arm` has no mass, but joint `elbow` moves it; simulated with "),
+    "no inertia": ("mass", "I504", ":10:5: link `arm` has no moment of inertia, but joint `elbow` moves it; simulated"),
+    "negative inertia": ("inertia", "I502", "and 0.01 kg·m² one is negative; simulated with"),
+    "inertia of no body": ("inertia", "I503", ":10:5: the inertia of link `arm` is impossible: "),
+    "inertia of no body at the root": ("inertia", "I503", ":3:5: the inertia of link `base` is"),
+    "no collision left, for want of its mesh": ("mesh", "G601", ": no file arm.stl; shape `base/collision/0` is left"),
+    "size below zero": ("shape", "G611", ":10:104: the box of link `arm` has a size of -0.1 m; it must be positive; "),
+}
+"""Defect → kind of its repair, code of the lint rule, and part of the message."""
+
+
+@pytest.mark.parametrize("what", REPAIRED)
+def test_models_that_can_be_repaired_run_with_one_warning(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: Capture, what: str
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    Path("probe.urdf").write_text(REFUSED[what][0])
+    assert main(["sim", "run", "probe.urdf", "--for", "0.1", "--json"]) == 0
+    out, err = capsys.readouterr()
+    kind, code, said = REPAIRED[what]
+    (repair,) = json.loads(out)["repairs"]
+    assert (repair["kind"], repair["code"]) == (kind, code)
+    assert f"urdfkit: {repair['file']}:{repair['line']}:{repair['column']}: {repair['message']}\n" in err
+    assert said in err
+
+
+def test_a_negative_mass_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: Capture) -> None:
+    monkeypatch.chdir(tmp_path)
+    text, said = REFUSED["negative mass"]
+    Path("probe.urdf").write_text(text)
+    assert main(["sim", "run", "probe.urdf", "--for", "0.1"]) == 2
+    assert said in capsys.readouterr().err
 
 
 PLUGINS = {

@@ -96,7 +96,7 @@ def test_json_has_the_contracts_keys_and_kinds(capsys: Capture) -> None:
     report = run(capsys, "simpleton", "--for", "0.5", "--cmd-vel", "0.2,0,0")
     assert set(report) == {
         *("robot", "world", "dt", "steps", "duration", *TIMES, "base", "joints", "odometry", "bodies", "contacts"),
-        *("energy", "topics"),
+        *("repairs", "energy", "topics"),
     }
     assert (report["robot"], report["world"], report["dt"], report["steps"]) == ("simpleton", "empty", 0.001, 500)
     assert report["duration"] == pytest.approx(0.5)
@@ -284,7 +284,7 @@ MASS = "<inertial><mass value='1'/><inertia ixx='1' iyy='1' izz='1' ixy='0' ixz=
 def test_models_that_cannot_be_simulated(capsys: Capture, tmp_path: Path, content: str, said: str) -> None:
     path = tmp_path / "r.urdf"
     path.write_text(f"<robot name='r'>\n{content}\n</robot>")
-    line = refused(capsys, str(path), "--for", "1")
+    line = refused(capsys, str(path), "--for", "1", "--strict")
     assert f"r.urdf:{said}" in line
 
 

@@ -267,7 +267,7 @@ def test_what_cannot_be_simulated_is_said_with_its_place(write_rover: Callable[.
     arm = '<link name="arm"/><joint name="elbow" type="revolute"><parent link="base"/><child link="arm"/>'
     path = write_rover(f'{arm}<axis xyz="0 1 0"/><limit lower="-1" upper="1" effort="1" velocity="1"/></joint>')
     with pytest.raises(SimulationError) as caught:
-        Simulator(path)
+        Simulator(path, strict=True)
     line = next(n for n, text in enumerate(path.read_text().splitlines(), 1) if "elbow" in text)
     assert f"rover.urdf:{line}:" in str(caught.value)
     assert "link `arm` has no <inertial>, but joint `elbow` moves it" in str(caught.value)
@@ -339,7 +339,7 @@ def test_a_link_without_mass_may_carry_one_about_another_axis(tmp_path: Path) ->
         f"link `l{n}` has no mass; it moves with the links it carries" for n in (0, 1)
     ]
     with pytest.raises(SimulationError, match=r"r\.urdf:3:1: link `l1` has no <inertial>, but joint `j1` moves it"):
-        Simulator(chain(tmp_path / "s.urdf", "zxx").rename(tmp_path / "r.urdf"))
+        Simulator(chain(tmp_path / "s.urdf", "zxx").rename(tmp_path / "r.urdf"), strict=True)
 
 
 def test_a_servo_keeps_to_the_effort_limit_of_its_joint() -> None:

@@ -11,12 +11,14 @@ import numpy as np
 from urdfkit.bus import Bus, Subscription, absolute, nearest_topic
 from urdfkit.description import Robot, load
 from urdfkit.description.sdf import Physics, World
+from urdfkit.description.urdf.repair import Repair
 from urdfkit.errors import SimulationError, UnknownNameError, suggestion
 from urdfkit.linear_algebra import Array
 from urdfkit.messages import TWIST, TWIST_STAMPED, header, message_type, twist
 from urdfkit.scene import Scene
 from urdfkit.sim.construction.initial_overlap import note_overlaps
 from urdfkit.sim.construction.loading import require_valid_arguments, world_with_gravity
+from urdfkit.sim.construction.repairs.collector import DENSITY, Repairs
 from urdfkit.sim.construction.spawn import Spawn
 from urdfkit.sim.plugins.base import Drive
 from urdfkit.sim.plugins.builtin_publishers import Clock
@@ -60,6 +62,8 @@ class Simulator:
         renderer: camera renderer: ``ray`` casts rays, ``gl`` uses OpenGL, ``auto`` selects the faster one.
         scene: the robot's shapes, if they have been loaded already.
         note: called with each warning for the user, once per text; the log ``urdfkit.sim`` when None.
+        strict: refuse robots that need a repair, such as an estimated mass.
+        density: density for the mass of moving links without one [kg/m³].
 
     Raises:
         UrdfkitError: the robot or the world cannot be loaded or simulated; with the reason and the source position.
@@ -68,7 +72,7 @@ class Simulator:
         surroundings: the scene that the sensors measure.
         world: the simulated world with all robots and bodies.
         robot: the robot as described in its files.
-        kinematics: the kinematic model of the robot.
+        kinematics: the kinematic model of the robot, with its repairs.
         scene: the shapes of the robot.
         bus: the message bus of all topics.
         state: the current state, read-only.
@@ -97,6 +101,8 @@ class Simulator:
         renderer: str = "ray",
         scene: Scene | None = None,
         note: Callable[[str], None] | None = None,
+        strict: bool = False,
+        density: float = DENSITY,
     ) -> None:
         distro = Distro(ros_distro)
         require_valid_arguments(seed, spawn)
@@ -108,6 +114,9 @@ class Simulator:
         self.bus = Bus() if bus is None else bus
         self.paused = False
         self.note = Notes(note or LOG.warning)
+        if not number(density, "the density", "kg/m³") > 0:
+            raise SimulationError(f"the density is {density:g} kg/m³; it must be greater than zero")
+        self._repairs = Repairs(self.note, strict=strict, density=density)
         for line in found.notes:
             self.note(line)
         if (wish := found.physics.max_step_size) not in (dt, Physics().max_step_size):
@@ -123,6 +132,7 @@ class Simulator:
             note=self.note,
             fixed_base=fixed_base,
             scene=scene,
+            repairs=self._repairs,
         )
         self.kinematics, self.scene = first.kinematics, first.scene
         builder = WorldBuilder(first, found, dt=dt, note=self.note, package_path=package_path, sleep=sleep)
@@ -149,6 +159,11 @@ class Simulator:
     def __repr__(self) -> str:
         """Return the names of robot and world, and the simulated time."""
         return f"<Simulator of {self.name} in world {self.world.name} at t = {self.t:g} s>"
+
+    @property
+    def repairs(self) -> tuple[Repair, ...]:
+        """The repairs of all robots, also of robots that were removed."""
+        return tuple(self._repairs.found)
 
     # Time
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
+import trimesh
 
 from urdfkit.cli import main
 from urdfkit.errors import ResourceError, SimulationError
@@ -34,9 +35,25 @@ def test_the_shape_is_left_out_by_name_and_the_rest_stands_on_the_ground(tmp_pat
     assert note.endswith("shape `base/collision/hull` is left out: it has no contacts")
 
 
-def test_a_robot_of_which_nothing_is_left_to_touch_is_refused(tmp_path: Path) -> None:
+@pytest.mark.parametrize("collisions", [MESH.format("gone.stl"), BOX + MESH.format("gone.stl")])
+def test_a_strict_simulation_refuses_the_robot(tmp_path: Path, collisions: str) -> None:
     with pytest.raises(ResourceError, match=r"gone\.stl"):
-        Simulator(written(tmp_path, MESH.format("gone.stl")))
+        Simulator(written(tmp_path, collisions), strict=True)
+
+
+def test_visual_shapes_replace_the_collision_shapes_of_a_link_if_all_are_missing(tmp_path: Path) -> None:
+    trimesh.creation.cone(0.5, 1.0).export(tmp_path / "outer_body.stl")
+    visuals = BOX.replace("collision", "visual") + MESH.replace("collision", "visual").format("outer_body.stl")
+    simulator = Simulator(written(tmp_path, MESH.format("gone.stl") + visuals), note=lambda _: None)
+    assert [shape.name for shape in simulator.scene.with_role("collision")] == [
+        "base/collision/0",
+        "base/collision/hull",
+    ]
+    simulator.run(0.3)
+    assert simulator.state.base_pose[2] == pytest.approx(0.0, abs=1e-6)
+    (repair,) = simulator.repairs
+    assert repair.message == "no file gone.stl; the link collides with its visual shapes"
+    assert (repair.kind, repair.code, repair.link) == ("mesh", "G601", "base")
 
 
 def test_the_command_runs_on(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

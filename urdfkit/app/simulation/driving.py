@@ -37,6 +37,8 @@ def teleop(
     ros_distro: str | None = None,
     controllers: Sequence[str | Path] = (),
     renderer: str = "ray",
+    strict: bool = False,
+    density: float = 1000.0,
     host: str = "127.0.0.1",
     port: int = 0,
 ) -> SimulationHandle:
@@ -50,6 +52,8 @@ def teleop(
         ros_distro: the ROS distribution whose behaviour the plugins have; the newest when None.
         controllers: parameter files of controllers, in place of the files that the robot's packages load.
         renderer: renderer of the cameras: ``ray``, ``gl`` or ``auto``.
+        strict: refuse robots that need a repair, such as an estimated mass.
+        density: density for the mass of moving links without one [kg/m³].
         host: address to listen on; ``0.0.0.0`` accepts other machines, which need the token in the address.
         port: port to serve on; 0 for any free port.
 
@@ -68,7 +72,16 @@ def teleop(
     with ExitStack() as stack:
         page = Page("sim", host=host, port=port)
         loop = stack.enter_context(
-            driving(page, loaded, place, ros_distro=ros_distro, controllers=controllers, renderer=renderer)
+            driving(
+                page,
+                loaded,
+                place,
+                ros_distro=ros_distro,
+                controllers=controllers,
+                renderer=renderer,
+                strict=strict,
+                density=density,
+            )
         )
         handle = SimulationHandle(page.server, loop.run, stack.pop_all())
     handle.simulator = loop.simulator
@@ -84,6 +97,8 @@ def driving(
     ros_distro: str | None = None,
     controllers: Sequence[str | Path] = (),
     renderer: str = "ray",
+    strict: bool = False,
+    density: float = 1000.0,
     note: Callable[[str], None] | None = None,
 ) -> Iterator[DriveLoop]:
     """Serve the page of a simulation inside the context; yield its loop, ready to run.
@@ -95,6 +110,8 @@ def driving(
         ros_distro: see `teleop`.
         controllers: see `teleop`.
         renderer: see `teleop`.
+        strict: see `teleop`.
+        density: see `teleop`.
         note: receives the warnings of the simulation.
 
     Raises:
@@ -108,7 +125,7 @@ def driving(
 
     server = page.server
     try:
-        placeholder = Placeholder(robot, world)
+        placeholder = Placeholder(robot, world, strict=strict, density=density)
         page.open()  # the browser starts and shows the robot while the engine is compiled
         # `urdfkit topic` finds the simulation from here on
         with registered(server.port, server.url, robot.name or "robot"):
@@ -124,6 +141,8 @@ def driving(
                         ros_distro=ros_distro,
                         controllers=controllers,
                         renderer=renderer,
+                        strict=strict,
+                        density=density,
                         note=note,
                     )
                     loop = DriveLoop(simulator, server)

@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING
 from urdfkit.kinematics import Kinematics
 from urdfkit.scene import Scene, scene_of
 from urdfkit.sim.construction.loading import require_masses
+from urdfkit.sim.construction.repairs.collector import DENSITY, Repairs
+from urdfkit.sim.construction.repairs.robot_repairs import repaired
 from urdfkit.sim.construction.spawn import Spawn
 
 if TYPE_CHECKING:
@@ -21,6 +23,8 @@ class Placeholder:
     Args:
         robot: the loaded description.
         world: the world of the simulation.
+        strict: refuse robots that need a repair.
+        density: density for the mass of moving links without one [kg/m³].
 
     Raises:
         UrdfkitError: the robot cannot be simulated.
@@ -29,15 +33,17 @@ class Placeholder:
         scene: shapes of the robot; the simulation uses them too.
     """
 
-    def __init__(self, robot: Robot, world: World) -> None:
+    def __init__(self, robot: Robot, world: World, *, strict: bool = False, density: float = DENSITY) -> None:
         self._robot = robot
         on_world = robot.roots()[0].name == "world"
-        self._kinematics = kinematics = Kinematics(robot, floating_base=not on_world)
         self.scene: Scene = scene_of(robot, strict=False)
+        repairs = Repairs(lambda _: None, strict=strict, density=density)  # the simulation reports them
+        robot, scene = repaired(robot, self.scene, repairs, floating=not on_world)
+        self._kinematics = kinematics = Kinematics(robot, floating_base=not on_world)
         spawn = Spawn(z=0.0 if on_world else None)
-        base = spawn.place(kinematics, self.scene, None if world.ground is None else world.ground.height)
+        base = spawn.place(kinematics, scene, None if world.ground is None else world.ground.height)
         self._q = spawn.configuration(kinematics, base)[0]
-        require_masses(kinematics, self._q, lambda _: None)  # the simulation reports them
+        require_masses(kinematics, self._q, lambda _: None)
 
     def show(self, server: Display) -> None:
         """Show the robot on the page."""

@@ -17,6 +17,7 @@ from urdfkit.cli.sim import option_values
 from urdfkit.cli.sim.controllers_option import add_controllers
 from urdfkit.cli.sim.record_option import NEW_TOPIC_PERIOD, add_record, check_record, recording
 from urdfkit.cli.sim.renderer_option import add_renderer
+from urdfkit.cli.sim.repair_options import add_repair_options
 from urdfkit.cli.sim.ros_distro_option import add_distro
 from urdfkit.cli.unused_arguments import note_unused
 from urdfkit.errors import SimulationError, UsageError, suggestion
@@ -126,6 +127,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     add_distro(parser)
     add_controllers(parser)
     add_renderer(parser)
+    add_repair_options(parser)
     add("--json", action="store_true", help="print one JSON value")
     parser.epilog = (
         "examples:\n"
@@ -198,6 +200,8 @@ def load(arguments: argparse.Namespace) -> Simulator:
         ros_distro=arguments.ros_distro,
         controllers=arguments.controllers,
         renderer=arguments.renderer,
+        strict=arguments.strict,
+        density=arguments.density,
         note=(lambda text: None) if arguments.quiet else (lambda text: print(f"urdfkit: {text}", file=sys.stderr)),
     )
 

@@ -8,6 +8,7 @@ from urdfkit.cli.parser import add_model
 from urdfkit.cli.sim.controllers_option import add_controllers
 from urdfkit.cli.sim.record_option import add_record, check_record, recording
 from urdfkit.cli.sim.renderer_option import add_renderer
+from urdfkit.cli.sim.repair_options import add_repair_options
 from urdfkit.cli.sim.ros_distro_option import add_distro
 from urdfkit.cli.unused_arguments import note_unused
 
@@ -28,6 +29,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     add_distro(parser)
     add_controllers(parser)
     add_renderer(parser)
+    add_repair_options(parser)
     add_record(parser)
     add_page_options(parser)
     parser.epilog = "examples:\n  urdfkit sim teleop simpleton\n  urdfkit sim teleop simpleton --port 8080 --no-browser"
@@ -56,6 +58,8 @@ def run(arguments: argparse.Namespace) -> int:
                 ros_distro=arguments.ros_distro,
                 controllers=arguments.controllers,
                 renderer=arguments.renderer,
+                strict=arguments.strict,
+                density=arguments.density,
                 note=lambda text: note(f"urdfkit: {text}"),
             ) as loop,
             recording(loop.simulator, arguments.record) as loop.look,

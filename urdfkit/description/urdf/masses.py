@@ -4,18 +4,15 @@ from urdfkit.description.urdf.queries import tree_order
 from urdfkit.description.urdf.robot import Joint, Link, Robot
 
 
-def massless(robot: Robot, *, floating: bool) -> list[tuple[Link, Joint | None]]:
-    """Return the links that move without mass or inertia, each with the joint that moves it.
-
-    Links fixed to each other are one body: a body needs a link with a mass and one with an inertia tensor.
+def moving_bodies(robot: Robot, *, floating: bool) -> dict[str, tuple[Joint | None, list[Link]]]:
+    """Return the bodies that move: links fixed to each other, by the name of the topmost link.
 
     Args:
         robot: one tree of links.
         floating: whether the base is floating; the joint of the root link is then None.
 
     Returns:
-        The topmost link of each body without mass or inertia, in document order of the tree. Unknown links
-        that joints name are skipped.
+        The joint that moves each body, and its links in document order. Unknown links that joints name are skipped.
     """
     body_of: dict[str, str] = {}
     tops: dict[str, Joint | None] = {}
@@ -31,16 +28,41 @@ def massless(robot: Robot, *, floating: bool) -> list[tuple[Link, Joint | None]]
             tops[joint.child] = joint
         else:
             body_of[joint.child] = body_of.get(joint.parent or "", joint.child)
-    heavy, turning = set(), set()
+    bodies: dict[str, tuple[Joint | None, list[Link]]] = {
+        top: (joint, []) for top, joint in tops.items() if top in robot.link_by_name
+    }
     for link in robot.link_by_name_in_order():
-        inertial = link.inertial
-        if inertial is None:
-            continue
-        if inertial.mass is not None and inertial.mass > 0:
-            heavy.add(body_of.get(link.name))
-        tensor = inertial.inertia
-        if tensor is not None and any((tensor.ixx, tensor.iyy, tensor.izz)):
-            turning.add(body_of.get(link.name))
-    fit = heavy & turning
-    links = robot.link_by_name
-    return [(links[top], joint) for top, joint in tops.items() if top not in fit and top in links]
+        if (top := body_of.get(link.name, "")) in bodies:
+            bodies[top][1].append(link)
+    return bodies
+
+
+def massless(robot: Robot, *, floating: bool) -> list[tuple[Link, Joint | None]]:
+    """Return the links that move without mass or inertia, each with the joint that moves it.
+
+    Links fixed to each other are one body: a body needs a link with a mass and one with an inertia tensor.
+
+    Args:
+        robot: one tree of links.
+        floating: whether the base is floating; the joint of the root link is then None.
+
+    Returns:
+        The topmost link of each body without mass or inertia, in document order of the tree. Unknown links
+        that joints name are skipped.
+    """
+    return [
+        (robot.link_by_name[top], joint)
+        for top, (joint, links) in moving_bodies(robot, floating=floating).items()
+        if not (any(map(has_mass, links)) and any(map(has_inertia, links)))
+    ]
+
+
+def has_mass(link: Link) -> bool:
+    """Return whether a link has a mass greater than zero."""
+    return link.inertial is not None and (link.inertial.mass or 0.0) > 0.0
+
+
+def has_inertia(link: Link) -> bool:
+    """Return whether a link has an inertia tensor whose diagonal is not zero."""
+    tensor = link.inertial.inertia if link.inertial is not None else None
+    return tensor is not None and any((tensor.ixx, tensor.iyy, tensor.izz))

@@ -6,11 +6,11 @@ from collections.abc import Iterator
 
 from urdfkit.description.urdf.geometry import UNROTATED, rotation_of
 from urdfkit.description.urdf.robot import Geometry, Link, Pose, Vector
+from urdfkit.description.urdf.volume_moments import Moments, of_primitive, union
 from urdfkit.description.xml.element import Element
 from urdfkit.description.xml.source import Position, Source
 from urdfkit.errors import ResourceError, UrdfkitError
 from urdfkit.lint.facts.inertia.inertia_tensor import COMPONENTS
-from urdfkit.description.urdf.volume_moments import Moments, of_primitive, union
 from urdfkit.lint.finding import Edit
 from urdfkit.lint.model.model import Model
 from urdfkit.lint.model.tags import Tag
@@ -100,7 +100,7 @@ def _moments(geometry: Geometry, model: Model, notes: dict[str, None]) -> Moment
 
     if not isinstance(geometry, Mesh):
         return of_primitive(geometry)
-    from urdfkit.lint.facts.inertia.mesh_moments import moments
+    from urdfkit.scene.meshes.mesh_moments import moments
 
     found, note = moments(geometry, model.expanded)
     if note:

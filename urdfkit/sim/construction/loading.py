@@ -82,7 +82,7 @@ def require_masses(kinematics: Kinematics, q: NDArray[np.float64], note: Callabl
     found = massless(kinematics.robot, floating=kinematics.floating_base)
     if not found:
         return
-    if _is_regular(kinematics, q):
+    if is_regular(kinematics, q):
         for link, _ in found:
             note(f"{link.element.origin.position}: link `{link.name}` has no mass; it moves with the links it carries")
         return
@@ -97,7 +97,7 @@ def require_masses(kinematics: Kinematics, q: NDArray[np.float64], note: Callabl
     )
 
 
-def _is_regular(kinematics: Kinematics, q: NDArray[np.float64]) -> bool:
+def is_regular(kinematics: Kinematics, q: NDArray[np.float64]) -> bool:
     """Return whether every joint moves a mass, and the mass matrix is invertible."""
     import pinocchio
 

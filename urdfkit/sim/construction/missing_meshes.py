@@ -16,14 +16,13 @@ def warn_of_omitted_shapes(scene: Scene, note: Callable[[str], None]) -> None:
     """Report every omitted shape of a robot by name.
 
     Raises:
-        ResourceError: the robot has no collision shape left, so it would fall through the ground.
+        ResourceError: a mesh of a collision shape cannot be read.
     """
-    touched = [each for each in scene.problems if each.role == "collision"]
-    if touched and not scene.with_role("collision"):
-        raise touched[0].error
     for each in scene.problems:
-        effect = "it has no contacts" if each.role == "collision" else "it is invisible"
-        note(f"{each.error}; shape `{each.name}` is left out: {effect}")
+        if each.role == "collision":
+            raise each.error
+    for each in scene.problems:
+        note(f"{each.error}; shape `{each.name}` is left out: it is invisible")
 
 
 def without_broken(model: WorldModel, meshes: MeshLoader, note: Callable[[str], None]) -> WorldModel:

@@ -5,6 +5,7 @@ from math import isfinite
 from typing import Protocol
 
 import numpy as np
+from numpy.typing import NDArray
 
 from urdfkit.description.urdf.robot import Collision, Joint, Link, Mesh, Robot
 from urdfkit.description.xacro.evaluation.failures import chain_words
@@ -50,7 +51,7 @@ def problems(robot: Robot) -> Iterator[Problem]:
     for link in robot.links:
         yield from _masses(link)
         for collision in link.collisions:
-            yield from _sizes(link, collision)
+            yield from invalid_sizes(link, collision)
     for joint in robot.joints:
         yield from _joint(joint)
 
@@ -68,20 +69,30 @@ def _masses(link: Link) -> Iterator[Problem]:
         yield f"the inertia of link `{link.name}` is impossible: {why}", i.element
 
 
-def impossible(i: Tensor) -> str:
-    """Return why a tensor of inertia is impossible for a body; empty if it is possible."""
-    tensor = np.array([[i.ixx, i.ixy, i.ixz], [i.ixy, i.iyy, i.iyz], [i.ixz, i.iyz, i.izz]])
-    a, b, c = np.linalg.eigvalsh(tensor).tolist()
-    if a < -IMPOSSIBLE * max(abs(a), abs(c)):
+def tensor_matrix(i: Tensor) -> NDArray[np.float64]:
+    """Return a tensor of inertia as a matrix; shape (3, 3)."""
+    return np.array([[i.ixx, i.ixy, i.ixz], [i.ixy, i.iyy, i.iyz], [i.ixz, i.iyz, i.izz]])
+
+
+def impossible(i: Tensor, tolerance: float = IMPOSSIBLE) -> str:
+    """Return why a tensor of inertia is impossible for a body; empty if it is possible.
+
+    Args:
+        i: the tensor.
+        tolerance: largest violation that is possible, relative to the largest moment.
+    """
+    a, b, c = np.linalg.eigvalsh(tensor_matrix(i)).tolist()
+    if a < -tolerance * max(abs(a), abs(c)):
         why = "one is negative"
-    elif c - a - b > IMPOSSIBLE * c:
+    elif c - a - b > tolerance * abs(c):
         why = "the largest exceeds the sum of the others, which no distribution of mass has"
     else:
         return ""
     return f"of its principal moments {a:.6g}, {b:.6g} and {c:.6g} kg·m² {why}"
 
 
-def _sizes(link: Link, collision: Collision) -> Iterator[Problem]:
+def invalid_sizes(link: Link, collision: Collision) -> Iterator[Problem]:
+    """Yield a message and an element for each size of a collision shape that is not positive."""
     shape = collision.geometry
     if shape is None or isinstance(shape, Mesh):
         return

@@ -6,10 +6,12 @@ from typing import Any
 
 from urdfkit.description import Robot
 from urdfkit.kinematics import Kinematics
-from urdfkit.scene import Scene, scene_of
+from urdfkit.scene import Scene
 from urdfkit.sim.construction.link_options import self_colliding, weightless_links
 from urdfkit.sim.construction.loading import require_masses
 from urdfkit.sim.construction.missing_meshes import warn_of_omitted_shapes
+from urdfkit.sim.construction.repairs.collector import Repairs
+from urdfkit.sim.construction.repairs.robot_repairs import repaired
 from urdfkit.sim.construction.spawn import Spawn
 from urdfkit.sim.construction.surface_parameters import surfaces_of
 from urdfkit.sim.engine import Engine, Ground, Member, Surface
@@ -48,15 +50,17 @@ class SimulatedRobot:
         surfaces: friction of its links; None: as in the description.
         self_collide: links that collide with other links of the robot; None: as in the description.
         weightless: links without gravity; None: as in the description.
+        repairs: collects the repairs of the robot; None: a robot that needs a repair is refused.
         is_robot: whether it publishes joint states and transforms, unlike a model with joints such as a door.
 
     Raises:
         UrdfkitError: the robot cannot be simulated; with the reason and the place.
 
     Attributes:
-        robot: the loaded robot.
+        robot: the robot as described.
         name: name in the simulation.
-        kinematics: kinematic model.
+        repairs: collects the repairs of the robot.
+        kinematics: kinematic model of the repaired robot.
         scene: its shapes.
         state: positions and velocities, read-only; after `attach`.
         motors: velocity and position targets by joint; after `attach`.
@@ -84,14 +88,17 @@ class SimulatedRobot:
         surfaces: Mapping[str, Surface] | None = None,
         self_collide: Collection[str] | None = None,
         weightless: Collection[str] | None = None,
+        repairs: Repairs | None = None,
         is_robot: bool = True,
     ) -> None:
         self.robot, self.name = robot, name
+        self.repairs = repairs = repairs or Repairs(note, strict=True)
         self._is_robot = is_robot
         self._setup: Setup | None = None
         on_world = robot.roots()[0].name == "world"
-        self.kinematics = Kinematics(robot, floating_base=not (fixed_base or on_world))
-        self.scene = scene_of(robot, strict=False) if scene is None else scene
+        floating = not (fixed_base or on_world)
+        robot, self.scene = repaired(robot, scene, repairs, floating=floating)
+        self.kinematics = Kinematics(robot, floating_base=floating)
         warn_of_omitted_shapes(self.scene, note)
         self.spawn = spawn or Spawn(z=0.0 if on_world else None)
         self.base = self.spawn.place(self.kinematics, self.scene, ground)

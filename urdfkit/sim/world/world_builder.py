@@ -60,7 +60,7 @@ class WorldBuilder:
         require_no_joints(world)
         self.revision = 0
         self._dt, self._sleep, self._note = dt, sleep, note
-        self._factory = EntityFactory(note, package_path)
+        self._factory = EntityFactory(note, package_path, first.repairs)
         models = tuple([without_broken(model, self._factory.meshes, note) for model in world.models])
         self.description = world = replace(world, models=models)
         self.entities: dict[str, WorldEntity] = {first.name: WorldEntity(None, (first,), {first.name: IDENTITY})}

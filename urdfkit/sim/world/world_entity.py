@@ -10,6 +10,7 @@ from urdfkit.description.sdf.model_as_robot import groups_of
 from urdfkit.description.urdf.geometry import IDENTITY, compose
 from urdfkit.description.urdf.robot import Pose, Robot
 from urdfkit.scene import MeshLoader, Scene
+from urdfkit.sim.construction.repairs.collector import Repairs
 from urdfkit.sim.construction.rigid_bodies import has_plugins, parts_of, scene_of_tree, surfaces_of_tree, trees_of
 from urdfkit.sim.construction.spawn import Spawn
 from urdfkit.sim.engine import Body, Piece
@@ -42,13 +43,14 @@ class EntityFactory:
     Args:
         note: reports a warning to the user.
         package_path: folders that are searched first for packages.
+        repairs: collects the repairs of robots.
 
     Attributes:
         meshes: cache of loaded meshes.
     """
 
-    def __init__(self, note: Callable[[str], None], package_path: Sequence[str | Path]) -> None:
-        self._note, self._package_path = note, tuple(package_path)
+    def __init__(self, note: Callable[[str], None], package_path: Sequence[str | Path], repairs: Repairs) -> None:
+        self._note, self._package_path, self._repairs = note, tuple(package_path), repairs
         self.meshes = MeshLoader()
 
     def make(
@@ -114,6 +116,7 @@ class EntityFactory:
             ground=ground,
             note=self._note,
             fixed_base=fixed_base,
+            repairs=self._repairs,
         )
         if not source.static:
             return WorldEntity(source, (made,), {source.name: IDENTITY})

@@ -1,0 +1,39 @@
+"""Repair: a change to a defective description without which a robot could not be simulated."""
+
+from __future__ import annotations
+
+from urdfkit.position import Position
+from urdfkit.record import record
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from typing import Literal
+
+    RepairKind = Literal["inertia", "mass", "shape", "mesh", "plugin", "hardware", "controller"]
+
+
+@record
+class Repair:
+    """Change to a defective description without which a robot could not be simulated.
+
+    Attributes:
+        kind: what was repaired.
+        code: code of the lint rule that reports the same defect.
+        message: the defect and the repair, with amounts and units, without the position.
+        position: source position of the defect; None if the robot was not read from a file.
+        link: name of the repaired link; None if no link was repaired.
+        joint: name of the joint that moves the link, or of the repaired joint; None if unknown.
+        severity: ``note`` for changes within rounding errors of the source, else ``warning``.
+    """
+
+    kind: RepairKind
+    code: str
+    message: str
+    position: Position | None
+    link: str | None = None
+    joint: str | None = None
+    severity: Literal["warning", "note"] = "warning"
+
+    def __str__(self) -> str:
+        """Return the message with its position."""
+        return self.message if self.position is None else f"{self.position}: {self.message}"

@@ -1,0 +1,61 @@
+"""Collection of the repairs of a simulation, each reported once; or refusal of everything that needs one."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING
+
+from urdfkit.description.urdf.repair import Repair
+
+if TYPE_CHECKING:
+    from urdfkit.description.urdf.repair import RepairKind
+    from urdfkit.description.xml.source import Position
+    from urdfkit.errors import UrdfkitError
+
+DENSITY = 1000.0
+"""Default density of links without mass [kg/m³]: water."""
+
+
+class Repairs:
+    """Collects the repairs of a simulation.
+
+    Args:
+        note: reports a warning to the user.
+        strict: refuse robots that need a repair.
+        density: density of links without mass [kg/m³].
+
+    Attributes:
+        strict: refuse robots that need a repair.
+        density: density of links without mass [kg/m³].
+        found: the repairs.
+    """
+
+    def __init__(self, note: Callable[[str], None], *, strict: bool = False, density: float = DENSITY) -> None:
+        self._note = note
+        self.strict, self.density = strict, density
+        self.found: list[Repair] = []
+
+    def add(self, repair: Repair) -> None:
+        """Record and report a repair, unless an equal one was recorded before."""
+        if repair not in self.found:
+            self.found.append(repair)
+            self._note(str(repair))
+
+    def leave_out(
+        self, error: UrdfkitError, effect: str, kind: RepairKind, code: str, *, position: Position | None = None
+    ) -> None:
+        """Record that a defective part is left out.
+
+        Args:
+            error: the defect.
+            effect: the omission, for the message.
+            kind: kind of the omitted part.
+            code: code of the lint rule that reports the same defect.
+            position: source position for an error without position.
+
+        Raises:
+            UrdfkitError: the error, if robots that need a repair are refused.
+        """
+        if self.strict:
+            raise error
+        self.add(Repair(kind, code, f"{error.message}; {effect}", error.position or position))

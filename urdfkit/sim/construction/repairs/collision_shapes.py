@@ -1,0 +1,76 @@
+"""Replacement of collision shapes that have no size or whose mesh cannot be read."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+
+from urdfkit.description.urdf.repair import Repair
+from urdfkit.description.urdf.robot import Link, Robot
+from urdfkit.scene import Scene, Shape
+from urdfkit.sim.construction.repairs.inertia_tensors import repair_at
+from urdfkit.sim.construction.validation import invalid_sizes
+
+CODES = {"no package ": "G602", "no file ": "G601", "missing mesh file": "G601", "unsupported format": "G606"}
+"""Part of the error of a mesh → code of the lint rule that reports it."""
+
+
+def without_empty_shapes(robot: Robot) -> tuple[Robot, list[Repair]]:
+    """Return a robot without the collision shapes whose size is not positive, and a repair for each."""
+    repairs: list[Repair] = []
+    links = tuple([_without_empty(link, repairs) for link in robot.links])
+    return (replace(robot, links=links), repairs) if repairs else (robot, repairs)
+
+
+def _without_empty(link: Link, repairs: list[Repair]) -> Link:
+    kept = []
+    for collision in link.collisions:
+        faults = list(invalid_sizes(link, collision))
+        if not faults:
+            kept.append(collision)
+            continue
+        message, element = faults[0]
+        message += "; the shape is left out: it has no contacts"
+        repairs.append(repair_at(element, "shape", "G611", message, link=link.name))
+    return link if len(kept) == len(link.collisions) else replace(link, collisions=tuple(kept))
+
+
+def with_substitutes(scene: Scene) -> tuple[Scene, list[Repair]]:
+    """Return a scene in which visual shapes replace the missing collision shapes, and a repair for each missing shape.
+
+    A link whose collision shapes are all missing collides with its visual shapes, meshes as their convex hulls. Where
+    other collision shapes remain, or no visual shape can be read, the missing ones are left out.
+    """
+    missing = [problem for problem in scene.problems if problem.role == "collision"]
+    if not missing:
+        return scene, []
+    left = {shape.body for shape in scene.with_role("collision")}
+    replaced: dict[str, list[Shape]] = {}
+    repairs = []
+    for problem in missing:
+        body = problem.body
+        if body not in left and body not in replaced:
+            replaced[body] = list(_substitutes(scene, body))
+        if replaced.get(body):
+            effect = "the link collides with its visual shapes"
+        else:
+            effect = f"shape `{problem.name}` is left out: it has no contacts"
+        message = f"{problem.error.message}; {effect}"
+        repairs.append(Repair("mesh", _code(problem.error.message), message, problem.error.position, body))
+    shapes = [*scene.shapes, *(shape for found in replaced.values() for shape in found)]
+    order = scene.body_index
+    shapes.sort(key=lambda shape: (order[shape.body], shape.role == "collision"))
+    kept = tuple([problem for problem in scene.problems if problem.role != "collision"])
+    return Scene(scene.bodies, tuple(shapes), kept), repairs
+
+
+def _substitutes(scene: Scene, body: str) -> Iterator[Shape]:
+    """Yield the visual shapes of a link as collision shapes."""
+    visuals = [shape for shape in scene.with_role("visual") if shape.body == body]
+    for shape in visuals:
+        yield replace(shape, name=shape.name.replace("/visual/", "/collision/", 1), role="collision", has_color=False)
+
+
+def _code(message: str) -> str:
+    """Return the code of the lint rule that reports a mesh with this error."""
+    return next((code for text, code in CODES.items() if text in message), "G607")

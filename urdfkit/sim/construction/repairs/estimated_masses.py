@@ -1,0 +1,129 @@
+"""Estimated masses and inertias of moving links without them, from their shapes at uniform density."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+from math import pi
+
+from urdfkit.description.urdf.geometry import rotation_of, rpy_of
+from urdfkit.description.urdf.masses import has_inertia, has_mass, moving_bodies
+from urdfkit.description.urdf.repair import Repair
+from urdfkit.description.urdf.robot import Geometry, Inertia, Inertial, Joint, Link, Pose, Robot
+from urdfkit.description.urdf.volume_moments import Moments, of_primitive, union
+from urdfkit.scene import Scene, Shape
+from urdfkit.scene.meshes.mesh_moments import moments
+from urdfkit.sim.construction.repairs.inertia_tensors import repair_at
+
+
+def with_estimates(robot: Robot, scene: Scene, *, floating: bool, density: float) -> tuple[Robot, list[Repair]]:
+    """Return a robot whose moving bodies have masses and inertias where they can be estimated, and the repairs.
+
+    A body without mass gets the mass of its shapes at a density: of the collision shapes of each link, else of its
+    visual shapes. A body with mass and without inertia gets the inertia of these shapes with its mass, or of a solid
+    sphere of the density if it has no shapes. A mass or tensor in the source is kept. Bodies with neither mass nor
+    shapes stay unchanged.
+
+    Args:
+        robot: the robot.
+        scene: its shapes.
+        floating: whether its base moves.
+        density: density of the shapes [kg/m³].
+    """
+    changed: dict[str, Link] = {}
+    repairs: list[Repair] = []
+    for joint, links in moving_bodies(robot, floating=floating).values():
+        heavy = [link for link in links if has_mass(link)]
+        if (heavy and any(map(has_inertia, links))) or any(map(_is_negative, links)):
+            continue
+        for link in heavy or links:
+            volume = _volume(scene, link.name)
+            if not heavy and volume.volume <= 0.0:
+                continue
+            inertial = _estimated(link, volume, density)
+            changed[link.name] = replace(link, inertial=inertial)
+            if volume.volume <= 0.0:
+                basis = f"the inertia of a sphere of {density:g} kg/m³"
+            else:
+                basis = "the inertia from its shapes" if heavy else f"from its shapes at {density:g} kg/m³"
+            repairs.append(mass_repair(link, inertial, joint, basis))
+    if not changed:
+        return robot, repairs
+    return replace(robot, links=tuple([changed.get(link.name, link) for link in robot.links])), repairs
+
+
+def _is_negative(link: Link) -> bool:
+    return link.inertial is not None and (link.inertial.mass or 0.0) < 0.0
+
+
+def _estimated(link: Link, volume: Moments, density: float) -> Inertial:
+    """Return the inertial of a link with the missing ones of mass, centre of mass and inertia added."""
+    written = link.inertial
+    element = link.element if written is None else written.element
+    mass = written.mass if written is not None and written.mass else density * volume.volume
+    is_placed = written is not None and bool(written.mass or has_inertia(link))
+    origin = written.origin if written is not None and is_placed else Pose(volume.middle)
+    if written is not None and written.inertia is not None and has_inertia(link):
+        inertia = written.inertia
+    elif volume.volume > 0.0:
+        ixx, ixy, ixz, iyy, iyz, izz = volume.tensor(mass, rotation_of(origin.rpy))
+        inertia = Inertia(ixx, ixy, ixz, iyy, iyz, izz, element)
+    else:
+        inertia = _sphere(mass, density, link)
+    return Inertial(origin, mass, inertia, element)
+
+
+def _sphere(mass: float, density: float, link: Link) -> Inertia:
+    """Return the inertia of a solid sphere with a mass [kg] and a density [kg/m³]."""
+    moment = 0.4 * mass * (3.0 * mass / (4.0 * pi * density)) ** (2.0 / 3.0)
+    return Inertia(moment, 0.0, 0.0, moment, 0.0, moment, link.element)
+
+
+def mass_repair(link: Link, inertial: Inertial, joint: Joint | None, basis: str) -> Repair:
+    """Return the repair of a link without mass or inertia.
+
+    Args:
+        link: the link as written.
+        inertial: its mass and inertia in the simulation.
+        joint: the joint that moves it; None for the base.
+        basis: where the values come from.
+    """
+    why = f"joint `{joint.name}` moves it" if joint is not None else "the robot is free to move"
+    written, element, code = link.inertial, link.element, "I511"
+    if written is None:
+        problem = "has no <inertial>"
+    elif not has_mass(link):
+        problem = "has no mass"
+        if written.mass is not None:
+            element, code = written.element.find("mass") or element, "I501"
+    else:
+        problem = "has no moment of inertia"
+        if written.inertia is not None:
+            element, code = written.inertia.element, "I504"
+    i = inertial.inertia
+    moments = f" and {i.ixx:.4g}, {i.iyy:.4g}, {i.izz:.4g} kg·m²" if i is not None else ""
+    amount = f"{inertial.mass:.4g} kg{moments}"
+    message = f"link `{link.name}` {problem}, but {why}; simulated with {amount} ({basis})"
+    return repair_at(element, "mass", code, message, link=link.name, joint=None if joint is None else joint.name)
+
+
+def _volume(scene: Scene, link: str) -> Moments:
+    """Return the moments of the union of a link's collision shapes; of its visual shapes without collision shapes."""
+    for role in ("collision", "visual"):
+        shapes = [shape for shape in scene.shapes if shape.body == link and shape.role == role]
+        whole = union(list(_moments(shapes)))[0]
+        if whole.volume > 0.0:
+            return whole
+    return Moments(0.0, (0.0, 0.0, 0.0), (0.0,) * 6)
+
+
+def _moments(shapes: list[Shape]) -> Iterator[tuple[Geometry, Pose, Moments]]:
+    """Yield each shape of a robot with its pose in the link and its moments in its own frame."""
+    for shape in shapes:
+        geometry: Geometry = shape.geometry  # type: ignore[assignment]  # robots have no planes, ellipsoids and cones
+        x, y, z = shape.placement[:3, 3].tolist()
+        pose = Pose((x, y, z), rpy_of(shape.placement[:3, :3].tolist()))
+        if shape.mesh is None:
+            yield geometry, pose, of_primitive(geometry)
+        else:
+            yield geometry, pose, moments(shape.mesh, shape.name)[0]

@@ -1,0 +1,96 @@
+"""Replacement of impossible inertia tensors by the nearest possible ones.
+
+A tensor I belongs to the matrix of second moments of the density S = tr(I)/2·1 − I. A distribution of mass exists if
+and only if S is positive semidefinite. The nearest such matrix, by the Frobenius norm, has the same eigenvectors and
+the negative eigenvalues replaced by zero (Higham, Computing a nearest symmetric positive semidefinite matrix, 1988).
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from urdfkit.description.urdf.repair import Repair
+from urdfkit.description.urdf.robot import Inertia, Link
+from urdfkit.description.xacro.evaluation.failures import chain_words
+from urdfkit.linear_algebra import matmul
+from urdfkit.sim.construction.validation import impossible, tensor_matrix
+
+if TYPE_CHECKING:
+    from urdfkit.description.urdf.repair import RepairKind
+    from urdfkit.description.xml.element import Element
+
+Array = NDArray[np.float64]
+
+ROUNDING = 1e-6
+"""Largest violation that is not repaired, relative to the largest moment: CAD programs write six digits (I503)."""
+
+SLIP = 1e-4
+"""Largest violation that is a note, relative to the largest moment."""
+
+
+def nearest_tensor(tensor: Array) -> Array:
+    """Return the tensor of a distribution of mass whose second moments differ least from those of a tensor."""
+    values, axes = np.linalg.eigh(np.trace(tensor) / 2.0 * np.eye(3) - tensor)
+    second = matmul(axes * np.maximum(values, 0.0), axes.T)
+    nearest = np.trace(second) * np.eye(3) - second
+    return np.asarray((nearest + nearest.T) / 2.0)
+
+
+def violation(tensor: Array) -> float:
+    """Return by how much the largest principal moment exceeds the sum of the others, relative to the largest."""
+    a, b, c = np.linalg.eigvalsh(tensor).tolist()
+    return float((c - a - b) / max(abs(a), abs(c), 1e-300))
+
+
+def possible(link: Link) -> tuple[Link, Repair | None]:
+    """Return a link with a possible inertia tensor, and the repair if its tensor was changed."""
+    inertial = link.inertial
+    if inertial is None or inertial.inertia is None or (inertial.mass or 0.0) < 0.0:
+        return link, None
+    written = tensor_matrix(inertial.inertia)
+    excess = violation(written)
+    if excess <= ROUNDING:
+        return link, None
+    nearest = nearest_tensor(written)
+    change = float(np.linalg.norm(nearest - written) / np.linalg.norm(written))
+    moments = ", ".join(f"{moment:.6g}" for moment in np.linalg.eigvalsh(nearest).tolist())
+    message = (
+        f"the inertia of link `{link.name}` is impossible: {impossible(inertial.inertia, ROUNDING)}; "
+        f"simulated with {moments} kg·m² (changed by {100.0 * change:.3g} %)"
+    )
+    repair = repair_at(
+        inertial.inertia.element,
+        "inertia",
+        "I502" if np.linalg.eigvalsh(written)[0] < 0.0 else "I503",
+        message,
+        link=link.name,
+        is_note=excess < SLIP,
+    )
+    repaired = replace(inertial, inertia=inertia_of(nearest, inertial.inertia.element))
+    return replace(link, inertial=repaired), repair
+
+
+def inertia_of(tensor: Array, element: Element) -> Inertia:
+    """Return a tensor as a part of a description."""
+    ixx, ixy, ixz, iyy, iyz, izz = tensor[np.triu_indices(3)].tolist()
+    return Inertia(ixx, ixy, ixz, iyy, iyz, izz, element)
+
+
+def repair_at(
+    element: Element,
+    kind: RepairKind,
+    code: str,
+    message: str,
+    *,
+    link: str | None = None,
+    joint: str | None = None,
+    is_note: bool = False,
+) -> Repair:
+    """Return a repair at the position of an element; the message gets the macro calls that lead to it."""
+    origin = element.origin
+    message += chain_words(origin.expansions)
+    return Repair(kind, code, message, origin.position, link, joint, "note" if is_note else "warning")
