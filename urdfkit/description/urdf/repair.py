@@ -18,7 +18,7 @@ class Repair:
 
     Attributes:
         kind: what was repaired.
-        code: code of the lint rule that reports the same defect.
+        code: code of the lint rule that reports the same defect; None if it depends on the parameter.
         message: the defect and the repair, with amounts and units, without the position.
         position: source position of the defect; None if the robot was not read from a file.
         link: name of the repaired link; None if no link was repaired.
@@ -27,7 +27,7 @@ class Repair:
     """
 
     kind: RepairKind
-    code: str
+    code: str | None
     message: str
     position: Position | None
     link: str | None = None

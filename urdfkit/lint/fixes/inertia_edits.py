@@ -100,9 +100,11 @@ def _moments(geometry: Geometry, model: Model, notes: dict[str, None]) -> Moment
 
     if not isinstance(geometry, Mesh):
         return of_primitive(geometry)
+    from urdfkit.scene.meshes.loader import MeshLoader
     from urdfkit.scene.meshes.mesh_moments import moments
 
-    found, note = moments(geometry, model.expanded)
+    path = model.expanded.packages.resolve(geometry.uri.strip(), model.expanded.path)
+    found, note = moments(MeshLoader().load(path, geometry.scale), path.name)
     if note:
         notes[note] = None
     return found

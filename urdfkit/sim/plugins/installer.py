@@ -12,11 +12,12 @@ from urdfkit.description.plugins.sensors.table import BARE
 from urdfkit.description.plugins.unknown_plugins import unknown
 from urdfkit.description.sdf.reader.world_plugins import NEEDLESS
 from urdfkit.description.urdf.robot import Plugin, Robot, SensorTag
-from urdfkit.errors import SimulationError, UsageError
+from urdfkit.errors import SimulationError, UrdfkitError, UsageError
 from urdfkit.sim.plugins.base import Controller, Drive, Sensor
 from urdfkit.sim.plugins.builtin_publishers import JointStates, all_joint_states, joint_states
 from urdfkit.sim.plugins.controllers import CONTROLLERS
 from urdfkit.sim.plugins.controllers.joints.joint_state_broadcaster import JointStatePublisher
+from urdfkit.sim.plugins.controllers.simulation_arguments import simulation_hint
 from urdfkit.sim.plugins.drives import DRIVES
 from urdfkit.sim.plugins.sensors import SENSORS
 from urdfkit.sim.plugins.setup import Setup
@@ -91,7 +92,7 @@ def install(robot: Robot, setup: Setup, *, seed: int) -> Installed:
         seed: seed of the simulation.
 
     Raises:
-        SimulationError: a parameter is wrong, with its position.
+        UrdfkitError: a parameter is wrong, and robots that need a repair are refused; with its position.
     """
     installed, shared = Installed(), SharedTopics(setup.note)
     for warning in misspelt(robot):
@@ -116,7 +117,7 @@ def install(robot: Robot, setup: Setup, *, seed: int) -> Installed:
         for block in robot.ros2_control:
             setup.note(
                 f"{block.element.origin.position}: no plugin runs ros2_control `{block.name or ''}`; "
-                "add gz_ros2_control or gazebo_ros2_control"
+                f"add gz_ros2_control or gazebo_ros2_control{simulation_hint(robot)}"
             )
     if not installed.publishes_joint_states:
         installed.joint_states.append(all_joint_states(setup))
@@ -162,17 +163,21 @@ def _choose(plugin: Plugin, setup: Setup, classes: tuple[type[Drive | Sensor | C
 
 
 def _configure(made: Drive | Sensor | Controller | JointStates, setup: Setup) -> Decision:
-    """Configure a plugin; a sensor with a wrong parameter is skipped.
+    """Configure a plugin; a plugin with a wrong parameter is left out.
 
     Raises:
-        SimulationError: a parameter of a drive or controller is wrong, with its position.
+        UrdfkitError: a parameter of a drive or controller is wrong, and robots that need a repair are refused.
     """
     if isinstance(made, JointStates):
         return Simulated(made)
     try:
         made.configure(setup)
-    except (SimulationError, UsageError) as error:
+    except UrdfkitError as error:
         if not isinstance(made, Sensor):
+            effect = f"plugin `{made.plugin.name or made.plugin.filename}` is left out"
+            setup.repairs.leave_out(error, effect, "plugin", position=made.plugin.element.origin.position)
+            return Needless()
+        if not isinstance(error, (SimulationError, UsageError)):
             raise
         place = "" if error.position is not None else f"{made.plugin.element.origin.position}: "
         name = setup.sensor.name if setup.sensor is not None else made.plugin.name

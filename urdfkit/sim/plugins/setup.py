@@ -11,6 +11,7 @@ from urdfkit.description.urdf.robot import SensorTag
 from urdfkit.description.xml.source import Position
 from urdfkit.errors import SimulationError, did_you_mean
 from urdfkit.kinematics import Kinematics
+from urdfkit.sim.construction.repairs.collector import Repairs
 from urdfkit.sim.plugins.ros_distro import Distro
 from urdfkit.sim.scene_view import Surroundings
 
@@ -33,6 +34,7 @@ class Setup:
         distro: ROS distribution whose behaviour the plugin follows.
         parameter_files: parameter files of controllers, instead of the files that the robot's packages load.
         namespace: namespace of the built-in topics: empty for the first robot, ``/NAME`` for others.
+        repairs: collects the parts of the robot that are left out.
     """
 
     bus: Bus
@@ -48,6 +50,7 @@ class Setup:
     surroundings: Surroundings | None = None
     sensor: SensorTag | None = None
     link: str = ""
+    repairs: Repairs = field(default_factory=lambda: Repairs(lambda _: None, strict=True))
 
     @property
     def names(self) -> dict[str, str]:

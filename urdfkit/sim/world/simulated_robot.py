@@ -167,7 +167,7 @@ class SimulatedRobot:
             SimulationError: a parameter is invalid; with its place.
         """
         bus = self._bus = OwnBus(setup.bus, invalidate)
-        setup = self._setup = replace(setup, bus=bus)
+        setup = self._setup = replace(setup, bus=bus, repairs=self.repairs)
         self.plugins = install(self.robot, setup, seed=seed)
         self.controllers = Controllers([c.loop for c in self.plugins.controllers if c.loop is not None], invalidate)
         for controller in self.plugins.controllers:

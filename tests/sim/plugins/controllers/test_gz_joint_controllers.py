@@ -110,6 +110,6 @@ def test_velocity_by_force(tmp_path: Path) -> None:
 )
 def test_wrong_parameters(tmp_path: Path, kind: str, parameters: str, message: str) -> None:
     with pytest.raises(SimulationError) as caught:
-        make(tmp_path, kind, parameters)
+        make(tmp_path, kind, parameters, strict=True)
     assert message in str(caught.value)
     assert "arm.urdf:" in str(caught.value)

@@ -10,9 +10,11 @@ import numpy as np
 import pytest
 
 from tests.sim import arm_package
+from urdfkit.description import load
 from urdfkit.errors import SimulationError, UrdfkitError
 from urdfkit.messages import FLOATS, JOINT_STATE, TRAJECTORY, TRAJECTORY_STATE, from_fields
 from urdfkit.sim import Simulator, Spawn
+from urdfkit.sim.plugins.controllers.simulation_arguments import simulation_hint
 
 GZ = ("gz_ros2_control-system", "gz_ros2_control::GazeboSimROS2ControlPlugin", "gz_ros2_control/GazeboSimSystem")
 CLASSIC = ("libgazebo_ros2_control.so", "gazebo_ros2_control", "gazebo_ros2_control/GazeboSystem")
@@ -244,15 +246,15 @@ def test_only_the_first_of_two_that_want_a_joint_is_started(make: Make) -> None:
 def test_wrong_parameters_are_refused_at_their_place(make: Make, old: str, new: str, message: str) -> None:
     assert old in TRAJECTORIES
     with pytest.raises(UrdfkitError) as caught:
-        make(TRAJECTORIES.replace(old, new))
+        make(TRAJECTORIES.replace(old, new), strict=True)
     assert message in str(caught.value)
 
 
 def test_missing_files_are_refused_at_their_place(make: Make) -> None:
     with pytest.raises(SimulationError, match=r"arm\.urdf:\d+:\d+: no file .*; did you mean `arm.yaml`"):
-        make(TRAJECTORIES, path="$(find arm_bringup)/config/arms.yaml")
+        make(TRAJECTORIES, path="$(find arm_bringup)/config/arms.yaml", strict=True)
     with pytest.raises(SimulationError, match=r"no package `arm_bringp`.*did you mean `arm_bringup`"):
-        make(TRAJECTORIES, path="$(find arm_bringp)/config/arm.yaml")
+        make(TRAJECTORIES, path="$(find arm_bringp)/config/arm.yaml", strict=True)
 
 
 def test_a_file_that_installing_would_move_is_found_in_the_sources(make: Make, tmp_path: Path) -> None:
@@ -263,11 +265,61 @@ def test_a_file_that_installing_would_move_is_found_in_the_sources(make: Make, t
     assert [status.name for status in simulator.controllers.list()] == ["joint_state_broadcaster", "arm_controller"]
 
 
-def test_hardware_of_another_is_noted(make: Make) -> None:
-    notes: list[str] = []
-    with pytest.raises(UrdfkitError, match="has no <command_interface> with an interface for position"):
-        make(TRAJECTORIES, (GZ[0], GZ[1], "mock_components/GenericSystem"), note=notes.append)
-    assert any("hardware `mock_components/GenericSystem` is not the simulator's" in note for note in notes)
+@pytest.mark.parametrize(
+    ("old", "new", "message"),
+    [
+        ("elbow]", "elbo]", "no joint `elbo` in robot `arm`; did you mean `elbow`?"),
+        ("JointTrajectoryController\n", "JointTrajectoryControler\n", "did you mean `joint_trajectory_controller/J"),
+    ],
+)
+def test_a_controller_with_a_wrong_parameter_is_left_out(make: Make, old: str, new: str, message: str) -> None:
+    simulator = make(TRAJECTORIES.replace(old, new))
+    simulator.run(0.1)
+    states = {status.name: status.state for status in simulator.controllers.list()}
+    assert states == {"joint_state_broadcaster": "active", "arm_controller": "unloaded"}
+    (repair,) = simulator.repairs
+    assert (repair.kind, repair.code) == ("controller", "K962")
+    assert message in repair.message
+    assert repair.message.endswith("; controller `arm_controller` is left out")
+    assert "arm.yaml:" in str(repair)
+
+
+def test_a_plugin_with_a_wrong_parameter_is_left_out(make: Make) -> None:
+    simulator = make(TRAJECTORIES, path="$(find arm_bringup)/config/arms.yaml")
+    simulator.run(0.1)
+    (repair,) = simulator.repairs
+    assert repair.kind == "plugin"
+    assert "did you mean `arm.yaml`" in repair.message
+    assert simulator.controllers.list() == ()
+
+
+def test_hardware_of_the_real_robot_is_left_out(make: Make) -> None:
+    simulator = make(TRAJECTORIES, (GZ[0], GZ[1], "arm_driver/ArmHardware"))
+    simulator.run(0.1)
+    hardware, controller = simulator.repairs
+    assert (hardware.kind, hardware.code) == ("hardware", "C709")
+    assert hardware.message == "hardware `arm_driver/ArmHardware` is not the simulator's; its joints are not controlled"
+    assert "has no <command_interface> with an interface for position" in controller.message
+    with pytest.raises(SimulationError, match="hardware `arm_driver/ArmHardware`"):
+        make(TRAJECTORIES, (GZ[0], GZ[1], "arm_driver/ArmHardware"), strict=True)
+
+
+def test_mock_hardware_is_an_ideal_actuator(make: Make) -> None:
+    simulator = make(TRAJECTORIES, (GZ[0], GZ[1], "mock_components/GenericSystem"))
+    goals = Goals(simulator)
+    goals.send((1.0, [0.5, -0.5]))
+    simulator.run(1.5)
+    assert simulator.repairs == ()
+    assert positions(simulator) == pytest.approx((0.5, -0.5), abs=1e-3)
+
+
+def test_the_arguments_that_enable_the_simulation_are_listed(tmp_path: Path) -> None:
+    path = tmp_path / "arm.urdf.xacro"
+    path.write_text(
+        '<robot name="r" xmlns:xacro="http://www.ros.org/wiki/xacro"><xacro:arg name="sim_gazebo" default="false"/>'
+        '<xacro:arg name="simple" default="false"/><xacro:arg name="use_sim" default="true"/><link name="a"/></robot>'
+    )
+    assert simulation_hint(load(path)) == "; pass sim_gazebo:=true"
 
 
 def test_a_block_that_no_plugin_runs_is_noted(tmp_path: Path) -> None:

@@ -577,7 +577,7 @@ def test_without_any_file_it_says_so(tmp_path: Path) -> None:
 )  # fmt: skip
 def test_wrong_parameters_are_refused_at_their_place(make: Make, yaml: str, place: str, message: str) -> None:
     with pytest.raises(UrdfkitError) as caught:
-        make(yaml)
+        make(yaml, strict=True)
     assert place in str(caught.value)
     assert message in str(caught.value)
     assert "\n" not in str(caught.value)
@@ -588,10 +588,10 @@ def test_a_transmission_without_interface_is_refused_at_its_place(tmp_path: Path
         "<hardwareInterface>hardware_interface/EffortJointInterface</hardwareInterface>", ""
     )
     with pytest.raises(SimulationError, match=r"arm\.urdf:\d+:5: transmission `tran_shoulder` lacks <hardwareInterf"):
-        Simulator(arm_package.write_arm(tmp_path, text))
+        Simulator(arm_package.write_arm(tmp_path, text), strict=True)
     odd = arm_package.transmissions("Efort")
     with pytest.raises(SimulationError, match=r"no interface `hardware_interface/EfortJointInterface`; did you mean"):
-        Simulator(arm_package.write_arm(tmp_path, odd))
+        Simulator(arm_package.write_arm(tmp_path, odd), strict=True)
 
 
 @pytest.mark.parametrize("kind", ["imu_sensor_controller/ImuSensorController", "unitree_legged_control/UnitreeJoint"])

@@ -238,7 +238,7 @@ def test_wrong_parameters_are_named_with_their_place(
     make: Make, extra: str, replaced: tuple[str, str], said: str
 ) -> None:
     with pytest.raises(SimulationError) as caught:
-        make(extra + GAINS, replaced=replaced)
+        make(extra + GAINS, replaced=replaced, strict=True)
     assert said in str(caught.value)
     assert "car.urdf:" in str(caught.value)
 
@@ -368,7 +368,7 @@ def test_topics_of_gz_sim(make: Make, parameters: str, topic: str) -> None:
 )
 def test_wrong_parameters_of_gz_sim(make: Make, parameters: str, said: str) -> None:
     with pytest.raises(SimulationError) as caught:
-        make(parameters, SYSTEM)
+        make(parameters, SYSTEM, strict=True)
     assert said in str(caught.value)
     assert "car.urdf:" in str(caught.value)
 

@@ -306,7 +306,7 @@ def test_wrong_parameters_are_named_with_their_place(write_rover: Callable[..., 
     rest = "<leftJoint>left_joint</leftJoint><rightJoint>right_joint</rightJoint></plugin></gazebo>"
     path = write_rover(head + rest)
     with pytest.raises(SimulationError) as caught:
-        Simulator(path)
+        Simulator(path, strict=True)
     line = next(n for n, text in enumerate(path.read_text().splitlines(), 1) if text == extra)
     assert said in str(caught.value)
     assert f"rover.urdf:{line}:1: " in str(caught.value)
@@ -382,7 +382,7 @@ def test_joints_that_do_not_pair_up(write_rover: Callable[..., Path]) -> None:
     lonely = '<plugin name="d" filename="gz-sim-diff-drive-system"><left_joint>left_joint</left_joint></plugin>'
     path = write_rover(f"<gazebo>{lonely}</gazebo>")
     with pytest.raises(SimulationError, match="1 <left_joint> and 0 <right_joint>; this drive needs as many of one"):
-        Simulator(path)
+        Simulator(path, strict=True)
 
 
 def test_a_drive_from_another_package(write_rover: Callable[..., Path], monkeypatch: pytest.MonkeyPatch) -> None:

@@ -129,7 +129,7 @@ def test_commands_hold_and_are_forgotten_by_a_reset(make: Make) -> None:
 )
 def test_wrong_parameters_are_named_with_their_place(make: Make, plugins: str, said: str) -> None:
     with pytest.raises(SimulationError) as caught:
-        make(plugins)
+        make(plugins, strict=True)
     assert said in str(caught.value)
     assert "platform.urdf:" in str(caught.value)
 

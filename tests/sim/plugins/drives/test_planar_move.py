@@ -283,7 +283,7 @@ def test_commands_that_are_not_finite_are_dropped(make: Make, generation: str) -
 )
 def test_wrong_parameters_are_named_with_their_place(make: Make, generation: str, wrong: str, said: str) -> None:
     with pytest.raises(SimulationError) as caught:
-        make(generation, wrong)
+        make(generation, wrong, strict=True)
     assert said in str(caught.value)
     assert "sled.urdf:8:1: " in str(caught.value)
 

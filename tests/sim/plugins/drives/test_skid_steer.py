@@ -208,6 +208,6 @@ def test_sides_were_never_swapped(make: Make) -> None:
 )
 def test_wrong_parameters_are_named_with_their_place(make: Make, extra: str, said: str) -> None:
     with pytest.raises(SimulationError) as caught:
-        make(extra)
+        make(extra, strict=True)
     assert said in str(caught.value)
     assert "quad.urdf:" in str(caught.value)

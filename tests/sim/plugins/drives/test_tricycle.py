@@ -233,7 +233,7 @@ def test_the_default_torque_of_ros_2_is_small(make: Make) -> None:
 )
 def test_wrong_parameters_are_named_with_their_place(make: Make, extra: str, said: str) -> None:
     with pytest.raises(SimulationError) as caught:
-        make("ros1", extra)
+        make("ros1", extra, strict=True)
     assert said in str(caught.value)
     assert "trike.urdf:" in str(caught.value)
 

@@ -42,7 +42,13 @@ class Repairs:
             self._note(str(repair))
 
     def leave_out(
-        self, error: UrdfkitError, effect: str, kind: RepairKind, code: str, *, position: Position | None = None
+        self,
+        error: UrdfkitError,
+        effect: str,
+        kind: RepairKind,
+        code: str | None = None,
+        *,
+        position: Position | None = None,
     ) -> None:
         """Record that a defective part is left out.
 
@@ -50,7 +56,7 @@ class Repairs:
             error: the defect.
             effect: the omission, for the message.
             kind: kind of the omitted part.
-            code: code of the lint rule that reports the same defect.
+            code: code of the lint rule that reports the same defect; None if it depends on the parameter.
             position: source position for an error without position.
 
         Raises:

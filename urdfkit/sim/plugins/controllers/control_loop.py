@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from math import ceil, inf
 
 from urdfkit.description.control import Settings
-from urdfkit.errors import SimulationError, did_you_mean
+from urdfkit.errors import SimulationError, UrdfkitError, did_you_mean
 from urdfkit.sim.plugins.builtin_publishers import Publication
 from urdfkit.sim.plugins.controllers.command_output import Output
 from urdfkit.sim.plugins.controllers.controller import Hardware, RosController
@@ -202,14 +202,28 @@ class ControlLoop:
         self.wake()
 
     def start_all(self) -> None:
-        """Start all configured controllers in order; on a conflict of joints, warn and leave the later one loaded."""
+        """Start all configured controllers in order.
+
+        On a conflict of joints, warn and leave the later one loaded. Leave out controllers with a wrong parameter.
+
+        Raises:
+            UrdfkitError: a parameter is wrong, and robots that need a repair are refused; with its position.
+        """
         for name in self.known:
-            try:
-                self.switch(start=[name])
-            except SimulationError as error:
-                if name not in self.controllers:
-                    raise
+            self.start(name)
+
+    def start(self, name: str) -> None:
+        """Start a controller as the simulation begins; see `start_all`."""
+        try:
+            self.switch(start=[name])
+        except UrdfkitError as error:
+            if name not in self.controllers:
+                effect = f"controller `{name}` is left out"
+                self.hardware.setup.repairs.leave_out(error, effect, "controller", "K962")
+            elif isinstance(error, SimulationError):
                 self.hardware.setup.note(f"not started: {error}")
+            else:
+                raise
 
     def _loaded(self, name: str) -> RosController:
         if name not in self.controllers:

@@ -26,6 +26,7 @@ from urdfkit.sim.plugins.controllers.control_loop_plugin import ControlLoopPlugi
 from urdfkit.sim.plugins.controllers.controller import Hardware
 from urdfkit.sim.plugins.controllers.controller_manager import serve
 from urdfkit.sim.plugins.controllers.joint_handle import JointHandle
+from urdfkit.sim.plugins.controllers.simulation_arguments import simulation_hint
 from urdfkit.sim.plugins.parameters import Parameters
 from urdfkit.sim.plugins.setup import Setup
 from urdfkit.sim.plugins.topic_names import Topics
@@ -36,6 +37,9 @@ SIMULATED = (
     "gazebo_ros2_control/GazeboSystem",
 )
 """Hardware plugins of the simulators."""
+
+MOCKS = ("mock_components/GenericSystem", "fake_components/GenericSystem")
+"""Hardware plugins without a simulator, whose joints take the commanded values; simulated as ideal actuators."""
 
 UPDATE_RATE = 100.0
 """Default update rate of the controller manager [Hz]."""
@@ -89,17 +93,19 @@ class Ros2Control(ControlLoopPlugin):
         for block in setup.kinematics.robot.ros2_control:
             plugin = next((e for e in block.element.walk() if e.tag == "plugin"), None)
             name = plugin.text.strip() if plugin is not None else ""
-            if name not in SIMULATED:
+            if name not in (*SIMULATED, *MOCKS):
                 place = (plugin or block.element).origin.position
-                setup.note(
-                    f"{place}: hardware `{name}` is not the simulator's{did_you_mean(name, SIMULATED)}: "
-                    "its joints are not controlled"
+                error = SimulationError(
+                    f"hardware `{name}` is not the simulator's{did_you_mean(name, SIMULATED)}", position=place
                 )
+                effect = f"its joints are not controlled{simulation_hint(setup.kinematics.robot)}"
+                setup.repairs.leave_out(error, effect, "hardware", "C709")
                 continue
+            of_block = None if name in MOCKS else gain
             for element in block.element.find_all("joint"):
                 own = setup.joint(element.get("name") or "", element.origin.position)
                 joints.append(own)
-                for output in self._outputs(element, own, setup, hardware.period, gain):
+                for output in self._outputs(element, own, setup, hardware.period, of_block):
                     hardware.outputs[output.claim] = output
         return joints
 

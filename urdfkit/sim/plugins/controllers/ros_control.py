@@ -64,7 +64,7 @@ class GazeboRosControl(ControlLoopPlugin):
             setup.note(f"controllers of {namespace or '/'}: {found.source}")
         if found is not None and found.started is not None:
             for name in found.started:
-                loop.switch(start=[name])
+                loop.start(name)
         else:
             loop.start_all()
         serve(loop)

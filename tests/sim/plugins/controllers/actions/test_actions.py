@@ -247,4 +247,4 @@ def test_a_gripper_that_is_too_weak_stalls(make: Make) -> None:
 
 def test_an_effort_gripper_needs_gains(make: Make) -> None:
     with pytest.raises(UrdfkitError, match=r"arm\.yaml:2:3.*`t` has no `gains/elbow`"):
-        make("{type: effort_controllers/GripperActionController, joint: elbow}", "Effort")
+        make("{type: effort_controllers/GripperActionController, joint: elbow}", "Effort", strict=True)

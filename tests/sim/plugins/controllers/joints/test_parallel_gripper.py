@@ -104,7 +104,7 @@ def test_interfaces_that_the_simulator_has_not_are_told_of(rig: Callable[..., Ri
 
 def test_a_joint_is_needed(rig: Callable[..., Rig]) -> None:
     with pytest.raises(UrdfkitError, match="joint"):
-        rig("goal_tolerance: 0.1")
+        rig("goal_tolerance: 0.1", strict=True)
 
 
 def test_a_slider_tells_it(rig: Callable[..., Rig]) -> None:

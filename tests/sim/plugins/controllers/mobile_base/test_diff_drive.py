@@ -236,7 +236,7 @@ def test_wrong_parameters(make: Make, ros: int, old: str, new: str, message: str
     yaml = YAML_1 if ros == 1 else YAML_2
     assert old in yaml
     with pytest.raises(UrdfkitError) as caught:
-        make(ros, yaml=yaml.replace(old, new))
+        make(ros, yaml=yaml.replace(old, new), strict=True)
     assert message in str(caught.value)
 
 

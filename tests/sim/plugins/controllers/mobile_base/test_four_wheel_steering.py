@@ -46,7 +46,7 @@ Make = Callable[..., Any]
 
 @pytest.fixture
 def make(tmp_path: Path) -> Make:
-    def build(parameters: str = PARAMETERS) -> Any:
+    def build(parameters: str = PARAMETERS, *, strict: bool = False) -> Any:
         body, knuckles = BODY, TRACK / 2 - OFFSET
         for end, x in (("front", BASE / 2), ("rear", -BASE / 2)):
             for side, sign in (("left", 1), ("right", -1)):
@@ -62,7 +62,9 @@ def make(tmp_path: Path) -> Make:
         body += '<gazebo><plugin name="c" filename="libgazebo_ros_control.so"/></gazebo></robot>'
         (tmp_path / "car.urdf").write_text(body)
         (tmp_path / "control.yaml").write_text(parameters)
-        return Simulator(tmp_path / "car.urdf", controllers=[tmp_path / "control.yaml"], note=lambda _: None)
+        return Simulator(
+            tmp_path / "car.urdf", controllers=[tmp_path / "control.yaml"], note=lambda _: None, strict=strict
+        )
 
     return build
 
@@ -124,6 +126,6 @@ def test_stops_and_steers_straight_when_commands_cease(make: Make) -> None:
 def test_wrong_parameters_are_refused_at_their_place(make: Make, old: str, new: str, message: str) -> None:
     assert old in PARAMETERS
     with pytest.raises(UrdfkitError) as caught:
-        make(PARAMETERS.replace(old, new))
+        make(PARAMETERS.replace(old, new), strict=True)
     assert "control.yaml:" in str(caught.value)
     assert message in str(caught.value)

@@ -300,6 +300,6 @@ def test_wrong_parameters_are_refused_at_their_place(make: Make, kind: str, old:
     assert old in parameters
     type = f"{kind}_steering_controller/{kind.capitalize()}SteeringController"
     with pytest.raises(UrdfkitError) as caught:
-        make(car(kind), type, parameters.replace(old, new), driven, turned)
+        make(car(kind), type, parameters.replace(old, new), driven, turned, strict=True)
     assert "control.yaml:" in str(caught.value)
     assert message in str(caught.value)
