@@ -10,7 +10,7 @@ import pytest
 
 import urdfkit
 from urdfkit.linear_algebra import inverse_placement, matmul, vector_norm
-from urdfkit.scene.placement import pose_matrices
+from urdfkit.scene.pose_matrices import pose_matrices
 
 ROOMS = ("kinematics", "scene", "sim")
 APART = ("gl",)

@@ -22,7 +22,7 @@ from urdfkit.description.urdf.robot import Box, Cylinder, Pose, Sphere
 from urdfkit.scene import Scene, Shape
 from urdfkit.scene.camera_model import Lens
 from urdfkit.scene.lights import lighting_of
-from urdfkit.scene.placement import pose_matrices, pose_matrix
+from urdfkit.scene.pose_matrices import pose_matrices, pose_matrix
 from urdfkit.scene.ray_images import Painter
 from urdfkit.scene.rays import RayTable, warmup
 from urdfkit.sim.scene_view import world_scene

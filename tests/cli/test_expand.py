@@ -114,7 +114,7 @@ def test_the_program_prints_everything_before_it_leaves(model: Path) -> None:
             '<link name="a"><xacro:attribute name="n" value="${1 + 1}"/></link>',
             1,
             [
-                "robot.urdf.xacro: xacro 2.1.1 fails, urdfkit expands the file",
+                "robot.urdf.xacro: xacro 2.1.1 fails, but urdfkit expands the file",
                 "  xacro: AttributeError: 'int' object has no attribute 'replace'",
             ],
         ),

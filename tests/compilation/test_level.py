@@ -8,8 +8,8 @@ from llvmlite import binding
 from numba.core.registry import cpu_target
 
 from urdfkit.compilation import compile_or_load
+from urdfkit.compilation.codegen import fixed_level
 from urdfkit.compilation.level import LEVELS, NATIVE, level
-from urdfkit.compilation.target import fixed_level
 
 FLOATS = (numba.float64[::1],)
 

@@ -7,7 +7,7 @@ import re
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
-from urdfkit.lint.facts import escaped_expressions
+from urdfkit.lint.facts import malformed_expressions
 from urdfkit.lint.model.xacro_prefix import signatures
 from urdfkit.lint.project import entry_files
 from urdfkit.lint.rules.document import stray_quote, unbound_namespace_prefix
@@ -29,8 +29,8 @@ TEXTS = st.lists(st.sampled_from(PIECES), max_size=14).map("".join)
 @example("$ {a}")
 @example("${a{b}")
 def test_unexpanded_expressions(text: str) -> None:
-    found = re.search(escaped_expressions._BROKEN, text) or re.search(escaped_expressions._INSIDE_OUT, text)
-    assert escaped_expressions.is_unexpanded(text) == (found is not None)
+    found = re.search(malformed_expressions._BROKEN, text) or re.search(malformed_expressions._INSIDE_OUT, text)
+    assert malformed_expressions.is_unexpanded(text) == (found is not None)
 
 
 @settings(max_examples=300, deadline=None)

@@ -11,7 +11,7 @@ from urdfkit.description.urdf.robot import Mesh, Pose
 from urdfkit.scene import Shape, TriMesh
 from urdfkit.scene.camera_model import Distortion, Lens
 from urdfkit.scene.meshes.textures import Texture
-from urdfkit.scene.placement import pose_matrix
+from urdfkit.scene.pose_matrices import pose_matrix
 
 LENSES = [
     Lens(640, 480, 1.1, Distortion(-0.28, 0.09, 0.001, -0.0015, -0.01)),

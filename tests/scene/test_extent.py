@@ -13,7 +13,7 @@ from urdfkit.description.urdf.robot import Box, Capsule, Cylinder, Geometry, Mes
 from urdfkit.kinematics import Kinematics
 from urdfkit.resources import find_model
 from urdfkit.scene import Scene, Shape, TriMesh, bounds, lowest_point, scene_of
-from urdfkit.scene.placement import pose_matrices, pose_matrix
+from urdfkit.scene.pose_matrices import pose_matrices, pose_matrix
 
 IDENTITY = [0.0, 0, 0, 0, 0, 0, 1]
 

@@ -15,7 +15,7 @@ from urdfkit.description.urdf.robot import Box, Mesh, Pose, Sphere
 from urdfkit.scene import MeshLoader, Shape, TriMesh
 from urdfkit.scene.camera_model import Lens, spread
 from urdfkit.scene.meshes.textures import Texture
-from urdfkit.scene.placement import pose_matrix
+from urdfkit.scene.pose_matrices import pose_matrix
 from urdfkit.scene.ray_images import Picture
 
 AIR = lit(ambient=(1.0, 1.0, 1.0))

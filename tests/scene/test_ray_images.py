@@ -10,7 +10,7 @@ from urdfkit.description.urdf.robot import Box, Mesh, Pose, Sphere
 from urdfkit.scene import Scene, Shape, TriMesh
 from urdfkit.scene.camera_model import Distortion, Lens
 from urdfkit.scene.lights import Lighting, lighting_of
-from urdfkit.scene.placement import pose_matrix
+from urdfkit.scene.pose_matrices import pose_matrix
 from urdfkit.scene.ray_images import Painter
 from urdfkit.scene.rays import RayTable
 

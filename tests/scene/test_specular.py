@@ -13,7 +13,7 @@ from urdfkit.description.sdf import Light, load_world
 from urdfkit.description.urdf.robot import Pose, Sphere
 from urdfkit.scene import MeshLoader, scene_of
 from urdfkit.scene.camera_model import Lens
-from urdfkit.scene.placement import pose_matrix
+from urdfkit.scene.pose_matrices import pose_matrix
 from urdfkit.scene.specular import GLOSSY, MATT, MOST, gloss_from
 from urdfkit.sim.scene_view import world_scene
 

@@ -11,7 +11,7 @@ from tests.scene.test_ray_images import lit
 from urdfkit.description.urdf.robot import Pose
 from urdfkit.scene import TriMesh
 from urdfkit.scene.camera_model import Lens
-from urdfkit.scene.placement import pose_matrix
+from urdfkit.scene.pose_matrices import pose_matrix
 from urdfkit.scene.ray_images import Painter
 from urdfkit.scene.rays.shading.materials import mip_levels
 

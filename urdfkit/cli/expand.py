@@ -73,12 +73,12 @@ def _compare(path: str, arguments: dict[str, str], packages: Packages) -> int:
         except UrdfkitError:
             print(f"{stock} fails too: {failure}", file=sys.stderr)
             raise
-        print(f"{path}: {stock} fails, urdfkit expands the file\n  xacro: {failure}")
+        print(f"{path}: {stock} fails, but urdfkit expands the file\n  xacro: {failure}")
         return 1
     try:
         text = expand(path, arguments=arguments, packages=packages, run_xacro=True).xml
     except UrdfkitError as error:
-        print(f"{path}: urdfkit fails, {stock} expands the file\n  urdfkit: {error}")
+        print(f"{path}: urdfkit fails, but {stock} expands the file\n  urdfkit: {error}")
         return 1
     difference = first_difference(wanted, text)
     if difference is None:

@@ -155,7 +155,7 @@ def _wrong(path: Path, options: Options) -> dict[str, list[Finding]]:
 def _row(
     arguments: argparse.Namespace, model: Model, link: Link, findings: list[Finding], *, alone: bool
 ) -> tuple[dict[str, Any], ComputedInertial | None]:
-    from urdfkit.lint.facts.inertia.inertia_tensor import COMPONENTS
+    from urdfkit.lint.facts.inertia.inertia_from_shapes import COMPONENTS
     from urdfkit.lint.fixes.inertia_edits import compute_inertial
 
     at = (link.inertial.element if link.inertial is not None else link.element).origin.position
@@ -204,7 +204,7 @@ def _deviations(present: dict[str, Any] | None, computed: dict[str, Any]) -> lis
 
 
 def _present(inertial: Inertial | None) -> dict[str, Any] | None:
-    from urdfkit.lint.facts.inertia.inertia_tensor import COMPONENTS
+    from urdfkit.lint.facts.inertia.inertia_from_shapes import COMPONENTS
 
     if inertial is None:
         return None
@@ -263,7 +263,7 @@ def _write(
 
 
 def _agree(inertial: Inertial | None, value: ComputedInertial) -> bool:
-    from urdfkit.lint.facts.inertia.inertia_tensor import COMPONENTS
+    from urdfkit.lint.facts.inertia.inertia_from_shapes import COMPONENTS
 
     if inertial is None or inertial.inertia is None or inertial.mass is None:
         return False

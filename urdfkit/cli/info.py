@@ -131,7 +131,7 @@ def _extent(robot: Robot, mass: float) -> dict[str, Any]:
     require_pinocchio("info")
     from urdfkit.kinematics import Kinematics
     from urdfkit.scene.extent import bounds
-    from urdfkit.scene.placement import pose_matrices
+    from urdfkit.scene.pose_matrices import pose_matrices
     from urdfkit.scene.scene_table import scene_of
 
     kinematics = Kinematics(robot)

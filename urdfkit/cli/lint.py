@@ -24,7 +24,7 @@ _EPILOG = """examples:
   urdfkit lint urdf/robot.urdf.xacro use_camera:=true
   urdfkit lint src --fix
 
-exit: 0 nothing but notes found, 1 errors or warnings found, 2 could not lint
+exit status: 0 no errors or warnings, 1 errors or warnings, 2 linting failed
 suppress in the file:
   <!-- urdfkit: ignore I503 -->       after an element: this line; alone on a line: the next element
   <!-- urdfkit: ignore-file I503 -->  the whole file

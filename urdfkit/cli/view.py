@@ -25,7 +25,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
 def run(arguments: argparse.Namespace) -> int:
     """Serve until interrupted, or write the page to a file."""
     require_page("view", "view", modules=("rosbags",))
-    from urdfkit.app.simulation.saved_topics import check_places
+    from urdfkit.app.simulation.save_options import check_places
     from urdfkit.app.viewer.session import ShownRobot
     from urdfkit.app.viewer.viewing import html_page, viewing
     from urdfkit.atomic import write_text

@@ -54,7 +54,7 @@ def _compile(named: FunctionType, arguments: tuple[Any, ...], **options: Any) ->
     dispatcher = numba.njit(named, **options)
     if numba.__version__ in TESTED_VERSIONS:
         try:
-            from urdfkit.compilation.target import fixed_level
+            from urdfkit.compilation.codegen import fixed_level
             from urdfkit.compilation.whole_program import whole_program
 
             with fixed_level(), whole_program(named.__qualname__):

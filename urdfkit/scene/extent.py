@@ -8,7 +8,7 @@ from numpy.typing import ArrayLike
 
 from urdfkit.description.urdf.robot import Box, Capsule, Cylinder, Sphere
 from urdfkit.linear_algebra import Array, matmul
-from urdfkit.scene.placement import pose_matrices
+from urdfkit.scene.pose_matrices import pose_matrices
 from urdfkit.scene.scene_table import Role, Scene, Shape
 
 

@@ -8,7 +8,7 @@ import numpy as np
 from urdfkit.description.sdf import Light, World
 from urdfkit.description.xml.element import Element
 from urdfkit.linear_algebra import Array, matmul, vector_norm
-from urdfkit.scene.placement import pose_matrix
+from urdfkit.scene.pose_matrices import pose_matrix
 from urdfkit.scene.rays.shading.direct_lighting import DIRECTIONAL, LIGHT, POINT, SPOT
 
 Color = tuple[float, float, float]

@@ -17,7 +17,7 @@ from urdfkit.errors import ResourceError
 from urdfkit.scene.colors import DEFAULT, Palette, Rgba
 from urdfkit.scene.meshes.loader import MeshLoader, TriMesh
 from urdfkit.scene.meshes.texture_mapping import Wrapper
-from urdfkit.scene.placement import pose_matrix
+from urdfkit.scene.pose_matrices import pose_matrix
 from urdfkit.scene.segmentation_labels import labels_of
 from urdfkit.scene.specular import MATT, Gloss
 

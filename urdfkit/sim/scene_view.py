@@ -13,7 +13,7 @@ from urdfkit.kinematics import Kinematics
 from urdfkit.linear_algebra import Array, inverse_placement, matmul
 from urdfkit.scene import MeshLoader, Role, Scene, Shape
 from urdfkit.scene.lights import lighting_of
-from urdfkit.scene.placement import pose_matrices, pose_matrix
+from urdfkit.scene.pose_matrices import pose_matrices, pose_matrix
 from urdfkit.scene.rays import RayTable, announcement, warmup
 from urdfkit.scene.renderer import TakesPictures, check, painter_of
 from urdfkit.scene.segmentation_labels import label_of

@@ -19,7 +19,7 @@ from urdfkit.scene.gl.draw_calls import Shot
 from urdfkit.scene.gl.driver_probe import probe
 from urdfkit.scene.gl.shaders import ALL, COLOR, DEEP
 from urdfkit.scene.lights import Lighting, lighting_of
-from urdfkit.scene.placement import pose_matrix
+from urdfkit.scene.pose_matrices import pose_matrix
 from urdfkit.scene.ray_images import Painter, Picture
 from urdfkit.scene.rays import RayTable
 from urdfkit.sim.scene_view import world_scene

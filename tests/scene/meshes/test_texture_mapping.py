@@ -15,7 +15,7 @@ from urdfkit.description.urdf.robot import Box, Capsule, Cylinder, Pose, Sphere
 from urdfkit.scene import scene_of
 from urdfkit.scene.camera_model import Lens
 from urdfkit.scene.meshes.texture_mapping import solid
-from urdfkit.scene.placement import pose_matrix
+from urdfkit.scene.pose_matrices import pose_matrix
 from urdfkit.scene.ray_images import Painter
 from urdfkit.scene.rays import RayTable
 

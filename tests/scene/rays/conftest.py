@@ -8,7 +8,7 @@ import pytest
 from urdfkit.description.sdf import Cone, Ellipsoid, Plane
 from urdfkit.description.urdf.robot import Box, Capsule, Cylinder, Sphere
 from urdfkit.scene import Scene, Shape
-from urdfkit.scene.placement import pose_matrices
+from urdfkit.scene.pose_matrices import pose_matrices
 from urdfkit.scene.rays import warmup
 
 

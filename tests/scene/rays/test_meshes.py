@@ -12,7 +12,7 @@ import trimesh.ray.ray_pyembree as embree
 from tests.scene.rays.conftest import random_poses, scene_of_shapes, shape, units
 from urdfkit.description.urdf.robot import Box, Mesh
 from urdfkit.scene import TriMesh
-from urdfkit.scene.placement import pose_matrices
+from urdfkit.scene.pose_matrices import pose_matrices
 from urdfkit.scene.rays import RayTable, bvh_cache
 
 RAYS = 20_000

@@ -7,11 +7,11 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from urdfkit.app.simulation import saved_topics
+from urdfkit.app.simulation import save_options
 from urdfkit.errors import MissingDependencyError, UsageError
 
 if TYPE_CHECKING:
-    from urdfkit.app.simulation.saved_topics import TopicFile
+    from urdfkit.app.simulation.save_options import TopicFile
     from urdfkit.sim.simulator import Simulator
 
 IMAGE = "sensor_msgs/msg/Image"
@@ -28,7 +28,7 @@ def find_topics(simulator: Simulator, wanted: Sequence[TopicFile]) -> list[tuple
 
     if wanted and find_spec("PIL") is None:
         raise MissingDependencyError("--save-image needs Pillow: pip install 'urdfkit[sim]'")
-    return saved_topics.find_topics(
+    return save_options.find_topics(
         simulator, wanted, option="--save-image", types=(IMAGE,), what="images", suffix=".png"
     )
 

@@ -55,7 +55,7 @@ def run(arguments: argparse.Namespace) -> int:
 def _options(arguments: argparse.Namespace) -> Options:
     from urdfkit.lint.engine.settings import find
     from urdfkit.lint.project.options import Options
-    from urdfkit.lint.project.target import parse_target
+    from urdfkit.lint.project.target_platform import parse_target
 
     settings = find(Path.cwd())
     target = arguments.target or settings.target

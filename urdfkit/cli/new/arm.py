@@ -3,7 +3,7 @@
 import argparse
 import sys
 
-from urdfkit.cli.new.description_changes import add_description, apply, description, vector
+from urdfkit.cli.new.change_workflow import add_description, apply, description, vector
 from urdfkit.errors import UsageError
 
 SUMMARY = "an arm, added to an existing description"

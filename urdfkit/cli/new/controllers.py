@@ -7,7 +7,7 @@ import sys
 from datetime import datetime, timezone
 from pathlib import Path
 
-from urdfkit.cli.new.description_changes import add_description, apply, description, shown
+from urdfkit.cli.new.change_workflow import add_description, apply, description, shown
 from urdfkit.errors import ResourceError, UsageError
 
 TYPE_CHECKING = False

@@ -3,7 +3,7 @@
 import argparse
 import sys
 
-from urdfkit.cli.new.description_changes import add_description, apply, description, number, vector
+from urdfkit.cli.new.change_workflow import add_description, apply, description, number, vector
 from urdfkit.errors import UsageError, did_you_mean
 
 SUMMARY = "a sensor, added to an existing description"
@@ -40,7 +40,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
         "--xyz",
         nargs=3,
         metavar="M",
-        help="position in LINK [m] (default: a free place on top; for cameras at the front)",
+        help="position in LINK [m] (default: a free place on top, or at the front for cameras)",
     )
     parser.add_argument("--rpy", nargs=3, metavar="RAD", default=["0", "0", "0"], help="roll, pitch, yaw [rad]")
     parser.add_argument("--topic", help="topic of the sensor; for cameras the prefix of the topics")

@@ -9,7 +9,7 @@ from math import isfinite
 from pathlib import Path
 from typing import NamedTuple
 
-from urdfkit.app.simulation.saved_topics import TopicFile
+from urdfkit.app.simulation.save_options import TopicFile
 
 
 def number(text: str) -> float:

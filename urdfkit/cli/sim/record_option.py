@@ -8,7 +8,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from urdfkit.app.simulation.saved_topics import check_places
+from urdfkit.app.simulation.save_options import check_places
 
 if TYPE_CHECKING:
     import argparse

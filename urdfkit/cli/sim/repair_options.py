@@ -18,6 +18,6 @@ def add_repair_options(parser: argparse.ArgumentParser) -> None:
         "--density",
         type=option_values.positive,
         default=1000.0,
-        metavar="KG/M³",
+        metavar="KG/M3",
         help="density for the mass of moving links without one [kg/m³] (default: 1000)",
     )

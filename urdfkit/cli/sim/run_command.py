@@ -141,15 +141,15 @@ def run(arguments: argparse.Namespace) -> int:
     """Simulate and report."""
     if arguments.cmd_ramp is not None and arguments.cmd_vel is None:
         raise UsageError("sim run: --cmd-ramp requires --cmd-vel")
-    from urdfkit.app.simulation import image_files, saved_topics
+    from urdfkit.app.simulation import image_files, save_options
     from urdfkit.atomic import write_bytes
     from urdfkit.cli.sim import scan_files
     from urdfkit.cli.sim.run_report import as_json, as_text
 
-    saved_topics.check_places("--save-image", (each.file for each in arguments.save_image))
-    saved_topics.check_places("--save-scan", (each.file for each in arguments.save_scan))
+    save_options.check_places("--save-image", (each.file for each in arguments.save_image))
+    save_options.check_places("--save-scan", (each.file for each in arguments.save_scan))
     check_record(arguments.record)
-    saved_topics.check_places("--save-world", [Path(arguments.save_world)] if arguments.save_world is not None else [])
+    save_options.check_places("--save-world", [Path(arguments.save_world)] if arguments.save_world is not None else [])
     simulator = load(arguments)
     command(simulator, arguments)
     images = image_files.find_topics(simulator, arguments.save_image)

@@ -7,11 +7,11 @@ from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from urdfkit.app.simulation import saved_topics
+from urdfkit.app.simulation import save_options
 from urdfkit.errors import UsageError
 
 if TYPE_CHECKING:
-    from urdfkit.app.simulation.saved_topics import TopicFile
+    from urdfkit.app.simulation.save_options import TopicFile
     from urdfkit.sim.simulator import Simulator
 
 SCAN = "sensor_msgs/msg/LaserScan"
@@ -28,7 +28,7 @@ def find_topics(simulator: Simulator, wanted: Sequence[TopicFile]) -> list[tuple
     topics = []
     for each in wanted:
         types = (SCAN,) if has_scan and not each.topic else (SCAN, CLOUD)
-        topics += saved_topics.find_topics(
+        topics += save_options.find_topics(
             simulator, [each], option="--save-scan", types=types, what="scans", suffix=".json"
         )
     return topics

@@ -18,7 +18,10 @@ def configure(parser: argparse.ArgumentParser, name: str) -> None:
     if name == "list":
         parser.add_argument("-t", "--types", action="store_true", help="print the types too")
         parser.add_argument(
-            "-v", "--verbose", action="store_true", help="print types, numbers of messages and of subscribers"
+            "-v",
+            "--verbose",
+            action="store_true",
+            help="print the type and the numbers of messages and subscribers of each topic",
         )
         parser.epilog = "examples:\n  urdfkit topic list\n  urdfkit topic list -v"
     else:

@@ -3,12 +3,12 @@
 Input: SDF files; output: models and lights with resolved poses and source positions.
 """
 
-from urdfkit.description.sdf.edit import add_model, move_model, remove_model
 from urdfkit.description.sdf.model import WorldAxis, WorldInertial, WorldJoint, WorldLink, WorldMimic, WorldModel
 from urdfkit.description.sdf.model_library import model_names, world_names
 from urdfkit.description.sdf.reader.load import load_model, load_world
 from urdfkit.description.sdf.shapes import Cone, Ellipsoid, Kept, Light, Plane, Surface, WorldGeometry, WorldShape
 from urdfkit.description.sdf.world import GRAVITY, GROUND_MU, Ground, Physics, World, WorldRobot, ground_of
+from urdfkit.description.sdf.world_edits import add_model, move_model, remove_model
 from urdfkit.description.sdf.writer import model_to_sdf, save_world, to_sdf
 
 __all__ = [

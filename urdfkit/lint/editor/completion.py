@@ -206,7 +206,7 @@ def _in_text(model: Model, cursor: Cursor, tail: str) -> Iterator[Fit]:
 
 
 def _properties(model: Model, cursor: Cursor) -> Iterator[tuple[str, str]]:
-    from urdfkit.lint.editor.symbols import parameters_around
+    from urdfkit.lint.editor.symbol_occurrences import parameters_around
 
     for name in parameters_around(cursor.tag):
         yield name, "parameter of the macro"

@@ -6,7 +6,7 @@ import re
 from pathlib import Path
 
 from urdfkit.errors import UsageError
-from urdfkit.lint.editor.symbols import EXPANDED, in_settings, of_model, parameters_around
+from urdfkit.lint.editor.symbol_occurrences import EXPANDED, in_settings, of_model, parameters_around
 from urdfkit.lint.finding import Edit
 
 TYPE_CHECKING = False
@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
     from urdfkit.description.xml.source import Source, Span
     from urdfkit.lint.editor.cursor import Cursor
-    from urdfkit.lint.editor.symbols import Occurrence
+    from urdfkit.lint.editor.symbol_occurrences import Occurrence
     from urdfkit.lint.model.model import Model
     from urdfkit.lint.model.tags import Tag
 

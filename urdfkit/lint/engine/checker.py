@@ -14,7 +14,7 @@ from urdfkit.lint.model.model import Model
 from urdfkit.lint.project.entry_files import Entry, is_nearly_robot
 from urdfkit.lint.project.options import Options
 from urdfkit.lint.project.rule_selection import selection
-from urdfkit.lint.project.target import family_of, release_of
+from urdfkit.lint.project.target_platform import family_of, release_of
 from urdfkit.lint.rule import FaultRule, RobotRule, Rule, SourceRule
 from urdfkit.lint.rules import fault_rules, related_file_rules, robot_rules, source_rules
 
@@ -144,7 +144,7 @@ class Checker:
         """Lint one entry file; return the result and the model."""
         options, note = self.options, ""
         if options.guess_target and options.target is None:
-            from urdfkit.lint.project.target import guess
+            from urdfkit.lint.project.target_platform import guess
 
             guessed = guess(entry.path)
             if guessed.target is not None and guessed.manifest is not None:

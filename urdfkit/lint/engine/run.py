@@ -9,7 +9,7 @@ from urdfkit.lint.engine.checker import Checker
 from urdfkit.lint.finding import SEVERITIES, Finding
 from urdfkit.lint.project.entry_files import Entry
 from urdfkit.lint.project.options import Options
-from urdfkit.lint.project.target import parse_target
+from urdfkit.lint.project.target_platform import parse_target
 from urdfkit.record import record
 
 TYPE_CHECKING = False

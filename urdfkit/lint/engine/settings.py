@@ -129,7 +129,7 @@ def _check_words(settings: LintSettings) -> None:
     """
     from urdfkit.lint.engine.checker import every_code
     from urdfkit.lint.project.rule_selection import checked
-    from urdfkit.lint.project.target import parse_target
+    from urdfkit.lint.project.target_platform import parse_target
 
     of = f"{settings.file}: `lint."
     checked(f"{of}select`", settings.select, every_code)

@@ -10,7 +10,7 @@ from urdfkit.description.urdf.volume_moments import Moments, of_primitive, union
 from urdfkit.description.xml.element import Element
 from urdfkit.description.xml.source import Position, Source
 from urdfkit.errors import ResourceError, UrdfkitError
-from urdfkit.lint.facts.inertia.inertia_tensor import COMPONENTS
+from urdfkit.lint.facts.inertia.inertia_from_shapes import COMPONENTS
 from urdfkit.lint.finding import Edit
 from urdfkit.lint.model.model import Model
 from urdfkit.lint.model.tags import Tag

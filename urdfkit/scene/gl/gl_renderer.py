@@ -15,9 +15,9 @@ from urdfkit.linear_algebra import Array
 from urdfkit.scene.camera_model import Lens
 from urdfkit.scene.gl.draw_calls import Drawing, Shot
 from urdfkit.scene.gl.driver_probe import create, on_processor
+from urdfkit.scene.gl.moving_shadow_rectangles import LARGE, Rectangle, shaded, union
 from urdfkit.scene.gl.shaders import ALL, BOTH, COLOR, DEEP, STILL
 from urdfkit.scene.gl.shadow_maps import EDGES, FINER, Rest, Shadows
-from urdfkit.scene.gl.shadow_regions import LARGE, Rectangle, shaded, union
 from urdfkit.scene.lights import Lighting
 from urdfkit.scene.ray_images import Painter, Picture
 from urdfkit.scene.rays.ray_scene import RayTable

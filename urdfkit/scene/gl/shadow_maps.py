@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from urdfkit.linear_algebra import Array
 from urdfkit.scene.gl.shaders import SHADOW_FRAGMENT, SHADOW_VERTEX
-from urdfkit.scene.placement import upright
+from urdfkit.scene.pose_matrices import upright
 from urdfkit.scene.rays.ray_scene import RayTable
 
 EDGES = {"s": 2048, "m": 1024}

@@ -12,7 +12,7 @@ from urdfkit.description.sdf import Cone, Ellipsoid, Plane
 from urdfkit.description.urdf.robot import Box, Capsule, Cylinder, Sphere
 from urdfkit.linear_algebra import Array, matmul
 from urdfkit.scene.meshes.loader import TriMesh
-from urdfkit.scene.placement import upright
+from urdfkit.scene.pose_matrices import upright
 from urdfkit.scene.rays import primitives
 from urdfkit.scene.rays.bvh import SCRATCH as TREE_SCRATCH
 from urdfkit.scene.rays.bvh_cache import mesh_tree

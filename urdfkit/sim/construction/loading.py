@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from urdfkit.description.sdf import World, load_world
-from urdfkit.description.urdf.masses import massless
+from urdfkit.description.urdf.massless_links import massless
 from urdfkit.errors import SimulationError
 from urdfkit.kinematics import Kinematics
 from urdfkit.linear_algebra import matmul

@@ -16,7 +16,7 @@ from urdfkit.errors import SimulationError
 from urdfkit.linear_algebra import Array, inverse_placement, matmul
 from urdfkit.scene import MeshLoader, Scene, Shape
 from urdfkit.scene.colors import DEFAULT, GAZEBO
-from urdfkit.scene.placement import pose_matrix, upright
+from urdfkit.scene.pose_matrices import pose_matrix, upright
 from urdfkit.scene.scene_table import Role
 from urdfkit.sim.construction.convex_hulls import hull_of
 from urdfkit.sim.construction.validation import impossible

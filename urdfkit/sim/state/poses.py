@@ -8,7 +8,7 @@ import numpy as np
 from urdfkit.description.urdf.geometry import rpy_of_quaternion
 from urdfkit.description.urdf.robot import Pose
 from urdfkit.errors import SimulationError
-from urdfkit.scene.placement import pose_matrix
+from urdfkit.scene.pose_matrices import pose_matrix
 
 
 def seven(pose: Pose) -> tuple[float, ...]:

@@ -17,7 +17,7 @@ from urdfkit.description.xml.source import Source
 from urdfkit.description.xml.start_tag import element_span
 from urdfkit.errors import ResourceError
 from urdfkit.kinematics.pinocchio_model import joint_model
-from urdfkit.scene.placement import pose_matrix
+from urdfkit.scene.pose_matrices import pose_matrix
 
 if TYPE_CHECKING:
     from collections.abc import Callable

@@ -16,8 +16,8 @@ from tornado.websocket import WebSocketClosedError, WebSocketHandler, WebSocketP
 from urdfkit.view.protocol import websocket_messages as protocol
 from urdfkit.view.server.authenticated_handler import AuthenticatedHandler
 from urdfkit.view.server.broadcast import CLEAR
-from urdfkit.view.server.page_server import PageServer
 from urdfkit.view.server.send_queue import Channel, Frame
+from urdfkit.view.server.server_interface import PageServer
 
 MAX_LOGGED = 10
 """Number of dropped messages that are logged per page."""

@@ -19,9 +19,9 @@ from urdfkit.description.xacro.evaluation.tree import (
     Tag,
 )
 from urdfkit.description.xml.element import MAX_DEPTH
+from urdfkit.description.xml.known_tags import TAGS
 from urdfkit.description.xml.reader import MAX_VALUE, check_doctype, parse_with, refuse_entity, refuse_excess, too_deep
 from urdfkit.description.xml.source import Position, Source
-from urdfkit.description.xml.vocabulary import TAGS
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:

@@ -9,8 +9,8 @@ TYPE_CHECKING = False
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
 
-    from urdfkit.description.xacro.evaluation.calls import Macro
     from urdfkit.description.xacro.evaluation.failures import Failure
+    from urdfkit.description.xacro.evaluation.macros import Macro
     from urdfkit.description.xacro.evaluation.tree import Tag
 
 

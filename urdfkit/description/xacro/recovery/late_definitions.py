@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from urdfkit.description.xacro.evaluation.calls import Macro
+from urdfkit.description.xacro.evaluation.macros import Macro
 from urdfkit.description.xml.source import Position
 
 TYPE_CHECKING = False

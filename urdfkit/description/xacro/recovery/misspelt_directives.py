@@ -8,7 +8,7 @@ from functools import lru_cache
 
 from urdfkit.description.xacro.faults import Fault
 from urdfkit.description.xacro.recovery.missing_prefix import FOREIGN, is_directive, names_above, rename, tags_below
-from urdfkit.description.xml.vocabulary import TAGS
+from urdfkit.description.xml.known_tags import TAGS
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:

@@ -8,11 +8,11 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from urdfkit.description.xacro.evaluation.calls import Macro, found_macro
 from urdfkit.description.xacro.evaluation.evaluator import Evaluator, deep_calls
 from urdfkit.description.xacro.evaluation.expressions.limits import MAX_CHARACTERS, MAX_EXPRESSIONS
 from urdfkit.description.xacro.evaluation.expressions.symbols import Scope
 from urdfkit.description.xacro.evaluation.failures import Failure, definition, undefined_property
+from urdfkit.description.xacro.evaluation.macros import Macro, found_macro
 from urdfkit.description.xacro.evaluation.texts import EXPRESSION, visible
 from urdfkit.description.xacro.evaluation.tree import Tag, element_of
 from urdfkit.description.xacro.evaluation.tree_reader import read_tree
@@ -24,9 +24,9 @@ from urdfkit.description.xacro.recovery.late_definitions import LateDefinitions
 from urdfkit.description.xacro.recovery.missing_prefix import add_missing_prefixes, looks_like_a_call, rename
 from urdfkit.description.xacro.recovery.misspelt_directives import repair_spelling
 from urdfkit.description.xacro.recovery.unknown_values import Arguments, Recorded, Unknown
+from urdfkit.description.xml.known_tags import TAGS
 from urdfkit.description.xml.reader import shown_path
 from urdfkit.description.xml.source import Position, Source
-from urdfkit.description.xml.vocabulary import TAGS
 from urdfkit.errors import XmlError
 
 TYPE_CHECKING = False

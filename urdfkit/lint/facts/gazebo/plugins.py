@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from urdfkit.lint.project.target import WITHOUT_CLASSIC
+from urdfkit.lint.project.target_platform import WITHOUT_CLASSIC
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:

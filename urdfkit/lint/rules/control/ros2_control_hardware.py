@@ -2,7 +2,7 @@
 
 from urdfkit.lint.facts.gazebo.plugins import plugins, simulated_hardware
 from urdfkit.lint.fix_builders import nearest, new_text
-from urdfkit.lint.project.target import WITHOUT_CLASSIC
+from urdfkit.lint.project.target_platform import WITHOUT_CLASSIC
 from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
 
 HARDWARE = {

@@ -4,7 +4,7 @@ import re
 
 from urdfkit.description.urdf.robot import Problem
 from urdfkit.description.xml.numbers import number
-from urdfkit.lint.facts.escaped_expressions import is_unexpanded
+from urdfkit.lint.facts.malformed_expressions import is_unexpanded
 from urdfkit.lint.facts.root_cause import is_no_number, root_cause
 from urdfkit.lint.finding import Edit, Fix
 from urdfkit.lint.rule import Findings, Model, RobotRule

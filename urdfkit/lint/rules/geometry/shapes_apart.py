@@ -18,7 +18,8 @@ class ShapesApart(RobotRule):
     Visuals that are more than half transparent are not checked, because they often show the view of a sensor.
 
     ## Why is this bad?
-    The visible shape differs from the collision shape. The usual cause is a missing decimal point or a wrong unit.
+    The robot collides where nothing is visible, or passes through what is visible. The usual
+    cause is a missing decimal point or a wrong unit.
 
     ## Example
     ```xml

@@ -3,7 +3,7 @@
 from itertools import pairwise
 
 from urdfkit.description.urdf.robot import Link
-from urdfkit.lint.facts.inertia.inertia_tensor import COMPONENTS
+from urdfkit.lint.facts.inertia.inertia_from_shapes import COMPONENTS
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
 

@@ -1,6 +1,6 @@
 """I506 inertia-decimal-slip."""
 
-from urdfkit.lint.facts.inertia.inertia_tensor import tensor_of
+from urdfkit.lint.facts.inertia.inertia_from_shapes import tensor_of
 from urdfkit.lint.fix_builders import new_value
 from urdfkit.lint.rule import Findings, Model, RobotRule
 

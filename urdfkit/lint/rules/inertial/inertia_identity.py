@@ -2,7 +2,7 @@
 
 from math import sqrt
 
-from urdfkit.lint.facts.inertia.inertia_tensor import computed, tensor_of
+from urdfkit.lint.facts.inertia.inertia_from_shapes import computed, tensor_of
 from urdfkit.lint.facts.inertia.principal_moments import is_identity
 from urdfkit.lint.rule import Findings, Model, RobotRule
 

@@ -1,7 +1,7 @@
 """I504 inertia-zero."""
 
-from urdfkit.description.urdf.masses import massless
-from urdfkit.lint.facts.inertia.inertia_tensor import COMPONENTS, computed
+from urdfkit.description.urdf.massless_links import massless
+from urdfkit.lint.facts.inertia.inertia_from_shapes import COMPONENTS, computed
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
 

@@ -1,6 +1,6 @@
 """I501 mass-nonpositive."""
 
-from urdfkit.description.urdf.masses import massless
+from urdfkit.description.urdf.massless_links import massless
 from urdfkit.lint.facts.gazebo.plugins import is_simulated
 from urdfkit.lint.rule import Findings, Model, RobotRule
 

@@ -1,6 +1,6 @@
 """I511 moving-link-without-inertial."""
 
-from urdfkit.description.urdf.masses import massless
+from urdfkit.description.urdf.massless_links import massless
 from urdfkit.description.urdf.robot import Joint
 from urdfkit.description.xml.numbers import number
 from urdfkit.lint.facts.gazebo.plugins import is_simulated

@@ -23,9 +23,9 @@ class ControllerContradictsWheels(RobotRule):
 
     ## What it does
     Compares ``wheel_separation`` and ``wheel_radius`` in YAML with the joints and shapes of the wheels, and checks the
-    positions of the left and right wheels: x points forward and y left (REP 103). A deviation of 10 % is accepted. With
-    several wheels on each side a factor of two is accepted for the separation, because the wheels slip when the robot
-    turns. Wheels with meshes are not measured.
+    positions of the left and right wheels: x points forward and y left (REP 103). Deviations of up to 10 % are
+    accepted. With several wheels on each side a factor of two is accepted for the separation, because the wheels slip
+    when the robot turns. Wheels with meshes are not measured.
 
     Nothing is reported if another description in the package or its neighbours also has continuous joints.
 

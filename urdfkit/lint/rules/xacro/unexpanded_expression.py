@@ -1,6 +1,6 @@
 """X110 unexpanded-expression."""
 
-from urdfkit.lint.facts.escaped_expressions import correct_escapes, is_unexpanded
+from urdfkit.lint.facts.malformed_expressions import correct_escapes, is_unexpanded
 from urdfkit.lint.finding import Edit, Fix
 from urdfkit.lint.fix_builders import new_text, new_value
 from urdfkit.lint.rule import Findings, Model, RobotRule

@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from urdfkit.description.urdf.masses import massless
+from urdfkit.description.urdf.massless_links import massless
 from urdfkit.description.urdf.repair import Repair
 from urdfkit.description.urdf.robot import Inertia, Inertial, Link, Pose, Robot
 from urdfkit.kinematics import Kinematics

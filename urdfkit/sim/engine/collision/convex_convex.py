@@ -4,8 +4,8 @@ import math
 from typing import Any
 
 from urdfkit.sim.engine.collision.box_box import FOUND, UNSURE, box_and_box
-from urdfkit.sim.engine.collision.contact_manifold import face_contacts
 from urdfkit.sim.engine.collision.epa import across, depth
+from urdfkit.sim.engine.collision.face_clipping import face_contacts
 from urdfkit.sim.engine.collision.gjk import FAR, SEPARATED, distance, support_of_difference
 from urdfkit.sim.engine.collision.support_faces import column
 from urdfkit.sim.engine.collision.support_points import BOX, CAPSULE, CYLINDER, SPHERE, WHEEL, radius_of, unrotate

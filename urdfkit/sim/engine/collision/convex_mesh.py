@@ -11,8 +11,8 @@ from typing import Any
 import numpy as np
 
 from urdfkit.sim.engine.collision.contact_candidates import keep_spread
-from urdfkit.sim.engine.collision.contact_manifold import face_contacts
 from urdfkit.sim.engine.collision.convex_convex import nearest
+from urdfkit.sim.engine.collision.face_clipping import face_contacts
 from urdfkit.sim.engine.collision.support_faces import column
 from urdfkit.sim.engine.collision.support_points import (
     FIRST_BOUND,

@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 
 from urdfkit.sim.engine.collision.contact_candidates import add_candidate, keep_spread, keep_widest
-from urdfkit.sim.engine.collision.contact_manifold import NEAREST, REACHED
+from urdfkit.sim.engine.collision.face_clipping import NEAREST, REACHED
 from urdfkit.sim.engine.collision.support_faces import column, touching_face
 from urdfkit.sim.engine.collision.support_points import (
     FIRST_TRIANGLE,

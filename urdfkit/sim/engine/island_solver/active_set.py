@@ -14,8 +14,8 @@ from urdfkit.sim.engine.compilation import compiled, inlined
 from urdfkit.sim.engine.island_solver.active_set_revision import revise, start_over
 from urdfkit.sim.engine.island_solver.block_assembly import assemble
 from urdfkit.sim.engine.island_solver.block_matrix import eliminate
-from urdfkit.sim.engine.island_solver.block_products import push_contact, push_row, row_speeds, take_momentum
 from urdfkit.sim.engine.island_solver.coulomb_direction import STIFFNESS, follow, substitute_all
+from urdfkit.sim.engine.island_solver.jacobian_products import push_contact, push_row, row_speeds, take_momentum
 from urdfkit.sim.engine.kernel_world import KernelWorld
 from urdfkit.sim.engine.solver.row_states import HOLDS, SLIDES
 

@@ -12,9 +12,9 @@ import math
 
 from urdfkit.sim.engine.compilation import compiled
 from urdfkit.sim.engine.island_solver.active_set import try_states
-from urdfkit.sim.engine.island_solver.block_products import row_speed
 from urdfkit.sim.engine.island_solver.convex_newton import descend, leave_wedged, set_out, take_over
 from urdfkit.sim.engine.island_solver.coulomb_direction import slide, stiffen
+from urdfkit.sim.engine.island_solver.jacobian_products import row_speed
 from urdfkit.sim.engine.kernel_world import KernelWorld
 from urdfkit.sim.engine.solver.row_states import SLIDES
 

@@ -8,7 +8,7 @@ import math
 from typing import Any
 
 from urdfkit.sim.engine.compilation import compiled, inlined
-from urdfkit.sim.engine.island_solver.block_products import load_six, times_six
+from urdfkit.sim.engine.island_solver.jacobian_products import load_six, times_six
 from urdfkit.sim.engine.kernel_world import KernelWorld
 from urdfkit.sim.engine.math.simd import load6, store
 

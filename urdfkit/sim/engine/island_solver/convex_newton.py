@@ -24,7 +24,13 @@ from typing import Any
 from urdfkit.sim.engine.compilation import compiled, inlined
 from urdfkit.sim.engine.island_solver.block_assembly import assemble
 from urdfkit.sim.engine.island_solver.block_matrix import eliminate, substitute
-from urdfkit.sim.engine.island_solver.block_products import push_contact, push_row, row_speed, row_speeds, take_momentum
+from urdfkit.sim.engine.island_solver.jacobian_products import (
+    push_contact,
+    push_row,
+    row_speed,
+    row_speeds,
+    take_momentum,
+)
 from urdfkit.sim.engine.kernel_world import KernelWorld
 from urdfkit.sim.engine.simulation_memory import WIDTH
 from urdfkit.sim.engine.solver.row_states import AT_HIGH, AT_LOW, HOLDS, SLIDES

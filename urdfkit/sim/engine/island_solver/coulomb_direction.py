@@ -14,7 +14,7 @@ from typing import Any
 
 from urdfkit.sim.engine.compilation import compiled, inlined
 from urdfkit.sim.engine.island_solver.block_matrix import substitute
-from urdfkit.sim.engine.island_solver.block_products import push_contact, row_speed
+from urdfkit.sim.engine.island_solver.jacobian_products import push_contact, row_speed
 from urdfkit.sim.engine.kernel_world import KernelWorld
 from urdfkit.sim.engine.math.linear_systems import eliminate_and_solve
 from urdfkit.sim.engine.simulation_memory import WIDTH

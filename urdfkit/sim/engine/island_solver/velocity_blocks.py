@@ -18,8 +18,8 @@ from urdfkit.sim.engine.island_solver.active_set import try_states
 from urdfkit.sim.engine.island_solver.active_set_revision import first_hold
 from urdfkit.sim.engine.island_solver.augmented_lagrangian import go_round
 from urdfkit.sim.engine.island_solver.block_matrix import arrange
-from urdfkit.sim.engine.island_solver.block_products import row_speeds
 from urdfkit.sim.engine.island_solver.coulomb_direction import STIFFNESS, compute_row_stiffness, stiffen
+from urdfkit.sim.engine.island_solver.jacobian_products import row_speeds
 from urdfkit.sim.engine.kernel_world import KernelWorld
 
 WILD = 30.0

@@ -12,7 +12,7 @@ from typing import Any
 from urdfkit.errors import SimulationError
 from urdfkit.messages import message_type
 from urdfkit.sim.plugins.drives.odometry_parameters import odometry_topics
-from urdfkit.sim.plugins.drives.steering_joints import put
+from urdfkit.sim.plugins.drives.set_joint_position import put
 from urdfkit.sim.plugins.drives.velocity_drive import VelocityDrive
 from urdfkit.sim.plugins.drives.wheel_messages import Wheels
 from urdfkit.sim.plugins.parameters import Parameters

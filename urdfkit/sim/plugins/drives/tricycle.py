@@ -8,7 +8,7 @@ away from most targets; its encoders have the wrong sign; its velocity is in the
 from math import pi
 
 from urdfkit.sim.plugins.drives.odometry_parameters import by_encoder, odometry_topics
-from urdfkit.sim.plugins.drives.steering_joints import put
+from urdfkit.sim.plugins.drives.set_joint_position import put
 from urdfkit.sim.plugins.drives.velocity_drive import VelocityDrive
 from urdfkit.sim.plugins.drives.wheel_messages import Wheels
 from urdfkit.sim.plugins.parameters import Parameters

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from urdfkit.description.urdf.robot import Pose
 from urdfkit.description.xml.element import Element
 from urdfkit.errors import SimulationError
-from urdfkit.scene.placement import pose_matrix
+from urdfkit.scene.pose_matrices import pose_matrix
 from urdfkit.sim.plugins.parameters import Parameters
 
 

@@ -8,7 +8,7 @@ import pytest
 from tests.sim.plugins.sensors.cameras.test_cameras import camera, eye, pixels
 from tests.sim.plugins.sensors.conftest import heard, wall
 from urdfkit.description.urdf.robot import Pose
-from urdfkit.scene.placement import pose_matrices, pose_matrix
+from urdfkit.scene.pose_matrices import pose_matrices, pose_matrix
 
 LABEL = '<plugin filename="gz-sim-label-system" name="gz::sim::systems::Label"><label>{label}</label></plugin>'
 

@@ -161,7 +161,7 @@ def _refuse_containing(value: Any, owner: Any) -> None:
         while open_values:
             one = open_values.pop()
             if one is owner:
-                raise TooLarge("it puts a list into itself")
+                raise TooLarge("it puts a list, dictionary or set into itself")
             if isinstance(one, CONTAINERS):
                 open_values += items_of(one)
 

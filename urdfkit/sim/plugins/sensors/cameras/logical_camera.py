@@ -11,7 +11,7 @@ from urdfkit.errors import SimulationError
 from urdfkit.linear_algebra import Array, inverse_placement, matmul
 from urdfkit.messages import header, message_type
 from urdfkit.messages.sensors import GZ_LOGICAL_IMAGE, GZ_LOGICAL_MODEL
-from urdfkit.scene.placement import pose_matrices
+from urdfkit.scene.pose_matrices import pose_matrices
 from urdfkit.sim.plugins.parameters import Parameters
 from urdfkit.sim.plugins.sensors.scene_sensor import SceneSensor
 from urdfkit.sim.plugins.sensors.sensor_values import number

@@ -12,7 +12,7 @@ import numpy as np
 
 from urdfkit.description.urdf.robot import Robot
 from urdfkit.linear_algebra import Array, matmul
-from urdfkit.scene.placement import pose_matrix
+from urdfkit.scene.pose_matrices import pose_matrix
 from urdfkit.sim.plugins.sensors.point_motion import PointMotion
 
 Wrench = tuple[Array, Array]

@@ -9,8 +9,8 @@ from tests.scene.gl.test_same_picture import EYE, LENS, SUN, agree, both, table_
 from tests.scene.test_ray_images import lit
 from urdfkit.description.urdf.robot import Pose
 from urdfkit.scene.camera_model import Lens
-from urdfkit.scene.gl.shadow_regions import shaded, union
-from urdfkit.scene.placement import pose_matrix
+from urdfkit.scene.gl.moving_shadow_rectangles import shaded, union
+from urdfkit.scene.pose_matrices import pose_matrix
 
 
 def test_every_point_behind_a_box_is_in_the_rectangle() -> None:

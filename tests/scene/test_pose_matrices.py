@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from urdfkit.description.urdf.robot import Pose
-from urdfkit.scene.placement import pose_matrices, pose_matrix
+from urdfkit.scene.pose_matrices import pose_matrices, pose_matrix
 
 angle = st.floats(-10, 10)
 length = st.floats(-100, 100)

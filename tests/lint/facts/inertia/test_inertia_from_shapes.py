@@ -7,7 +7,7 @@ import pinocchio as pin
 import pytest
 
 from urdfkit.lint.engine.checker import model_of
-from urdfkit.lint.facts.inertia.inertia_tensor import tensor_of
+from urdfkit.lint.facts.inertia.inertia_from_shapes import tensor_of
 from urdfkit.lint.facts.inertia.principal_moments import is_possible
 from urdfkit.lint.project.options import Options
 

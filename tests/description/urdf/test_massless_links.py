@@ -3,7 +3,7 @@ from pathlib import Path
 import pytest
 
 from urdfkit.description import load
-from urdfkit.description.urdf.masses import massless
+from urdfkit.description.urdf.massless_links import massless
 
 MASS = '<inertial><mass value="{}"/><inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial>'
 

@@ -8,7 +8,7 @@ from urdfkit.errors import UsageError
 from urdfkit.lint.engine.run import run
 from urdfkit.lint.project.entry_files import Entry
 from urdfkit.lint.project.options import Options
-from urdfkit.lint.project.target import TARGETS, family_of, guess, parse_target
+from urdfkit.lint.project.target_platform import TARGETS, family_of, guess, parse_target
 
 AMENT = "<export><build_type>ament_cmake</build_type></export>"
 CATKIN = "<buildtool_depend>catkin</buildtool_depend>"

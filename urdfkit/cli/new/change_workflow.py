@@ -41,7 +41,7 @@ def add_description(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--sim",
         choices=SIMULATORS,
-        help="simulator that the plugins are for, gz or classic (default: by package.xml and the model)",
+        help="simulator to write the plugins for: gz or classic (default: inferred from package.xml and the model)",
     )
     parser.add_argument("--diff", "--dry-run", action="store_true", help="print the changes without writing them")
     parser.add_argument("-y", "--yes", action="store_true", help=argparse.SUPPRESS)
@@ -70,7 +70,7 @@ def description(arguments: argparse.Namespace) -> tuple[ModelArgument, Robot, st
 
 def _generation(path: Path, robot: Robot, sim: str | None) -> str:
     """Return ``gz``, ``classic`` (ROS 1) or ``classic-ros2``, by option `--sim`, package and plugins."""
-    from urdfkit.lint.project.target import guess
+    from urdfkit.lint.project.target_platform import guess
 
     target = guess(path).target
     text = "".join(file.read_text("utf-8", "replace") for file in robot.files if file.is_file())
