@@ -122,7 +122,7 @@ def test_the_program_prints_everything_before_it_leaves(model: Path) -> None:
             r"""<link name="${str.format('\x7b0.real\x7d', 1)}"/>""",
             1,
             [
-                "robot.urdf.xacro: urdfkit fails, xacro 2.1.1 expands the file",
+                "robot.urdf.xacro: urdfkit fails, but xacro 2.1.1 expands the file",
                 r"  urdfkit: robot.urdf.xacro:6:1: cannot evaluate `${str.format('\x7b0.real\x7d', 1)}`: the format",
             ],
         ),
