@@ -248,7 +248,7 @@ def test_ending_is_clean_and_leaves_nothing_behind(serve, how: signal.Signals) -
     [
         (["simpelton"], "did you mean `simpleton`?"),
         (["simpleton", "--world", "hous"], "hous"),
-        (["{folder}/massless.urdf"], "massless.urdf:"),
+        (["{folder}/massless.urdf", "--strict"], "massless.urdf:"),
         (["simpleton", "--port", "-5"], "outside 0..65535"),
     ],
 )
