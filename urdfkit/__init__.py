@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from types import ModuleType
     from typing import Any
 
-    from urdfkit.app.simulation.driving import teleop as teleop
+    from urdfkit.app.simulation.simulation_handle import teleop as teleop
     from urdfkit.app.viewer.viewing import view as view
     from urdfkit.description import Robot as Robot
     from urdfkit.description import expand as expand
@@ -39,7 +39,7 @@ _MODULES = {
     "expand": "urdfkit.description",
     "lint": "urdfkit.lint",
     "load": "urdfkit.description",
-    "teleop": "urdfkit.app.simulation.driving",
+    "teleop": "urdfkit.app.simulation.simulation_handle",
     "view": "urdfkit.app.viewer.viewing",
 }
 

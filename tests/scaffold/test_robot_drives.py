@@ -81,9 +81,10 @@ def test_every_size_that_is_accepted_is_a_good_robot(size, wheel, mass, ros):
     with tempfile.TemporaryDirectory() as folder:
         try:
             robot = made(folder, **given)
-        except UsageError:
-            density = mass / math.prod(size)  # only wheels too large for the base, and no known materials, are refused
-            assert wheel[0] + 0.001 > 0.8 * size[0] or density < 2.1 or density > 18000
+        except UsageError as error:
+            density = mass / math.prod(size)  # only wheels too large for the base, and no known materials, are refused,
+            too_tall = size[2] > 1.5 * size[0] and "veer off" in str(error)  # and bodies that limit the torque too much
+            assert wheel[0] + 0.001 > 0.8 * size[0] or density < 2.1 or density > 18000 or too_tall
             return
         assert [str(finding) for finding in lint([folder])] == []
         _, tilt, slip, _ = start_and_stop(robot)

@@ -45,8 +45,8 @@ def configure(parser: argparse.ArgumentParser) -> None:
         action="extend",
         default=[],
         metavar="name=value",
-        help="joint positions in rad or m; the default is zero (planar and floating joints have several: "
-        "name/x, name/y, name/theta, ...)",
+        help="joint positions in rad or m; the default is zero (planar and floating joints take one value "
+        "per variable: name/x, name/y, name/theta, ...)",
     )
     parser.add_argument("--json", action="store_true", help="print one JSON value")
     parser.add_argument("--tree", action="store_true", help="print or draw the frame tree")

@@ -17,7 +17,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from urdfkit.sim.construction.spawn import Spawn
+    from urdfkit.sim.construction.start_pose import Spawn
     from urdfkit.sim.plugins.base import Controller, Drive, Sensor
     from urdfkit.sim.simulator import Simulator
     from urdfkit.sim.state.robot_state import State
@@ -29,7 +29,7 @@ _HOMES = {
     "Drive": "plugins.base",
     "Sensor": "plugins.base",
     "Simulator": "simulator",
-    "Spawn": "construction.spawn",
+    "Spawn": "construction.start_pose",
     "State": "state.robot_state",
 }
 

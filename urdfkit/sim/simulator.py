@@ -19,7 +19,7 @@ from urdfkit.scene import Scene
 from urdfkit.sim.construction.initial_overlap import note_overlaps
 from urdfkit.sim.construction.loading import require_valid_arguments, world_with_gravity
 from urdfkit.sim.construction.repairs.collector import DENSITY, Repairs
-from urdfkit.sim.construction.spawn import Spawn
+from urdfkit.sim.construction.start_pose import Spawn
 from urdfkit.sim.plugins.base import Drive
 from urdfkit.sim.plugins.builtin_publishers import Clock
 from urdfkit.sim.plugins.ros_distro import Distro

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from tests.bench.peers.parsed_urdf import read
 from tests.bench.peers.scene import DT, GRAVITY, Pose, Running, Scene
-from urdfkit.sim.construction.spawn import Spawn
+from urdfkit.sim.construction.start_pose import Spawn
 from urdfkit.sim.simulator import Simulator
 
 SLIPPERY = '<gazebo reference="{}"><mu1>0</mu1><mu2>0</mu2></gazebo>'

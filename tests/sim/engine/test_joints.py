@@ -77,7 +77,7 @@ def test_wrong_states_are_refused(engine_of):
         engine.reset(np.zeros(3))
     with pytest.raises(SimulationError, match="not finite"):
         engine.reset(np.array([0.0, math.nan]))
-    with pytest.raises(SimulationError, match="no step"):
+    with pytest.raises(SimulationError, match="invalid time step"):
         engine_of(GRIPPER, dt=0.0)
 
 

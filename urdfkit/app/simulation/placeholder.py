@@ -9,7 +9,7 @@ from urdfkit.scene import Scene, scene_of
 from urdfkit.sim.construction.loading import require_masses
 from urdfkit.sim.construction.repairs.collector import DENSITY, Repairs
 from urdfkit.sim.construction.repairs.robot_repairs import repaired
-from urdfkit.sim.construction.spawn import Spawn
+from urdfkit.sim.construction.start_pose import Spawn
 
 if TYPE_CHECKING:
     from urdfkit.description import Robot

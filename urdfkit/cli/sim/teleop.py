@@ -38,7 +38,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
 def run(arguments: argparse.Namespace) -> int:
     """Simulate and serve until interrupted."""
     require_page("sim teleop", "sim", modules=("numba", "rosbags"))
-    from urdfkit.app.simulation.driving import driving
+    from urdfkit.app.simulation.simulation_handle import driving
     from urdfkit.description import load
     from urdfkit.description.sdf import load_world
     from urdfkit.resources import find_model

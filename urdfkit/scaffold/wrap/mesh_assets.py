@@ -10,7 +10,7 @@ from urllib.parse import unquote
 from urdfkit.description.packages.resolver import Packages
 from urdfkit.errors import ResourceError
 from urdfkit.scaffold.templates.names import ascii_letters
-from urdfkit.scaffold.wrap.asset_copying import FOLDER_NAMES, RobotFolders, rejection
+from urdfkit.scaffold.wrap.accepted_assets import FOLDER_NAMES, RobotFolders, rejection
 
 URI = re.compile(r"""(<(?:mesh|texture)\b[^>]*?\bfilename\s*=\s*)(["'])(.*?)\2""", re.DOTALL)
 """URIs in mesh and texture elements of URDF."""

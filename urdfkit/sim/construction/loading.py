@@ -13,7 +13,7 @@ from urdfkit.description.urdf.massless_links import massless
 from urdfkit.errors import SimulationError
 from urdfkit.kinematics import Kinematics
 from urdfkit.linear_algebra import matmul
-from urdfkit.sim.construction.spawn import Spawn
+from urdfkit.sim.construction.start_pose import Spawn
 from urdfkit.sim.construction.validation import require_valid
 from urdfkit.sim.state.arguments import vector
 

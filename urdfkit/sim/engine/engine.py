@@ -16,7 +16,7 @@ from urdfkit.sim.engine.contact_surface import Contact, Ground, Surface
 from urdfkit.sim.engine.free_body import FreeBody
 from urdfkit.sim.engine.kernel_cache import kernel, world_kernel
 from urdfkit.sim.engine.layout.collision_shapes import touching
-from urdfkit.sim.engine.layout.validation import require_inertia
+from urdfkit.sim.engine.layout.required_inertia import require_inertia
 from urdfkit.sim.engine.layout.world_arrays import fill
 from urdfkit.sim.engine.simulation_memory import HAS_PAIRS, ITERATED, OVERFULL, STEPS
 from urdfkit.sim.engine.state_conversion import contacts, turning

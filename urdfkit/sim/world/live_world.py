@@ -16,7 +16,7 @@ from urdfkit.linear_algebra import Array
 from urdfkit.scene import Scene, Shape
 from urdfkit.sim.construction.initial_overlap import note_overlaps
 from urdfkit.sim.construction.rigid_bodies import visuals_of
-from urdfkit.sim.construction.spawn import Spawn
+from urdfkit.sim.construction.start_pose import Spawn
 from urdfkit.sim.plugins.setup import Setup
 from urdfkit.sim.state.arguments import ByName
 from urdfkit.sim.state.poses import pose_of, seven

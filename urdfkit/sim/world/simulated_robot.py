@@ -12,7 +12,7 @@ from urdfkit.sim.construction.loading import require_masses
 from urdfkit.sim.construction.missing_meshes import warn_of_omitted_shapes
 from urdfkit.sim.construction.repairs.collector import Repairs
 from urdfkit.sim.construction.repairs.robot_repairs import repaired
-from urdfkit.sim.construction.spawn import Spawn
+from urdfkit.sim.construction.start_pose import Spawn
 from urdfkit.sim.construction.surface_parameters import surfaces_of
 from urdfkit.sim.engine import Engine, Ground, Member, Surface
 from urdfkit.sim.engine.articulation import Articulation

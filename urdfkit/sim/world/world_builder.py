@@ -11,7 +11,7 @@ from urdfkit.errors import SimulationError, UnknownNameError
 from urdfkit.scene import Scene
 from urdfkit.sim.construction.missing_meshes import without_broken
 from urdfkit.sim.construction.rigid_bodies import bodies_of_model, require_no_joints
-from urdfkit.sim.construction.spawn import Spawn
+from urdfkit.sim.construction.start_pose import Spawn
 from urdfkit.sim.engine import Body, Engine, FreeBody, Ground
 from urdfkit.sim.engine.kernel_cache import announcement, warmup
 from urdfkit.sim.state.arguments import nearest

@@ -12,7 +12,7 @@ from urdfkit.description.urdf.robot import Pose, Robot
 from urdfkit.scene import MeshLoader, Scene
 from urdfkit.sim.construction.repairs.collector import Repairs
 from urdfkit.sim.construction.rigid_bodies import has_plugins, parts_of, scene_of_tree, surfaces_of_tree, trees_of
-from urdfkit.sim.construction.spawn import Spawn
+from urdfkit.sim.construction.start_pose import Spawn
 from urdfkit.sim.engine import Body, Piece
 from urdfkit.sim.state.poses import pose_from, seven
 from urdfkit.sim.world.simulated_robot import SimulatedRobot

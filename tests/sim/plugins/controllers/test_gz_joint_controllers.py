@@ -104,7 +104,11 @@ def test_velocity_by_force(tmp_path: Path) -> None:
     ("kind", "parameters", "message"),
     [
         ("position", "<p_gain>-1</p_gain>", "<p_gain> is -1; a negative gain"),
-        ("position", "<cmd_max>-1</cmd_max><cmd_min>1</cmd_min>", "commands from 1 to -1 are an empty range"),
+        (
+            "position",
+            "<cmd_max>-1</cmd_max><cmd_min>1</cmd_min>",
+            "<cmd_min> is 1 and <cmd_max> is -1; the minimum must not exceed the maximum",
+        ),
         ("velocity", "<joint_name>elbo</joint_name>", "no joint `elbo` in robot `arm`; did you mean `elbow`?"),
     ],
 )

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from urdfkit.description.xacro.evaluation.elements import Elements
+from urdfkit.description.xacro.evaluation.directive_base import Elements
 from urdfkit.description.xacro.evaluation.expressions.limits import MAX_MACRO_CALLS, MAX_MACRO_DEPTH
 from urdfkit.description.xacro.evaluation.expressions.symbols import Scope
 from urdfkit.description.xacro.evaluation.failures import (

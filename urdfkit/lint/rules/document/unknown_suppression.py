@@ -15,9 +15,9 @@ class UnknownSuppression(Rule):
     """A suppression comment is malformed or names an unknown rule.
 
     ## What it does
-    Checks comments that begin with ``urdfkit:``. Valid comments are ``ignore CODE …``, which applies to its line and,
-    if it is alone on the line, to the next element, and ``ignore-file CODE …``. Without codes, a comment suppresses
-    every rule.
+    Checks comments that begin with ``urdfkit:``. Two forms are valid. ``ignore CODE …`` applies to its own line and, if
+    it is alone on the line, also to the next element. ``ignore-file CODE …`` applies to the whole file. Without codes,
+    a comment suppresses every rule.
 
     ## Why is this bad?
     The comment does not suppress the intended finding, and may later suppress a new rule that has this code.

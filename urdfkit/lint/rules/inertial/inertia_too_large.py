@@ -26,7 +26,7 @@ class InertiaTooLarge(RobotRule):
 
     ## Why is this bad?
     However the mass is distributed inside the shapes, √(I/m) cannot exceed that distance. The link rotates as if it
-    were much larger: wheels do not accelerate and arms swing like flywheels. Often the tensor was copied, or is in
+    were much larger: wheels hardly accelerate and arms swing like flywheels. Often the tensor was copied, or is in
     g·mm².
 
     ## Example

@@ -2,7 +2,7 @@
 
 import re
 
-from urdfkit.lint.facts.names_in_other_packages import neighbouring_names
+from urdfkit.lint.facts.names_defined_nearby import neighbouring_names
 from urdfkit.lint.finding import Finding
 from urdfkit.lint.model.masked_names import unless_masked
 from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule

@@ -3,7 +3,7 @@
 import re
 
 from urdfkit.description.xml.source import Source
-from urdfkit.lint.facts.names_in_other_packages import neighbouring_names
+from urdfkit.lint.facts.names_defined_nearby import neighbouring_names
 from urdfkit.lint.finding import Finding
 from urdfkit.lint.model.masked_names import unless_masked
 from urdfkit.lint.rule import Findings, Model, RobotRule

@@ -57,7 +57,9 @@ class _GzJoint:
         self.offset = read.number("command_offset")
         if self.most < self.least:
             raise SimulationError(
-                f"commands from {self.least:g} to {self.most:g} are an empty range", position=read.place("max_command")
+                f"<{read.tag('min_command')}> is {self.least:g} and <{read.tag('max_command')}> is {self.most:g}; "
+                "the minimum must not exceed the maximum",
+                position=read.place("max_command"),
             )
         topics = Topics(plugin, spec)
         topic = read.text("command_topic").replace("{joint}", names[0])

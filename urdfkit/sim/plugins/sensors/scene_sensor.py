@@ -15,7 +15,7 @@ from urdfkit.errors import SimulationError
 from urdfkit.linear_algebra import Array, matmul
 from urdfkit.sim.plugins.base import Sensor
 from urdfkit.sim.plugins.parameters import Parameters
-from urdfkit.sim.plugins.sensors.link_sensor import carrier
+from urdfkit.sim.plugins.sensors.motion_sensor import carrier
 from urdfkit.sim.plugins.sensors.sensor_values import pose_of, rate_of, refuse
 from urdfkit.sim.plugins.setup import Setup
 from urdfkit.sim.plugins.topic_names import Topics

@@ -112,7 +112,8 @@ class TrajectoryFollower(RosController):
         if gains is None:
             if self._interface == "effort":
                 raise DescriptionError(
-                    f"`{self.name}` has no `gains/{name}`, which it needs", position=self.settings.place
+                    f"`{self.name}` has no `gains/{name}`, which the effort interface needs",
+                    position=self.settings.place,
                 )
             gains = Gains(0.0)
         return JointPid(output.handle, gains, output.limits if self._interface == "effort" else None)

@@ -23,7 +23,7 @@ from urdfkit.messages.simulation import ENTITY
 from urdfkit.sim.plugins.base import Sensor
 from urdfkit.sim.plugins.parameters import Parameters
 from urdfkit.sim.plugins.sensors.contact.watched_contacts import Point, Seen, Touch, Watch
-from urdfkit.sim.plugins.sensors.link_sensor import carrier
+from urdfkit.sim.plugins.sensors.motion_sensor import carrier
 from urdfkit.sim.plugins.sensors.sensor_values import rate_of
 from urdfkit.sim.plugins.setup import Setup
 from urdfkit.sim.plugins.topic_names import Topics

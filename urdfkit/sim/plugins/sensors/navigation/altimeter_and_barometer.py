@@ -14,7 +14,7 @@ from urdfkit.messages import header, message_type
 from urdfkit.messages.sensors import GZ_ALTIMETER, HECTOR_ALTIMETER
 from urdfkit.sim.plugins.parameters import Parameters
 from urdfkit.sim.plugins.sensors.hector_drift import drifting
-from urdfkit.sim.plugins.sensors.link_sensor import LinkSensor, Sample
+from urdfkit.sim.plugins.sensors.motion_sensor import LinkSensor, Sample
 from urdfkit.sim.plugins.sensors.noise import Noise, noise_of
 from urdfkit.sim.plugins.sensors.point_motion import KinematicSnapshot
 from urdfkit.sim.plugins.sensors.sensor_values import number

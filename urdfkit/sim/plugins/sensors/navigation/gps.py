@@ -16,7 +16,7 @@ from urdfkit.linear_algebra import Array
 from urdfkit.messages import header, message_type, vector
 from urdfkit.sim.plugins.parameters import Parameters
 from urdfkit.sim.plugins.sensors.hector_drift import drifting
-from urdfkit.sim.plugins.sensors.link_sensor import LinkSensor, Sample
+from urdfkit.sim.plugins.sensors.motion_sensor import LinkSensor, Sample
 from urdfkit.sim.plugins.sensors.navigation.geodesy import A, Earth, earth_of
 from urdfkit.sim.plugins.sensors.noise import noise_of
 from urdfkit.sim.plugins.setup import Setup

@@ -18,7 +18,7 @@ from urdfkit.linear_algebra import Array, matmul, vector_norm
 from urdfkit.messages import header, message_type, vector
 from urdfkit.sim.plugins.parameters import Parameters
 from urdfkit.sim.plugins.sensors.hector_drift import drifting
-from urdfkit.sim.plugins.sensors.link_sensor import LinkSensor, Sample
+from urdfkit.sim.plugins.sensors.motion_sensor import LinkSensor, Sample
 from urdfkit.sim.plugins.sensors.noise import Noise, noise_of
 from urdfkit.sim.plugins.sensors.point_motion import KinematicSnapshot
 from urdfkit.sim.plugins.sensors.sensor_values import rotation_matrix

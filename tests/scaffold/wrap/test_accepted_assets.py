@@ -6,7 +6,7 @@ import struct
 import pytest
 
 from urdfkit.cli import main
-from urdfkit.scaffold.wrap.asset_copying import rejection
+from urdfkit.scaffold.wrap.accepted_assets import rejection
 from urdfkit.scaffold.wrap.mesh_assets import Meshes
 
 STL = b"\0" * 80 + struct.pack("<I", 1) + b"\0" * 50
