@@ -1,7 +1,7 @@
 """Products, norms and inverses of small matrices, to the same bytes on every processor.
 
-numpy's ``@``, ``dot``, ``linalg.norm`` of one vector and ``linalg.inv`` call OpenBLAS, which sums in another order, or
-with fused multiply-add, depending on the processor. ``einsum`` does not.
+numpy's ``@``, ``dot``, ``linalg.norm`` of one vector, ``linalg.inv`` and ``linalg.eigh`` call OpenBLAS, which sums in
+another order, or with fused multiply-add, depending on the processor. ``einsum`` does not.
 """
 
 from __future__ import annotations
@@ -36,3 +36,35 @@ def inverse_placement(placement: Array) -> Array:
     inverse[:3, :3] = placement[:3, :3].T
     inverse[:3, 3] = -matmul(placement[:3, :3].T, placement[:3, 3])
     return inverse
+
+
+def symmetric_eigen(matrix: ArrayLike) -> tuple[Array, Array]:
+    """Return the eigenvalues of a symmetric matrix, ascending, and its eigenvectors in columns.
+
+    Cyclic Jacobi rotations (Golub and Van Loan, Matrix Computations, section 8.5): each makes an element zero.
+    """
+    a = np.array(matrix, dtype=float)
+    size = len(a)
+    axes = np.eye(size)
+    limit = 1e-30 * np.einsum("ij,ij->", a, a)
+    for _ in range(50):
+        off = np.triu(a, 1)
+        if np.einsum("ij,ij->", off, off) <= limit:
+            break
+        for p in range(size):
+            for q in range(p + 1, size):
+                if a[p, q] == 0.0:
+                    continue
+                ratio = (a[q, q] - a[p, p]) / (2.0 * a[p, q])
+                tangent = math.copysign(1.0, ratio) / (abs(ratio) + math.sqrt(ratio * ratio + 1.0))
+                cosine = 1.0 / math.sqrt(tangent * tangent + 1.0)
+                sine = tangent * cosine
+                a[:, p], a[:, q] = cosine * a[:, p] - sine * a[:, q], sine * a[:, p] + cosine * a[:, q]
+                a[p, :], a[q, :] = cosine * a[p, :] - sine * a[q, :], sine * a[p, :] + cosine * a[q, :]
+                axes[:, p], axes[:, q] = (
+                    cosine * axes[:, p] - sine * axes[:, q],
+                    sine * axes[:, p] + cosine * axes[:, q],
+                )
+    values = np.diag(a)
+    order = np.argsort(values, kind="stable")
+    return values[order], axes[:, order]

@@ -6,6 +6,7 @@ import numpy as np
 
 from urdfkit.description.urdf.volume_moments import Moments
 from urdfkit.errors import MissingDependencyError
+from urdfkit.linear_algebra import matmul
 from urdfkit.scene.meshes.loader import TriMesh
 
 TYPE_CHECKING = False
@@ -45,7 +46,7 @@ def moments(triangles: TriMesh, name: str) -> tuple[Moments, str]:
         points, faces = np.asarray(hull.vertices, dtype=float), np.asarray(hull.faces)
     a, b, c = (points[faces[:, corner]] for corner in range(3))
     volumes = np.einsum("ij,ij->i", a, np.cross(b, c)) / 6.0
-    first = volumes @ (a + b + c) / 4.0
+    first = matmul(volumes, a + b + c) / 4.0
     corners = np.stack([a, b, c], axis=1)
     whole = corners.sum(axis=1)
     second = np.einsum("n,nci,ncj->ij", volumes, corners, corners) + np.einsum("n,ni,nj->ij", volumes, whole, whole)

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from urdfkit.description.urdf.repair import Repair
 from urdfkit.description.urdf.robot import Inertia, Link
 from urdfkit.description.xacro.evaluation.failures import chain_words
-from urdfkit.linear_algebra import matmul
+from urdfkit.linear_algebra import matmul, symmetric_eigen, vector_norm
 from urdfkit.sim.construction.validation import impossible, tensor_matrix
 
 if TYPE_CHECKING:
@@ -34,7 +34,7 @@ SLIP = 1e-4
 
 def nearest_tensor(tensor: Array) -> Array:
     """Return the tensor of a distribution of mass whose second moments differ least from those of a tensor."""
-    values, axes = np.linalg.eigh(np.trace(tensor) / 2.0 * np.eye(3) - tensor)
+    values, axes = symmetric_eigen(np.trace(tensor) / 2.0 * np.eye(3) - tensor)
     second = matmul(axes * np.maximum(values, 0.0), axes.T)
     nearest = np.trace(second) * np.eye(3) - second
     return np.asarray((nearest + nearest.T) / 2.0)
@@ -42,7 +42,7 @@ def nearest_tensor(tensor: Array) -> Array:
 
 def violation(tensor: Array) -> float:
     """Return by how much the largest principal moment exceeds the sum of the others, relative to the largest."""
-    a, b, c = np.linalg.eigvalsh(tensor).tolist()
+    a, b, c = symmetric_eigen(tensor)[0].tolist()
     return float((c - a - b) / max(abs(a), abs(c), 1e-300))
 
 
@@ -56,8 +56,8 @@ def possible(link: Link) -> tuple[Link, Repair | None]:
     if excess <= ROUNDING:
         return link, None
     nearest = nearest_tensor(written)
-    change = float(np.linalg.norm(nearest - written) / np.linalg.norm(written))
-    moments = ", ".join(f"{moment:.6g}" for moment in np.linalg.eigvalsh(nearest).tolist())
+    change = vector_norm((nearest - written).ravel()) / vector_norm(written.ravel())
+    moments = ", ".join(f"{moment:.6g}" for moment in symmetric_eigen(nearest)[0].tolist())
     message = (
         f"the inertia of link `{link.name}` is impossible: {impossible(inertial.inertia, ROUNDING)}; "
         f"simulated with {moments} kg·m² (changed by {100.0 * change:.3g} %)"
@@ -65,7 +65,7 @@ def possible(link: Link) -> tuple[Link, Repair | None]:
     repair = repair_at(
         inertial.inertia.element,
         "inertia",
-        "I502" if np.linalg.eigvalsh(written)[0] < 0.0 else "I503",
+        "I502" if symmetric_eigen(written)[0][0] < 0.0 else "I503",
         message,
         link=link.name,
         is_note=excess < SLIP,

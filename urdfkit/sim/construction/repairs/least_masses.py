@@ -19,7 +19,7 @@ from urdfkit.description.urdf.massless_links import massless
 from urdfkit.description.urdf.repair import Repair
 from urdfkit.description.urdf.robot import Inertia, Inertial, Link, Pose, Robot
 from urdfkit.kinematics import Kinematics
-from urdfkit.linear_algebra import matmul
+from urdfkit.linear_algebra import matmul, symmetric_eigen
 from urdfkit.sim.construction.loading import SINGULAR, is_regular
 from urdfkit.sim.construction.repairs.estimated_masses import mass_repair
 
@@ -78,11 +78,11 @@ def _mass(robot: Robot, links: Sequence[Link], radius: float) -> float:
     if not moved.any():
         return 0.0
     scale = np.outer(size[moved], size[moved])
-    values, axes = np.linalg.eigh(heavy[np.ix_(moved, moved)] / scale)
+    values, axes = symmetric_eigen(heavy[np.ix_(moved, moved)] / scale)
     kept = values > SINGULAR
     basis = axes[:, kept] / np.sqrt(values[kept])
     influence = matmul(matmul(basis.T, added[np.ix_(moved, moved)] / scale), basis)
-    largest = float(np.linalg.eigvalsh(influence)[-1])
+    largest = float(symmetric_eigen(influence)[0][-1])
     return INFLUENCE / largest if largest > 0.0 else ALONE[0]
 
 
