@@ -17,6 +17,10 @@ if TYPE_CHECKING:
     Compute = Callable[["LoopFrame"], Any]
 
 
+_CALL = 10
+"""Steps of a call of a lambda: at some depths Python allocates memory for each frame, which takes ten times as long."""
+
+
 class LoopFrame:
     """The names an expression can see: the scope, and the variables of loops and functions around."""
 
@@ -67,7 +71,7 @@ class Loops:
         self._bound.append(set(names))
         body = self._compute(node.body)
         self._bound.pop()
-        cost = 1 + (self._size - start >> 4)
+        cost = _CALL + (self._size - start >> 4)
 
         def function(frame: LoopFrame) -> Any:
             by_default = dict(
