@@ -434,7 +434,7 @@ def test_parameters_are_changed_while_it_runs(page, keep, until) -> None:
     before = float(mass.input_value())
     mass.fill(str(2 * before))
     mass.press("Enter")
-    page.locator("#parameter-filter").fill("chass")  # drawn anew, from what the simulation says
+    page.locator("#parameter-filter").fill("chass")  # redrawn from the state of the simulation
     until(lambda: float(mass.input_value()) == 2 * before)
     keep(page, "physics")
     page.get_by_label("Gravity of a planet").select_option(label="Earth")

@@ -45,7 +45,7 @@ class CleanElements:
             self._clean.clear()
         self._surroundings = surroundings if is_unique else None
         self._model, self._every = model, frozenset(robot.element.children)
-        self._parts: dict[int, Model | None] = {}
+        self._parts: dict[frozenset[Element], Model | None] = {}
 
     def check(self, rule: type[Rule], check: Callable[[Model], list[Finding]]) -> list[Finding]:
         """Return the findings of a rule.
@@ -71,9 +71,9 @@ class CleanElements:
 
     def _part(self, clean: frozenset[Element]) -> Model | None:
         """Return a model of the elements that are not clean; None if there are many."""
-        if id(clean) not in self._parts:
-            self._parts[id(clean)] = self._without(clean)
-        return self._parts[id(clean)]
+        if clean not in self._parts:
+            self._parts[clean] = self._without(clean)
+        return self._parts[clean]
 
     def _without(self, clean: frozenset[Element]) -> Model | None:
         model = self._model

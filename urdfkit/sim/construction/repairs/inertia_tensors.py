@@ -40,19 +40,14 @@ def nearest_tensor(tensor: Array) -> Array:
     return np.asarray((nearest + nearest.T) / 2.0)
 
 
-def violation(tensor: Array) -> float:
-    """Return by how much the largest principal moment exceeds the sum of the others, relative to the largest."""
-    a, b, c = symmetric_eigen(tensor)[0].tolist()
-    return float((c - a - b) / max(abs(a), abs(c), 1e-300))
-
-
 def possible(link: Link) -> tuple[Link, Repair | None]:
     """Return a link with a possible inertia tensor, and the repair if its tensor was changed."""
     inertial = link.inertial
     if inertial is None or inertial.inertia is None or (inertial.mass or 0.0) < 0.0:
         return link, None
     written = tensor_matrix(inertial.inertia)
-    excess = violation(written)
+    a, b, c = symmetric_eigen(written)[0].tolist()
+    excess = (c - a - b) / max(abs(a), abs(c), 1e-300)
     if excess <= ROUNDING:
         return link, None
     nearest = nearest_tensor(written)
@@ -65,7 +60,7 @@ def possible(link: Link) -> tuple[Link, Repair | None]:
     repair = repair_at(
         inertial.inertia.element,
         "inertia",
-        "I502" if symmetric_eigen(written)[0][0] < 0.0 else "I503",
+        "I502" if a < 0.0 else "I503",
         message,
         link=link.name,
         is_note=excess < SLIP,
