@@ -211,3 +211,16 @@ def test_a_wheel_of_a_robot_that_rolls_slowly_rolls_on(engine_of):
     engine.step(3000)
     assert first > 1e-3
     assert engine.q[0] - before == pytest.approx(4.0 * first, rel=1e-3)
+
+
+@pytest.mark.parametrize(("carried", "sleeps"), [(True, True), (False, False)])
+def test_a_body_that_turns_in_place_sleeps_in_a_heap_and_turns_on_alone(engine_of, carried, sleeps):
+    # Without friction, as point contacts have none against this rotation; the fastest corner moves at 4 mm/s.
+    lies = slab("lies", (X, 0.0, 0.05), (0.6, 0.6, 0.1), mass=1.0, inertia=np.eye(3) * 0.03)
+    box = cube("box", (X, 0.0, 0.2 if carried else 0.1), mu=0.0)
+    engine = rover(engine_of, bodies=[lies, box] if carried else [box])
+    body = engine.bodies["box"]
+    body.place(body.pose, (0.0, 0.0, 0.0, 0.0, 0.0, 0.025))
+    engine.step(4000)
+    assert body.asleep == sleeps
+    assert body.twist[5] == pytest.approx(0.0 if sleeps else 0.025, rel=1e-6)
