@@ -120,7 +120,7 @@ def test_a_plain_text_is_remembered_as_it_is_read(seed: int) -> None:
             continue
         got = memory.element(source)
         assert [(repr(e), e.origin) for e in got.walk()] == [(repr(e), e.origin) for e in wanted.walk()]
-        assert content(parse(got, known=memory.parts)) == content(parse(wanted))
+        assert content(parse(got, cached_parts=memory.parts)) == content(parse(wanted))
 
 
 def test_what_is_not_edited_is_the_same_object() -> None:

@@ -119,9 +119,9 @@ class Simulator:
         self._repairs = Repairs(self.note, strict=strict, density=density)
         for line in found.notes:
             self.note(line)
-        if (wish := found.physics.max_step_size) not in (dt, Physics().max_step_size):
+        if (requested := found.physics.max_step_size) not in (dt, Physics().max_step_size):
             self.note(
-                f"world `{found.name}` requests steps of {wish:g} s; they are {dt:g} s, as requested by the caller"
+                f"world `{found.name}` requests steps of {requested:g} s; they are {dt:g} s, as requested by the caller"
             )
         self.name = name or self.robot.name or "robot"
         first = SimulatedRobot(
@@ -286,9 +286,9 @@ class Simulator:
             UnknownNameError: the topic is unknown, and `wait` is false.
             UsageError: the topic has another type.
         """
-        known = [each.name for each in self.bus.topics]
-        if not wait and (name := absolute(topic)) not in known:
-            hint = suggestion(nearest_topic(name, known)) or "; wait=True accepts topics that are published later"
+        names = [each.name for each in self.bus.topics]
+        if not wait and (name := absolute(topic)) not in names:
+            hint = suggestion(nearest_topic(name, names)) or "; wait=True accepts topics that are published later"
             raise UnknownNameError(f"no topic `{name}` in the simulation{hint}")
         return self.bus.subscribe(topic, type, callback)
 

@@ -53,7 +53,7 @@ def test_what_holds_together_is_one_and_the_rest_is_not(tmp_path: Path) -> None:
     groups = groups_of(written)
     assert [group.name for group in groups] == ["m::a", "m::b", "m::d", "m::e"]
     assert [group.moves for group in groups] == [True, False, False, False]
-    assert [group.bolted for group in groups] == [False, False, False, True]
+    assert [group.fixed_base for group in groups] == [False, False, False, True]
 
 
 def test_plugins_of_a_nested_model_find_their_joints(tmp_path: Path) -> None:

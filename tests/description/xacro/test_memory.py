@@ -67,7 +67,7 @@ def test_equal_parts_of_a_robot_are_not_read_again(tmp_path: Path) -> None:
     for mass in ("2.1", "2.2", "2.3"):
         text = TWO.replace('mass value="2.0"', f'mass value="{mass}"')
         root = expanded(path, text, memory)
-        robots.append(parse(root, known=memory.parts))
+        robots.append(parse(root, cached_parts=memory.parts))
         assert content(robots[-1]) == content(parse(expanded(path, text)))
     one, other = robots[1], robots[2]
     assert [a is b for a, b in zip(one.links, other.links, strict=True)] == [True, False, True, False]
@@ -82,7 +82,7 @@ def test_problems_of_parts_have_the_current_name_of_the_link(tmp_path: Path) -> 
     memory = Memory()
     for name in ("a", "k", "kk"):
         text = bad.replace('n="a"', f'n="{name}"')
-        found = [one.message for one in parse(expanded(path, text, memory), known=memory.parts).problems]
+        found = [one.message for one in parse(expanded(path, text, memory), cached_parts=memory.parts).problems]
         assert found == [one.message for one in parse(expanded(path, text)).problems]
         assert f"link `{name}`: value of <mass>: `heavy` is not a number" in found
 

@@ -219,7 +219,7 @@ class EditorSession:
         from urdfkit.lint.editor.completion import fits
 
         found = self._at(uri, position)
-        model = found[0][0].known if found is not None else None
+        model = found[0][0].last_readable if found is not None else None
         if found is None or model is None:
             return []
         cursor = found[1]

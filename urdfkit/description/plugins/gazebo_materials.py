@@ -91,5 +91,5 @@ def unknown_material(material: Element) -> tuple[Element, str, str | None] | Non
     short = name.removeprefix("Gazebo/")
     if short == name or short in names:
         return None
-    near = nearest(short, names, likeness=0.7)
+    near = nearest(short, names, cutoff=0.7)
     return place, name, None if near is None else f"Gazebo/{near}"

@@ -114,10 +114,10 @@ def _unknown_elements(element: Element, allowed: Allowed) -> Iterator[UnknownSen
             yield UnknownSensorElement(child, element.tag, nearest(child.tag, allowed))
 
 
-def nearest(name: str, candidates: Iterator[str] | Allowed | tuple[str, ...], likeness: float = 0.6) -> str | None:
+def nearest(name: str, candidates: Iterator[str] | Allowed | tuple[str, ...], cutoff: float = 0.6) -> str | None:
     """Return the candidate most similar to a name, ignoring case; None if none is similar."""
     from difflib import get_close_matches
 
     pool = {candidate.lower(): candidate for candidate in candidates}
-    near = get_close_matches(name.lower(), pool, n=1, cutoff=likeness)
+    near = get_close_matches(name.lower(), pool, n=1, cutoff=cutoff)
     return pool[near[0]] if near else None

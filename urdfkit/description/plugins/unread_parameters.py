@@ -79,7 +79,7 @@ def unread(plugin: Plugin, spec: PluginSpec) -> Iterator[Unread]:
         if key in _PROMISED:
             yield Unread(child, f"<{tag}> is shown in examples of the plugin, but not read", None, True)
             continue
-        meant = _EQUIVALENT.get(key) or nearest(tag, names, likeness=0.8)
+        meant = _EQUIVALENT.get(key) or nearest(tag, names, cutoff=0.8)
         if meant is not None and plugin.element.find(meant) is not None:
             meant = None
         message = f"<{tag}> is not a parameter of {spec.kind.replace('_', ' ')} of {GENERATIONS[spec.generation]}"

@@ -49,7 +49,7 @@ class Tree:
         prefix: ``nested::`` for a tree inside a nested model; omitted from names in `robot`.
         robot: links without shapes, joints and plugins; names are relative to `prefix`.
         root: pose of the root link in the model.
-        bolted: whether the base is fixed to the world.
+        fixed_base: whether the base is fixed to the world.
         links: name in `robot` → link in the file, with its shapes.
         poses: name in `robot` → pose in the model with every joint at zero.
         self_collide: names in `robot` of the links that collide with the others.
@@ -60,7 +60,7 @@ class Tree:
     prefix: str
     robot: Robot
     root: Pose
-    bolted: bool
+    fixed_base: bool
     links: dict[str, WorldLink]
     poses: dict[str, Pose]
     self_collide: frozenset[str]
@@ -75,14 +75,14 @@ class Group:
         name: see `Tree`.
         links: name in the model, pose in the model, and link; the first is the root.
         joints: name prefix, and joint.
-        bolted: whether a joint connects the group to the world.
+        fixed_base: whether a joint connects the group to the world.
         first: whether the group contains the canonical link; the plugins of the model apply to this group.
     """
 
     name: str
     links: tuple[tuple[str, Pose, WorldLink], ...]
     joints: tuple[tuple[str, WorldJoint], ...]
-    bolted: bool
+    fixed_base: bool
     first: bool
 
     @property
@@ -102,11 +102,11 @@ def groups_of(model: WorldModel) -> tuple[Group, ...]:
             name = leader[name]
         return name
 
-    bolted = set()
+    on_world = set()
     for prefix, joint in joints:
         ends = _ends(prefix, joint)
         if "world" in ends:
-            bolted.add(ends[1])
+            on_world.add(ends[1])
         else:
             leader[find(ends[1])] = find(ends[0])
     canonical = model.canonical_link or next(iter(links), "")
@@ -124,7 +124,7 @@ def groups_of(model: WorldModel) -> tuple[Group, ...]:
                 model.name if len(found) == 1 else f"{model.name}::{root}",
                 tuple([links[name] for name in ordered]),
                 own,
-                bool(bolted.intersection(members)),
+                bool(on_world.intersection(members)),
                 canonical in members,
             )
         )
@@ -158,8 +158,8 @@ def tree_of(model: WorldModel, group: Group) -> Tree:
             (),
             _element("model", model.position),
         ),
-        IDENTITY if group.bolted else group.links[0][1],
-        group.bolted,
+        IDENTITY if group.fixed_base else group.links[0][1],
+        group.fixed_base,
         {name[len(prefix) :]: link for name, _, link in group.links},
         {name[len(prefix) :]: pose for name, pose, _ in group.links},
         _named(group, prefix, lambda link: model.self_collide if link.self_collide is None else link.self_collide),
@@ -183,7 +183,7 @@ class _Builder:
 
     def grow(self) -> None:
         model, group = self._model, self._group
-        if group.bolted:
+        if group.fixed_base:
             root, names = ANCHOR, {name[len(self._prefix) :] for name in self._written}
             while root in names:
                 root += "_"

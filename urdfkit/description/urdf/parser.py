@@ -53,7 +53,7 @@ def parse(
     files: tuple[Path, ...] = (),
     packages: Packages | None = None,
     arguments: Mapping[str, str] | None = None,
-    known: dict[Element, Part] | None = None,
+    cached_parts: dict[Element, Part] | None = None,
 ) -> Robot:
     """Read a robot.
 
@@ -62,9 +62,9 @@ def parse(
         files: the files read, for `Robot.files`.
         packages: for `Robot.packages`.
         arguments: for `Robot.arguments`.
-        known: element → the part read from it earlier, with its problems; updated by this function.
+        cached_parts: element → the part read from it earlier, with its problems; updated by this function.
     """
-    reader = Reader(known)
+    reader = Reader(cached_parts)
     name = reader.text(root, "name") if root.tag == "robot" else root.get("name")
     links, joints, materials, transmissions, gazebo, controls = [], [], [], [], [], []
     for child in root.children:
@@ -81,9 +81,9 @@ def parse(
             gazebo.append(gazebo_block(child))
         elif child.tag == "ros2_control":
             controls.append(ros2_control(child))
-    if known is not None:
-        known.clear()
-        known.update(reader.parts)
+    if cached_parts is not None:
+        cached_parts.clear()
+        cached_parts.update(reader.parts)
     return Robot(
         name,
         tuple(links),

@@ -17,7 +17,7 @@ class Repair:
     """Change to a defective description without which a robot could not be simulated.
 
     Attributes:
-        kind: what was repaired.
+        kind: parameter that was repaired.
         code: code of the lint rule that reports the same defect; None if it depends on the parameter.
         message: the defect and the repair, with amounts and units, without the position.
         position: source position of the defect; None if the robot was not read from a file.

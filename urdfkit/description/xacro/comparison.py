@@ -76,7 +76,7 @@ def version() -> str:
 def text_of_xacro(
     path: str | Path, arguments: Mapping[str, str], packages: Packages, *, time_limit: float = TIME_LIMIT
 ) -> str:
-    """Return what the xacro package prints for a file.
+    """Return the output of the xacro package for a file.
 
     Args:
         path: as the user named it; appears in the banner of the output.
@@ -120,7 +120,7 @@ def _run() -> None:
     try:
         answer = str(xacro.process_file(path, mappings=arguments).toprettyxml(indent="  ")), None
     except Exception as error:
-        innermost: Any = error  # an exception of xacro holds the one that it was raised for
+        innermost: Any = error  # an exception of xacro holds the exception that caused it
         while getattr(innermost, "exc", None) is not None:
             innermost = innermost.exc
         answer = None, f"{type(innermost).__name__}: {' '.join(str(error).split())}"

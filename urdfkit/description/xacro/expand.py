@@ -126,7 +126,7 @@ def _read_plain_leniently(
 
 
 def _check_exists(path: str | Path) -> None:
-    """Refuse what is no file.
+    """Refuse a path that is not a file.
 
     Raises:
         ResourceError: it is a folder or not there, with the nearest name.

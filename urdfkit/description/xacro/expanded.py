@@ -1,4 +1,4 @@
-"""Expanded: a file after xacro, every element of which knows where a person wrote it."""
+"""Expanded: a file after xacro; every element has the position of its source."""
 
 from __future__ import annotations
 
@@ -28,12 +28,12 @@ class Expanded:
         sources: the text of every XML file that was read, by `Position.file`.
         packages: resolved its ``$(find …)``, and resolves the URIs of its meshes.
         faults: what went wrong (empty after a strict expansion); one per place *and* chain of macro calls.
-        unprefixed: what was read as if it had the ``xacro:`` prefix (lenient only).
-        unresolved: (position, attribute) of what could not be evaluated and still holds its expression; attribute is
-            None for text. Rules about values leave these alone: the fault says it already.
+        unprefixed: directives and calls that were read as if they had the ``xacro:`` prefix (lenient only).
+        unresolved: (position, attribute) of expressions that could not be evaluated and remain in the output;
+            attribute is None for text. Rules about values skip them because a fault reports them.
         macros: every macro that was defined, by name (the last definition).
-        properties: every property that was defined: name to where (the last definition).
-        warnings: what xacro warned about.
+        properties: every property that was defined: name → position of the last definition.
+        warnings: the warnings and messages of xacro.
     """
 
     path: Path

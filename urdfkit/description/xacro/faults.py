@@ -35,11 +35,11 @@ if TYPE_CHECKING:
 
 @record
 class Fault:
-    """One thing xacro could not expand.
+    """Part of a file that xacro could not expand.
 
     Attributes:
-        kind: what sort of fault.
-        message: one line for the user: what is wrong and the nearest right thing; no position.
+        kind: type of the fault.
+        message: one line for the user: the problem and the nearest correct text, without the position.
         position: the start tag of the element it is written in; for ``xml`` the place the parser stopped. A fault in a
             property's value is placed at the property, not where it is used.
         expansions: the macro calls that led there, innermost first.
@@ -85,7 +85,7 @@ class Unprefixed:
 
 @record
 class Warned:
-    """Something xacro said, or ``xacro.message()``, ``.warning()`` or ``.error()`` in a file."""
+    """Warning of xacro, or a call of ``xacro.message()``, ``.warning()`` or ``.error()`` in a file."""
 
     message: str
     position: Position

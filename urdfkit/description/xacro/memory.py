@@ -27,8 +27,8 @@ class Record:
     Args:
         reads: whether a macro was looked up, the name, and what `_current` returned.
         commands: ``find …``, ``arg …`` and the like, with their values.
-        collected: for each collection of the evaluator that grows, what was added.
-        counts: for each limit of the evaluator, what was used.
+        collected: for each collection of the evaluator that grows, the added entries.
+        counts: for each limit of the evaluator, the amount used.
     """
 
     __slots__ = ("collected", "commands", "counts", "reads")
@@ -48,8 +48,8 @@ class Child:
 
     Attributes:
         tag: never changed; has no parent.
-        record: what it read; None if that is more than a `Record` can hold.
-        elements: what it expanded to, or what was at its place before.
+        record: the names and commands it read; None if a `Record` cannot hold them.
+        elements: its expansion, or the expansion of its predecessor.
     """
 
     __slots__ = ("elements", "record", "tag")
@@ -76,7 +76,7 @@ class Root(Tag):
 
 
 class Memory:
-    """The files as they were when they were last well-formed, and what was read from them.
+    """The files as they were when they were last well-formed, and the elements read from them.
 
     Attributes:
         parts: the parts of robots, for `urdfkit.description.urdf.parser.parse`.
@@ -129,8 +129,8 @@ class Memory:
             if effects() != before or not _is_open(source.text) or "xacro:eval-comments" in source.text or text:
                 return document
             children = [Child(tag) for tag in list(root.tags())]
-            if (known := self._files.get(key)) is not None:
-                for child, old in zip(children, known.children):  # noqa: B905 - as far as there are both
+            if (earlier := self._files.get(key)) is not None:
+                for child, old in zip(children, earlier.children):  # noqa: B905 - as far as there are both
                     child.elements = old.elements
             whole = self._files[key] = Whole(source.text, root, children, text)
         document = Tag("", {}, Position(source.file, 1, 1), ())
@@ -138,8 +138,8 @@ class Memory:
         return document
 
     def _edited(self, key: tuple[str, bool], source: Source, read: Read) -> Whole | None:
-        known = self._files.get(key)
-        whole = known.edited(source, read) if known is not None else None
+        earlier = self._files.get(key)
+        whole = earlier.edited(source, read) if earlier is not None else None
         if whole is not None:
             self._files[key] = whole
         return whole
@@ -212,7 +212,7 @@ class Whole:
 
 
 def _is_open(text: str) -> bool:
-    """Whether the text alone shows what is markup: no CDATA, no document type, no UTF-16."""
+    """Whether markup can be recognized from the text alone: no CDATA, no document type, no UTF-16."""
     return "<!" not in text.replace("<!--", "") and "\0" not in text
 
 
@@ -255,7 +255,7 @@ def _escaped(value: str) -> str:
 
 
 def _close(text: str) -> int | None:
-    """Return where the end tag of the root is; None where it is not the last thing in the text."""
+    """Return where the end tag of the root is; None if other text follows it."""
     at = text.rfind("</")
     return at if at != -1 and text[at:].rstrip().find(">") == len(text[at:].rstrip()) - 1 else None
 

@@ -36,8 +36,8 @@ def definitions(model: Model, cursor: Cursor) -> list[Span]:
     for one in at(model, cursor):
         if one.kind == "file":
             continue
-        if one.kind == "property" and one.name in (known := parameters_around(cursor.tag)):
-            found[source.span(*known[one.name])] = None
+        if one.kind == "property" and one.name in (parameters := parameters_around(cursor.tag)):
+            found[source.span(*parameters[one.name])] = None
             continue
         for other in every:
             if other.defines and (other.kind, other.name) == (one.kind, one.name):
@@ -114,9 +114,9 @@ def _of_parameter(
                 document = model.document(one.span.file)
                 at = document.source.offset(one.span.line, one.span.column)
                 tag = document.tag_at(one.span.line, one.span.column - (at - document.source.text.rfind("<", 0, at)))
-                given = tag.attributes.get(name) if tag is not None else None
-                if given is not None:
-                    found[document.source.span(given.start, given.start + len(name))] = None
+                attribute = tag.attributes.get(name) if tag is not None else None
+                if attribute is not None:
+                    found[document.source.span(attribute.start, attribute.start + len(name))] = None
     yield from found
 
 

@@ -28,7 +28,7 @@ class Analysis:
         files: name in findings → absolute path.
         failure: the reason why the model is None, or the rule that failed.
         is_ours: whether the failure is an internal error of urdfkit.
-        known: the last readable model; provides names while a tag is being typed.
+        last_readable: the last readable model; provides names while a tag is being typed.
     """
 
     model: Model | None
@@ -36,7 +36,7 @@ class Analysis:
     files: Mapping[str, Path]
     failure: str = ""
     is_ours: bool = False
-    known: Model | None = None
+    last_readable: Model | None = None
 
 
 class Project:
@@ -143,8 +143,8 @@ class Project:
                 findings = tuple(merged(found.findings))
                 if model.robot.links and not any(fault.kind == "xml" for fault in model.expanded.faults):
                     self._last[entry] = model
-                known, failure = self._last.get(entry, model), found.refused
-                self._analyses[entry] = Analysis(model, findings, files, failure, bool(failure), known)
+                readable, failure = self._last.get(entry, model), found.refused
+                self._analyses[entry] = Analysis(model, findings, files, failure, bool(failure), readable)
             except UrdfkitError as error:
                 self._analyses[entry] = Analysis(None, (), {}, str(error))
             except Exception as error:

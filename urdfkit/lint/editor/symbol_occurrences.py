@@ -96,8 +96,8 @@ def _expanded(model: Model) -> Iterator[Occurrence]:
         for (tag, attribute), kind in REFERENCES.items():
             value = element.get(attribute) if element.tag == tag and tag != "material" else None
             if value:
-                known = "joint" if kind == "part" and value not in robot.link_by_name else kind
-                yield from _at(model, element, attribute, "link" if known == "part" else known, value)
+                named = "joint" if kind == "part" and value not in robot.link_by_name else kind
+                yield from _at(model, element, attribute, "link" if named == "part" else named, value)
     if robot.gazebo:
         from urdfkit.lint.facts.gazebo.plugins import references
 

@@ -50,7 +50,7 @@ def model_of(
         options: how to expand it.
         packages: package resolver; by default for packages near the file and in the environment.
         memory: parsed files of earlier calls.
-        extents: see `Model.known_extents`.
+        extents: see `Model.cached_extents`.
 
     Raises:
         ResourceError: the file cannot be read.
@@ -77,7 +77,7 @@ def model_of(
 
         raise ModelError(f"<{root.tag}> is not a robot description", position=root.origin.position)
     parsed = memory.parts if memory is not None else None
-    robot = parse(root if root is not None else _empty_root(path), known=parsed)
+    robot = parse(root if root is not None else _empty_root(path), cached_parts=parsed)
     target, release = family_of(options.target), release_of(options.target)
     return Model(expanded, robot, target, as_written, release, options.texts, extents if extents is not None else {})
 
@@ -161,8 +161,8 @@ class Checker:
             outside = related_file_rules() if model.related_files else ()
             if self.clean is not None:
                 self.clean.begin(model)
-            known = self.clean.features if self.clean is not None else None
-            for rule in (*robot_rules(model.robot, model.target, known), *outside, *foreign):
+            features = self.clean.features if self.clean is not None else None
+            for rule in (*robot_rules(model.robot, model.target, features), *outside, *foreign):
                 if self._applies(rule, model.target):
                     findings += self._run_robot_rule(rule, entry.path, model)
         used: tuple[tuple[str, str], ...] = ()

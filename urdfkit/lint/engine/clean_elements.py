@@ -1,4 +1,4 @@
-"""Clean elements: after a change, a rule that checks each element alone checks only those that are new.
+"""Clean elements: after a change, a rule that checks each element alone checks only new elements.
 
 A rule that found nothing is run on a model of the new elements alone. If it finds something there, or found something
 before, it is run on the whole model, so that its findings are those of a fresh check.
@@ -27,7 +27,7 @@ class CleanElements:
 
     Attributes:
         features: of each link, joint and other child, for `urdfkit.lint.facts.features.features_of`.
-        extents: for `urdfkit.lint.model.model.Model.known_extents`.
+        extents: for `urdfkit.lint.model.model.Model.cached_extents`.
     """
 
     def __init__(self) -> None:

@@ -28,24 +28,23 @@ _FAR = 2.0 * pi
 """[rad]: larger limits and angles are suspicious."""
 
 
-def features_of(robot: Robot, known: dict[Element, frozenset[str]] | None = None) -> set[str]:
+def features_of(robot: Robot, earlier: dict[Element, frozenset[str]] | None = None) -> set[str]:
     """Return the features of a robot: tags, joint types, and suspicious properties, which end with ``!``.
 
     Args:
         robot: the robot.
-        known: the features of each child of the root element from an earlier call; updated by this function.
+        earlier: the features of each child of the root element from an earlier call; updated by this function.
     """
     root = robot.element
     found = _of_elements(Element(root.tag, root.attributes, [], root.text, root.origin))
     parts: dict[Element, Link | Joint] = {link.element: link for link in robot.links}
     parts.update((joint.element, joint) for joint in robot.joints)
-    earlier, features = known or {}, {}
-    for child in root.children:
-        features[child] = earlier.get(child) or _of_child(child, parts.get(child))
+    cached = earlier or {}
+    features = {child: cached.get(child) or _of_child(child, parts.get(child)) for child in root.children}
     found.update(*features.values())
-    if known is not None:
-        known.clear()
-        known.update(features)
+    if earlier is not None:
+        earlier.clear()
+        earlier.update(features)
     found.update(f"{problem.kind}!" for problem in robot.problems)
     if robot.element.tag != "robot" or not robot.element.get("name"):
         found.add("unnamed!")

@@ -53,7 +53,7 @@ class Model:
         expand_as_written: expands the robot without adding missing prefixes; see `as_written`.
         release: release of the target (``jazzy``); empty if unspecified.
         texts: absolute path → content that replaces the file on disk.
-        known_extents: extents of links without meshes from an earlier check, by element; updated by `extents`.
+        cached_extents: extents of links without meshes from an earlier check, by element; updated by `extents`.
     """
 
     expanded: Expanded
@@ -62,7 +62,7 @@ class Model:
     expand_as_written: Callable[[], Robot] | None = field(default=None, repr=False)
     release: str = ""
     texts: Mapping[str, str] = field(default_factory=dict, repr=False)
-    known_extents: dict[Element, Extent] = field(default_factory=dict, repr=False)
+    cached_extents: dict[Element, Extent] = field(default_factory=dict, repr=False)
 
     @cached_property
     def as_written(self) -> Robot:
@@ -239,15 +239,15 @@ class Model:
         counts = Counter(link.name for link in self.robot.links)
         # Which shapes of a duplicate link apply is undefined.
         once = (link for link in self.robot.links if counts[link.name] == 1)
-        earlier = dict(self.known_extents)
-        self.known_extents.clear()
+        earlier = dict(self.cached_extents)
+        self.cached_extents.clear()
         found = {}
         for link in once:
             filled = earlier.get(link.element) or extent(link, self.box_of)
             if filled is not None:
                 found[link.name] = filled
                 if not any(isinstance(shape.geometry, Mesh) for shape in shapes_of(link)):
-                    self.known_extents[link.element] = filled
+                    self.cached_extents[link.element] = filled
         return found
 
     def box_of(self, mesh: Mesh) -> tuple[Vector, Vector] | None:
@@ -264,7 +264,7 @@ class Model:
 
     @cached_property
     def documents_read(self) -> list[str]:
-        """The files whose source tags were requested, in order: what is found then depends on more than the robot."""
+        """The files whose source tags were requested, in order; findings may depend on these tags."""
         return []
 
     @cached_property

@@ -56,20 +56,20 @@ def related_file_rules() -> tuple[type[RobotRule], ...]:
 
 
 def robot_rules(
-    robot: Robot | None = None, target: str | None = None, known: dict[Element, frozenset[str]] | None = None
+    robot: Robot | None = None, target: str | None = None, earlier: dict[Element, frozenset[str]] | None = None
 ) -> tuple[type[RobotRule], ...]:
     """Return the rules for the expanded robot.
 
     Args:
         robot: skip the rules that cannot apply to this robot; None returns all rules.
         target: with a robot, None skips the rules that apply only to some targets.
-        known: see `urdfkit.lint.facts.features.features_of`.
+        earlier: see `urdfkit.lint.facts.features.features_of`.
     """
     if robot is None:
         return tuple(_rules((*ROBOT, *RELATED_FILES, *TARGETED)))
     from urdfkit.lint.facts.features import features_of
 
-    features = features_of(robot, known)
+    features = features_of(robot, earlier)
     rows = ROBOT if target is None else (*ROBOT, *TARGETED)
     return tuple(_rules(row for row in rows if not row[0] or not features.isdisjoint(row[0].split())))
 

@@ -67,7 +67,7 @@ def parts_of(model: WorldModel) -> Iterator[tuple[str, bool, list[Placed]]]:
     for group in groups_of(model):
         if is_tree(model, group):
             continue
-        if not group.bolted:
+        if not group.fixed_base:
             yield group.name, False, list(group.links)
             continue
         for link in group.links:
@@ -87,7 +87,7 @@ def trees_of(model: WorldModel) -> tuple[Tree, ...]:
 
 def is_tree(model: WorldModel, group: Group) -> bool:
     """Return whether links are simulated like a robot instead of a body."""
-    return group.moves or (not group.bolted and has_plugins(model, group))
+    return group.moves or (not group.fixed_base and has_plugins(model, group))
 
 
 def has_plugins(model: WorldModel, group: Group) -> bool:

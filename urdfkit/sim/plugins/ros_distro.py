@@ -39,9 +39,9 @@ class Distro:
     def __init__(self, name: str | None = None) -> None:
         self.name = (name or "").strip().lower()
         if name is not None and self.name not in (*ROS_1, *ROS_2):
-            known = (*ROS_1, *ROS_2)
+            names = (*ROS_1, *ROS_2)
             raise UsageError(
-                f"unknown ROS distribution `{name}`{did_you_mean(self.name, known)} (known: {', '.join(known)})"
+                f"unknown ROS distribution `{name}`{did_you_mean(self.name, names)} (known: {', '.join(names)})"
             )
 
     def before(self, other: str) -> bool:

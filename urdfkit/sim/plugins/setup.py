@@ -63,8 +63,8 @@ class Setup:
         Raises:
             SimulationError: no joint with one degree of freedom has this name, with the position of the parameter.
         """
-        known = (*self.kinematics.joint_names, *self.kinematics.mimic_names)
-        if name in known:
+        names = (*self.kinematics.joint_names, *self.kinematics.mimic_names)
+        if name in names:
             return name
         robot = self.kinematics.robot
         if name in robot.joint_by_name:
@@ -72,5 +72,5 @@ class Setup:
                 f"joint `{name}` is {robot.joint_by_name[name].type}: nothing can drive it", position=position
             )
         raise SimulationError(
-            f"no joint `{name}` in robot `{robot.name}`{did_you_mean(name, known)}", position=position
+            f"no joint `{name}` in robot `{robot.name}`{did_you_mean(name, names)}", position=position
         )

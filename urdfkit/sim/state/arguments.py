@@ -57,11 +57,11 @@ class ByName(dict[str, Found]):
 
     Args:
         kind: kind of the entities, for the error message.
-        things: the entities by name.
+        entities: the entities by name.
     """
 
-    def __init__(self, kind: str, things: dict[str, Found]) -> None:
-        super().__init__(things)
+    def __init__(self, kind: str, entities: dict[str, Found]) -> None:
+        super().__init__(entities)
         self._kind = kind
 
     def __missing__(self, name: str) -> Found:
@@ -73,9 +73,9 @@ class ByName(dict[str, Found]):
         raise UnknownNameError(f"no {self._kind} `{name}` in the simulation{nearest(str(name), self)}")
 
 
-def nearest(name: str, known: Any, *, most: int = 12) -> str:
-    """Return ``; did you mean …`` with the nearest known name; a list of the known names if no name is near."""
-    names = list(dict.fromkeys(known))
+def nearest(name: str, candidates: Any, *, most: int = 12) -> str:
+    """Return ``; did you mean …`` with the nearest of the candidates; a list of the candidates if none is near."""
+    names = list(dict.fromkeys(candidates))
     if hint := did_you_mean(name, names):
         return hint
     inside = [other for other in names if name and name.lower() in other.lower()]

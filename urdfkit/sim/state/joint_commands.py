@@ -148,7 +148,7 @@ class Motors:
         effort: float | None = None,
         integral: Gains | None = None,
         feedforward: float = 0.0,
-        anew: bool = False,
+        reset_integral: bool = False,
     ) -> None:
         """Exert stiffness·(position − q) + damping·(velocity − q̇), at most `effort` [N·m] or [N], until the next call.
 
@@ -163,7 +163,7 @@ class Motors:
             effort: limit of the total effort [N·m] or [N]; the joint's ``<limit effort>`` when None.
             integral: gain and bounds of the integral term. It integrates the velocity error if the stiffness is zero.
             feedforward: effort added to the servo's [N·m] or [N].
-            anew: reset the integral first.
+            reset_integral: reset the integral first.
 
         Raises:
             SimulationError: unknown joint, a value is not finite, or a stiffness, damping or effort limit is negative.
@@ -183,7 +183,7 @@ class Motors:
         if integral is not None:
             servos.least_integral[index], servos.most_integral[index] = integral.i_min, integral.i_max
             servos.antiwindup[index] = integral.antiwindup
-        if anew or integral is None:
+        if reset_integral or integral is None:
             servos.integral[index] = 0.0
 
     def integral(self, joint: str) -> float:

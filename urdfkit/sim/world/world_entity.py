@@ -93,7 +93,7 @@ class EntityFactory:
                     spawn=start,
                     ground=None,
                     note=self._note,
-                    fixed_base=tree.bolted,
+                    fixed_base=tree.fixed_base,
                     scene=scene_of_tree(tree, self.meshes),
                     surfaces=surfaces_of_tree(tree, self._note),
                     self_collide=tree.self_collide,

@@ -34,7 +34,7 @@ class Commands:
         find: returns the folder of a package.
 
     Attributes:
-        log: the values of commands that were evaluated; None if there is none, or it may change.
+        log: evaluated command → its value, None if the command has no value or a value that may change.
     """
 
     def __init__(self, expressions: Expressions, arguments: dict[str, str], find: Callable[[str], str]) -> None:

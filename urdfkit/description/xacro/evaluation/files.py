@@ -142,7 +142,7 @@ class Files(Texts):
         yield from found
 
     def _matching(self, pattern: str) -> Iterator[str]:
-        """Yield the paths that `glob.glob` finds, and count what is listed as steps."""
+        """Yield the paths that `glob.glob` finds, and count the entries of listed folders as steps."""
         import fnmatch
         import glob
 

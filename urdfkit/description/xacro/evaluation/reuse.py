@@ -1,6 +1,6 @@
 """Reuse: a child of a root element expands to the same elements as before if all it read is the same.
 
-While a child is evaluated, the names that it looks up outside itself are recorded, and what it does besides. A child
+While a child is evaluated, the names that it looks up outside itself and its side effects are recorded. A child
 that defines names for others, includes files, warns or fails is evaluated each time.
 """
 
@@ -32,7 +32,7 @@ _MISSING, _GLOBAL = object(), object()
 
 
 class MixedContent(Exception):  # noqa: N818 - a reason to begin again, not an error
-    """There is text beside the elements of a root: a memory does not keep the blanks between these."""
+    """The root has text between its elements; a memory does not keep the white space between elements."""
 
 
 class _Holder(Tag):
@@ -63,7 +63,7 @@ class _Reads(dict[object, object]):
 
 
 class _Watched(Scope):
-    """A scope that records what is looked up in another, or changed."""
+    """Wrapper of a scope that records which names are looked up, and whether the scope is changed."""
 
     __slots__ = ("reads",)
 
@@ -108,7 +108,7 @@ class Reuse(Calls):
         return True
 
     def _remembered(self, root: Root, macros: Scope, scope: Scope) -> Steps:
-        """Evaluate the children of a root element, except those that expand to the same as before."""
+        """Evaluate the children of a root element, except children that expand to the same as before."""
         has_own_names = type(scope) is type(macros) is Scope  # and not those of a namespace
         for child in root.remembered:
             can_repeat = has_own_names and self._can_repeat()
@@ -168,7 +168,7 @@ class Reuse(Calls):
         holder.append(ExpandedElements(elements, holder.position))
 
     def _holds(self, record: Record, macros: Scope, scope: Scope) -> bool:
-        """Return whether a record holds; if so, do what the child did."""
+        """Return whether a record is still valid; if so, repeat the side effects of the child."""
         expanded, calls, evaluated, steps = record.counts
         expanded, calls, evaluated = self._expanded + expanded, self._calls + calls, self._evaluated + evaluated
         steps += self.budget.left
@@ -221,4 +221,4 @@ def _elements(holder: Tag) -> list[Element] | None:
 
 
 def _count_nothing(_: int) -> None:
-    """Count nothing: the copy is of what a person wrote."""
+    """Count nothing: the copied elements come from the source, not from an expansion."""

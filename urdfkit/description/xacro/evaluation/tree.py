@@ -81,7 +81,7 @@ class Tag(Node):
         chain: the macro calls that produced it, innermost first.
         first: its first child.
         last: its last child.
-        work: what has to be done in it: `NOTHING`, only to compute `VALUES`, or `MORE`.
+        work: remaining work in the element: `NOTHING`, only computing `VALUES`, or `MORE`.
         size: how many elements and attributes it has, itself and all below it included; valid unless `work` is `MORE`.
         height: how many elements are nested in it; valid unless `work` is `MORE`.
         expressions: what `expressions_of` found.

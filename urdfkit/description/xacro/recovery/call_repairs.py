@@ -31,7 +31,7 @@ def is_call_of(node: Tag, macro: Macro) -> bool:
 
 
 def fit(node: Tag, macro: Macro) -> Iterator[Failure]:
-    """Remove from a call what its macro has no parameter for, add what it lacks, and yield what was wrong.
+    """Remove the attributes of a call that its macro does not accept, add missing ones, and yield a failure for each.
 
     Args:
         node: the call; it is changed.

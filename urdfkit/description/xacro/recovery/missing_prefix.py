@@ -81,7 +81,7 @@ def looks_like_a_call(node: Tag, parameters: Collection[str]) -> bool:
     parameters of the macro.
 
     Args:
-        node: the element; its tag is none of URDF and SDF.
+        node: the element; its tag is not a tag of URDF or SDF.
         parameters: of the macro.
     """
     if "gazebo" in (above := set(names_above(node))) or "ros2_control" in above:

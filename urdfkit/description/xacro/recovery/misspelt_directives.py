@@ -35,11 +35,11 @@ _MEANT = {
 """Directive → what other formats and functions call an attribute of it, and its name."""
 
 _OTHERS = frozenset(("attribute", "call", "element"))
-_LIKENESS = 0.8
+_CUTOFF = 0.8
 
 
 def repair_spelling(document: Tag) -> Iterator[Fault]:
-    """Correct directives that are misspelt, and their attributes; yield what was wrong.
+    """Correct misspelt directives and their attributes; yield a fault for each.
 
     Args:
         document: changed in place.
@@ -73,9 +73,9 @@ def _repair_attributes(element: Tag, directive: str) -> Iterator[Fault]:
 
 
 def misspelt(document: Tag) -> Iterator[tuple[Tag, str, str]]:
-    """Yield the directives of a document whose name is misspelt, with what is written and what is meant.
+    """Yield the directives of a document whose name is misspelt, with the written and the correct name.
 
-    A name is one only where the attributes fit; macros that are defined in the document are none.
+    A name is a misspelt directive only if the attributes fit and the document defines no macro of that name.
 
     Args:
         document: may be changed while it is gone through.
@@ -99,17 +99,17 @@ def misspelt(document: Tag) -> Iterator[tuple[Tag, str, str]]:
 
 
 def misspelt_attributes(element: Tag, directive: str) -> Iterator[tuple[str, str | None]]:
-    """Yield the attributes that a directive does not have, with what is meant, if that can be told.
+    """Yield the attributes that a directive does not have, with the correct name, or None if no name is near.
 
     Args:
         element: may be changed while its attributes are gone through.
         directive: its name, without prefix.
     """
-    known = ATTRIBUTES[directive]
+    allowed = ATTRIBUTES[directive]
     for name in list(element.attributes):
-        if name in known or name.startswith(("xmlns", "xacro:")):
+        if name in allowed or name.startswith(("xmlns", "xacro:")):
             continue
-        free = tuple(one for one in known if one not in element.attributes)
+        free = tuple(one for one in allowed if one not in element.attributes)
         meant = _MEANT.get(directive, {}).get(name.lower())
         meant = meant if meant in free else _near(name, free)
         if meant is not None or directive != "include":  # parameters of an include are another matter
@@ -139,23 +139,23 @@ def _near(name: str, candidates: tuple[str, ...]) -> str | None:
         return None  # Nearly always; difflib takes a while to load.
     from difflib import get_close_matches
 
-    return next(iter(get_close_matches(lower, candidates, n=1, cutoff=_LIKENESS)), None)
+    return next(iter(get_close_matches(lower, candidates, n=1, cutoff=_CUTOFF)), None)
 
 
 def _may_be_near(name: str, candidate: str) -> bool:
     """Whether two names have so many letters in common that difflib may find them alike enough."""
     shared = sum(min(name.count(letter), candidate.count(letter)) for letter in set(name))
-    return 2.0 * shared >= _LIKENESS * (len(name) + len(candidate))
+    return 2.0 * shared >= _CUTOFF * (len(name) + len(candidate))
 
 
 def _fits(directive: str, element: Tag, is_prefixed: bool) -> bool:
-    """Whether an element has what the directive has, and nothing else."""
-    given = element.attributes
-    known = ATTRIBUTES[directive]
-    if not all(name in known or name.startswith("xmlns") or _near(name, known) for name in given):
+    """Whether an element has the attributes of the directive, and no others."""
+    attributes = element.attributes
+    allowed = ATTRIBUTES[directive]
+    if not all(name in allowed or name.startswith("xmlns") or _near(name, allowed) for name in attributes):
         return False
     if directive == "property":
-        return "name" in given and (is_prefixed or len(given) > 1)
+        return "name" in attributes and (is_prefixed or len(attributes) > 1)
     if directive == "macro":
-        return "name" in given and ("params" in given or is_prefixed)
-    return known[0] in given and (is_prefixed or directive == "include")
+        return "name" in attributes and ("params" in attributes or is_prefixed)
+    return allowed[0] in attributes and (is_prefixed or directive == "include")

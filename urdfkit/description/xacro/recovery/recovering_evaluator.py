@@ -1,7 +1,7 @@
 """Expand a file and continue after failures: each is recorded, its element dropped or repaired, and the rest expanded.
 
-A value that cannot be computed becomes `Unknown`, which holds its expression. What is computed from an unknown value is
-unknown too and causes no second fault.
+A value that cannot be computed becomes `Unknown`, which holds its expression. A result computed from an unknown value
+is unknown too and causes no second fault.
 """
 
 from __future__ import annotations
@@ -88,7 +88,7 @@ class RecoveringEvaluator(Evaluator):
             self._record(error)
 
     def learn(self) -> bool:
-        """Find what was undefined when used and is defined by now; return whether there is anything new."""
+        """Find names that were undefined when used and are defined by now; return whether new names are found."""
         if self._exceeded or self._is_exhausted:
             return False
         late = self._late
@@ -109,7 +109,7 @@ class RecoveringEvaluator(Evaluator):
         return len(late.properties) > properties or len(late.macros) > macros
 
     def outcome(self) -> Expanded:
-        """Return what the pass made."""
+        """Return the result of the pass."""
         document, root = Tag("", {}, Position(self.path, 1, 1), ()), None
         if self._expanded_tree is not None:
             document, tag = self._expanded_tree
@@ -315,7 +315,7 @@ class RecoveringEvaluator(Evaluator):
             return self._late.macros.get(name)
 
     def _found(self, name: str, node: Tag, macros: Scope, scope: Scope) -> tuple[str, Scope, Scope, Macro]:
-        """Return the macro that an element calls, also one that is misspelt or defined later; fit the call to it."""
+        """Return the macro that an element calls, also if it is misspelt or defined later; fit the call to it."""
         if name in self._loops or "elements" in self._exceeded or "$" in name:  # a computed name whose value is unknown
             raise Recorded
         try:

@@ -86,14 +86,14 @@ def misspelt(source: Source) -> Iterator[tuple[Node, str, ControllerSettings]]:
     from urdfkit.lint.fix_builders import nearest
 
     for one in settings(source):
-        known = _OF_TYPES.get(one.kind)
-        if known is None:
+        parameters = _OF_TYPES.get(one.kind)
+        if parameters is None:
             continue
         written = {key.text.partition(".")[0] for key, _ in one.group.entries}
-        lacking = [name for name in (*known, *_ALWAYS) if name not in written]
+        lacking = [name for name in (*parameters, *_ALWAYS) if name not in written]
         for key, value in one.group.entries:
             name = key.text.partition(".")[0]
-            if name in known or name in _ALWAYS or value.find("type") is not None:
+            if name in parameters or name in _ALWAYS or value.find("type") is not None:
                 continue
             meant = nearest(name, lacking, cutoff=0.85)
             if meant is not None:

@@ -53,14 +53,14 @@ def misspelt_parts(element: Element, where: str) -> Iterator[tuple[Element, Elem
     """
     from urdfkit.lint.fix_builders import nearest
 
-    known = _PARTS.get(where)
-    if known is None:
+    allowed = _PARTS.get(where)
+    if allowed is None:
         return
     for child in element.children:
-        if child.tag in known:
+        if child.tag in allowed:
             yield from misspelt_parts(child, f"{where}/{child.tag}")
         elif ":" not in child.tag and child.tag not in _OTHERS:
-            meant = nearest(child.tag, known, cutoff=0.8)
+            meant = nearest(child.tag, allowed, cutoff=0.8)
             if meant is not None:
                 yield element, child, meant
 
@@ -93,9 +93,9 @@ def meant_joints(robot: Robot) -> set[str]:
     """Return the joints most similar to the undefined joint names in the robot's ``<ros2_control>``."""
     from urdfkit.lint.fix_builders import meant
 
-    known = robot.joint_by_name
+    joints = robot.joint_by_name
     named = (part.get("name") or "" for block in robot.ros2_control for part in block.element.find_all("joint"))
-    return {near for name in named if name not in known and (near := meant(name, known)[0]) is not None}
+    return {near for name in named if name not in joints and (near := meant(name, joints)[0]) is not None}
 
 
 def is_old(transmission: Transmission) -> bool:

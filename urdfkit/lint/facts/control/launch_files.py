@@ -65,8 +65,8 @@ def packages_used(source: Source) -> Iterator[tuple[str, int, int]]:
             continue
         name = reader.share(node)
         if name is None and name_of(node.func) in _STARTS:
-            given = next((word.value for word in node.keywords if word.arg == "package"), None)
-            name = reader.text(given) if given is not None else None
+            package = next((word.value for word in node.keywords if word.arg == "package"), None)
+            name = reader.text(package) if package is not None else None
         if name is not None:
             yield name, *place(source, node)
 
@@ -136,15 +136,15 @@ class LaunchReader:
     def __init__(self, tree: ast.Module) -> None:
         import ast
 
-        given: dict[str, list[ast.expr | None]] = {}
+        assigned: dict[str, list[ast.expr | None]] = {}
         for node in ast.walk(tree):
             if isinstance(node, ast.Assign) and len(node.targets) == 1 and isinstance(node.targets[0], ast.Name):
-                given.setdefault(node.targets[0].id, []).append(node.value)
+                assigned.setdefault(node.targets[0].id, []).append(node.value)
         stored = [n.id for n in ast.walk(tree) if isinstance(n, ast.Name) and isinstance(n.ctx, ast.Store)]
         arguments = {node.arg for node in ast.walk(tree) if isinstance(node, ast.arg)}
-        self._given = {
+        self._assigned = {
             name: values[0]
-            for name, values in given.items()
+            for name, values in assigned.items()
             if len(values) == 1 and stored.count(name) == 1 and name not in arguments
         }
 
@@ -154,7 +154,7 @@ class LaunchReader:
 
         if isinstance(node, ast.Constant):
             return node.value if isinstance(node.value, str) else None
-        if isinstance(node, ast.Name) and depth < 8 and (value := self._given.get(node.id)) is not None:
+        if isinstance(node, ast.Name) and depth < 8 and (value := self._assigned.get(node.id)) is not None:
             return self.text(value, depth + 1)
         return None
 
@@ -173,7 +173,7 @@ class LaunchReader:
 
         if depth > 20:
             return None
-        if isinstance(node, ast.Name) and (value := self._given.get(node.id)) is not None:
+        if isinstance(node, ast.Name) and (value := self._assigned.get(node.id)) is not None:
             return self.path(value, depth + 1)
         if (package := self.share(node)) is not None:
             return package, ""

@@ -93,9 +93,9 @@ def _in_python(source: Source) -> Iterator[Started]:
     for node in ast.walk(tree):
         if not isinstance(node, ast.Call) or name_of(node.func) not in ("Node", "LifecycleNode"):
             continue
-        given = {word.arg: word.value for word in node.keywords}
-        names = [reader.text(given[key]) if key in given else None for key in ("package", "executable")]
-        written = given.get("arguments")
+        keywords = {word.arg: word.value for word in node.keywords}
+        names = [reader.text(keywords[key]) if key in keywords else None for key in ("package", "executable")]
+        written = keywords.get("arguments")
         arguments: list[Named | None] = []
         for word in written.elts if isinstance(written, (ast.List, ast.Tuple)) else ():
             text = word.value if isinstance(word, ast.Constant) else None

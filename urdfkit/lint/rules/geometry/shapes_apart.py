@@ -18,7 +18,7 @@ class ShapesApart(RobotRule):
     Visuals that are more than half transparent are not checked, because they often show the view of a sensor.
 
     ## Why is this bad?
-    The robot collides where nothing is visible, or passes through what is visible. The usual
+    The robot collides where nothing is visible, or passes through visible parts. The usual
     cause is a missing decimal point or a wrong unit.
 
     ## Example

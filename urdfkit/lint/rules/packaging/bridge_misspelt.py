@@ -91,20 +91,20 @@ def _type_defect(bridge: Bridged) -> tuple[Named, str] | None:
     from urdfkit.lint.fix_builders import nearest
 
     compatible_types = pairs()
-    known_gazebo_types = {name for names in compatible_types.values() for name in names}
+    gazebo_types = {name for names in compatible_types.values() for name in names}
     ros_type = bridge.ros.name if bridge.ros is not None else ""
     gz_type = bridge.gazebo.name.replace("::", ".") if bridge.gazebo is not None else ""
     if gz_type.startswith("ignition.msgs."):
         gz_type = f"gz.msgs.{gz_type.removeprefix('ignition.msgs.')}"
-    if bridge.ros is not None and ros_type in known_gazebo_types:
+    if bridge.ros is not None and ros_type in gazebo_types:
         return bridge.ros, f"expected the ROS type before the Gazebo type, found `{bridge.ros.name}`"
     if bridge.ros is not None and ros_type not in compatible_types:
         suggestion = nearest(ros_type, compatible_types, cutoff=0.85)
         return (
             (bridge.ros, f"unknown ROS type `{bridge.ros.name}`; did you mean `{suggestion}`?") if suggestion else None
         )
-    if bridge.gazebo is not None and gz_type not in known_gazebo_types:
-        suggestion = nearest(gz_type, known_gazebo_types, cutoff=0.85)
+    if bridge.gazebo is not None and gz_type not in gazebo_types:
+        suggestion = nearest(gz_type, gazebo_types, cutoff=0.85)
         return (
             (bridge.gazebo, f"unknown Gazebo type `{bridge.gazebo.name}`; did you mean `{suggestion}`?")
             if suggestion

@@ -31,8 +31,8 @@ class CasterOffTheGround(RobotRule):
     link level. The rule reports a caster, recognised by its name or that of its joint, that would tilt the robot by
     more than 3.4°, and any link that extends below the wheels by more than a tenth of their radius.
 
-    Collision shapes are used, or visual shapes if there are none. Meshes, links that a joint raises or lowers, links
-    outside the tree of the robot, and a floor below the robot are not checked.
+    Collision shapes are used, or visual shapes if a link has no collision shapes. Meshes, links that a
+    joint raises or lowers, links outside the tree of the robot, and a floor below the robot are not checked.
 
     ## Why is this bad?
     The robot tips onto its caster when the simulation starts, or its wheels lose contact with the ground: the robot

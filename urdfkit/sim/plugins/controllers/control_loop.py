@@ -43,14 +43,16 @@ class ControlLoop:
 
     Args:
         namespace: namespace of the controller manager.
-        known: name → parameters of each configured controller.
+        configured: name → parameters of each configured controller.
         hardware: joints and command interfaces of the robot.
         hold: hold the position of joints that no controller commands; otherwise these joints move freely.
     """
 
-    def __init__(self, namespace: str, known: dict[str, Settings], hardware: Hardware, *, hold: bool = True) -> None:
+    def __init__(
+        self, namespace: str, configured: dict[str, Settings], hardware: Hardware, *, hold: bool = True
+    ) -> None:
         self.namespace = namespace
-        self.known = known
+        self.configured = configured
         self.hardware = hardware
         self.controllers: dict[str, RosController] = {}
         self.publications: list[Publication] = []
@@ -127,7 +129,7 @@ class ControlLoop:
         """Return the state of each configured controller."""
         found = []
         running, stopped = STATES[self.hardware.ros]
-        for name, settings in self.known.items():
+        for name, settings in self.configured.items():
             controller = self.controllers.get(name)
             state = "unloaded" if controller is None else running if controller.running else stopped
             claims = () if controller is None else tuple("/".join(output.claim) for output in controller.outputs)
@@ -141,14 +143,16 @@ class ControlLoop:
             SimulationError: unknown controller.
             DescriptionError: a parameter is invalid, with its position.
         """
-        if name not in self.known:
-            raise SimulationError(f"no controller `{name}` in {self.namespace or '/'}{did_you_mean(name, self.known)}")
+        if name not in self.configured:
+            raise SimulationError(
+                f"no controller `{name}` in {self.namespace or '/'}{did_you_mean(name, self.configured)}"
+            )
         if name in self.controllers:
             return True
-        controller = load_ros_controller(name, self.known[name], self.hardware)
+        controller = load_ros_controller(name, self.configured[name], self.hardware)
         if controller is None:
-            kind = self.known[name].text("type", "")
-            place = self.known[name].group("type").position
+            kind = self.configured[name].text("type", "")
+            place = self.configured[name].group("type").position
             self.hardware.setup.note(f"{place}: controller `{name}`: {kind} is not simulated")
             return False
         self.controllers[name] = controller
@@ -209,7 +213,7 @@ class ControlLoop:
         Raises:
             UrdfkitError: a parameter is wrong, and robots that need a repair are refused; with its position.
         """
-        for name in self.known:
+        for name in self.configured:
             self.start(name)
 
     def start(self, name: str) -> None:
@@ -227,7 +231,9 @@ class ControlLoop:
 
     def _loaded(self, name: str) -> RosController:
         if name not in self.controllers:
-            if name in self.known:
+            if name in self.configured:
                 raise SimulationError(f"controller `{name}` is not loaded")
-            raise SimulationError(f"no controller `{name}` in {self.namespace or '/'}{did_you_mean(name, self.known)}")
+            raise SimulationError(
+                f"no controller `{name}` in {self.namespace or '/'}{did_you_mean(name, self.configured)}"
+            )
         return self.controllers[name]

@@ -55,11 +55,11 @@ class Hardware:
         found = self.outputs.get((joint, interface))
         if found is not None:
             return found
-        known = list(dict.fromkeys(name for name, _ in self.outputs))
+        joints = list(dict.fromkeys(name for name, _ in self.outputs))
         robot = self.setup.kinematics.robot
-        if joint in known:
+        if joint in joints:
             others = " or ".join(kind for name, kind in self.outputs if name == joint)
-            message = f"joint `{joint}` takes {others}, not {interface}; look at its {self.source}"
+            message = f"joint `{joint}` takes {others}, not {interface}; check its {self.source}"
         elif joint in robot.joint_by_name:
             message = f"joint `{joint}` has no {self.source} with an interface for {interface}"
         else:

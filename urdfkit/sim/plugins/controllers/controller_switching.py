@@ -107,9 +107,9 @@ class Controllers:
         for loop in self._loops:
             prefix = loop.namespace.rstrip("/") + "/"
             own = name[len(prefix) :] if name.startswith(prefix) and len(prefix) > 1 else name.lstrip("/")
-            if own in loop.known:
+            if own in loop.configured:
                 return loop, own
-        known = [status.name for status in self.list()]
-        if not known:
+        names = [status.name for status in self.list()]
+        if not names:
             raise SimulationError(f"no controller `{name}`: this robot has none")
-        raise SimulationError(f"no controller `{name}`{did_you_mean(name, known)} (known: {', '.join(known)})")
+        raise SimulationError(f"no controller `{name}`{did_you_mean(name, names)} (known: {', '.join(names)})")

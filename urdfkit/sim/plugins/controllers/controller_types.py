@@ -56,14 +56,14 @@ def load_ros_controller(name: str, settings: Settings, hardware: Hardware) -> Ro
         DescriptionError: unknown type in a known package, or an invalid parameter, with its position.
     """
     kind = settings.text("type")
-    known = [name for controller in ROS_CONTROLLERS for name in controller.types]
+    names = [name for controller in ROS_CONTROLLERS for name in controller.types]
     for controller in ROS_CONTROLLERS:
         if kind in controller.types:
             return controller(name, settings, hardware)
     if kind in ELSEWHERE:
         return None
-    package, packages = kind.partition("/")[0], {name.partition("/")[0] for name in known}
+    package, packages = kind.partition("/")[0], {name.partition("/")[0] for name in names}
     if package not in packages and not did_you_mean(package, packages):
         return None  # third-party: Gazebo runs without it if its library is missing
-    hint = did_you_mean(kind, (*known, *ELSEWHERE))
+    hint = did_you_mean(kind, (*names, *ELSEWHERE))
     raise DescriptionError(f"no controller type `{kind}`{hint}", position=settings.group("type").position)

@@ -108,7 +108,7 @@ class JointHandle:
         velocity: float = 0.0,
         feedforward: float = 0.0,
         limit: float = inf,
-        anew: bool = False,
+        reset_integral: bool = False,
     ) -> None:
         """Exert p·(position − q) + d·(velocity − q̇) + i·∫(position − q) + `feedforward`, within the limit.
 
@@ -119,7 +119,7 @@ class JointHandle:
             velocity: target [rad/s] or [m/s].
             feedforward: effort added to the PID's [N·m] or [N].
             limit: effort limit in addition to the joint's own [N·m] or [N].
-            anew: reset the integral first.
+            reset_integral: reset the integral first.
         """
         most = min(self.limit, limit)
         integral = gains if gains.integrates else None
@@ -130,7 +130,7 @@ class JointHandle:
         motors.exert(self.name, 0.0)
         motors.servo(
             self.name, stiffness=gains.p, damping=gains.d, position=position, velocity=velocity, effort=most,
-            integral=integral, feedforward=feedforward, anew=anew,
+            integral=integral, feedforward=feedforward, reset_integral=reset_integral,
         )  # fmt: skip
 
     def chase(
@@ -143,7 +143,7 @@ class JointHandle:
         integral: float,
         period: float,
         limit: float = inf,
-        anew: bool = False,
+        reset_integral: bool = False,
     ) -> None:
         """Exert p·e + d·ė + `integral` with the error e = velocity − q̇, within the limit.
 
@@ -158,7 +158,7 @@ class JointHandle:
             integral: integral term [N·m] or [N] if the D gain is not zero; otherwise the engine integrates.
             period: time until the next call [s].
             limit: effort limit in addition to the joint's own [N·m] or [N].
-            anew: reset the integral first.
+            reset_integral: reset the integral first.
         """
         inertia = gains.d / period
         damping = gains.p + inertia
@@ -171,7 +171,8 @@ class JointHandle:
         motors.exert(self.name, 0.0)
         motors.servo(
             self.name, stiffness=0.0, damping=damping, velocity=goal, effort=min(self.limit, limit),
-            integral=gains if inertia == 0.0 and gains.integrates else None, feedforward=integral, anew=anew,
+            integral=gains if inertia == 0.0 and gains.integrates else None, feedforward=integral,
+            reset_integral=reset_integral,
         )  # fmt: skip
 
     def release(self, motors: Motors) -> None:
@@ -216,7 +217,7 @@ class JointPid:
                 return
         self.handle.servo(
             motors, self.gains, position=position, velocity=velocity, feedforward=feedforward, limit=limit,
-            anew=self.integral.begins(),
+            reset_integral=self.integral.begins(),
         )  # fmt: skip
 
     def chase(self, state: State, motors: Motors, velocity: float, period: float, limit: float = inf) -> None:
@@ -226,12 +227,19 @@ class JointPid:
             effort = self.gains.p * (velocity - now)
             if self._cut(motors, effort, state.position(self.handle.name), now, limit, target=velocity):
                 return
-        anew, self._of_velocity = self.integral.begins(), True
+        reset_integral, self._of_velocity = self.integral.begins(), True
         integral = (
             self.integral.update(state.t, velocity - now) if self.gains.integrates and not self._by_engine else 0.0
         )
         self.handle.chase(
-            motors, self.gains, now=now, velocity=velocity, integral=integral, period=period, limit=limit, anew=anew
+            motors,
+            self.gains,
+            now=now,
+            velocity=velocity,
+            integral=integral,
+            period=period,
+            limit=limit,
+            reset_integral=reset_integral,
         )
 
     def rest(self) -> float:

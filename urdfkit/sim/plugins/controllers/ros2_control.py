@@ -70,10 +70,10 @@ class Ros2Control(ControlLoopPlugin):
         gain = read.number("position_gain", 0.1) if self.spec.generation == "gz" else None
         hardware = Hardware(setup, topics.resolve, 2, period, {}, (), lambda: loop.wake(), "<command_interface>")
         hardware.joints = tuple(self._joints(setup, hardware, gain))
-        known = _controllers(root, namespace, boss)
+        configured = _controllers(root, namespace, boss)
         hold = self.spec.generation != "gz" or read.flag("hold_joints")
-        loop = self.loop = ControlLoop(namespace, known, hardware, hold=hold)
-        if not known:
+        loop = self.loop = ControlLoop(namespace, configured, hardware, hold=hold)
+        if not configured:
             setup.note(f"{self.plugin.element.origin.position}: no controllers: `controller_manager` configures none")
         loop.start_all()
         serve(loop, read.text("controller_manager") or "controller_manager")
@@ -146,20 +146,20 @@ class Ros2Control(ControlLoopPlugin):
 
 def _controllers(root: Settings, namespace: str, boss: Settings) -> dict[str, Settings]:
     """Return name → parameters of each controller with a ``type``, at the controller manager or at its own node."""
-    known = {}
+    configured = {}
     for name, entry in boss.children.items():
         if (kind := entry.children.get("type")) is not None and kind.value:
             own = node_settings(root, namespace, name)
             children = {**own.children, "type": kind}
-            known[name] = Settings(name, own.position, None, None, children, own.key or entry.key)
+            configured[name] = Settings(name, own.position, None, None, children, own.key or entry.key)
     for path, _ in root.walk():
         node, _, last = path.rpartition("/")
         name = node.rpartition("/")[2]
-        if last == "ros__parameters" and name not in known:
+        if last == "ros__parameters" and name not in configured:
             own = node_settings(root, namespace, name)
             if (kind := own.children.get("type")) is not None and "/" in (kind.value or ""):
-                known[name] = own
-    return known
+                configured[name] = own
+    return configured
 
 
 def _path(text: str, setup: Setup, position: Position) -> Path:

@@ -45,7 +45,7 @@ class GazeboRosControl(ControlLoopPlugin):
         namespace = topics.resolve("").rstrip("/")
         found = find_configuration(robot, namespace, setup.parameter_files)
         settings = found.settings if found is not None else Settings("", self.plugin.element.origin.position)
-        known = controllers(settings)
+        configured = controllers(settings)
         period = max(setup.dt, read.number("control_period", setup.dt))
         of_hardware = self._hardware_settings(setup, read, found, settings)
         hardware = Hardware(setup, topics.resolve, 1, period, {}, (), lambda: loop.wake())
@@ -55,7 +55,7 @@ class GazeboRosControl(ControlLoopPlugin):
         hardware.joints = tuple(dict.fromkeys(name for name, _ in hardware.outputs))
         if not hardware.outputs:
             setup.note(f"{self.plugin.element.origin.position}: no <transmission>: there is nothing to control")
-        loop = self.loop = ControlLoop(namespace, known, hardware)
+        loop = self.loop = ControlLoop(namespace, configured, hardware)
         if found is None:
             setup.note(
                 f"no controllers for {namespace or '/'}: no launch file or YAML configures any; see --controllers"

@@ -75,7 +75,7 @@ class SceneSensor(Sensor):
     def messages(self) -> tuple[Callable[[Any], Any], ...]:
         """Return the functions that build the messages of the first topics in `topics` from an observation."""
 
-    def remarks(self) -> tuple[Callable[[float], Any], ...]:
+    def other_messages(self) -> tuple[Callable[[float], Any], ...]:
         """Return the functions that build the messages of the other topics from the time [s] alone."""
         return ()
 
@@ -107,8 +107,8 @@ class SceneSensor(Sensor):
         def offer(topic: Any, message: Callable[[Any], Any]) -> None:
             topic.offer(lambda: message(seen()), count=count)
 
-        messages, remarks = self.messages(), self.remarks()
-        for topic, message in zip(self.topics, messages, strict=not remarks):
+        messages, others = self.messages(), self.other_messages()
+        for topic, message in zip(self.topics, messages, strict=not others):
             offer(topic, message)
-        for topic, remark in zip(self.topics[len(messages) :], remarks, strict=True):
-            topic.offer(partial(remark, t), count=count)
+        for topic, other in zip(self.topics[len(messages) :], others, strict=True):
+            topic.offer(partial(other, t), count=count)

@@ -15,8 +15,8 @@ from urdfkit.description.xacro.evaluation.expressions.limits import (
     MAX_CHARACTERS,
     MAX_ELEMENTS,
     MAX_STEPS,
-    endless,
     excess,
+    too_many_steps,
 )
 from urdfkit.description.xacro.evaluation.expressions.value_size import (
     CONTAINERS,
@@ -69,7 +69,7 @@ class Budget:
         """
         self.left -= steps
         if self.left < 0:
-            raise endless()
+            raise too_many_steps()
 
     def spend_on(self, value: Any) -> None:
         """Count an argument that a function reads once."""

@@ -1,4 +1,4 @@
-"""What is too large to be evaluated or expanded, and the limits: people's descriptions stay far below them."""
+"""Limits of evaluation and expansion, far above the sizes of real descriptions, and the exception for files beyond."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ MAX_INCLUDE_DEPTH = 60
 """Files that include one another."""
 
 MAX_INCLUDES = 2_000
-"""Files read in one run, one that is read again counted again."""
+"""Files read in one run; a file that is read twice counts twice."""
 
 MAX_EXPANDED = 150_000
 """Elements and attributes that macros, blocks and includes of one run make; a robot of 1,200 links has 54,000."""
@@ -54,7 +54,7 @@ MAX_YAML = 500_000
 
 
 class TooLarge(Exception):  # noqa: N818 - a fault of the file, diagnosed and reported as such
-    """Something is too large; the message goes on after what it is about: ``it makes …``."""
+    """A limit is exceeded; the message is a clause about the element or expression: ``it creates …``."""
 
 
 def excess(what: str, limit: int, unit: str) -> TooLarge:
@@ -62,7 +62,7 @@ def excess(what: str, limit: int, unit: str) -> TooLarge:
     return TooLarge(f"it creates {what} of more than {limit:,} {unit}")
 
 
-def endless() -> TooLarge:
+def too_many_steps() -> TooLarge:
     """Return the exception for expressions that take too long."""
     return TooLarge(f"with it, the expressions of this file exceed {MAX_STEPS:,} steps")
 

@@ -123,7 +123,7 @@ class Namespace(Scope):
     __slots__ = ()
 
     def __repr__(self) -> str:
-        """Return what a text shows."""
+        """Return the text that the namespace has in a formatted string."""
         return "<namespace>"
 
     @classmethod

@@ -52,7 +52,7 @@ def steps_of(value: Any) -> int:
 
 
 def items_of(container: Any) -> list[Any]:
-    """Return what is in a container, not what xacro wraps it in on being asked."""
+    """Return the plain contents of a container, without the wrappers that xacro adds on access."""
     if isinstance(container, dict):
         return [*dict.keys(container), *dict.values(container)]
     return list(list.__iter__(container)) if isinstance(container, list) else list(container)
@@ -69,7 +69,7 @@ def check_characters(count: int) -> None:
 
 
 def check_widths(text: str) -> None:
-    """Refuse a format that asks for too many characters.
+    """Refuse a format string whose widths or precisions produce too many characters.
 
     Raises:
         TooLarge: it does.

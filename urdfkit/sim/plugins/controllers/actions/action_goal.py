@@ -70,9 +70,11 @@ class Action:
         self._last: Goal | None = None
         topics = Actionlib if controller.hardware.ros == 1 else RclAction
         self._topics = topics(controller, name, kind, take=self._take, cancel=self._cancel, clock=clock)
-        told, dt = self._topics.feedback, controller.hardware.setup.dt
+        feedback_topic, dt = self._topics.feedback, controller.hardware.setup.dt
         controller.publications.append(
-            Report(told, rate, dt, lambda: controller.running and self.goal is not None, self._tell)
+            Report(
+                feedback_topic, rate, dt, lambda: controller.running and self.goal is not None, self._feedback_message
+            )
         )
         if self._topics.repeats:
             controller.report(self._topics.states, STATUS_RATE, self._list)
@@ -118,7 +120,7 @@ class Action:
         message = self._topics.status(state.t, self._last)
         return lambda: message
 
-    def _tell(self, state: State) -> Callable[[], Any]:
+    def _feedback_message(self, state: State) -> Callable[[], Any]:
         assert self.goal is not None  # feedback is published only while a goal is active
         t, fields, goal = state.t, self._feedback(state), replace(self.goal)
         return lambda: self._topics.progress(t, goal, fields())

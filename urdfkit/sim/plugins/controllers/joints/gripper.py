@@ -70,7 +70,7 @@ class Gripper(RosController):
         """Hold the present position."""
         super().start(state)
         self._present = state
-        self._action.give_up("the controller was started anew")
+        self._action.give_up("the controller was restarted")
         if self._joint_pid is not None:
             self._joint_pid.integral.reset()
         self._hold()

@@ -43,7 +43,7 @@ class Reference:
     def clear(self) -> None:
         """Clear the reference."""
         self._target: Twist | None = None
-        self._given: float | None = None
+        self._sent: float | None = None
         self._fresh = False
 
     def _receive(self, message: Any) -> None:
@@ -53,20 +53,20 @@ class Reference:
         if not all(map(isfinite, target)):
             self._controller.note("dropped a command that is not finite")
             return
-        given = stamp.stamp.sec + 1e-9 * stamp.stamp.nanosec if self._dated and stamp is not None else 0.0
-        self._target, self._given, self._fresh = target, given or None, True
+        sent = stamp.stamp.sec + 1e-9 * stamp.stamp.nanosec if self._dated and stamp is not None else 0.0
+        self._target, self._sent, self._fresh = target, sent or None, True
 
     def at(self, t: float) -> Twist | None:
         """Return the reference at a time [s]; None without a reference or after the timeout."""
         if self._target is None:
             return None
-        if self._given is None:
-            self._given = t
+        if self._sent is None:
+            self._sent = t
         if self._once:
             target = self._target if self._fresh else None
             self._fresh = False
             return target
-        if t - self._given > self.timeout + 1e-9:
+        if t - self._sent > self.timeout + 1e-9:
             self._target = None
         return self._target
 
@@ -74,9 +74,9 @@ class Reference:
         """Return the time until the reference expires [s]."""
         if self._target is None:
             return inf
-        if self._once or self._given is None:
+        if self._once or self._sent is None:
             return 0.0
-        return max(0.0, self._given + self.timeout - t)
+        return max(0.0, self._sent + self.timeout - t)
 
 
 def usual_reference(controller: RosController, timeout: float) -> Reference:

@@ -89,19 +89,19 @@ class TrajectoryFollower(RosController):
 
     def _chosen(self) -> str:
         """Return the interface to use of ``command_interfaces``: position if it is one of them."""
-        asked = self.settings.texts("command_interfaces")
-        if not asked:
+        entries = self.settings.texts("command_interfaces")
+        if not entries:
             self.settings.text("command_interfaces")
-        for entry in asked:
+        for entry in entries:
             if entry.value not in (*INTERFACES, "acceleration"):
                 raise DescriptionError(
                     f"unknown interface `{entry.value}`{did_you_mean(entry.value or '', INTERFACES)}",
                     position=entry.position,
                 )
-        named = [entry.value for entry in asked]
+        named = [entry.value for entry in entries]
         chosen = next((kind for kind in INTERFACES if kind in named), None)
         if chosen is None:
-            raise DescriptionError("accelerations cannot be commanded alone", position=asked[0].position)
+            raise DescriptionError("accelerations cannot be commanded alone", position=entries[0].position)
         return chosen
 
     def _joint_pid(self, output: Output) -> JointPid | None:
@@ -129,7 +129,7 @@ class TrajectoryFollower(RosController):
         positions = np.array([state.position(name) for name in self._names])
         self._trajectory = Trajectory([Waypoint(state.t, positions)])
         self._present, self._watched = state, False
-        self._action.give_up("the controller was started anew")
+        self._action.give_up("the controller was restarted")
         for joint_pid in self._joint_pids:
             if joint_pid is not None:
                 joint_pid.integral.reset()
@@ -227,8 +227,8 @@ class TrajectoryFollower(RosController):
         wanted, (positions, velocities, _) = self._trajectory.at(min(t, end)), self._measured(state)
         off, speed = wanted[0] - positions, wanted[1] - velocities
         if t < end - ROUNDING:
-            if (told := self._tolerances.strays(off)) is not None:
-                self._lose(told, OFF_PATH)
+            if (violation := self._tolerances.strays(off)) is not None:
+                self._lose(violation, OFF_PATH)
             return
         if t > end + ROUNDING:
             speed = velocities

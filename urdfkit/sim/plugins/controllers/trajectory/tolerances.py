@@ -71,8 +71,8 @@ class Tolerances:
                 for value, array in ((entry.position, place), (entry.velocity, pace)):
                     if array is not None and value != 0.0:
                         array[at] = max(0.0, value)
-        given = goal.goal_time_tolerance.sec + 1e-9 * goal.goal_time_tolerance.nanosec
-        return replace(self, path=path, goal=end, stopped=stopped, time=max(0.0, given) if given else self.time)
+        time = goal.goal_time_tolerance.sec + 1e-9 * goal.goal_time_tolerance.nanosec
+        return replace(self, path=path, goal=end, stopped=stopped, time=max(0.0, time) if time else self.time)
 
     def strays(self, off: Array) -> str | None:
         """Return a description of the first violation of the path tolerances; None without one."""

@@ -78,19 +78,19 @@ class TrajectoryReader:
                 raise refuse(f"point {number + 1} must be later than the previous point")
             last = after
             try:
-                given, *given_rates = (
+                positions, *derivatives = (
                     _row(row, len(names)) for row in (point.positions, point.velocities, point.accelerations)
                 )
             except ValueError as error:
                 raise refuse(str(error)) from None
-            if given is None:
+            if positions is None:
                 raise refuse(f"point {number + 1} has no positions")
             target = position.copy()
-            target[order] = given
+            target[order] = positions
             if number == 0:  # continuous joints move to the nearest equivalent angle
                 turns = np.where(self.turning, 2 * pi * np.round((position - target) / (2 * pi)), 0.0)
             rates = []
-            for row in given_rates:
+            for row in derivatives:
                 if row is not None:
                     whole = np.zeros(len(self.names))
                     whole[order] = row

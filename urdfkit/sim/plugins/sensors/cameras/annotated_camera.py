@@ -56,20 +56,20 @@ def instances(sight: Sight) -> tuple[Numbers, Numbers]:
 
     Instances of a label are numbered from 1, in the order of the scene.
     """
-    known = np.array([*instances_of(sight.shapes), (0, 0)], dtype=np.int64)
-    return known[sight.picture.shapes, 0], known[sight.picture.shapes, 1]  # -1 selects the last row, background
+    table = np.array([*instances_of(sight.shapes), (0, 0)], dtype=np.int64)
+    return table[sight.picture.shapes, 0], table[sight.picture.shapes, 1]  # -1 selects the last row, background
 
 
 def instances_of(shapes: Sequence[Shape]) -> list[tuple[int, int]]:
     """Return label and instance number of every shape, zeros for background."""
     counts: dict[int, int] = {}
-    known: dict[tuple[str, int], int] = {}
+    numbers: dict[tuple[str, int], int] = {}
     found = []
     for shape in shapes:
         who = owner(shape)
-        if shape.label and who not in known:
-            known[who] = counts[shape.label] = counts.get(shape.label, 0) + 1
-        found.append((shape.label, known[who]) if shape.label else (0, 0))
+        if shape.label and who not in numbers:
+            numbers[who] = counts[shape.label] = counts.get(shape.label, 0) + 1
+        found.append((shape.label, numbers[who]) if shape.label else (0, 0))
     return found
 
 
@@ -94,7 +94,7 @@ class GzSegmentationCamera(Camera):
                 + ", ".join((*SEMANTIC, *PANOPTIC)),
                 position=None if written is None else written.origin.position,
             )
-        self._apart = kind in PANOPTIC
+        self._by_instance = kind in PANOPTIC
         name, bus = topics.resolve(read.text("image_topic")), setup.bus
         self.topics = (
             bus.advertise(f"{name}/colored_map", IMAGE),
@@ -106,13 +106,13 @@ class GzSegmentationCamera(Camera):
         """Return the functions that build the messages of the first topics in `topics`."""
         return self._colored, self._labels
 
-    def remarks(self) -> tuple[Callable[[float], Any], ...]:
+    def other_messages(self) -> tuple[Callable[[float], Any], ...]:
         """Return the functions that build the messages of the other topics."""
         return (self.info,)
 
     def _colored(self, sight: Sight) -> Any:
         labels, numbers = instances(sight)
-        return image(sight.t, self.frame, colors_of(labels + 256 * numbers if self._apart else labels), "rgb8")
+        return image(sight.t, self.frame, colors_of(labels + 256 * numbers if self._by_instance else labels), "rgb8")
 
     def _labels(self, sight: Sight) -> Any:
         """Return the labels map: the label three times, or the low and high byte of the instance number and the label.
@@ -121,7 +121,7 @@ class GzSegmentationCamera(Camera):
         modulo 256, green the instance number divided by 256, blue the label; instances are numbered from 1.
         """
         labels, numbers = instances(sight)
-        planes = (numbers % 256, numbers // 256, labels) if self._apart else (labels, labels, labels)
+        planes = (numbers % 256, numbers // 256, labels) if self._by_instance else (labels, labels, labels)
         return image(sight.t, self.frame, np.stack(planes, axis=-1).astype(np.uint8), "rgb8")
 
 
@@ -163,7 +163,7 @@ class GzBoundingBoxCamera(Camera):
         """Return the functions that build the messages of the first topics in `topics`."""
         return self._detections, self._drawn
 
-    def remarks(self) -> tuple[Callable[[float], Any], ...]:
+    def other_messages(self) -> tuple[Callable[[float], Any], ...]:
         """Return the functions that build the messages of the other topics."""
         return (self.info,)
 
@@ -171,10 +171,10 @@ class GzBoundingBoxCamera(Camera):
         sight = super()._look(t, layout, frame, random)
         table = self._surroundings.view(layout).table("visual", layout)
         labels, numbers = instances(sight)
-        whole, known = labels + 256 * numbers, instances_of(sight.shapes)
+        whole, pairs = labels + 256 * numbers, instances_of(sight.shapes)
         boxes: list[Box2D | Box3D] = []
         for one in np.unique(whole[whole > 0]).tolist():
-            label, shapes = one % 256, [k for k, each in enumerate(known) if each == (one % 256, one // 256)]
+            label, shapes = one % 256, [k for k, each in enumerate(pairs) if each == (one % 256, one // 256)]
             if self._type in VISIBLE:
                 boxes.append(visible_box(label, whole == one))
             elif self._type in FULL:

@@ -179,7 +179,7 @@ class GzCamera(Camera):
         """Return the functions that build the messages of the first topics in `topics`."""
         return (self._image,)
 
-    def remarks(self) -> tuple[Callable[[float], Any], ...]:
+    def other_messages(self) -> tuple[Callable[[float], Any], ...]:
         """Return the functions that build the messages of the other topics."""
         return (self.info,)
 

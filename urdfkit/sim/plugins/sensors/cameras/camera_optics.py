@@ -155,8 +155,8 @@ def depth_image(t: float, frame: str, depth: NDArray[np.float32], *, millimetres
     """
     height, width = depth.shape
     if millimetres:
-        known = np.where(np.isfinite(depth) & (depth > 0) & (depth < 65.535), depth, 0.0)
-        content = np.rint(known * 1000.0).astype("<u2")
+        measured = np.where(np.isfinite(depth) & (depth > 0) & (depth < 65.535), depth, 0.0)
+        content = np.rint(measured * 1000.0).astype("<u2")
     else:
         content = depth.astype("<f4")
     encoding = "16UC1" if millimetres else "32FC1"

@@ -41,7 +41,7 @@ class DepthCamera(Camera):
         """Return the functions that build the messages of the first topics in `topics`."""
         return self._image, self._depth, self._points
 
-    def remarks(self) -> tuple[Callable[[float], Any], ...]:
+    def other_messages(self) -> tuple[Callable[[float], Any], ...]:
         """Return the functions that build the messages of the other topics."""
         return self.info, self.info
 
@@ -78,7 +78,7 @@ class GzDepthCamera(Camera):
         """Return the functions that build the messages of the first topics in `topics`."""
         return self._depth, self._points
 
-    def remarks(self) -> tuple[Callable[[float], Any], ...]:
+    def other_messages(self) -> tuple[Callable[[float], Any], ...]:
         """Return the functions that build the messages of the other topics."""
         return (self.info,)
 

@@ -54,10 +54,10 @@ class RosCamera(MultiCamera):
             return super().messages()
         return (self._image, self._depth, self._points) if self.deep else (self._image,)
 
-    def remarks(self) -> tuple[Callable[[float], Any], ...]:
+    def other_messages(self) -> tuple[Callable[[float], Any], ...]:
         """Return the functions that build the messages of the other topics."""
         if self._several:
-            return super().remarks()
+            return super().other_messages()
         return (self.info, self.info) if self.deep else (self.info,)
 
     def _look(self, t: float, layout: Layout, frame: Array, random: np.random.Generator) -> Any:

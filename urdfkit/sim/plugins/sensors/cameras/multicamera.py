@@ -69,7 +69,7 @@ class MultiCamera(Camera):
         """Return the functions that build the image of each camera."""
         return tuple(partial(self._image_of, number) for number in range(len(self.imagers)))
 
-    def remarks(self) -> tuple[Callable[[float], Any], ...]:
+    def other_messages(self) -> tuple[Callable[[float], Any], ...]:
         """Return the functions that build the CameraInfo of each camera."""
         return tuple(partial(imager.info, self.frame) for imager in self.imagers)
 

@@ -227,12 +227,12 @@ class GzForceTorque(ForceTorque):
         self.topics = (setup.bus.advertise(Topics(self.plugin, self.spec).resolve(read.text("topic")), WRENCH),)
 
     @staticmethod
-    def _choice(inside: Element | None, tag: str, known: tuple[str, ...], default: str) -> str:
+    def _choice(inside: Element | None, tag: str, allowed: tuple[str, ...], default: str) -> str:
         child: Element | None = None if inside is None else inside.find(tag)
         text = "" if child is None else child.text
-        if child is not None and text and text not in known:
+        if child is not None and text and text not in allowed:
             raise SimulationError(
-                f"<{tag}> is `{text}`{did_you_mean(text, known)}; it must be {', '.join(known)}",
+                f"<{tag}> is `{text}`{did_you_mean(text, allowed)}; it must be {', '.join(allowed)}",
                 position=child.origin.position,
             )
         return text or default

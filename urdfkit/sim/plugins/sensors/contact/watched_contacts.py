@@ -137,8 +137,8 @@ def _watched(element: Element, collisions: tuple[Collision, ...], link: str) -> 
     for each in wanted:
         means = find(each.text, collisions, link)
         if not means:
-            known = [collision.name for collision in sorted(collisions, key=lambda one: one.link != link)]
-            hint = did_you_mean(each.text, known) or (f" (it has {', '.join(known[:4])})" if known else "")
+            names = [collision.name for collision in sorted(collisions, key=lambda one: one.link != link)]
+            hint = did_you_mean(each.text, names) or (f" (it has {', '.join(names[:4])})" if names else "")
             raise SimulationError(f"the robot has no collision `{each.text}`{hint}", position=each.origin.position)
         found.extend(means)
     return tuple(found)

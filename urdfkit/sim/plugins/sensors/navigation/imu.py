@@ -122,7 +122,7 @@ class PlainImu(Imu):
     _compass: float = 0.0
     _plugin = Noise()
 
-    def _tell(self) -> None:
+    def _set_variances(self) -> None:
         gyro, accelerometer = (
             np.array([noise.deviation**2 for noise in noises]) for noises in (self._gyro, self._accelerometer)
         )
@@ -154,7 +154,7 @@ class ImuSensor(PlainImu):
             )
         self._relative = read.flag("initial_orientation")
         self._gyro, self._accelerometer = _written(element, setup.random)
-        self._tell()
+        self._set_variances()
         if self.spec.generation == "ros1":
             self._compass = read.number("gaussian_noise", unsigned=True)
             self._plugin = Noise(deviation=self._compass)
@@ -170,7 +170,7 @@ class GzImu(PlainImu):
     def _errors(self, setup: Setup, element: Element | None, read: Parameters) -> None:
         assert element is not None
         self._gyro, self._accelerometer = _written(element, setup.random)
-        self._tell()
+        self._set_variances()
 
 
 class BodyImu(PlainImu):
@@ -189,7 +189,7 @@ class BodyImu(PlainImu):
         self._gravity = np.zeros(3)
         deviation = read.number("gaussian_noise", unsigned=True)
         self._gyro = self._accelerometer = (Noise(deviation=deviation),) * 3
-        self._tell()
+        self._set_variances()
         self._variances = np.full(3, deviation**2), *self._variances[1:]
 
 
