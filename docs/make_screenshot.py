@@ -23,7 +23,7 @@ DRIVE = 1.6
 
 
 def drive(page: Page) -> None:
-    """Drive Simpleton among cylinders, with the forces at its wheels, what it sees, and its speeds plotted."""
+    """Drive Simpleton among cylinders, with the forces at its wheels, its camera image, and plots of its speeds."""
     page.wait_for_selector("#progress", state="hidden", timeout=180_000)
     page.evaluate("urdfkit.page.panels.close('drive')")
     page.evaluate("document.getElementById('show-contacts').click()")

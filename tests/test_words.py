@@ -2,42 +2,29 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 import pytest
 
-from tests.words import ROOT, uses
+from tests.words import ROOT, files_below, uses
 
-REVISED = (
+PLACES = (
     "README.md",
+    "CHANGELOG.md",
     "CONTRIBUTING.md",
-    "docs/architecture.md",
-    "docs/conventions.md",
-    "urdfkit/app",
-    "urdfkit/bridges",
-    "urdfkit/cli",
-    "urdfkit/kinematics",
-    "urdfkit/messages",
-    "urdfkit/compilation",
-    "urdfkit/scaffold",
-    "urdfkit/sim/construction",
-    "urdfkit/sim/engine",
-    "urdfkit/sim/scene_view.py",
-    "urdfkit/sim/world",
-    "urdfkit/scene",
-    "urdfkit/view",
+    "docs",
+    "robots",
+    "templates",
+    *sorted(
+        f"urdfkit/{path.name}"
+        for path in (ROOT / "urdfkit").iterdir()
+        if path.suffix == ".py" or (path / "__init__.py").exists()
+    ),
 )
-"""Where every name and sentence has been revised; the rest follows."""
+"""All files that users and contributors read."""
 
 
-def files_in(place: str) -> list[Path]:
-    path = ROOT / place
-    return [path] if path.is_file() else sorted(path.rglob("*.py"))
-
-
-@pytest.mark.parametrize("place", REVISED)
+@pytest.mark.parametrize("place", PLACES)
 def test_names_and_sentences_use_the_words_of_the_field(place):
-    files = files_in(place)
+    files = files_below(ROOT / place)
     assert files
     found = [use for file in files for use in uses(file)]
     assert found == []
@@ -54,6 +41,12 @@ def test_words_that_are_not_used_are_found_in_names_comments_and_strings(tmp_pat
         (5, "prose", "nobody"),
         (5, "prose", "asks"),
     }
+
+
+def test_a_template_of_python_with_placeholders_is_read_as_text(tmp_path):
+    module = tmp_path / "robot.launch.py"
+    module.write_text("SPAWNED = (@names@)  # nobody asks\n")
+    assert [use.word for use in uses(module)] == ["asks", "nobody"]
 
 
 def test_code_in_backticks_is_not_prose(tmp_path):

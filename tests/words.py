@@ -70,11 +70,20 @@ PHRASES = {
 
 MEANT = {
     "parse_known_args": "a method of argparse",
+    "ShapesApart": "the class of the rule `shapes-apart`, whose name users write in their settings",
+    "DIAGONAL_KNOWN": "the ROS constant COVARIANCE_TYPE_DIAGONAL_KNOWN",
+    "ask = false": "a key of template.toml, which authors of templates write",
+    "says = {": "a key of template.toml, which authors of templates write",
+    "[word.says]": "a key of template.toml, which authors of templates write",
     "CompilationListener": "a listener of numba's compilation events",
     "is None": "the value None",
     "What it does": "a section of the pages of rules",
 }
 """Name or text in which such a word is right → the reason."""
+
+
+DATA = frozenset((".png", ".stl", ".dae", ".obj", ".svg", ".json", ".pyc"))
+"""Suffixes of files without sentences."""
 
 
 class Use(NamedTuple):
@@ -116,11 +125,29 @@ def sentences_in(source: str, tree: ast.AST) -> Iterator[tuple[int, str]]:
             yield token.start[0], token.string
 
 
+def files_below(*places: Path) -> list[Path]:
+    """Return the files with names or sentences in some files and folders."""
+    return [
+        file
+        for place in places
+        for file in (sorted(place.rglob("*")) if place.is_dir() else [place])
+        if file.is_file() and file.suffix not in DATA and "__pycache__" not in file.parts
+    ]
+
+
+def _parsed(text: str) -> ast.AST | None:
+    """Return the syntax tree of Python code; None for a template with placeholders."""
+    try:
+        return ast.parse(text)
+    except SyntaxError:
+        return None
+
+
 def uses(path: Path) -> Iterator[Use]:
     """Yield the uses in a file: of Python its names and sentences, else its lines."""
     text = path.read_text(encoding="utf-8")
-    if path.suffix == ".py":
-        tree = ast.parse(text)
+    tree = _parsed(text) if path.suffix == ".py" else None
+    if tree is not None:
         for line, name in names_in(tree):
             for word in words_of(name):
                 if word in NAMES and name not in MEANT:
@@ -138,8 +165,5 @@ def uses(path: Path) -> Iterator[Use]:
 
 if __name__ == "__main__":
     paths = [Path(p) for p in sys.argv[1:]] or [ROOT / "urdfkit", ROOT / "docs", ROOT / "README.md"]
-    files = [
-        f for p in paths for f in (sorted(p.rglob("*")) if p.is_dir() else [p]) if f.suffix in (".py", ".md", ".js")
-    ]
-    for use in (use for file in files for use in uses(file)):
+    for use in (use for file in files_below(*paths) for use in uses(file)):
         print(f"{use.path}:{use.line}: {use.kind} `{use.word}`: {use.text}")
