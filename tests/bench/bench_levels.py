@@ -1,6 +1,6 @@
 """The same seed on other processors: same bytes, and at what speed, for every robot in a house and a heap of boxes.
 
-Run it: ``python tests/bench/bench_levels.py [SCENE …] [--seconds 10] [--rounds 5] [--no-speed] [--json]``. A scene is a
+Run it: ``python tests/bench/bench_levels.py [SCENE …] [--seconds 10] [--rounds 5] [--json]``. A scene is a
 bundled robot, driven at random through `house`, or `heap`: 80 boxes that fall into a tray. Each run is a process of its
 own that is told to do without instructions that this processor has: kernels, numpy, OpenBLAS and the C library alike.
 Exit code 1 where two of the level that kernels are compiled for differ in the state at the end, or in any message.
