@@ -47,7 +47,18 @@ class UsageError(UrdfkitError):
 
 
 class ResourceError(UrdfkitError):
-    """A robot, world, package or file name resolves to nothing."""
+    """A robot, world, package or file name resolves to nothing.
+
+    Args:
+        message: see `UrdfkitError`.
+        position: see `UrdfkitError`.
+        kind: ``package`` or ``file`` for a missing one, ``format`` for an unsupported format of a file, otherwise
+            empty.
+    """
+
+    def __init__(self, message: str, *, position: Position | None = None, kind: str = "") -> None:
+        super().__init__(message, position=position)
+        self.kind = kind
 
 
 class DescriptionError(UrdfkitError):

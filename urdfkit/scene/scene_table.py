@@ -181,7 +181,7 @@ def _load(
     try:
         return meshes.load(_resolve(robot, geometry.uri), geometry.scale, places=places)
     except ResourceError as error:
-        raise ResourceError(error.message, position=_mesh_position(item)) from error
+        raise ResourceError(error.message, position=_mesh_position(item), kind=error.kind) from error
 
 
 def _mesh_position(item: Visual | Collision) -> Position:

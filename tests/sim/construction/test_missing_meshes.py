@@ -56,6 +56,21 @@ def test_visual_shapes_replace_the_collision_shapes_of_a_link_if_all_are_missing
     assert (repair.kind, repair.code, repair.link) == ("mesh", "G601", "base")
 
 
+@pytest.mark.parametrize(
+    ("mesh", "code"),
+    [
+        ("gone.stl", "G601"),
+        ("package://gone/base.stl", "G602"),
+        ("no package of no file .xyz", "G606"),
+        ("broken.stl", "G607"),
+    ],
+)
+def test_a_replaced_mesh_has_the_code_of_the_lint_rule_for_its_cause(tmp_path: Path, mesh: str, code: str) -> None:
+    file = written(tmp_path, BOX + MESH.format(mesh))
+    (tmp_path / "no package of no file .xyz").write_text("")
+    assert [repair.code for repair in Simulator(file, note=lambda _: None).repairs] == [code]
+
+
 def test_the_command_runs_on(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["sim", "run", str(written(tmp_path, BOX + MESH.format("gone.stl"))), "--for", "0.01"]) == 0
     assert len([line for line in capsys.readouterr().err.splitlines() if "gone.stl" in line]) == 1

@@ -77,7 +77,7 @@ class Packages:
                 hint = near_package(name, self._seen)
                 message = f"no package `{name}` in {self._looked_in()}{hint or '; see --package-path'}"
                 self.answers[("find", name)] = f"!{message}"
-                raise ResourceError(message)
+                raise ResourceError(message, kind="package")
             self._found[name] = found
             self.answers[("find", name)] = str(found)
         return self._found[name]
@@ -107,7 +107,7 @@ class Packages:
             if path.exists():
                 return path
         except OSError as error:
-            raise ResourceError(f"no file {uri}: {(error.strerror or 'not readable').lower()}") from None
+            raise ResourceError(f"no file {uri}: {(error.strerror or 'not readable').lower()}", kind="file") from None
         if (moved := self._relocated(path)) is not None:
             return moved
         if "%" in uri:
@@ -116,7 +116,7 @@ class Packages:
             decoded = Path(unquote(str(path)))
             if decoded.exists():
                 return decoded
-        raise ResourceError(f"no file {uri}{near_path(path)}")
+        raise ResourceError(f"no file {uri}{near_path(path)}", kind="file")
 
     def relocate(self, path: str | Path) -> Path | None:
         """Return the path in the source folder for a path that exists only in an installed package.

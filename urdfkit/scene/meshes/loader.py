@@ -112,7 +112,8 @@ class MeshLoader:
         if path.suffix.lower() not in FORMATS:
             raise ResourceError(
                 f"mesh {path.name} has an unsupported format{did_you_mean(path.suffix, FORMATS)}; "
-                f"supported: {' '.join(FORMATS)}"
+                f"supported: {' '.join(FORMATS)}",
+                kind="format",
             )
         content = _read(path)
         side_files = b"".join(_side_files(path, content))
@@ -129,7 +130,7 @@ def _read(path: Path) -> bytes:
     """Return the content of a mesh file after a check of size and header."""
     try:
         if not path.is_file():
-            raise ResourceError(f"missing mesh file {path}{near_path(path)}")
+            raise ResourceError(f"missing mesh file {path}{near_path(path)}", kind="file")
         if (size := path.stat().st_size) > MAX_BYTES:
             raise ResourceError(
                 f"mesh {path.name} has {size / 2**20:.0f} MiB; at most {MAX_BYTES // 2**20} are supported; decimate it"

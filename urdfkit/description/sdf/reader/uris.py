@@ -35,7 +35,7 @@ def find_file(context: Context, uri: Element) -> Path:
     try:
         return context.packages.resolve(uri.text, context.path)
     except ResourceError as error:
-        raise ResourceError(error.message, position=uri.origin.position) from None
+        raise ResourceError(error.message, position=uri.origin.position, kind=error.kind) from None
 
 
 def find_model(context: Context, uri: Element) -> Path:
@@ -108,7 +108,9 @@ def _entry(path: Path, uri: Element) -> Path:
             found = path / max(fit, key=lambda each: each[0])[1]
             if found.is_file():
                 return found
-            raise ResourceError(f"no file {shown_path(found)}{near_path(found)}", position=uri.origin.position)
+            raise ResourceError(
+                f"no file {shown_path(found)}{near_path(found)}", position=uri.origin.position, kind="file"
+            )
     if plain.is_file():
         return plain
     raise ResourceError(f"no model.config and no model.sdf in {shown_path(path)}", position=uri.origin.position)

@@ -11,8 +11,8 @@ from urdfkit.scene import Scene, Shape
 from urdfkit.sim.construction.repairs.inertia_tensors import repair_at
 from urdfkit.sim.construction.validation import invalid_sizes
 
-CODES = {"no package ": "G602", "no file ": "G601", "missing mesh file": "G601", "unsupported format": "G606"}
-"""Part of the error of a mesh → code of the lint rule that reports it."""
+CODES = {"package": "G602", "file": "G601", "format": "G606"}
+"""Kind of the error of a mesh → code of the lint rule that reports it."""
 
 
 def without_empty_shapes(robot: Robot) -> tuple[Robot, list[Repair]]:
@@ -56,7 +56,7 @@ def with_substitutes(scene: Scene) -> tuple[Scene, list[Repair]]:
         else:
             effect = f"shape `{problem.name}` is left out: it has no contacts"
         message = f"{problem.error.message}; {effect}"
-        repairs.append(Repair("mesh", _code(problem.error.message), message, problem.error.position, body))
+        repairs.append(Repair("mesh", CODES.get(problem.error.kind, "G607"), message, problem.error.position, body))
     shapes = [*scene.shapes, *(shape for found in replaced.values() for shape in found)]
     order = scene.body_index
     shapes.sort(key=lambda shape: (order[shape.body], shape.role == "collision"))
@@ -69,8 +69,3 @@ def _substitutes(scene: Scene, body: str) -> Iterator[Shape]:
     visuals = [shape for shape in scene.with_role("visual") if shape.body == body]
     for shape in visuals:
         yield replace(shape, name=shape.name.replace("/visual/", "/collision/", 1), role="collision", has_color=False)
-
-
-def _code(message: str) -> str:
-    """Return the code of the lint rule that reports a mesh with this error."""
-    return next((code for text, code in CODES.items() if text in message), "G607")
