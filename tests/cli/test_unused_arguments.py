@@ -6,8 +6,10 @@ import pytest
 
 from urdfkit.cli import main
 from urdfkit.cli.unused_arguments import unused
+from urdfkit.description.xml.source import Source
 
-TEXT = """<robot xmlns:xacro="http://www.ros.org/wiki/xacro"><xacro:arg name="prefix" default=""/>
+TEXT = """<robot xmlns:xacro="http://www.ros.org/wiki/xacro"><xacro:arg default=""
+  name="prefix"/><!-- <xacro:arg name="foo"/> -->
 <link name="$(arg prefix)foo"/><xacro:if value="$(eval use_arm and arg('side') == 'left')"/></robot>"""
 
 
@@ -22,11 +24,13 @@ TEXT = """<robot xmlns:xacro="http://www.ros.org/wiki/xacro"><xacro:arg name="pr
     ],
 )
 def test_what_is_used(name: str, said: list[str]) -> None:
-    assert unused({name: "1"}, [TEXT]) == said
+    assert unused({name: "1"}, [Source("robot.xacro", TEXT)]) == said
 
 
 def test_a_file_without_arguments() -> None:
-    assert unused({"a": "1"}, ["<robot/>"]) == ["no file uses the argument `a`; the robot declares none"]
+    assert unused({"a": "1"}, [Source("robot.urdf", "<robot/>")]) == [
+        "no file uses the argument `a`; the robot declares none"
+    ]
 
 
 @pytest.mark.parametrize("command", [["info"], ["tf", "--tree"], ["sim", "run", "--for", "0"]])

@@ -93,7 +93,7 @@ def _compare(path: str, arguments: dict[str, str], packages: Packages) -> int:
 def _show_notes(expanded: Expanded, arguments: dict[str, str]) -> None:
     for note in expanded.warnings:
         print(f"{note.position}: {note.level}: {note.message}", file=sys.stderr)
-    for line in unused(arguments, [source.text for source in expanded.sources.values()]):
+    for line in unused(arguments, expanded.sources.values()):
         print(f"urdfkit: warning: {line}", file=sys.stderr)
 
 

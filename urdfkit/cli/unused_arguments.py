@@ -5,9 +5,10 @@ import sys
 from collections.abc import Iterable, Mapping
 from pathlib import Path
 
+from urdfkit.description.xacro.declared_arguments import declared_arguments
+from urdfkit.description.xml.reader import read_source
+from urdfkit.description.xml.source import Source
 from urdfkit.errors import did_you_mean
-
-_DECLARED = re.compile(r"""<\s*(?:\w+:)?arg\b[^>]*?\bname\s*=\s*["']([^"']+)["']""")
 
 
 def note_unused(arguments: Mapping[str, str], files: Iterable[Path], *, quiet: bool = False) -> None:
@@ -20,26 +21,24 @@ def note_unused(arguments: Mapping[str, str], files: Iterable[Path], *, quiet: b
     """
     if quiet or not arguments:
         return
-    for line in unused(arguments, [file.read_text("utf-8", "replace") for file in files]):
+    for line in unused(arguments, [read_source(file) for file in files]):
         print(f"urdfkit: warning: {line}", file=sys.stderr)
 
 
-def unused(arguments: Mapping[str, str], texts: Iterable[str]) -> list[str]:
+def unused(arguments: Mapping[str, str], sources: Iterable[Source]) -> list[str]:
     """Return one line per argument that is neither declared nor used, with the nearest declared name.
 
     Args:
         arguments: arguments of the command line.
-        texts: texts of all files.
+        sources: all files of the robot.
     """
-    texts = list(texts)
-    declared = [name for text in texts for name in _DECLARED.findall(text)]
+    sources = list(sources)
+    declared = declared_arguments(sources)
     lines = []
     for name in arguments:
         own = re.escape(name)
         use = re.compile(rf"\$\(arg\s+{own}\s*\)|\$\(eval\b[^<\"]*?\b{own}\b|\bxacro\.arg\(.{own}.\)")
-        if name not in declared and not any(use.search(text) for text in texts):
-            available = (
-                f" (declared: {', '.join(dict.fromkeys(declared))})" if declared else "; the robot declares none"
-            )
+        if name not in declared and not any(use.search(source.text) for source in sources):
+            available = f" (declared: {', '.join(declared)})" if declared else "; the robot declares none"
             lines.append(f"no file uses the argument `{name}`{did_you_mean(name, declared) or available}")
     return lines

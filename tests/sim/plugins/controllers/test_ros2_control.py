@@ -316,8 +316,9 @@ def test_mock_hardware_is_an_ideal_actuator(make: Make) -> None:
 def test_the_arguments_that_enable_the_simulation_are_listed(tmp_path: Path) -> None:
     path = tmp_path / "arm.urdf.xacro"
     path.write_text(
-        '<robot name="r" xmlns:xacro="http://www.ros.org/wiki/xacro"><xacro:arg name="sim_gazebo" default="false"/>'
-        '<xacro:arg name="simple" default="false"/><xacro:arg name="use_sim" default="true"/><link name="a"/></robot>'
+        '<robot name="r" xmlns:xacro="http://www.ros.org/wiki/xacro"><xacro:arg default="false" name="sim_gazebo"/>'
+        '<xacro:arg name="simple" default="false"/><xacro:arg name="use_sim" default="true"/>'
+        '<!-- <xacro:arg name="use_gazebo" default="false"/> --><link name="a"/></robot>'
     )
     assert simulation_hint(load(path)) == "; pass sim_gazebo:=true"
 

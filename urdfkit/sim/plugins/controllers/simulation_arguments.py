@@ -5,15 +5,19 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING
 
+from urdfkit.description.xacro.declared_arguments import declared_arguments
+from urdfkit.description.xml.reader import read_source
+
 if TYPE_CHECKING:
     from urdfkit.description.urdf.robot import Robot
 
-_ARGUMENT = re.compile(r"<xacro:arg\b[^>]*?\bname=[\"']([^\"']+)[\"'][^>]*?\bdefault=[\"'](?:false|False|0)[\"']")
+_FALSE = ("false", "False", "0")
 _SIMULATION = re.compile(r"(^|_)(sim|simulation|gazebo|gz|ignition|ign|mock|fake)(_|$)")
 
 
 def simulation_hint(robot: Robot) -> str:
     """Return the end of a message that lists the arguments that enable the simulated hardware; empty without any."""
-    entry = robot.files[0].read_text(errors="replace") if robot.files and robot.files[0].is_file() else ""
-    names = [name for name in dict.fromkeys(_ARGUMENT.findall(entry)) if _SIMULATION.search(name)]
+    entry = [read_source(file) for file in robot.files[:1] if file.is_file()]
+    defaults = declared_arguments(entry)
+    names = [name for name, value in defaults.items() if value in _FALSE and _SIMULATION.search(name)]
     return f"; pass {' or '.join(f'{name}:=true' for name in names)}" if names else ""
