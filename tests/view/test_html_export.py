@@ -7,6 +7,7 @@ import zlib
 import numpy as np
 import pytest
 import trimesh
+import umsgpack
 
 from urdfkit.description.urdf.robot import Box, Mesh
 from urdfkit.scene import Scene, Shape, TriMesh
@@ -88,3 +89,23 @@ def test_showing_again_forgets_what_was_there() -> None:
         scene = Scene(("base",), (Shape("n", "base", "visual", Box((edge, 1, 1)), np.eye(4)),))
         recording.show(name="toy", nodes=[link_path("base")], draw=lambda r, scene=scene: draw(scene, r, r.geometries))
     assert len(recorded(recording.html())["commands"]) == 2
+
+
+def test_the_same_scene_is_the_same_bytes_and_names_no_machine() -> None:
+    def commands() -> list[bytes]:
+        recording = Recording()
+        shapes = [
+            Shape(f"x/visual/{number}", "x", "visual", geometry, np.eye(4))
+            for number, geometry in enumerate((Box((1, 1, 1)), Box((1, 1, 2))))
+        ]
+        draw(Scene(("x",), tuple(shapes)), recording, recording.geometries)
+        return [base64.b64decode(command) for command in recorded(recording.html())["commands"]]
+
+    first = commands()
+    assert first == commands()
+    assert not any(re.search(rb"[0-9a-f]{8}-[0-9a-f]{4}-1", command) for command in first)  # UUIDs of version 1
+    objects = [content for content in map(umsgpack.unpackb, first) if content["type"] == "set_object"]
+    assert len(objects) == 2
+    for content in (each["object"] for each in objects):
+        assert content["object"]["geometry"] == content["geometries"][0]["uuid"]
+        assert content["object"]["material"] == content["materials"][0]["uuid"]

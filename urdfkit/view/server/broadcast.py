@@ -1,11 +1,14 @@
 """Hub: sends scene commands, messages and poses to every browser, and keeps the state for browsers that join later."""
 
+import re
 from collections.abc import Iterator
 from typing import Any
 
 import umsgpack
 
 from urdfkit.view.server.send_queue import Channel, ChannelFullError, Frame
+
+_UUID = re.compile("[0-9a-f]{8}(?:-[0-9a-f]{4}){3}-[0-9a-f]{12}")
 
 CLEAR = umsgpack.packb({"type": "delete", "path": "/robot"})
 """The command that empties the scene."""
@@ -125,8 +128,25 @@ class Hub:
 
 
 def pack(command: Any) -> tuple[str, str | None, bytes]:
-    """Return path, slot and bytes of a meshcat command (anything with ``lower()``) for `Hub.command`."""
+    """Return path, slot and bytes of a meshcat command (anything with ``lower()``) for `Hub.command`.
+
+    meshcat identifies objects by version 1 UUIDs, which contain the time and the hardware address of the machine. They
+    are replaced by numbers, because an identifier is used only within its command.
+    """
     lowered = command.lower()
     kind, path = lowered["type"], lowered["path"].rstrip("/")
     slot = {"delete": None, "set_property": f"set_property:{lowered.get('property')}"}.get(kind, kind)
+    if kind == "set_object":
+        lowered = _with_numbers(lowered, {})
     return path, slot, umsgpack.packb(lowered)
+
+
+def _with_numbers(value: Any, numbers: dict[str, str]) -> Any:
+    """Return a value with its UUIDs, and the references to them, replaced by numbers in the order of their places."""
+    if isinstance(value, dict):
+        return {key: _with_numbers(item, numbers) for key, item in value.items()}
+    if isinstance(value, (list, tuple)):
+        return [_with_numbers(item, numbers) for item in value]
+    if isinstance(value, str) and _UUID.fullmatch(value):
+        return numbers.setdefault(value, str(len(numbers) + 1))
+    return value
