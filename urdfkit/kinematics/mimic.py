@@ -1,7 +1,9 @@
 """Mimic joints: the master joint of each, and the linear law that couples them."""
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
 
+from urdfkit.description.urdf.repair import Repair
 from urdfkit.description.urdf.robot import Joint, Robot
 from urdfkit.errors import KinematicsError, did_you_mean
 
@@ -35,11 +37,30 @@ def couplings(robot: Robot) -> dict[str, Coupling]:
     found: dict[str, Coupling] = {}
     for joint in robot.joints:
         if joint.mimic is not None and joint.is_movable:
-            found.setdefault(joint.name, _follow(robot, joint))
+            found.setdefault(joint.name, _follow(robot.joint_by_name, joint))
     return found
 
 
-def _follow(robot: Robot, joint: Joint) -> Coupling:
+def without_impossible_mimics(robot: Robot) -> tuple[Robot, list[Repair]]:
+    """Return a robot without each <mimic> that `couplings` refuses, and a repair for each."""
+    joints, repairs = dict(robot.joint_by_name), []
+    for joint in robot.joints:
+        if joint.mimic is None or not joint.is_movable:
+            continue
+        try:
+            _follow(joints, joint)
+        except KinematicsError as error:
+            joints[joint.name] = replace(joint, mimic=None)
+            origin = joint.mimic.element.origin
+            message = f"{error.message}; joint `{joint.name}` moves by itself"
+            code = "J416" if joint.mimic.joint == joint.name else None
+            repairs.append(Repair("structure", code, message, origin.position, joint=joint.name))
+    if not repairs:
+        return robot, []
+    return replace(robot, joints=tuple([joints[joint.name] for joint in robot.joints])), repairs
+
+
+def _follow(joints: Mapping[str, Joint], joint: Joint) -> Coupling:
     multiplier, offset = 1.0, 0.0
     at = joint
     passed: list[str] = []
@@ -59,9 +80,9 @@ def _follow(robot: Robot, joint: Joint) -> Coupling:
             raise KinematicsError(f"mimic joints form a cycle: {circle}", position=place)
         offset += multiplier * at.mimic.offset
         multiplier *= at.mimic.multiplier
-        master = robot.joint_by_name.get(at.mimic.joint)
+        master = joints.get(at.mimic.joint)
         if master is None:
-            hint = did_you_mean(at.mimic.joint, robot.joint_by_name)
+            hint = did_you_mean(at.mimic.joint, joints)
             raise KinematicsError(
                 f"joint `{at.name}` mimics the unknown joint `{at.mimic.joint}`{hint}", position=place
             )

@@ -1,4 +1,4 @@
-"""Repair: a change to a defective description without which a robot could not be simulated."""
+"""Repair: a change to a defective description without which a robot could not be shown or simulated."""
 
 from __future__ import annotations
 
@@ -9,12 +9,12 @@ TYPE_CHECKING = False
 if TYPE_CHECKING:
     from typing import Literal
 
-    RepairKind = Literal["inertia", "mass", "shape", "mesh", "plugin", "hardware", "controller"]
+    RepairKind = Literal["structure", "inertia", "mass", "shape", "mesh", "plugin", "hardware", "controller"]
 
 
 @record
 class Repair:
-    """Change to a defective description without which a robot could not be simulated.
+    """Change to a defective description without which a robot could not be shown or simulated.
 
     Attributes:
         kind: parameter that was repaired.
