@@ -60,7 +60,7 @@ class Parser(argparse.ArgumentParser):
         if self._subparsers is not None:
             parsed, unknown = super().parse_known_args(words, namespace)
             if unknown:
-                self.error(f"unrecognized arguments: {' '.join(unknown)}")
+                self._refuse_unknown(unknown)
             return parsed, unknown
         self.intermixed = False  # argparse's own method for it calls this method again
         usage, self.usage = self.usage, self.usage or ""  # argparse would format it for its own error messages
@@ -69,7 +69,7 @@ class Parser(argparse.ArgumentParser):
         finally:
             self.intermixed, self.usage = True, usage
         if unknown:  # reported here, where the options of the subcommand are defined
-            self.error(f"unrecognized arguments: {' '.join(unknown)}")
+            self._refuse_unknown(unknown)
         return parsed, unknown
 
     def prepare(self, words: list[str]) -> None:
@@ -81,20 +81,35 @@ class Parser(argparse.ArgumentParser):
         Raises:
             UsageError: always.
         """
-        hint = ""
         # A misspelt option often is the cause of a missing argument.
-        if "unrecognized arguments" not in message and (misspelt := self._unknown_option()) is not None:
-            message = f"unrecognized arguments: {misspelt}"
-        message = re.sub(r"ignored explicit argument '(.*)'", r"accepts no value, got `\1`", message)
-        if unknown := re.search(r"unrecognized arguments: (\S+)", message):
-            hint = self.elsewhere(unknown[1]) or did_you_mean(unknown[1], self._option_string_actions)
-        elif choice := re.search(r"invalid choice: '([^']*)' \(choose from (.*)\)", message):
-            option = f"--{choice[1]}"
+        if (misspelt := self._unknown_option()) is not None:
+            self._refuse_unknown([misspelt])
+        # Only reworded: argparse does not ignore the value.
+        self._refuse(re.sub(r"ignored explicit argument '(.*)'", r"accepts no value, got `\1`", message))
+
+    def _refuse_unknown(self, words: list[str]) -> NoReturn:
+        hint = self.elsewhere(words[0]) or did_you_mean(words[0], self._option_string_actions)
+        self._refuse(f"unrecognized arguments: {' '.join(words)}{hint}")
+
+    def _refuse(self, message: str) -> NoReturn:
+        raise UsageError(f"{self.prog.removeprefix('urdfkit').strip()}: {message}".removeprefix(": "))
+
+    def _check_value(self, action: argparse.Action, value: Any) -> None:
+        try:
+            super()._check_value(action, value)
+        except argparse.ArgumentError as error:
+            option = f"--{value}"
             as_option = f"; did you mean `{option}`?" if option in self._option_string_actions else ""
-            hint = as_option or did_you_mean(choice[1], re.findall(r"[\w-]+", choice[2]))
-        elif "expected 3 arguments" in message:
-            hint = ": three numbers separated by spaces, such as 0.1 0 0.2"
-        raise UsageError(f"{self.prog.removeprefix('urdfkit').strip()}: {message}{hint}".removeprefix(": "))
+            error.message += as_option or did_you_mean(str(value), [str(choice) for choice in action.choices or ()])
+            raise
+
+    def _match_argument(self, action: argparse.Action, arg_strings_pattern: str) -> int:
+        try:
+            return super()._match_argument(action, arg_strings_pattern)
+        except argparse.ArgumentError as error:
+            if action.nargs == 3:
+                error.message += ": three numbers separated by spaces, such as 0.1 0 0.2"
+            raise
 
     def _unknown_option(self) -> str | None:
         """Return the first long option that this command does not have."""
