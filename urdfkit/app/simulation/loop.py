@@ -62,9 +62,9 @@ class DriveLoop:
 
     Attributes:
         look: function that is called in every iteration, for a recording.
-        sights: views of the sensors.
+        sensor_views: views of the sensors.
         pace: ratio of simulated time to the clock.
-        parts: features of the page.
+        features: features of the page.
     """
 
     def __init__(

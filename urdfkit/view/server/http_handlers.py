@@ -91,7 +91,7 @@ class PageHandler(AuthenticatedHandler):
 
 
 class FramedPage(AuthenticatedHandler):
-    """The page for a frame of a notebook; only who knows the token can embed it, which prevents clickjacking."""
+    """The page for a frame of a notebook; only a page with the token can embed it, which prevents clickjacking."""
 
     open_to_all = True
 

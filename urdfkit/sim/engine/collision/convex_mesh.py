@@ -1,7 +1,7 @@
 """Contacts of a convex shape with the triangles of a mesh.
 
-The triangles near the shape are found in a tree of boxes and collided one by one. What one triangle does not know is
-that it has neighbours: where the normal it finds leans over an edge that only joins it to a neighbour, no shape can
+The triangles near the shape are found in a tree of boxes and collided one by one. A triangle is collided without
+its neighbours: where the normal found leans over an edge that only joins it to a neighbour, no shape can
 come from there, and the normal is that of the triangle.
 """
 

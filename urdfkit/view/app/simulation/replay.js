@@ -2,12 +2,12 @@
 
 import { check, h, icon } from "../page/dom.js";
 
-const TAPE = "M5 5h14v14H5zM12 9a3 3 0 1 0 0 6a3 3 0 0 0 0-6z";
+const RECORD = "M5 5h14v14H5zM12 9a3 3 0 1 0 0 6a3 3 0 0 0 0-6z";
 const PLAY = "M8 5l11 7-11 7z";
 const PAUSE = "M8 5v14M16 5v14";
 
 export function recorder(page) {
-  const panel = page.panels.add({ id: "recorder", title: "Record", icon: TAPE, modes: ["sim"], order: 28 });
+  const panel = page.panels.add({ id: "recorder", title: "Record", icon: RECORD, modes: ["sim"], order: 28 });
   const showError = (error) => page.toast(error.message, "error");
   const request = (name, values) => page.connection.request(name, values).catch(showError);
   const topics = check("Record topics to an MCAP file", { id: "record-topics", changed: (on) => (pictures.label.hidden = !on) });
