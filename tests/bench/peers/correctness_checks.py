@@ -34,7 +34,7 @@ def drives(speed: float, rate: float) -> Callable[[Running], Checks]:
         things = range(len(running.scene.things))
         before = [running.base(k) for k in things]
         running.advance(round(COURSE / DT))
-        found = [_motion(a, running.base(k)) for k, a in enumerate(before)]
+        found = [arc_motion(a, running.base(k)) for k, a in enumerate(before)]
         v = max((each[0] for each in found), key=lambda value: abs(value - speed))
         w = max((each[1] for each in found), key=lambda value: abs(value - rate))
         turns = Check("turning rate", w, rate, (MOTION if speed else SKIDDING) * abs(rate), "rad/s")
@@ -45,7 +45,7 @@ def drives(speed: float, rate: float) -> Callable[[Running], Checks]:
     return check
 
 
-def _motion(a: tuple[float, ...], b: tuple[float, ...]) -> tuple[float, float]:
+def arc_motion(a: tuple[float, ...], b: tuple[float, ...]) -> tuple[float, float]:
     """Return speed [m/s] and turning rate [rad/s] of the circular arc between two poses."""
     turn = (yaw(b) - yaw(a) + pi) % (2.0 * pi) - pi
     chord = hypot(b[0] - a[0], b[1] - a[1])

@@ -8,7 +8,7 @@ from math import cos, pi, sin
 import numpy as np
 import pytest
 
-from tests.bench.peers.correctness_checks import _motion, resting_pose, skid_rate
+from tests.bench.peers.correctness_checks import arc_motion, resting_pose, skid_rate
 from tests.bench.peers.engine_scene import InUrdfkit
 from tests.bench.peers.scene import CALL, Check, Motor, Running, Scene, Servo
 from tests.bench.peers.scenes import SCENES, robots
@@ -101,7 +101,7 @@ def test_speed_and_turning_rate_are_those_of_the_arc(speed: float, rate: float) 
             x, y = speed * t * cos(3.0), speed * t * sin(3.0)
         return x, y, 0.0, 0.0, 0.0, sin(0.5 * heading), cos(0.5 * heading)
 
-    assert _motion(pose(0.0), pose(2.0)) == pytest.approx((speed, rate), abs=1e-12)
+    assert arc_motion(pose(0.0), pose(2.0)) == pytest.approx((speed, rate), abs=1e-12)
 
 
 def test_skidding_wheels_turn_a_robot_where_friction_has_no_moment_left() -> None:
