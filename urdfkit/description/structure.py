@@ -24,7 +24,7 @@ _HARMLESS = frozenset({"unknown-value", "missing"})
 _NEEDED = {("joint", "type"), ("parent", "link"), ("child", "link"), ("mimic", "joint")}
 _UNREAD = frozenset({"mechanicalReduction"})
 """Elements whose text neither urdfkit nor urdfdom uses; only the linter checks them."""
-_CODES = {"bad-number": "E010", "wrong-arity": "E011", "not-finite": "E012"}
+_CODES = {"bad-number": "E010", "wrong-arity": "E011", "not-finite": "E012", "conflict": "E023"}
 _SHAPES = frozenset({"box", "cylinder", "sphere", "capsule"})
 _HINTS = 20
 """Number of defects whose messages suggest a similar name."""
@@ -113,8 +113,10 @@ def _unusable(problem: Problem, owners: Mapping[Element, Owner]) -> Defect:
         code, effect = "J402" if problem.kind == "unknown-value" else "J401", "the joint is fixed"
     elif element.tag in ("parent", "child"):
         effect = "the joint is left out"
+    elif problem.kind == "conflict":
+        effect = f"`{problem.attribute}` is used"
     elif element.tag == "limit" and problem.kind == "missing":
-        code = "J404"
+        code, effect = ("E014", "it is 0") if problem.attribute in ("lower", "upper") else ("J404", effect)
     elif element.tag in _SHAPES:
         effect = "the shape is unknown"
     link, joint = owners.get(element, (None, None))

@@ -61,10 +61,15 @@ def rpy_of(rotation: Rotation) -> Vector:
     """Return fixed-axis roll, pitch, yaw [rad]; in gimbal lock roll is zero."""
     a, b, c = rotation
     flat = hypot(a[0], b[0])
-    if flat < 1e-9:
+    if flat < 1e-12:
         return 0.0, copysign(pi / 2, -c[0]), atan2(-a[1], b[1])
     pitch = asin(max(-1.0, min(1.0, -c[0]))) if abs(c[0]) < 0.9 else atan2(-c[0], flat)
-    return atan2(c[1], c[2]), pitch, atan2(b[0], a[0])
+    yaw = atan2(b[0], a[0])
+    if flat > 1e-3:
+        return atan2(c[1], c[2]), pitch, yaw
+    # Near gimbal lock, rounding of the yaw is large: the roll that belongs to this yaw makes up for it.
+    sy, cy = sin(yaw), cos(yaw)
+    return atan2(a[2] * sy - b[2] * cy, b[1] * cy - a[1] * sy), pitch, yaw
 
 
 def rpy_of_quaternion(x: float, y: float, z: float, w: float) -> Vector:

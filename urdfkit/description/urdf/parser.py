@@ -1,7 +1,8 @@
 """Element → Robot, leniently: an unusable value becomes an entry of `Robot.problems` and raises no error.
 
 The elements and defaults are those of http://wiki.ros.org/urdf/XML and of urdfdom's parser, with its tolerance: white
-space around numbers, the first of repeated elements.
+space around numbers, the first of repeated elements. Attributes of a later version than the robot's are ignored; a
+capsule is read in every version, as PyBullet and MuJoCo do.
 """
 
 from __future__ import annotations
@@ -33,6 +34,7 @@ from urdfkit.description.urdf.robot import (
     Visual,
 )
 from urdfkit.description.urdf.values import Reader
+from urdfkit.description.urdf.version import RATE_LIMITS, RATES, version_of
 from urdfkit.description.xml.element import Element
 from urdfkit.errors import did_you_mean
 
@@ -64,7 +66,7 @@ def parse(
         arguments: for `Robot.arguments`.
         cached_parts: element → the part read from it earlier, with its problems; updated by this function.
     """
-    reader = Reader(cached_parts)
+    reader = Reader(cached_parts, version_of(root))
     name = reader.text(root, "name") if root.tag == "robot" else root.get("name")
     links, joints, materials, transmissions, gazebo, controls = [], [], [], [], [], []
     for child in root.children:
@@ -244,10 +246,13 @@ def _linked(reader: Reader, joint: Element, end: str) -> str | None:
 def _limit(reader: Reader, element: Element | None, kind: str | None) -> Limit | None:
     if element is None:
         return None
-    needed = kind in ("revolute", "prismatic", "continuous")
-    lower, upper = (reader.number(element, name, infinite=True) for name in ("lower", "upper"))
+    has_rates = reader.version >= RATE_LIMITS  # in exchange, effort and velocity are optional, lower and upper not
+    ends = has_rates and kind in ("revolute", "prismatic")
+    needed = not has_rates and kind in ("revolute", "prismatic", "continuous")
+    lower, upper = (reader.number(element, name, required=ends, infinite=True) for name in ("lower", "upper"))
     effort, velocity = (reader.number(element, name, required=needed, infinite=True) for name in ("effort", "velocity"))
-    return Limit(lower, upper, effort, velocity, element)
+    rates = [reader.number(element, name, infinite=True) if has_rates else None for name in RATES]
+    return Limit(lower, upper, effort, velocity, element, *rates)
 
 
 def _dynamics(reader: Reader, element: Element | None) -> Dynamics | None:

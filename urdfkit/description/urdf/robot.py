@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
     from urdfkit.description.packages.resolver import Packages
 
-    ProblemKind = Literal["bad-number", "wrong-arity", "not-finite", "missing", "unknown-value"]
+    ProblemKind = Literal["bad-number", "wrong-arity", "not-finite", "missing", "unknown-value", "conflict"]
 
 Vector = tuple[float, float, float]
 
@@ -30,7 +30,7 @@ JOINT_TYPES = ("fixed", "revolute", "continuous", "prismatic", "planar", "floati
 
 @record
 class Pose:
-    """An ``<origin>``: translation [m] and fixed-axis roll, pitch, yaw [rad]."""
+    """An ``<origin>``: translation [m] and fixed-axis roll, pitch, yaw [rad], also of a ``quat_xyzw``."""
 
     xyz: Vector = (0.0, 0.0, 0.0)
     rpy: Vector = (0.0, 0.0, 0.0)
@@ -144,13 +144,27 @@ class Link:
 
 @record(eq=False)
 class Limit:
-    """`lower`, `upper` [rad or m], `effort` [N·m or N], `velocity` [rad/s or m/s]; None if missing."""
+    """Limits of a joint; None if missing.
+
+    Attributes:
+        lower: [rad] or [m].
+        upper: [rad] or [m].
+        effort: [N·m] or [N].
+        velocity: [rad/s] or [m/s].
+        element: the ``<limit>``.
+        acceleration: [rad/s²] or [m/s²]; since URDF 1.2, like the next two.
+        deceleration: [rad/s²] or [m/s²]; if None, the limit of acceleration applies.
+        jerk: [rad/s³] or [m/s³].
+    """
 
     lower: float | None
     upper: float | None
     effort: float | None
     velocity: float | None
     element: Element = field(repr=False)
+    acceleration: float | None = None
+    deceleration: float | None = None
+    jerk: float | None = None
 
 
 @record(eq=False)

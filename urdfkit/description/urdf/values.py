@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 
 from urdfkit.description.urdf.robot import Pose, Problem, Vector
+from urdfkit.description.urdf.version import QUATERNION, VERSIONS, Version
 from urdfkit.description.xml.element import Element
 from urdfkit.description.xml.numbers import number, numbers, why_not
 
@@ -15,8 +16,8 @@ if TYPE_CHECKING:
 
     from urdfkit.description.urdf.robot import ProblemKind
 
-    Part = tuple[str, Any, list[Problem]]
-    """Subject of the messages when an element was read, the part read from it, and the problems in it."""
+    Part = tuple[str, Any, list[Problem], Version]
+    """Subject of the messages when an element was read, the part read from it, the problems in it, and the version."""
 
 ZERO: Vector = (0.0, 0.0, 0.0)
 
@@ -24,17 +25,23 @@ LARGEST = 1e30
 """Largest finite value accepted; larger values count as infinite, because their powers would overflow."""
 
 
+AGREEMENT = 1e-3
+"""Largest difference between entries of the rotations of ``rpy`` and ``quat_xyzw`` that is rounding."""
+
+
 class Reader:
     """Reads values and records problems, in document order.
 
     Args:
         earlier: element → the part read from it before; None to read every element.
+        version: the version of URDF to read.
 
     Attributes:
         parts: element → the part read from it.
     """
 
-    def __init__(self, earlier: Mapping[Element, Part] | None = None) -> None:
+    def __init__(self, earlier: Mapping[Element, Part] | None = None, version: Version = VERSIONS[0]) -> None:
+        self.version = version
         self.problems: list[Problem] = []
         self.parts: dict[Element, Part] = {}
         self._earlier = earlier
@@ -46,10 +53,10 @@ class Reader:
         if self._earlier is None:
             return read(self, element)
         found = self._earlier.get(element)
-        if found is None or (found[2] and found[0] != self.subject):
+        if found is None or found[3] != self.version or (found[2] and found[0] != self.subject):
             subject, before = self.subject, len(self.problems)
             one = read(self, element)
-            found = subject, one, self.problems[before:]
+            found = subject, one, self.problems[before:], self.version
         else:
             self.problems += found[2]
         self.parts[element] = found
@@ -133,8 +140,28 @@ class Reader:
         origin = parent.find("origin")
         if origin is None:
             return Pose()
-        xyz, rpy = self.vector(origin, "xyz"), self.vector(origin, "rpy")
-        return Pose(xyz or ZERO, rpy or ZERO)
+        xyz, rpy = self.vector(origin, "xyz") or ZERO, self.vector(origin, "rpy") or ZERO
+        if "quat_xyzw" not in origin.attributes or self.version < QUATERNION:
+            return Pose(xyz, rpy)
+        from urdfkit.description.urdf.geometry import difference  # few robots need it
+
+        turn = self.quaternion(origin) or ZERO
+        if "rpy" in origin.attributes and difference(Pose(rpy=rpy), Pose(rpy=turn)) > AGREEMENT:
+            self.note("conflict", "<origin> has different rotations in `rpy` and `quat_xyzw`", origin, "quat_xyzw")
+        return Pose(xyz, turn)
+
+    def quaternion(self, origin: Element) -> Vector | None:
+        """Return roll, pitch, yaw [rad] of ``quat_xyzw``; no rotation if it is zero, None if it is unusable."""
+        from urdfkit.description.urdf.geometry import rpy_of_quaternion
+
+        q = self.numbers(origin, "quat_xyzw", 4)
+        if q is None:
+            return None
+        largest = max(map(abs, q))
+        if largest == 0.0:
+            return ZERO
+        x, y, z, w = (value / largest for value in q)
+        return rpy_of_quaternion(x, y, z, w)
 
     def inner_number(self, element: Element | None) -> float | None:
         """Return the number in an element's text; None when it is missing or unusable."""
