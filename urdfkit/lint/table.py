@@ -58,6 +58,10 @@ ROBOT: tuple[Row, ...] = (
     ("", "document.stray_quote", "StrayQuote"),
     ("turned-far!", "document.rpy_in_degrees", "RpyInDegrees"),
     ("plugin sensor", "document.plugin_outside_gazebo", "PluginOutsideGazebo"),
+    ("version!", "document.urdf_version_unknown", "UrdfVersionUnknown"),
+    ("quat_xyzw! capsule rates!", "document.urdf_version_too_low", "UrdfVersionTooLow"),
+    ("quat_xyzw!", "document.rpy_and_quat_xyzw", "RpyAndQuatXyzw"),
+    ("quat_xyzw!", "document.quaternion_not_unit", "QuaternionNotUnit"),
     ("", "xacro.unexpanded_expression", "UnexpandedExpression"),
     ("dangling!", "tree.parent_link_undefined", "ParentLinkUndefined"),
     ("dangling!", "tree.child_link_undefined", "ChildLinkUndefined"),
@@ -183,6 +187,7 @@ RELATED_FILES: tuple[Row, ...] = (
 """Robot rules that run if the package has launch or YAML files."""
 
 TARGETED: tuple[Row, ...] = (
+    ("version!", "document.urdf_version_unsupported", "UrdfVersionUnsupported"),
     ("inertial", "tree.root_link_has_inertia", "RootLinkHasInertia"),
     ("plugin", "gazebo.plugin_lib_wrong_generation", "PluginLibWrongGeneration"),
     ("sensor", "gazebo.sensor_type_deprecated", "SensorTypeDeprecated"),

@@ -39,7 +39,8 @@ class CleanElements:
     def begin(self, model: Model) -> None:
         """Begin a check."""
         robot = model.robot
-        surroundings = model.target, model.release, robot.element.tag, [one.element for one in robot.materials]
+        head = robot.element.tag, robot.element.attributes.get("version")
+        surroundings = model.target, model.release, head, [one.element for one in robot.materials]
         is_unique = len(robot.link_by_name) == len(robot.links)  # the shapes of duplicate links are not checked
         if surroundings != self._surroundings or not is_unique:
             self._clean.clear()

@@ -20,6 +20,7 @@ from urdfkit.description.urdf.robot import (
     Sphere,
     Visual,
 )
+from urdfkit.description.urdf.version import RATES
 from urdfkit.description.xml.element import Element
 from urdfkit.description.xml.numbers import numbers
 
@@ -48,6 +49,8 @@ def features_of(robot: Robot, earlier: dict[Element, frozenset[str]] | None = No
     found.update(f"{problem.kind}!" for problem in robot.problems)
     if robot.element.tag != "robot" or not robot.element.get("name"):
         found.add("unnamed!")
+    if "version" in robot.element.attributes:
+        found.add("version!")
     tensors: dict[tuple[float, ...], int] = {}
     for link in robot.links:
         inertia = link.inertial.inertia if link.inertial is not None else None
@@ -75,7 +78,7 @@ def _of_child(element: Element, part: Link | Joint | None) -> frozenset[str]:
 
 
 def _of_elements(root: Element) -> set[str]:
-    """Return the tags, and whether any element has text or any origin a large rotation."""
+    """Return the tags, and whether elements have text, large rotations, or attributes of a later version of URDF."""
     found: set[str] = set()
     checked: set[str] = set()
     pending = [root]
@@ -86,7 +89,11 @@ def _of_elements(root: Element) -> set[str]:
         pending += element.children
         if element.tag == "geometry" and len(element.children) != 1:
             found.add("size!")
+        if element.tag == "limit" and not element.attributes.keys().isdisjoint(RATES):
+            found.add("rates!")
         if element.tag == "origin":
+            if "quat_xyzw" in element.attributes:
+                found.add("quat_xyzw!")
             angles = element.attributes.get("rpy")
             if angles is not None and angles not in checked:
                 checked.add(angles)
@@ -183,6 +190,8 @@ def _of_joint(joint: Joint, found: set[str]) -> None:
 def _is_valid(limit: Limit, kind: str | None) -> bool:
     """Return whether a limit is certainly valid for a joint type."""
     if not ((limit.effort or 0.0) > 0.0 and (limit.velocity or 0.0) > 0.0):
+        return False
+    if any(rate is not None and not rate >= 0.0 for rate in (limit.acceleration, limit.deceleration, limit.jerk)):
         return False
     if kind == "continuous":
         return limit.element.attributes.keys().isdisjoint(("lower", "upper"))

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from urdfkit.lint.facts.root_cause import Place
 
 _COMMA = re.compile(r"\s*,\s*")
-_COUNTS = {"xyz": 3, "rpy": 3, "size": 3, "scale": 3, "rgba": 4}
+_COUNTS = {"xyz": 3, "rpy": 3, "quat_xyzw": 4, "size": 3, "scale": 3, "rgba": 4}
 
 
 class BadNumber(RobotRule):

@@ -8,7 +8,7 @@ LARGEST = 1e10
 """Largest plausible value, in SI units."""
 
 _ATTRIBUTES = {
-    "origin": ("xyz", "rpy"),
+    "origin": ("xyz", "rpy", "quat_xyzw"),
     "mass": ("value",),
     "inertia": ("ixx", "ixy", "ixz", "iyy", "iyz", "izz"),
     "box": ("size",),

@@ -8,8 +8,8 @@ class WrongArity(RobotRule):
     """An attribute has too many or too few numbers.
 
     ## What it does
-    Checks that ``xyz``, ``rpy``, ``size`` and ``scale`` have three numbers, ``rgba`` has four, and scalar attributes
-    have one.
+    Checks that ``xyz``, ``rpy``, ``size`` and ``scale`` have three numbers, ``rgba`` and ``quat_xyzw`` four, and
+    scalar attributes one.
 
     ## Why is this bad?
     check_urdf at most warns and drops the geometry of the link; other readers reject the robot.

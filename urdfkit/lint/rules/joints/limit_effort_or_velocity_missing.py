@@ -1,5 +1,6 @@
 """J404 limit-effort-or-velocity-missing."""
 
+from urdfkit.description.urdf.version import RATE_LIMITS, version_of
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
 _LINEAR_UNITS = {"effort": "[N]", "velocity": "[m/s]"}
@@ -11,10 +12,10 @@ class LimitEffortOrVelocityMissing(RobotRule):
 
     ## What it does
     Checks for ``<limit>`` elements of ``revolute``, ``prismatic`` and ``continuous`` joints without ``effort`` or
-    ``velocity``.
+    ``velocity``. Robots of URDF 1.2 are not checked: there both attributes are optional.
 
     ## Why is this bad?
-    Both attributes are required in every ``<limit>``: without them urdfdom rejects the robot.
+    Until URDF 1.1 both attributes are required in every ``<limit>``: without them urdfdom rejects the robot.
 
     ## Example
     ```xml
@@ -51,6 +52,8 @@ class LimitEffortOrVelocityMissing(RobotRule):
 
     def check(self, model: Model) -> Findings:
         """Yield a finding for each limit that lacks an attribute."""
+        if version_of(model.robot.element) >= RATE_LIMITS:
+            return
         for joint in model.robot.joints:
             limit = joint.limit
             if limit is None or joint.type not in ("revolute", "prismatic", "continuous"):

@@ -1,6 +1,7 @@
 """J406 limit-equal."""
 
 from urdfkit.description.urdf.robot import Limit
+from urdfkit.description.urdf.version import RATE_LIMITS, version_of
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
 
@@ -8,8 +9,8 @@ class LimitEqual(RobotRule):
     """The lower and upper limits of a joint are equal.
 
     ## What it does
-    Compares ``lower`` and ``upper`` of ``revolute`` and ``prismatic`` joints. Both default to 0. Equal limits other
-    than 0 are reported as a note, because they are probably intended.
+    Compares ``lower`` and ``upper`` of ``revolute`` and ``prismatic`` joints. Both default to 0, until URDF 1.2, which
+    requires them. Equal limits other than 0 are reported as a note, because they are probably intended.
 
     ## Why is this bad?
     The joint cannot move. Usually the limits were not set. If the joint is meant to be rigid, the type ``fixed`` states
@@ -50,12 +51,15 @@ class LimitEqual(RobotRule):
 
     def check(self, model: Model) -> Findings:
         """Yield a finding for each joint whose limits prevent motion."""
+        is_required = version_of(model.robot.element) >= RATE_LIMITS
         for joint in model.robot.joints:
             limit = joint.limit
             if joint.type not in ("revolute", "prismatic") or limit is None:
                 continue
             if any(limit.element.get(side) is not None and value is None for side, value in _sides(limit)):
                 continue
+            if is_required and None in (limit.lower, limit.upper):
+                continue  # Reported by E014.
             lower, upper = limit.lower or 0.0, limit.upper or 0.0
             if lower == upper:
                 unit = "rad" if joint.type == "revolute" else "m"

@@ -2,18 +2,25 @@
 
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
-_UNITS = {"effort": ("N", "N·m"), "velocity": ("m/s", "rad/s")}
+_UNITS = {
+    "effort": ("N", "N·m"),
+    "velocity": ("m/s", "rad/s"),
+    "acceleration": ("m/s²", "rad/s²"),
+    "deceleration": ("m/s²", "rad/s²"),
+    "jerk": ("m/s³", "rad/s³"),
+}
 """Attribute → unit for a prismatic joint, and for any other."""
 
 
 class NegativeEffortOrVelocity(RobotRule):
-    """The effort or velocity limit of a joint is negative.
+    """The limit of effort, velocity, acceleration or jerk of a joint is negative.
 
     ## What it does
-    Checks for negative ``effort`` and ``velocity`` values in ``<limit>``.
+    Checks for negative ``effort`` and ``velocity`` values in ``<limit>``, and since URDF 1.2 for negative
+    ``acceleration``, ``deceleration`` and ``jerk``.
 
     ## Why is this bad?
-    Both limits are magnitudes. Pinocchio rejects the robot, and controllers clamp commands to an empty range.
+    These limits are magnitudes. Pinocchio rejects the robot, and controllers clamp commands to an empty range.
 
     ## Example
     ```xml
@@ -50,7 +57,7 @@ class NegativeEffortOrVelocity(RobotRule):
     def check(self, model: Model) -> Findings:
         """Yield a finding for each negative limit."""
         for joint in model.robot.joints:
-            for name in ("effort", "velocity") if joint.limit is not None and joint.is_movable else ():
+            for name in _UNITS if joint.limit is not None and joint.is_movable else ():
                 value = getattr(joint.limit, name)
                 if value is not None and value < 0.0 and joint.limit is not None:
                     unit = _UNITS[name][joint.type != "prismatic"]
