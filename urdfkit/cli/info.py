@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from urdfkit.cli.parser import add_model
 from urdfkit.cli.unused_arguments import note_unused
+from urdfkit.description.urdf.version import RATES
 from urdfkit.errors import MissingDependencyError, UrdfkitError
 
 if TYPE_CHECKING:
@@ -84,6 +85,7 @@ def _joint(joint: Any) -> dict[str, Any]:
         "upper": limit.upper if limit is not None else None,
         "effort": limit.effort if limit is not None else None,
         "velocity": limit.velocity if limit is not None else None,
+        **{rate: getattr(limit, rate, None) for rate in RATES},
     }
 
 

@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from math import inf, isfinite
+from math import copysign, inf, isfinite, sqrt
 from typing import Any
 
 import numpy as np
@@ -109,11 +109,14 @@ class Motors:
         self._set(joint, velocity, self.limit(joint) if effort is None else effort)
 
     def hold(self, joint: str, position: float, effort: float | None = None) -> None:
-        """Move a joint to `position` [rad] or [m] and hold it there, within its velocity and effort limits.
+        """Move a joint to `position` [rad] or [m] and hold it there.
+
+        The motion stays within the limits of effort, velocity, acceleration and deceleration in ``<limit>``.
 
         Raises:
             SimulationError: unknown joint, or a value is not finite or outside the joint's limits.
         """
+        before = self._velocity[self._checked(joint)]
         self._set(joint, 0.0, self.limit(joint) if effort is None else effort)
         unit = "m" if self._kinematics.robot.joint_by_name[joint].type == "prismatic" else "rad"
         if not isfinite(position):
@@ -123,6 +126,9 @@ class Motors:
             raise SimulationError(
                 f"joint `{joint}` cannot go to {position:g} {unit}: its limits are {lower:g} … {upper:g} {unit}"
             )
+        limit = self._kinematics.robot.joint_by_name[joint].limit
+        if joint in self._goals and limit is not None and (limit.acceleration or limit.deceleration):
+            self._velocity[self._index[joint]] = before  # a new target does not stop the joint
         self._goals[joint] = position
         self.invalidate()
 
@@ -220,16 +226,23 @@ class Motors:
         """Whether a joint has a position target."""
         return bool(self._goals)
 
-    def approach(self, positions: Any) -> None:
+    def approach(self, positions: Any, period: float) -> None:
         """Set the motor velocities of joints with a position target from their present positions.
 
         Args:
             positions: function that returns the position of a joint [rad] or [m] for its name.
+            period: time until the next call [s].
         """
         for joint, goal in self._goals.items():
-            limit = self._kinematics.robot.joint_by_name[joint].limit
+            limit, index = self._kinematics.robot.joint_by_name[joint].limit, self._index[joint]
             fastest = limit.velocity if limit is not None and limit.velocity else inf
-            self._velocity[self._index[joint]] = max(-fastest, min(fastest, APPROACH * (goal - positions(joint))))
+            error = goal - positions(joint)
+            if limit is None or not (limit.acceleration or limit.deceleration):
+                self._velocity[index] = max(-fastest, min(fastest, APPROACH * error))
+                continue
+            rates = limit.acceleration or inf, limit.deceleration or limit.acceleration or inf
+            wanted = max(-fastest, min(fastest, _braked(error, rates[1])))
+            self._velocity[index] = _gradual(wanted, self._velocity[index], *rates, period)
 
     def _set(self, joint: str, velocity: float, effort: float) -> None:
         index = self._checked(joint)
@@ -245,6 +258,30 @@ class Motors:
             self._kinematics.velocity_index(joint)  # raises, with the nearest name
             raise SimulationError(f"joint `{joint}` has more than one degree of freedom: it has no motor")
         return index
+
+
+def _braked(error: float, deceleration: float) -> float:
+    """Return the velocity of an approach to a target that stops there with a limited deceleration.
+
+    Far from the target the deceleration is constant; near it the velocity is `APPROACH` times the error, as without a
+    limit. Velocity and deceleration are continuous where both meet.
+
+    Args:
+        error: distance to the target, with its sign [rad] or [m].
+        deceleration: limit [rad/s²] or [m/s²].
+    """
+    near = deceleration / APPROACH**2
+    if not abs(error) > near:
+        return APPROACH * error
+    return copysign(sqrt(deceleration * (2.0 * abs(error) - near)), error)
+
+
+def _gradual(wanted: float, before: float, acceleration: float, deceleration: float, period: float) -> float:
+    """Return the velocity that follows `before` within the limits of its change."""
+    up, down = (acceleration, deceleration) if before >= 0.0 else (deceleration, acceleration)
+    if before == 0.0:
+        down = acceleration
+    return max(before - down * period, min(before + up * period, wanted))
 
 
 def effort_limit(joint: Joint) -> float:

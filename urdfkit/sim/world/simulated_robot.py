@@ -153,7 +153,9 @@ class SimulatedRobot:
             self.state.step = engine.steps
             self.motors = Motors(self.kinematics, *handles)
             motors, ticks = self.motors, PeriodicSteps(APPROACH_RATE, engine.dt)
-            self.writes = [Timed(ticks, lambda state: motors.approach(state.position), lambda: not motors.has_goals)]
+            self.writes = [
+                Timed(ticks, lambda state: motors.approach(state.position, ticks.period), lambda: not motors.has_goals)
+            ]
 
     def install(self, setup: Setup, *, seed: int, invalidate: Callable[[], None]) -> None:
         """Install its plugins, and the publications that every robot has.

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from urdfkit.description.urdf.queries import tree_order
 from urdfkit.description.urdf.robot import Box, Capsule, Cylinder, Mesh, Sphere
+from urdfkit.description.urdf.version import RATES
 from urdfkit.description.xml.source import Source
 from urdfkit.description.xml.start_tag import element_span
 from urdfkit.errors import ResourceError
@@ -189,6 +190,7 @@ def _joint(joint: Joint, kinematics: Kinematics, excerpt: Callable[[Element], di
         "upper": finite(kinematics.limits(joint.name)[1]) if single else None,
         "effort": finite(limit.effort) if limit is not None else None,
         "velocity": finite(limit.velocity) if limit is not None else None,
+        **{rate: finite(getattr(limit, rate, None)) for rate in RATES},
         "damping": finite(dynamics.damping) if dynamics is not None else None,
         "friction": finite(dynamics.friction) if dynamics is not None else None,
         "mimic": None

@@ -64,6 +64,8 @@ function aboutJoint(page, joint) {
   if (joint.lower !== null && joint.upper !== null) rows.push(["limits", `${short(joint.lower, 4)} … ${short(joint.upper, 4)} ${unit}`]);
   else if (["revolute", "prismatic", "continuous"].includes(joint.type)) rows.push(["limits", "none"]);
   if (joint.velocity !== null) rows.push(["velocity", `${short(joint.velocity, 4)} ${unit}/s`]);
+  for (const [rate, power] of [["acceleration", "²"], ["deceleration", "²"], ["jerk", "³"]])
+    if (joint[rate] !== null) rows.push([rate, `${short(joint[rate], 4)} ${unit}/s${power}`]);
   if (joint.effort !== null) rows.push(["effort", `${short(joint.effort, 4)} ${force}`]);
   if (joint.damping !== null) rows.push(["damping", short(joint.damping, 6)], ["friction", short(joint.friction, 6)]);
   if (joint.mimic) rows.push(["mimics", `${short(joint.mimic.multiplier, 4)} · ${joint.mimic.master} + ${short(joint.mimic.offset, 4)}`]);
