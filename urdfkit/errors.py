@@ -22,9 +22,12 @@ nearest valid alternative.
 from __future__ import annotations
 
 from collections.abc import Iterable
+from contextvars import ContextVar
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
+    from collections.abc import Collection
+
     from urdfkit.position import Position
 
 
@@ -122,6 +125,56 @@ def bug(error: BaseException, package: str = "urdfkit") -> str:
     return f"a bug in {package}, not in your files: {type(error).__name__}: {what} ({place})"
 
 
+MAX_COMPARED = 40_000
+"""Names compared for all suggestions of one run; a lint of a large robot with some typos compares a few thousand."""
+MAX_COMPARED_LENGTH = 200
+"""Characters of the longest name that is compared: the time grows with the square of the length."""
+
+_left: ContextVar[list[int]] = ContextVar("_left")
+
+
+class LimitedSuggestions:
+    """Compares at most `MAX_COMPARED` names for the suggestions of a block.
+
+    Comparing each of many misspelt names with each of many others takes minutes. Names beyond the limit get no
+    suggestion.
+    """
+
+    def __enter__(self) -> None:
+        self._token = _left.set([MAX_COMPARED])
+
+    def __exit__(self, *_: object) -> None:
+        _left.reset(self._token)
+
+
+def may_suggest() -> bool:
+    """Return whether names may still be compared in the `LimitedSuggestions` around; checked before collecting them."""
+    left = _left.get(None)
+    return left is None or left[0] > 0
+
+
+def similar(name: str, pool: Collection[str], *, count: int = 1, cutoff: float = 0.6) -> list[str]:
+    """Return the names of a pool that are most similar to a name, the most similar first.
+
+    Args:
+        name: the name that the user wrote.
+        pool: the valid names.
+        count: maximum number of results.
+        cutoff: minimum similarity, 1 for equal names (`difflib.SequenceMatcher.ratio`).
+    """
+    if len(name) > MAX_COMPARED_LENGTH:
+        return []
+    left = _left.get(None)
+    if left is not None:
+        if left[0] < len(pool):
+            left[0] = 0
+            return []
+        left[0] -= len(pool)
+    from difflib import get_close_matches
+
+    return get_close_matches(name, [one for one in pool if len(one) <= MAX_COMPARED_LENGTH], n=count, cutoff=cutoff)
+
+
 def nearest(name: str, candidates: Iterable[str]) -> str | None:
     """Return the candidate most similar to `name`, ignoring case; None if none is similar.
 
@@ -129,14 +182,11 @@ def nearest(name: str, candidates: Iterable[str]) -> str | None:
         name: the name the user wrote.
         candidates: the valid names.
     """
-    from difflib import get_close_matches
-
-    pool = list(dict.fromkeys(candidates))
+    pool = dict.fromkeys(candidates)
     lowered = {candidate.lower(): candidate for candidate in pool}
     if name.lower() in lowered:
         return lowered[name.lower()]
-    near = get_close_matches(name, pool, n=1, cutoff=0.6)
-    return near[0] if near else None
+    return next(iter(similar(name, pool)), None)
 
 
 def did_you_mean(name: str, candidates: Iterable[str]) -> str:

@@ -5,6 +5,7 @@
 
 from __future__ import annotations
 
+import random
 import resource
 import subprocess
 import sys
@@ -12,6 +13,11 @@ import sys
 import pytest
 
 from tests.bench import fuzz_lint as bench
+from tests.bench import growth
+from urdfkit import errors
+from urdfkit.description.xml.source import Position, Span
+from urdfkit.lint.facts.suppressions import Suppression, suppressed
+from urdfkit.lint.finding import Finding
 
 XACRO = 'xmlns:xacro="http://www.ros.org/wiki/xacro"'
 MANY = " ".join(f'a{n}=""' for n in range(20_000))
@@ -128,3 +134,67 @@ def test_a_fault_of_ours_and_a_hang_are_noticed(monkeypatch, tmp_path):
     monkeypatch.setattr(bench, "SECONDS", 0.05)
     monkeypatch.setattr(bench, "run", endless)
     assert bench.judged(path).startswith("more than 0.05 s")
+
+
+QUADRATIC = (
+    "undefined_parents", "duplicate_joints", "same_child", "one_cycle", "long_chain", "suppressions", "launch_files",
+    "missing_meshes", "undefined_parameters", "undefined_controllers",
+)  # fmt: skip
+"""Families of files for which a lint took a time that grew with the square of their size."""
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("family", QUADRATIC)
+def test_thousands_of_defects_are_linted_within_the_limits(family, tmp_path):
+    growth.write(tmp_path / "r_description", growth.FAMILIES[family](1500))
+    done = subprocess.run(
+        [sys.executable, "-m", "urdfkit", "lint", "--no-cache", "--quiet", "r_description"],
+        cwd=tmp_path,
+        preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_CPU, (10, 10)),
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert done.returncode in (0, 1)
+    assert done.stderr == ""
+
+
+def test_names_are_compared_only_up_to_the_limit():
+    names = [f"wheel_{number}" for number in range(errors.MAX_COMPARED // 4)]
+    with errors.LimitedSuggestions():
+        assert [errors.nearest("wheel_x1", names) for _ in range(5)] == ["wheel_1"] * 4 + [None]
+        assert errors.nearest("WHEEL_1", names) == "wheel_1"  # needs no comparison
+    assert errors.nearest("wheel_x1", names) == "wheel_1"
+    assert errors.nearest("x" * 90_000, ["x" * 90_001]) is None
+
+
+@pytest.mark.parametrize("seed", range(20))
+def test_suppressions_meet_the_same_findings_as_one_by_one(seed):
+    chance = random.Random(seed)
+    position = Position("r.urdf", 1, 1)
+
+    def item() -> Suppression:
+        first = chance.randrange(1, 30)
+        codes = tuple(chance.sample(("A1", "B2", "C3"), chance.randrange(3)))
+        verb = chance.choice(("ignore", "ignore", "ignore", "ignore-file", "ignor"))
+        return Suppression(
+            verb, codes, Position("r.urdf", chance.randrange(10**9), 1), first, first + chance.randrange(9)
+        )
+
+    items = [item() for _ in range(chance.randrange(12))]
+    found = [
+        Finding(chance.choice(["A1", "B2", "C3"]), "n", "error", "m", Span(f, line, 1, line, 1))
+        for f, line in ((chance.choice(("r.urdf", "other.urdf")), chance.randrange(40)) for _ in range(60))
+    ]
+
+    def covers(one: Suppression, finding: Finding) -> bool:
+        return (
+            finding.file == position.file
+            and one.verb in ("ignore", "ignore-file")
+            and (not one.codes or finding.code in one.codes)
+            and (one.verb == "ignore-file" or one.first <= finding.line <= one.last)
+        )
+
+    left, used = suppressed(found, {"r.urdf": items})
+    assert left == [each for each in found if not any(covers(one, each) for one in items)]
+    assert used == {(one, each.code) for one in items for each in found if covers(one, each)}

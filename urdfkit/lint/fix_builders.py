@@ -83,7 +83,7 @@ def without_attribute(model: Model, element: Element, attribute: str, safety: Sa
     if written is None:
         return None
     source = model.document(element.origin.position.file).source
-    start = len(source.text[: written.start].rstrip())
+    start = _without_blanks(source.text, written.start, " \t\r\n")
     return Fix(safety, title, (Edit(source.span(start, written.end), ""),))
 
 
@@ -98,13 +98,19 @@ def without_element(model: Model, element: Element, safety: Safety, title: str) 
 def removal(document: Document, tag: Tag) -> Edit:
     """Return the edit that removes a tag, and its lines if they contain nothing else."""
     text, start, end = document.source.text, tag.start, tag.close_end
-    before = re.search(r"[ \t]*\Z", text[:start])
-    line = start - len(before[0]) if before else start
+    line = _without_blanks(text, start, " \t")
     if line == 0 or text[line - 1] in "\r\n":
         after = re.compile(r"[ \t]*(?:\r\n?|\n)").match(text, end)
         if after:
             start, end = line, after.end()
     return Edit(document.source.span(start, end), "")
+
+
+def _without_blanks(text: str, end: int, blanks: str) -> int:
+    """Return the offset of the end of `text[:end]` without its last blanks."""
+    while end > 0 and text[end - 1] in blanks:
+        end -= 1
+    return end
 
 
 def more_attributes(model: Model, element: Element, written: str, safety: Safety, title: str) -> Fix | None:
@@ -137,12 +143,11 @@ def nearest(name: str, candidates: Iterable[str], *, cutoff: float = 0.6) -> str
         candidates: the valid names.
         cutoff: minimum similarity, 1 for equal names (`difflib.SequenceMatcher.ratio`).
     """
-    from difflib import get_close_matches
+    from urdfkit.errors import similar
 
-    pool = list(dict.fromkeys(candidates))
+    pool = dict.fromkeys(candidates)
     by_case = {candidate.lower(): candidate for candidate in pool}
-    near = get_close_matches(name, pool, n=1, cutoff=cutoff)
-    return by_case.get(name.lower()) or (near[0] if near else None)
+    return by_case.get(name.lower()) or next(iter(similar(name, pool, cutoff=cutoff)), None)
 
 
 def meant(name: str, candidates: Iterable[str]) -> tuple[str | None, str]:

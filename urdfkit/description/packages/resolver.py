@@ -7,7 +7,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 
 from urdfkit.description.xml.reader import absolute
-from urdfkit.errors import ResourceError, did_you_mean
+from urdfkit.errors import ResourceError, did_you_mean, may_suggest
 
 _PREFIX_VARIABLES = ("AMENT_PREFIX_PATH", "CMAKE_PREFIX_PATH", "COLCON_PREFIX_PATH")
 _MODEL_VARIABLES = ("GZ_SIM_RESOURCE_PATH", "IGN_GAZEBO_RESOURCE_PATH", "GAZEBO_MODEL_PATH", "SDF_PATH")
@@ -244,6 +244,8 @@ class Packages:
 
 def near_package(name: str, packages: Iterable[str]) -> str:
     """Return a did-you-mean hint for a package; a common last word (``_description``) does not count."""
+    if not may_suggest():
+        return ""
     stem, _, last = name.rpartition("_")
     parts = ((other, *other.rpartition("_")[::2]) for other in packages)
     return did_you_mean(name, [other for other, own, end in parts if end != last or did_you_mean(stem, [own])])
@@ -254,6 +256,8 @@ def near_path(path: Path) -> str:
 
     A common suffix from the first dot on does not make two names similar.
     """
+    if not may_suggest():
+        return ""
     missing, parent = path, path.parent
     while not parent.is_dir() and parent != parent.parent:
         missing, parent = parent, parent.parent

@@ -116,8 +116,7 @@ def _unknown_elements(element: Element, allowed: Allowed) -> Iterator[UnknownSen
 
 def nearest(name: str, candidates: Iterator[str] | Allowed | tuple[str, ...], cutoff: float = 0.6) -> str | None:
     """Return the candidate most similar to a name, ignoring case; None if none is similar."""
-    from difflib import get_close_matches
+    from urdfkit.errors import similar
 
     pool = {candidate.lower(): candidate for candidate in candidates}
-    near = get_close_matches(name.lower(), pool, n=1, cutoff=cutoff)
-    return pool[near[0]] if near else None
+    return next((pool[near] for near in similar(name.lower(), pool, cutoff=cutoff)), None)

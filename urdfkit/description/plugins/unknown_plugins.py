@@ -2,7 +2,6 @@
 
 import re
 from collections.abc import Iterable
-from difflib import get_close_matches
 
 from urdfkit import errors
 from urdfkit.description.plugins.lookup import ALL_SPECS, stem
@@ -48,7 +47,7 @@ def nearest(name: str, others: Iterable[str] = ()) -> str:
     if near is None:
         return ""
     meant = [other for other in candidates if _essence(other) == near]
-    return get_close_matches(name, meant, n=1, cutoff=0.0)[0]
+    return next(iter(errors.similar(name, meant, cutoff=0.0)), "")
 
 
 def _essence(name: str) -> str:

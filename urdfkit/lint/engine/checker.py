@@ -9,6 +9,7 @@ from pathlib import Path
 from urdfkit.description.packages.resolver import Packages
 from urdfkit.description.xml.element import Element
 from urdfkit.description.xml.source import Origin, Position
+from urdfkit.errors import LimitedSuggestions
 from urdfkit.lint.finding import EntryResult, Finding
 from urdfkit.lint.model.model import Model
 from urdfkit.lint.project.entry_files import Entry, is_nearly_robot
@@ -142,6 +143,10 @@ class Checker:
 
     def examine(self, entry: Entry) -> tuple[EntryResult, Model]:
         """Lint one entry file; return the result and the model."""
+        with LimitedSuggestions():
+            return self._examine(entry)
+
+    def _examine(self, entry: Entry) -> tuple[EntryResult, Model]:
         options, note = self.options, ""
         if options.guess_target and options.target is None:
             from urdfkit.lint.project.target_platform import guess
@@ -240,11 +245,14 @@ class Checker:
         if entry.is_library or model.is_incomplete:
             judged.clear()
         every = bool(judged) and not self.options.select and not self.options.ignore
+        codes: dict[int, set[str]] = {}
+        for item, code in used:
+            codes.setdefault(id(item), set()).add(code)
         without: list[tuple[Suppression, tuple[str, ...]]] = []
         for items in comments.values():
             unused = []
             for item in items:
-                met = {code for other, code in used if other is item}
+                met = codes.get(id(item), set())
                 lost = tuple(code for code in item.codes if code in judged and code not in met)
                 if lost or (every and not item.codes and not met):
                     unused.append((item, lost))

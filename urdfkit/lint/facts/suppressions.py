@@ -10,7 +10,9 @@
 
 from __future__ import annotations
 
+import math
 import re
+from bisect import bisect_left, bisect_right
 from collections.abc import Iterable, Mapping
 
 from urdfkit.description.xml.source import Position
@@ -22,6 +24,7 @@ _COMMENT = re.compile(r"\s*urdfkit:\s*([\w-]*)(.*)", re.DOTALL)
 _CODE = re.compile(r"[A-Z]+[0-9][0-9A-Z]*")
 _INTENDED_CODE = re.compile(r"[A-Z][0-9A-Z]{2,}")
 """A first word that is intended as a code, so that ``ignore ZZZ`` does not suppress every rule."""
+_VERBS = ("ignore", "ignore-file")
 _SEPARATOR = re.compile(r"[\s,;:]+")
 
 
@@ -43,11 +46,10 @@ class Suppression:
     first: int
     last: int
 
-    def covers(self, finding: Finding) -> bool:
-        """Return whether the comment suppresses a finding of the same file."""
-        if self.verb not in ("ignore", "ignore-file") or (self.codes and finding.code not in self.codes):
-            return False
-        return self.verb == "ignore-file" or self.first <= finding.line <= self.last
+    @property
+    def lines(self) -> tuple[float, float]:
+        """First and last suppressed line."""
+        return (0, math.inf) if self.verb == "ignore-file" else (self.first, self.last)
 
 
 def suppressions(document: Document) -> list[Suppression]:
@@ -65,14 +67,44 @@ def suppressed(
     findings: Iterable[Finding], by_file: Mapping[str, list[Suppression]]
 ) -> tuple[list[Finding], set[tuple[Suppression, str]]]:
     """Return the findings that no comment suppresses, and pairs of comments and suppressed codes."""
-    left: list[Finding] = []
-    used: set[tuple[Suppression, str]] = set()
+    findings = list(findings)
+    lines: dict[str, dict[str, list[int]]] = {}
     for finding in findings:
-        met = [item for item in by_file.get(finding.file, ()) if item.covers(finding)]
-        used.update((item, finding.code) for item in met)
-        if not met:
-            left.append(finding)
+        if finding.file in by_file:
+            lines.setdefault(finding.file, {}).setdefault(finding.code, []).append(finding.line)
+    used: set[tuple[Suppression, str]] = set()
+    met: dict[tuple[str, str], _Lines] = {}
+    for file, by_code in lines.items():
+        for code, at in by_code.items():
+            at.sort()
+            items = [one for one in by_file[file] if one.verb in _VERBS and (not one.codes or code in one.codes)]
+            found = [one for one in items if _meets(one, at)]
+            used.update((one, code) for one in found)
+            met[file, code] = _Lines(one.lines for one in found)
+    left = [one for one in findings if (one.file, one.code) not in met or one.line not in met[one.file, one.code]]
     return left, used
+
+
+def _meets(item: Suppression, lines: list[int]) -> bool:
+    """Return whether a comment covers any of some sorted lines."""
+    first, last = item.lines
+    at = bisect_left(lines, first)
+    return at < len(lines) and lines[at] <= last
+
+
+class _Lines:
+    """A set of lines from ranges that may overlap."""
+
+    def __init__(self, ranges: Iterable[tuple[float, float]]) -> None:
+        self._first: list[float] = []
+        self._last: list[float] = []
+        for first, last in sorted(ranges):
+            self._first.append(first)
+            self._last.append(max(last, self._last[-1]) if self._last else last)
+
+    def __contains__(self, line: int) -> bool:
+        at = bisect_right(self._first, line)
+        return at > 0 and line <= self._last[at - 1]
 
 
 def _codes(text: str) -> tuple[str, ...]:
@@ -92,7 +124,7 @@ def _covered(document: Document, start: int, end: int) -> tuple[int, int]:
     after = source.line(last)[end - source.line_starts[last - 1] :]
     if before.strip() or after.strip():
         return line, last
-    following = next((tag for tag in document.walk() if tag.start >= end), None)
+    following = document.tag_from(end)
     if following is None or source.text[end : following.start].lstrip().startswith("</"):
         return line, last + 1
     return line, source.position(following.close_end - 1).line

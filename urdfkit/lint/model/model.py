@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from urdfkit.description.xacro.expanded import Expanded
     from urdfkit.description.xacro.faults import Fault
     from urdfkit.description.xml.element import Element
+    from urdfkit.description.xml.source import Expansion
     from urdfkit.lint.model.masked_names import MaskedNames
     from urdfkit.lint.model.placement import Extent, Frame
     from urdfkit.lint.model.tags import Attribute, Tag
@@ -112,6 +113,14 @@ class Model:
             facts = {"severity": "error" if fatal else "warning"}
             found.append(Fault("encoding", f"{message}: {rejects} the file", source.position(at), details=facts))
         return tuple(found)
+
+    @cached_property
+    def faults_by_call(self) -> dict[tuple[str, Position, tuple[Expansion, ...]], list[Fault]]:
+        """Kind, position and macro calls → the faults there."""
+        found: dict[tuple[str, Position, tuple[Expansion, ...]], list[Fault]] = {}
+        for fault in self.expanded.faults:
+            found.setdefault((fault.kind, fault.position, fault.expansions), []).append(fault)
+        return found
 
     @cached_property
     def masked_names(self) -> MaskedNames:

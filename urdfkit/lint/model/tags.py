@@ -143,6 +143,17 @@ class Document:
         for root in self.roots:
             yield from root.walk()
 
+    def tag_from(self, offset: int) -> Tag | None:
+        """Return the first tag that starts at an offset or after it."""
+        from bisect import bisect_left
+
+        at = bisect_left(self._starts, offset)
+        return self._read[2][self._starts[at]] if at < len(self._starts) else None
+
+    @cached_property
+    def _starts(self) -> list[int]:
+        return list(self._read[2])
+
     def tag_at(self, line: int, column: int) -> Tag | None:
         """Return the tag whose ``<`` is at that line and column."""
         return self._read[2].get(self.source.offset(line, column))

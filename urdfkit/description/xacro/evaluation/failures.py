@@ -34,7 +34,6 @@ class SourceElement:
         self.position, self.chain = position, chain
 
 
-_MAX_COMPARED = 2_000
 DIRECTIVES = ("arg", "attribute", "call", "element", "if", "include", "insert_block", "macro", "property", "unless")
 
 _ELSEWHERE = {
@@ -84,7 +83,7 @@ def undefined_property(name: str, candidates: Iterable[str]) -> Failure:
     names = tuple(candidates)
     constants = ("pi", "tau", "radians", "degrees", "sin", "cos", "tan", "sqrt")
     meant = _ELSEWHERE.get(name)
-    hint = f"; did you mean `{meant}`?" if meant else did_you_mean(name, (*near_in_length(name, names), *constants))
+    hint = f"; did you mean `{meant}`?" if meant else did_you_mean(name, (*names, *constants))
     return Failure("undefined-property", f"property `{name}` is not defined{hint}", name=name, candidates=names)
 
 
@@ -97,7 +96,7 @@ def undefined_in_command(name: str, arguments: tuple[str, ...]) -> Failure:
 def undefined_macro(name: str, candidates: Iterable[str]) -> Failure:
     """Return the failure for a macro that is not defined."""
     names = tuple(candidates)
-    hint = did_you_mean(name, (*near_in_length(name, names), *DIRECTIVES))
+    hint = did_you_mean(name, (*names, *DIRECTIVES))
     return Failure("undefined-macro", f"macro `{name}` is not defined{hint}", name=name, candidates=names)
 
 
@@ -201,13 +200,6 @@ def short(text: str) -> str:
     """Return a text in one line of at most 120 characters."""
     line = " ".join(text.split())
     return line if len(line) <= 120 else line[:119] + "…"
-
-
-def near_in_length(name: str, names: tuple[str, ...]) -> tuple[str, ...]:
-    """Return the names worth comparing: all, or of very many those of nearly the same length."""
-    if len(names) <= _MAX_COMPARED:
-        return names
-    return tuple(other for other in names if abs(len(other) - len(name)) <= 1)[:_MAX_COMPARED]
 
 
 def _listed(names: tuple[str, ...]) -> str:

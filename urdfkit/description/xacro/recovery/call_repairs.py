@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from urdfkit.description.xacro.evaluation.failures import macro_arguments, near_in_length
+from urdfkit.description.xacro.evaluation.failures import macro_arguments
 from urdfkit.description.xacro.recovery.unknown_values import Unknown
+from urdfkit.errors import similar
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -16,10 +17,8 @@ if TYPE_CHECKING:
 
 def near_macros(name: str, macros: Iterable[str]) -> list[str]:
     """Return the macros with a name similar to another, the most similar first."""
-    from difflib import get_close_matches
-
-    by_lower_case = {macro.lower(): macro for macro in near_in_length(name, tuple(macros))}
-    return [by_lower_case[near] for near in get_close_matches(name.lower(), by_lower_case, n=3, cutoff=0.75)]
+    by_lower_case = {macro.lower(): macro for macro in macros}
+    return [by_lower_case[near] for near in similar(name.lower(), by_lower_case, count=3, cutoff=0.75)]
 
 
 def is_call_of(node: Tag, macro: Macro) -> bool:

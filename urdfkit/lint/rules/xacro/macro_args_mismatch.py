@@ -73,23 +73,22 @@ class MacroArgsMismatch(FaultRule):
         tag = model.tag(macro.position) if macro is not None else None
         if macro is None or tag is None or fault.kind != "macro-arguments":
             return None
-        inserted = {
-            child.attributes["name"].value
-            for child in tag.walk()
-            if child.name.rpartition(":")[2] == "insert_block" and "name" in child.attributes
-        }
         unknown, missing = self._mismatched_parameters(fault, model)
         call = model.tag(fault.position)
-        if unknown or len(missing) != 1 or call is None or not call.children:
+        if unknown or len(missing) != 1 or call is None or not call.children or missing[0] not in macro.parameters:
             return None
-        return missing[0] if missing[0] in inserted and missing[0] in macro.parameters else None
+        is_inserted = any(
+            child.attributes["name"].value == missing[0]
+            for child in tag.walk()
+            if child.name.rpartition(":")[2] == "insert_block" and "name" in child.attributes
+        )
+        return missing[0] if is_inserted else None
 
     def _mismatched_parameters(self, fault: Fault, model: Model) -> tuple[list[str], list[str]]:
         """Return the unknown and the missing parameters of the call that caused a fault."""
         unknown: list[str] = []
         missing: list[str] = []
-        for other in model.expanded.faults:
-            if (other.kind, other.position, other.expansions) == (fault.kind, fault.position, fault.expansions):
-                unknown += other.details.get("unknown", ())
-                missing += other.details.get("missing", ())
+        for other in model.faults_by_call[fault.kind, fault.position, fault.expansions]:
+            unknown += other.details.get("unknown", ())
+            missing += other.details.get("missing", ())
         return unknown, missing
