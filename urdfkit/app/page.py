@@ -56,6 +56,7 @@ class Page:
         host: the address to listen on.
         port: the port to listen on, 0 for any; None for the usual one or the next free one.
         opened: called with the server when it serves the page.
+        watchers_may: see `Server`.
 
     Raises:
         UsageError: the port is busy or the address cannot be bound.
@@ -68,11 +69,12 @@ class Page:
         host: str = "127.0.0.1",
         port: int | None = None,
         opened: Callable[[Server], None] = lambda _: None,
+        watchers_may: Sequence[str] = (),
     ) -> None:
         from urdfkit.view.server.server import Server
 
         self.host = host
-        self.server = Server(mode, host=host, port=port)
+        self.server = Server(mode, host=host, port=port, watchers_may=watchers_may)
         self._opened = opened
 
     def open(self) -> None:

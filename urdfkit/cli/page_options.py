@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import atexit
 import os
 import sys
 import threading
@@ -14,6 +15,11 @@ from urdfkit.app.page import note
 
 if TYPE_CHECKING:
     from urdfkit.view.server.server import Server
+
+REDIRECTION = """<!doctype html><html lang="en"><meta charset="utf-8"><title>urdfkit</title>
+<meta name="referrer" content="no-referrer"><meta http-equiv="refresh" content="0; url={url}">
+<p><a href="{url}">Continue to urdfkit</a></p></html>
+"""
 
 
 def add_page_options(parser: argparse.ArgumentParser) -> None:
@@ -45,11 +51,31 @@ def announce(arguments: argparse.Namespace) -> Callable[[Server], None]:
             note("warning: everyone with this address can watch and drive; the connection is not encrypted")
         if not arguments.no_browser and _has_screen():
             # Some browsers block the caller until they are closed.
-            threading.Thread(target=webbrowser.open, args=(server.url,), daemon=True, name="open-browser").start()
+            threading.Thread(
+                target=webbrowser.open, args=(_private_address(server),), daemon=True, name="open-browser"
+            ).start()
         elif not arguments.no_browser:
             note("no screen found: open the address in a browser")
 
     return opened
+
+
+def _private_address(server: Server) -> str:
+    """Return the address of a private file that redirects to the page; the address of the page if it cannot be written.
+
+    Every user of the machine can read the command line of the browser, which must not contain the token.
+    """
+    from urdfkit.view.server.saved_tokens import private_folder, write_private
+
+    if sys.platform == "win32":  # only the user and administrators can read command lines
+        return server.url
+    try:
+        path = private_folder() / f"open-{server.port}.html"
+        write_private(path, REDIRECTION.format(url=server.url))
+    except OSError:
+        return server.url
+    atexit.register(path.unlink, missing_ok=True)
+    return path.as_uri()
 
 
 def _has_screen() -> bool:

@@ -32,6 +32,14 @@ def configure(parser: argparse.ArgumentParser) -> None:
     add_repair_options(parser)
     add_record(parser)
     add_page_options(parser)
+    parser.add_argument(
+        "--watchers-may",
+        action="append",
+        default=[],
+        choices=("pause", "reset", "change"),
+        help="permit pages to do this while another page drives (repeatable): pause, step and set the speed; reset; "
+        "or change the world and publish (default: none; every page may stop the robots)",
+    )
     parser.epilog = "examples:\n  urdfkit sim teleop simpleton\n  urdfkit sim teleop simpleton --port 8080 --no-browser"
 
 
@@ -49,7 +57,13 @@ def run(arguments: argparse.Namespace) -> int:
         robot = load(model.path, arguments=model.arguments, package_path=model.package_path)
         note_unused(model.arguments, robot.files, quiet=arguments.quiet)
         world = load_world(arguments.world)
-        page = Page("sim", host=arguments.host, port=arguments.port, opened=announce(arguments))
+        page = Page(
+            "sim",
+            host=arguments.host,
+            port=arguments.port,
+            opened=announce(arguments),
+            watchers_may=arguments.watchers_may,
+        )
         with (
             driving(
                 page,

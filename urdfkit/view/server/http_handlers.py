@@ -68,6 +68,10 @@ class NotFound(AuthenticatedHandler):
             raise HTTPError(404)
 
 
+CONTINUE = """<!doctype html><html lang="en"><meta charset="utf-8"><title>urdfkit</title>
+<meta http-equiv="refresh" content="0; url=/"><p><a href="/">Continue to urdfkit</a></p></html>"""
+
+
 class PageHandler(AuthenticatedHandler):
     """The page. With the token in the URL it sets the cookie and redirects to the URL without the token."""
 
@@ -82,7 +86,12 @@ class PageHandler(AuthenticatedHandler):
             self.set_cookie(
                 self.access.cookie, self.access.session, expires_days=None, path="/", httponly=True, samesite="Strict"
             )
-            self.redirect("/", status=303)
+            if self.request.headers.get("Sec-Fetch-Site") == "cross-site":
+                # After a redirect of such a request, the browser would not send the cookie, which is SameSite=Strict.
+                self.set_header("Content-Type", "text/html; charset=utf-8")
+                self.finish(CONTINUE)
+            else:
+                self.redirect("/", status=303)
         elif not self.access.accepts_session(self.get_cookie(self.access.cookie)):
             self.reject(NO_COOKIE)
         else:

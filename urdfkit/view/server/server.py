@@ -6,7 +6,7 @@ import asyncio
 import contextlib
 import itertools
 import threading
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from concurrent.futures import Future
 from typing import Any
 
@@ -28,6 +28,13 @@ from urdfkit.view.server.request_inbox import Inbox
 from urdfkit.view.server.saved_tokens import tokens_of
 from urdfkit.view.server.send_queue import Channel
 
+PERMISSIONS = ("pause", "reset", "change")
+"""What pages may be permitted to do while another page drives: pause, step and set the speed; reset; all else that
+changes the simulation."""
+PERMISSION_OF = {"play": "pause", "pause": "pause", "reset": "reset", "step": "pause", "speed": "pause"}
+"""Button or request → the permission that it needs while another page drives."""
+OTHER_DRIVES = "another page is driving; wait until it stops"
+
 
 class Server:
     """The page and its WebSocket.
@@ -40,6 +47,7 @@ class Server:
         port: port to bind, 0 for any free port; None for the first free one starting at the default port.
         settings: additional values of the first message to the page.
         requests: the requests that pages may send, with the schemas of their values.
+        watchers_may: names from `PERMISSIONS`: what pages may do while another page drives.
 
     Raises:
         UsageError: the port is in use or the address cannot be bound.
@@ -53,6 +61,7 @@ class Server:
         port: int | None = None,
         settings: dict[str, Any] | None = None,
         requests: Mapping[str, Schema] | None = None,
+        watchers_may: Iterable[str] = (),
     ) -> None:
         self._socket, self.port = bind(host, port)
         loopback = is_loopback(host)
@@ -69,6 +78,7 @@ class Server:
         self.joints: frozenset[str] = frozenset()
         self.mode = mode
         self.requests: dict[str, Schema] = dict(requests or {})
+        self.watchers_may = frozenset(watchers_may)
         self._seen = itertools.count(1)
         self._model = itertools.count(1)
         self._model_number = 0
@@ -78,7 +88,8 @@ class Server:
         self._loop = asyncio.new_event_loop()
         self._thread = threading.Thread(target=self._serve, name="urdfkit-view", daemon=True)
         self._started: Future[None] = Future()
-        self.hub.latch("hello", protocol.write("hello", protocol=protocol.VERSION, mode=mode, **(settings or {})))
+        values = dict(settings or {}, **({"watchers_may": sorted(self.watchers_may)} if self.watchers_may else {}))
+        self.hub.latch("hello", protocol.write("hello", protocol=protocol.VERSION, mode=mode, **values))
 
     @property
     def url(self) -> str:
@@ -211,9 +222,18 @@ class Server:
         elif isinstance(message, protocol.Axes):
             self.drive_lock.update(client, message)
         elif isinstance(message, protocol.Control):
-            self.inbox.put_action(message.action)
+            self._receive_control(client, message.action)
         else:
             self._receive_request(client, message)
+
+    def _receive_control(self, client: int, action: str) -> None:
+        """Queue a button; ``stop`` is accepted from every page, the others while no other page drives."""
+        permission = PERMISSION_OF.get(action)
+        if permission is None or permission in self.watchers_may or self.drive_lock.allows(client):
+            self.inbox.put_action(action)
+        else:
+            refusal = protocol.write("notice", text=f"{action} refused: {OTHER_DRIVES}", tone="error")
+            self._post(self.hub.send_to, client, refusal)
 
     def _receive_request(self, client: int, raw: protocol.RawRequest) -> None:
         try:
@@ -221,8 +241,13 @@ class Server:
         except protocol.ProtocolError as error:
             self.answer(Request(client, raw.number, raw.name, {}), str(error))
             raise
-        if self.requests[request.name].changes and not self.drive_lock.allows(client):
-            self.answer(request, "another page is driving; wait until it stops")
+        permission = PERMISSION_OF.get(request.name, "change")
+        if (
+            self.requests[request.name].changes
+            and permission not in self.watchers_may
+            and not self.drive_lock.allows(client)
+        ):
+            self.answer(request, OTHER_DRIVES)
         elif not self.inbox.put_request(request):
             self.answer(request, "too many requests are waiting; try again in a moment")
 

@@ -78,7 +78,9 @@ export function clock(page) {
     if (document.activeElement !== speed) speed.value = message.factor ?? "";
     const other = message.driver !== null && message.driver !== me;
     document.body.dataset.watching = other;
-    $("driver-other").hidden = !other;
+    const permitted = (permission) => !other || (page.settings.watchers_may ?? []).includes(permission);
+    for (const control of [$("pause"), steps, step, speed]) control.disabled = !permitted("pause");
+    $("reset").disabled = !permitted("reset");
   });
   $("reset").addEventListener("click", () => page.send("control", { action: "reset" }));
   $("pause").addEventListener("click", () => {

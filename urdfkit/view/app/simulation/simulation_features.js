@@ -1,6 +1,7 @@
 // Features of a simulation's page, in the order of their installation.
 
 import { arms } from "./controller_sliders.js";
+import { availability } from "./availability.js";
 import { arrows } from "./contact_arrows.js";
 import { clock } from "./clock_controls.js";
 import { Drive } from "./teleop.js";
@@ -20,7 +21,7 @@ const $ = (id) => document.getElementById(id);
 const WHEEL = "M12 3a9 9 0 1 0 0 18a9 9 0 0 0 0-18zM12 10a2 2 0 1 0 0 4a2 2 0 0 0 0-4zM3.5 10l6.5 1M20.5 10l-6.5 1M12 14v7";
 const EYE = "M2 12s4-7 10-7 10 7 10 7-4 7-10 7-10-7-10-7zM12 9a3 3 0 1 0 0 6a3 3 0 0 0 0-6z";
 
-export const simFeatures = [common, drive, clock, sensing, arms, topics, plots, recorder, objects, walls, liveParameters, push, arrows, trails];
+export const simFeatures = [common, drive, clock, availability, sensing, arms, topics, plots, recorder, objects, walls, liveParameters, push, arrows, trails];
 
 function common(page) {
   const watched = new Set();
