@@ -35,8 +35,8 @@ class Defect:
     """A defect of a robot's structure, and what `repaired_structure` does about it.
 
     Attributes:
-        message: what is wrong.
-        effect: what is done about it.
+        message: the fault.
+        effect: the change that removes it, for the message.
         code: code of the lint rule that reports the defect.
         element: the element that has the defect.
         link: name of the affected link.

@@ -41,6 +41,7 @@ class Shape:
         label: label that a segmentation camera measures; 0 for none.
         gloss: specular colour, 0..1, and exponent; an exponent of zero means matt.
         position: source position of its texture, else of its mesh; None without either.
+        is_placeholder: whether it stands for a shape that cannot be shown; see `with_placeholders`.
     """
 
     name: str
@@ -55,6 +56,11 @@ class Shape:
     label: int = 0
     gloss: Gloss = MATT
     position: Position | None = None
+    is_placeholder: bool = False
+
+
+_CODES = {"package": "G602", "file": "G601", "format": "G606"}
+"""Kind of the error of a mesh → code of the lint rule that reports it."""
 
 
 @dataclass(frozen=True)
@@ -66,12 +72,19 @@ class MissingMesh:
         body: name of the link it would be fixed to.
         role: ``visual`` or ``collision``.
         error: the reason, with the source position of the mesh.
+        uri: the mesh in the description.
     """
 
     name: str
     body: str
     role: Role
     error: ResourceError
+    uri: str
+
+    @property
+    def code(self) -> str:
+        """Code of the lint rule that reports the mesh."""
+        return _CODES.get(self.error.kind, "G607")
 
 
 @dataclass(frozen=True, eq=False)
@@ -134,7 +147,7 @@ def scene_of(robot: Robot, *, strict: bool = True, meshes: MeshLoader | None = N
                 except ResourceError as error:
                     if strict:
                         raise
-                    problems.append(MissingMesh(name, link.name, role, error))
+                    problems.append(MissingMesh(name, link.name, role, error, item.geometry.uri))
                     continue
             color = palette.of(link.name, item) if isinstance(item, Visual) else None
             covered = wrapper.wrapped(item.geometry, mesh, picture) if picture else None

@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from urdfkit.description.packages.resolver import near_path
+from urdfkit.description.urdf.mesh_limits import MAX_BYTES, MAX_TRIANGLES
 from urdfkit.description.urdf.robot import Vector
 from urdfkit.errors import MissingDependencyError, ResourceError, did_you_mean
 from urdfkit.linear_algebra import matmul
@@ -26,12 +27,6 @@ from urdfkit.scene.meshes.unique_rows import unique_rows
 
 FORMATS = (".stl", ".obj", ".dae", ".glb", ".gltf", ".ply")
 """The supported file formats."""
-
-MAX_BYTES = 256 * 2**20
-"""Largest supported mesh file [byte]."""
-
-MAX_TRIANGLES = 5_000_000
-"""Largest number of triangles in one mesh."""
 
 _PULLS = re.compile(rb"<init_from>|\"uri\"")
 """Matches references to image files next to the mesh file."""

@@ -3,6 +3,7 @@
 import re
 from pathlib import Path
 
+from urdfkit.description.urdf.mesh_limits import MAX_BYTES, MAX_TRIANGLES
 from urdfkit.lint.model.mesh_files import LFS, meshes, path_of
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
@@ -19,11 +20,11 @@ _FACES = {
 
 
 class MeshCorrupt(RobotRule):
-    """A mesh file exists but contains no mesh.
+    """A mesh file exists but contains no usable mesh.
 
     ## What it does
     Checks for empty mesh files, Git LFS pointers, truncated STL files, invalid COLLADA and glTF files, files without
-    triangles, and meshes with all triangles in one point.
+    triangles, meshes with all triangles in one point, and meshes above 256 MiB or 5 million triangles.
 
     ## Why is this bad?
     Viewers show nothing, and simulators stop with an error of the mesh reader that does not name the cause.
@@ -81,6 +82,8 @@ def _fault(path: Path) -> str:
     suffix = path.suffix.lower()
     if not size:
         return "is empty"
+    if size > MAX_BYTES:
+        return f"has {size / 2**20:.0f} MiB; at most {MAX_BYTES // 2**20} are supported: decimate it"
     if head.startswith(LFS):
         return "is a Git LFS pointer: run `git lfs pull`"
     if suffix == ".stl":
@@ -103,4 +106,6 @@ def _stl_fault(path: Path, head: bytes, size: int) -> str:
     triangles = int.from_bytes(head[80:84], "little")
     if size < 84 or size < 84 + 50 * triangles:
         return f"is truncated: {size} bytes, but {triangles} triangles need {84 + 50 * triangles}"
+    if triangles > MAX_TRIANGLES:
+        return f"has {triangles} triangles; at most {MAX_TRIANGLES} are supported: decimate it"
     return "" if triangles else "contains no triangles"

@@ -11,9 +11,6 @@ from urdfkit.scene import Scene, Shape
 from urdfkit.sim.construction.repairs.inertia_tensors import repair_at
 from urdfkit.sim.construction.validation import invalid_sizes
 
-CODES = {"package": "G602", "file": "G601", "format": "G606"}
-"""Kind of the error of a mesh → code of the lint rule that reports it."""
-
 
 def without_empty_shapes(robot: Robot) -> tuple[Robot, list[Repair]]:
     """Return a robot without the collision shapes whose size is not positive, and a repair for each."""
@@ -56,7 +53,7 @@ def with_substitutes(scene: Scene) -> tuple[Scene, list[Repair]]:
         else:
             effect = f"shape `{problem.name}` is left out: it has no contacts"
         message = f"{problem.error.message}; {effect}"
-        repairs.append(Repair("mesh", CODES.get(problem.error.kind, "G607"), message, problem.error.position, body))
+        repairs.append(Repair("mesh", problem.code, message, problem.error.position, body))
     shapes = [*scene.shapes, *(shape for found in replaced.values() for shape in found)]
     order = scene.body_index
     shapes.sort(key=lambda shape: (order[shape.body], shape.role == "collision"))

@@ -1,0 +1,129 @@
+"""Placeholders: boxes in place of shapes that cannot be shown, with an estimated size."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import replace
+
+import numpy as np
+
+from urdfkit.description.urdf.repair import Repair
+from urdfkit.description.urdf.robot import (
+    Box,
+    Capsule,
+    Collision,
+    Cylinder,
+    Link,
+    Problem,
+    Robot,
+    Sphere,
+    Visual,
+)
+from urdfkit.description.xacro.evaluation.failures import chain_words
+from urdfkit.description.xml.element import Element
+from urdfkit.linear_algebra import Array
+from urdfkit.scene.colors import DEFAULT
+from urdfkit.scene.placeholder_sizes import PlaceholderSizes
+from urdfkit.scene.scene_table import Role, Scene, Shape
+
+_SHAPELESS = {"missing": "E014", "unknown-value": "E008"}
+"""Kind of a problem without which a shape would have a geometry → code of the lint rule that reports it."""
+_CLEAR = 0.5
+"""Opacity of a placeholder that may cover other shapes of its link."""
+
+
+def with_placeholders(robot: Robot, scene: Scene) -> tuple[Scene, list[Repair]]:
+    """Return a scene with a placeholder for each link that lacks shapes, and a repair for each missing shape.
+
+    A shape is missing if its mesh cannot be loaded, its geometry is unknown, or a size is negative. The placeholder of
+    visual shapes has the bounding box of the collision shapes, and vice versa. A link with neither has a box around
+    its frame, its child joints and the solid box of its inertia. Negative sizes become positive.
+
+    Args:
+        robot: the robot.
+        scene: its scene, with the missing meshes in `Scene.problems`.
+    """
+    repairs = [
+        Repair("mesh", each.code, f"{each.error.message}; a placeholder is shown", each.error.position, each.body)
+        for each in scene.problems
+    ]
+    problems = {problem.element: problem for problem in reversed(robot.problems) if problem.kind in _SHAPELESS}
+    wanted = dict.fromkeys((each.body, each.role) for each in scene.problems)
+    for link in robot.link_by_name_in_order():
+        for role, item in _items(link):
+            if item.geometry is None:
+                wanted[link.name, role] = None
+                repairs += _unknown_shapes(link, item, problems)
+            elif (size := _negative(item.geometry)) is not None:
+                repairs.append(_negative_size(link, role, item, size))
+    if not wanted and not repairs:
+        return scene, []
+    shapes = [_positive(shape) for shape in scene.shapes]
+    sizes = PlaceholderSizes(robot, shapes)
+    placeholders = [
+        _placeholder(body, role, sizes.bounds(body, role), covers_shapes=sizes.has_shapes(body, role))
+        for body, role in wanted
+    ]
+    order = scene.body_index
+    found = sorted([*shapes, *placeholders], key=lambda shape: (order[shape.body], shape.role == "collision"))
+    return replace(scene, shapes=tuple(found)), repairs
+
+
+def _placeholder(body: str, role: Role, bounds: Array, *, covers_shapes: bool) -> Shape:
+    x, y, z = (bounds[1] - bounds[0]).tolist()
+    placement = np.eye(4)
+    placement[:3, 3] = bounds.mean(axis=0)
+    rgba = (*DEFAULT[:3], _CLEAR if covers_shapes else 1.0)
+    return Shape(f"{body}/{role}/placeholder", body, role, Box((x, y, z)), placement, rgba, is_placeholder=True)
+
+
+def _items(link: Link) -> Iterator[tuple[Role, Visual | Collision]]:
+    yield from (("visual", item) for item in link.visuals)
+    yield from (("collision", item) for item in link.collisions)
+
+
+def _lengths(geometry: object) -> tuple[float, ...]:
+    """Return the sizes of a primitive [m]; nothing for other shapes."""
+    match geometry:
+        case Box(size=size):
+            return size
+        case Sphere(radius=radius):
+            return (radius,)
+        case Cylinder(radius=radius, length=length) | Capsule(radius=radius, length=length):
+            return (radius, length)
+    return ()
+
+
+def _negative(geometry: object) -> float | None:
+    """Return the first negative size of a shape [m]; None without one."""
+    return next((size for size in _lengths(geometry) if size < 0.0), None)
+
+
+def _positive(shape: Shape) -> Shape:
+    """Return a placeholder for a shape with a negative size; other shapes unchanged."""
+    if _negative(shape.geometry) is None:
+        return shape
+    edges = [abs(size) for size in _lengths(shape.geometry)]
+    if not isinstance(shape.geometry, Box):
+        radius, *length = edges
+        height = length[0] if length else 2.0 * radius
+        edges = [2.0 * radius, 2.0 * radius, height + 2.0 * radius * isinstance(shape.geometry, Capsule)]
+    return replace(shape, geometry=Box((edges[0], edges[1], edges[2])), mesh=None, rgba=DEFAULT, is_placeholder=True)
+
+
+def _unknown_shapes(link: Link, item: Visual | Collision, problems: Mapping[Element, Problem]) -> Iterator[Repair]:
+    """Yield the repairs of a shape without a readable geometry, except those of the robot's structure."""
+    for element in item.element.walk():
+        if (problem := problems.get(element)) is not None:
+            origin = element.origin
+            message = f"{problem.message}; a placeholder is shown{chain_words(origin.expansions)}"
+            yield Repair("shape", _SHAPELESS[problem.kind], message, origin.position, link.name)
+
+
+def _negative_size(link: Link, role: Role, item: Visual | Collision, size: float) -> Repair:
+    kind = type(item.geometry).__name__.lower()
+    geometry = item.element.find("geometry") or item.element
+    element = geometry.find(kind) or geometry
+    message = f"link `{link.name}`: the <{kind}> of a {role} shape has the size {size:g} m; a placeholder is shown"
+    origin = element.origin
+    return Repair("shape", "G611", message + chain_words(origin.expansions), origin.position, link.name)
