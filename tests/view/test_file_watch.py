@@ -76,3 +76,16 @@ def test_a_save_during_reading_is_not_lost(files: list[Path]) -> None:
     watch.follow(files)
     watch.changed()
     assert watch.changed()
+
+
+def test_an_optional_file_counts_as_changed_when_it_disappears_and_when_it_appears(
+    files: list[Path], tmp_path: Path
+) -> None:
+    mesh = tmp_path / "arm.stl"
+    save(mesh, "mesh")
+    watch = FileWatch(files, [mesh])
+    mesh.unlink()
+    assert [watch.changed() for _ in range(3)] == [False, True, False]
+    assert watch.missing == ()
+    save(mesh, "mesh again")
+    assert [watch.changed() for _ in range(3)] == [False, True, False]

@@ -16,6 +16,11 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--html", metavar="FILE", help="write a self-contained page with sliders that needs no server, and exit"
     )
+    parser.add_argument(
+        "--strict",
+        action="store_true",
+        help="refuse robots that need a repair, such as a placeholder for a missing mesh (default: repair and warn)",
+    )
     parser.epilog = (
         "examples:\n  urdfkit view simpleton\n  urdfkit view urdf/robot.urdf.xacro use_camera:=true --port 8080\n"
         "  urdfkit view simpleton --html simpleton.html"
@@ -25,26 +30,33 @@ def configure(parser: argparse.ArgumentParser) -> None:
 def run(arguments: argparse.Namespace) -> int:
     """Serve until interrupted, or write the page to a file."""
     require_page("view", "view", modules=("rosbags",))
+    from urdfkit.app.repair_findings import note_repairs
     from urdfkit.app.simulation.save_options import check_places
-    from urdfkit.app.viewer.session import ShownRobot
+    from urdfkit.app.viewer.shown_robot import ShownRobot
     from urdfkit.app.viewer.viewing import html_page, viewing
     from urdfkit.atomic import write_text
     from urdfkit.resources import find_model
 
     check_places("--html", [Path(arguments.html)] if arguments.html is not None else [])
     model = find_model(arguments.model, package_path=arguments.package_path)
-    if arguments.html is not None:
-        shown = ShownRobot.read(model)
+
+    def read() -> ShownRobot:
+        shown = ShownRobot.read(model, strict=arguments.strict)
         note_unused(model.arguments, shown.files, quiet=arguments.quiet)
+        if not arguments.quiet:
+            note_repairs(shown.repairs)
+        return shown
+
+    if arguments.html is not None:
+        shown = read()
         html = html_page(model, shown)
         write_text(Path(arguments.html), html)
         if not arguments.quiet:
             note(f"wrote {arguments.html} ({len(html.encode()) / 1e6:.2f} MB)")
         return 0
     with until_interrupted():
-        shown = ShownRobot.read(model)
-        note_unused(model.arguments, shown.files, quiet=arguments.quiet)
+        shown = read()
         page = Page("view", host=arguments.host, port=arguments.port, opened=announce(arguments))
-        with viewing(page, model, shown) as session:
+        with viewing(page, model, shown, strict=arguments.strict) as session:
             session.run()
     return 0

@@ -11,25 +11,30 @@ class FileWatch:
 
     Attributes:
         missing: files that did not exist at the last two checks.
+        unsettled: whether the last check found a change that is not reported yet.
 
     Args:
         files: the watched files; a missing file counts as changed when it appears.
+        optional: more files; these count as changed when they disappear, too.
     """
 
-    def __init__(self, files: Iterable[Path]) -> None:
+    def __init__(self, files: Iterable[Path], optional: Iterable[Path] = ()) -> None:
         self._settled: dict[Path, Signature] = {}
         self._last: dict[Path, Signature] = {}
         self.missing: tuple[Path, ...] = ()
-        self.follow(files)
+        self.unsettled = False
+        self.follow(files, optional)
 
     @property
     def files(self) -> tuple[Path, ...]:
         """The watched files."""
         return tuple(self._settled)
 
-    def follow(self, files: Iterable[Path]) -> None:
+    def follow(self, files: Iterable[Path], optional: Iterable[Path] = ()) -> None:
         """Watch these files from now on, starting from their current state."""
-        paths = dict.fromkeys(files)
+        needed = tuple(files)
+        paths = dict.fromkeys((*needed, *optional))
+        self._needed = set(needed)
         # Keep the previous signatures: a save between reading a file and this call must still be detected.
         self._settled = {path: self._settled.get(path, _signature(path)) for path in paths}
         self._last = dict(self._settled)
@@ -39,13 +44,15 @@ class FileWatch:
         now = {path: _signature(path) for path in self._settled}
         steady = now == self._last
         self._last = now
+        self.unsettled = now != self._settled
         if not steady:
             return False
-        missing = tuple(path for path, signature in now.items() if signature is None)
+        missing = tuple(path for path, signature in now.items() if signature is None and path in self._needed)
         returned, self.missing = self.missing, missing
         if missing or not (returned or now != self._settled):
             return False
         self._settled = now
+        self.unsettled = False
         return True
 
 

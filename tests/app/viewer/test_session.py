@@ -5,12 +5,14 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+import trimesh
 
 pytest.importorskip("pinocchio")
 pytest.importorskip("meshcat")
 
 from urdfkit.app.viewer.findings_panel import FindingsPanel
-from urdfkit.app.viewer.session import CLICKED_POINT, Session, ShownRobot, request_schemas
+from urdfkit.app.viewer.session import CHECK_PERIOD, CLICKED_POINT, SAVE_TIME, Session, request_schemas
+from urdfkit.app.viewer.shown_robot import ShownRobot
 from urdfkit.errors import UrdfkitError
 from urdfkit.resources import find_model
 from urdfkit.view.html_export import Recording
@@ -127,6 +129,82 @@ def test_pages_hear_something_before_they_take_the_line_for_lost(session: Sessio
     with pytest.raises(EndedError):
         session.run()
     assert heard.count("alive") >= 3
+
+
+def checked(session: Session, until, patience: float = 10.0) -> float:
+    """Check the files as `run` does until a condition holds; return how long that took [s]."""
+    start = time.monotonic()
+    while not until():
+        assert time.monotonic() - start < patience
+        time.sleep(CHECK_PERIOD)
+        session.check_files()
+    return time.monotonic() - start
+
+
+def placeholders(session: Session) -> list[str]:
+    return [shape.name for shape in session.shown.scene.shapes if shape.is_placeholder]
+
+
+@pytest.mark.parametrize("uri", ["meshes/arm.stl", "package://lab_description/meshes/arm.stl"])
+def test_a_mesh_that_comes_back_is_shown_within_a_second(uri: str, tmp_path: Path, capsys) -> None:
+    folder = tmp_path / "lab_description"
+    path = tmp_path / "lab.urdf" if uri.startswith("package") else folder / "lab.urdf"
+    folder.mkdir()
+    mesh = f'<visual><geometry><mesh filename="{uri}"/></geometry></visual>'
+    path.write_text(ROBOT.replace('<link name="arm"/>', f'<link name="arm">{mesh}</link>'))
+    if uri.startswith("package"):
+        folder.rmdir()
+    model = find_model([str(path)])
+    session = Session(Shown(), model, ShownRobot.read(model), FindingsPanel(model))
+    assert placeholders(session) == ["arm/visual/placeholder"]
+    checked(session, lambda: session.shown.missing == (uri,))
+    (folder / "meshes").mkdir(parents=True)
+    file = folder / "meshes" / "arm.stl"
+    file.write_bytes(b"solid")  # half written
+    checked(session, lambda: session.shown.missing == ())
+    assert placeholders(session) == ["arm/visual/placeholder"]
+    trimesh.creation.box().export(file)
+    assert checked(session, lambda: placeholders(session) == []) < 1.0
+    file.unlink()
+    assert checked(session, lambda: placeholders(session) == ["arm/visual/placeholder"]) < 1.0
+    assert session.server.said["fault"]["message"] is None
+
+
+def test_a_file_that_is_empty_while_it_is_saved_is_not_reported(session: Session, capsys) -> None:
+    path = session.model.path
+    path.write_text("")
+    for _ in range(3):  # it has settled, and is invalid
+        session.check_files()
+    path.write_text(ROBOT.replace("kite", "dragon"))
+    checked(session, lambda: "dragon" in session.shown.kinematics.link_names)
+    assert "empty" not in capsys.readouterr().err
+    path.write_text("")
+    assert checked(session, lambda: session.server.said["fault"]["message"] is not None) >= SAVE_TIME
+    assert "the file is empty" in session.server.said["fault"]["message"]
+
+
+def test_repairs_are_printed_once_and_join_the_findings_of_their_line(session: Session, capsys) -> None:
+    path = session.model.path
+    path.write_text(ROBOT.replace("</robot>", '<link name="stray"/>\n</robot>'))
+    checked(session, lambda: session.shown.repairs)
+    printed = capsys.readouterr().err
+    assert printed.count("urdfkit: warning: ") == 1
+    assert "it stands at the origin of `base`" in printed
+    rows = [row for row in session.server.said["findings"]["findings"] if row["code"] == "T203"]
+    assert [row["link"] for row in rows] == ["stray"]
+    assert "it stands at the origin of `base`" in rows[0]["repair"]
+    path.write_text(path.read_text() + "\n")
+    seen = session.shown
+    checked(session, lambda: session.shown is not seen)
+    assert "warning" not in capsys.readouterr().err
+
+
+def test_a_strict_session_keeps_the_last_robot_that_needs_no_repair(session: Session, capsys) -> None:
+    session.strict = True
+    session.model.path.write_text(ROBOT.replace("</robot>", '<link name="stray"/></robot>'))
+    checked(session, lambda: session.server.said["fault"]["message"] is not None)
+    assert "2 root links" in session.server.said["fault"]["message"]
+    assert "stray" not in session.shown.kinematics.link_names
 
 
 @pytest.mark.parametrize(

@@ -10,6 +10,7 @@ from typing import Any
 from numpy.typing import NDArray
 
 from urdfkit.app.page import note
+from urdfkit.app.repair_findings import with_repairs
 from urdfkit.app.simulation.clock_rate import FRAME, ClockRate
 from urdfkit.app.simulation.features.contact_forces import ContactForces
 from urdfkit.app.simulation.features.feature import Done, Feature
@@ -102,6 +103,8 @@ class DriveLoop:
         self.server.publish_latched("teleop", **drive_controls(self.simulator))
         for part in self.features:
             part.show()
+        rows = with_repairs([], self.simulator.repairs)
+        self.server.publish_latched("findings", findings=rows, rules={}, fault=None)
         self.server.publish(self.simulator.t, self.scene_bodies.poses())
 
     def run(self, stop: Event | None = None) -> None:

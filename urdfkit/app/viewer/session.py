@@ -3,27 +3,28 @@
 from __future__ import annotations
 
 import time
-from dataclasses import dataclass
 from pathlib import Path
 from threading import Event
 from typing import TYPE_CHECKING, Any, cast
 
 from urdfkit.app.page import note
+from urdfkit.app.repair_findings import note_repairs, with_repairs
+from urdfkit.app.viewer.shown_robot import MissingMeshes, ShownRobot
 from urdfkit.errors import UrdfkitError
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
     from urdfkit.app.viewer.findings_panel import FindingsPanel
-    from urdfkit.kinematics import Kinematics
     from urdfkit.resources import ModelArgument
-    from urdfkit.scene import Scene
     from urdfkit.view.html_export import Recording
     from urdfkit.view.protocol.page_requests import Request, Schema
     from urdfkit.view.server.server import Server
 
 CHECK_PERIOD = 0.15
 """Seconds between two checks of the files."""
+SAVE_TIME = 0.3
+"""Seconds for which a saved file may be invalid before its error is reported."""
 KEEPALIVE_PERIOD = 2.0
 """Seconds between two keepalive messages; pages treat six seconds of silence as a lost connection."""
 JOINT_STATES = "/joint_states"
@@ -42,34 +43,17 @@ def request_schemas() -> dict[str, Schema]:
     }
 
 
-@dataclass(frozen=True)
-class ShownRobot:
-    """A robot with its kinematics and shapes."""
-
-    kinematics: Kinematics
-    scene: Scene
-    files: tuple[Path, ...]
-
-    @classmethod
-    def read(cls, model: ModelArgument) -> ShownRobot:
-        """Load a robot.
-
-        Raises:
-            UrdfkitError: the description is invalid.
-        """
-        from urdfkit.description import load
-        from urdfkit.kinematics import Kinematics
-        from urdfkit.scene import scene_of
-
-        robot = load(model.path, arguments=model.arguments, package_path=model.package_path)
-        return cls(Kinematics(robot), scene_of(robot), robot.files or (model.path,))
-
-
 class Session:
     """One robot on the page: its joint positions, its findings, and its files."""
 
     def __init__(
-        self, server: Server | Recording, model: ModelArgument, shown: ShownRobot, findings: FindingsPanel
+        self,
+        server: Server | Recording,
+        model: ModelArgument,
+        shown: ShownRobot,
+        findings: FindingsPanel,
+        *,
+        strict: bool = False,
     ) -> None:
         from urdfkit.bus import Bus
         from urdfkit.view.file_watch import FileWatch
@@ -78,7 +62,11 @@ class Session:
         self.model = model
         self.shown = shown
         self.findings = findings
-        self.watch = FileWatch(shown.files)
+        self.strict = strict
+        self.watch = FileWatch(shown.files, shown.meshes)
+        self._missing = MissingMeshes(model, shown.missing)
+        self._noted = {repair.message for repair in shown.repairs}
+        self._failure: tuple[float, UrdfkitError] | None = None
         self.positions: dict[str, float] = {}
         self.bus = Bus()
         self.bus.subscribe(JOINT_STATES, "sensor_msgs/msg/JointState", self._place)
@@ -132,17 +120,23 @@ class Session:
         return {}
 
     def lint(self, *, stale: bool = False) -> None:
-        """Publish the findings; `stale` where the robot on the page differs from the files."""
-        robot = None if stale else self.shown.kinematics.robot
-        self.server.publish_latched("findings", **self.findings.lint(robot))
+        """Publish the findings and repairs; `stale` where the robot on the page differs from the files."""
+        found = self.findings.lint(None if stale else self.shown.kinematics.robot)
+        rows = found["findings"]
+        if not stale:
+            number = max((row["number"] for row in rows), default=0) + 1
+            rows = with_repairs(rows, self.shown.repairs, first=number)
+        self.server.publish_latched("findings", **{**found, "findings": rows})
 
     def check_files(self) -> None:
         """Reload changed files, and report missing files."""
         missing_before = self.watch.missing
-        if self.watch.changed():
+        if self.watch.changed() or self._missing.found():
             self._reload()
         elif (missing := self.watch.missing) and missing != missing_before:
             self._report_missing(missing)
+        elif self._failure is not None and not self.watch.unsettled and time.monotonic() >= self._failure[0]:
+            self._report_failure(self._failure[1])
 
     def _report_missing(self, missing: Sequence[Path]) -> None:
         """Report missing files; the robot on the page stays until they exist again."""
@@ -152,18 +146,31 @@ class Session:
         self.server.publish_latched("fault", message=text)
 
     def _reload(self) -> None:
-        """Read the files again; keep the last valid robot on an error."""
+        """Read the files again; keep the last valid robot on an error.
+
+        Editors that truncate a file before they write it leave it invalid for a moment, so an error is reported only
+        if it lasts.
+        """
         try:
-            self.shown = ShownRobot.read(self.model)
+            self.shown = ShownRobot.read(self.model, strict=self.strict, loader=self.shown.loader)
         except UrdfkitError as error:
-            note(f"urdfkit: {error}")
-            self.server.publish_latched("fault", message=str(error))
-            self.lint(stale=True)
+            due = time.monotonic() + SAVE_TIME if self._failure is None else self._failure[0]
+            self._failure = (due, error)
         else:
-            self.watch.follow(self.shown.files)
+            self._failure = None
+            self.watch.follow(self.shown.files, self.shown.meshes)
+            self._missing = MissingMeshes(self.model, self.shown.missing)
             self.show()
             note(f"reloaded {self.model.path.name}")
+            self._noted = note_repairs(self.shown.repairs, self._noted)
             self.lint()
+
+    def _report_failure(self, error: UrdfkitError) -> None:
+        """Report an error of the files; the robot on the page stays until they are valid again."""
+        self._failure = None
+        note(f"urdfkit: {error}")
+        self.server.publish_latched("fault", message=str(error))
+        self.lint(stale=True)
 
     def show(self) -> None:
         """Show the robot on the page, with the positions of joints that existed before."""

@@ -13,7 +13,8 @@ from urdfkit.description import Robot
 from urdfkit.description.loading import model_argument
 
 if TYPE_CHECKING:
-    from urdfkit.app.viewer.session import Session, ShownRobot
+    from urdfkit.app.viewer.session import Session
+    from urdfkit.app.viewer.shown_robot import ShownRobot
     from urdfkit.resources import ModelArgument
 
 
@@ -24,10 +25,12 @@ def view(
     package_path: Iterable[str | Path] = (),
     host: str = "127.0.0.1",
     port: int = 0,
+    strict: bool = False,
 ) -> PageHandle:
     """Show a robot in the browser, as ``urdfkit view`` does.
 
-    The page has a slider for each joint and lists the lint findings. It shows changed files without a restart.
+    The page has a slider for each joint and lists the lint findings. It shows changed files without a restart. Defects
+    that keep a robot from being shown are repaired, with a warning for each on standard error and on the page.
 
     Args:
         robot: a file, a package folder, the name of a bundled robot, or a loaded robot, whose files are followed.
@@ -35,6 +38,7 @@ def view(
         package_path: folders to search for packages first.
         host: address to listen on; ``0.0.0.0`` accepts other machines, which need the token in the address.
         port: port to serve on; 0 for any free port.
+        strict: refuse robots that need a repair, such as a placeholder for a missing mesh.
 
     Returns:
         A handle with the address of the page. The page is served until its `close` or the end of the process.
@@ -45,23 +49,27 @@ def view(
         UrdfkitError: the robot cannot be loaded.
     """
     require_page("view", "view", modules=("rosbags",))
-    from urdfkit.app.viewer.session import ShownRobot
+    from urdfkit.app.repair_findings import note_repairs
+    from urdfkit.app.viewer.shown_robot import ShownRobot
 
     model = model_argument(robot, arguments=arguments, package_path=package_path)
     with ExitStack() as stack:
         page = Page("view", host=host, port=port)
-        session = stack.enter_context(viewing(page, model, ShownRobot.read(model)))
+        shown = ShownRobot.read(model, strict=strict)
+        note_repairs(shown.repairs)
+        session = stack.enter_context(viewing(page, model, shown, strict=strict))
         return PageHandle(page.server, session.run, stack.pop_all())
 
 
 @contextmanager
-def viewing(page: Page, model: ModelArgument, shown: ShownRobot) -> Iterator[Session]:
+def viewing(page: Page, model: ModelArgument, shown: ShownRobot, *, strict: bool = False) -> Iterator[Session]:
     """Serve the page of a robot inside the context; yield its session, ready to run.
 
     Args:
         page: the page, not opened yet.
         model: the robot as it was given.
         shown: the robot.
+        strict: refuse changed files that need a repair.
     """
     from urdfkit.app.viewer.findings_panel import FindingsPanel
     from urdfkit.app.viewer.session import Session, request_schemas
@@ -70,7 +78,8 @@ def viewing(page: Page, model: ModelArgument, shown: ShownRobot) -> Iterator[Ses
     server = page.server
     server.requests.update(request_schemas())
     try:
-        session = Session(server, model, shown, FindingsPanel(model, may_write=is_loopback(page.host)))
+        findings = FindingsPanel(model, may_write=is_loopback(page.host))
+        session = Session(server, model, shown, findings, strict=strict)
         server.publish_latched("progress", label="Preparing shapes")
         page.open()  # the browser starts while the shapes are prepared
         session.show()

@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from urdfkit.description.urdf.robot import Box, Capsule, Cylinder, Sphere
+from urdfkit.description.urdf.robot import Box, Capsule, Cylinder, Sphere, Vector
 from urdfkit.errors import MissingDependencyError
 from urdfkit.scene import Scene, Shape, TriMesh
 from urdfkit.view.content.mesh_store import GeometryStore
@@ -38,6 +38,23 @@ class SharedGeometry(meshcat.geometry.Geometry):  # type: ignore[misc]
     def lower(self, object_data: dict[str, Any]) -> dict[str, Any]:
         """Return the message for the browser."""
         return {"uuid": self.uuid, "type": "_shared", "name": self.name}
+
+
+class PlaceholderGeometry(meshcat.geometry.Geometry):  # type: ignore[misc]
+    """A hatched box in place of a shape that cannot be shown.
+
+    Args:
+        size: its edges [m].
+        opacity: 0..1.
+    """
+
+    def __init__(self, size: Vector, opacity: float) -> None:
+        super().__init__()
+        self.size, self.opacity = size, opacity
+
+    def lower(self, object_data: dict[str, Any]) -> dict[str, Any]:
+        """Return the message for the browser."""
+        return {"uuid": self.uuid, "type": "_placeholder", "size": list(self.size), "opacity": self.opacity}
 
 
 def link_path(link: str) -> str:
@@ -77,6 +94,8 @@ def geometry_of(shape: Shape, geometries: GeometryStore) -> tuple[Any, NDArray[n
     if shape.mesh is not None:
         return SharedGeometry(geometries.add(shape.mesh)), np.eye(4)
     if isinstance(geometry, Box):
+        if shape.is_placeholder:
+            return PlaceholderGeometry(geometry.size, shape.rgba[3]), np.eye(4)
         return meshcat.geometry.Box([float(edge) for edge in geometry.size]), np.eye(4)
     if isinstance(geometry, Sphere):
         return meshcat.geometry.Sphere(float(geometry.radius)), np.eye(4)

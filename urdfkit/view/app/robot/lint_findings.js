@@ -1,4 +1,4 @@
-// Findings of the linter: badges on the links, and a list with source lines, rule and fix.
+// Findings of the linter and repairs: badges on the links, and a list with source lines, rule and fix.
 
 import { h, icon } from "../page/dom.js";
 import { excerpt, source } from "./inspector.js";
@@ -10,7 +10,7 @@ const TONES = ["error", "warning", "note"];
 const worst = (findings) => TONES.find((tone) => findings.some((finding) => finding.severity === tone)) ?? "";
 
 export function findings(page) {
-  const panel = page.panels.add({ id: "findings", title: "Findings", icon: SHIELD, modes: ["view"], order: 50 });
+  const panel = page.panels.add({ id: "findings", title: "Findings", icon: SHIELD, modes: ["view", "sim"], order: 50 });
   const summary = h("p.quiet", { role: "status" }, "Checking …");
   const all = h("button.chip", { type: "button", hidden: true }, "Show all");
   const list = h("ol.findings");
@@ -26,11 +26,13 @@ export function findings(page) {
     for (const finding of known) finding.links = finding.about.length ? [...new Set(finding.about.map(({ link, joint }) => link ?? page.childOf(joint)))] : everywhere(page, finding);
     rules = message.rules;
     page.findings = known;
+    page.panels.available("findings", page.mode === "view" || known.length > 0);
     panel.badge(known.length ? String(known.length) : null, worst(known));
     if (only && !known.some((finding) => finding.links.includes(only))) only = null;
     draw(message.fault);
     mark();
   });
+  page.on("hello", ({ mode }) => page.panels.available("findings", mode === "view"));
   page.on("robot", mark);
   all.addEventListener("click", () => ((only = null), draw(null)));
 
@@ -77,12 +79,13 @@ export function findings(page) {
       h("div.finding-head", {}, tone, h("code", {}, finding.code), h("span.quiet", {}, finding.name)),
       h("p.finding-message", {}, inline(finding.message)),
       finding.links.length ? h("div.chips", {}, finding.links.map((link) => h("button.chip", { type: "button", onclick: () => page.select({ link }) }, link))) : null,
-      source(place),
+      finding.file ? source(place) : null,
       copies,
       finding.lines.length ? excerpt(finding.lines, finding.line) : null,
+      finding.repair && finding.repair !== finding.message ? h("p.help", {}, h("strong", {}, "Repaired: "), inline(finding.repair)) : null,
       finding.help ? h("p.help", {}, inline(finding.help)) : null,
       finding.fix ? fixPanel(finding) : null,
-      rule,
+      rules[finding.code] ? rule : null,
     );
   }
 

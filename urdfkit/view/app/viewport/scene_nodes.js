@@ -1,6 +1,8 @@
 // The scene: executes meshcat commands, fetches each mesh once, applies packed poses.
 /* global MeshCat */
 
+import { placeholder } from "./placeholders.js";
+
 const THREE = MeshCat.THREE;
 const HEADER = 16;
 const FAINT = 0.14; // opacity of obstacles in front of the robot
@@ -42,7 +44,8 @@ export class Scene {
     }
     if (command.type === "delete") this.#forget(path.join("/"));
     const geometry = command.type === "set_object" ? command.object.geometries?.[0] : null;
-    if (geometry?.type === "_shared") this.#shared(path, command.object, geometry.name);
+    if (geometry?.type === "_placeholder") this.viewer.set_object(path, placeholder(geometry));
+    else if (geometry?.type === "_shared") this.#shared(path, command.object, geometry.name);
     else original(command);
     if (command.type === "set_object") this.#group(path);
   }

@@ -1,0 +1,52 @@
+"""Repairs as rows of the findings panel."""
+
+from pathlib import Path
+
+from urdfkit.app.repair_findings import note_repairs, with_repairs
+from urdfkit.description.urdf.repair import Repair
+from urdfkit.position import Position
+
+
+def repair(message: str, line: int, *, code: str | None = "G601", link: str | None = None) -> Repair:
+    return Repair("mesh", code, message, Position("r.urdf", line, 1), link)
+
+
+def row(code: str, line: int, **values) -> dict:
+    return {
+        "code": code,
+        "file": "r.urdf",
+        "line": line,
+        "link": None,
+        "joint": None,
+        "about": [],
+        "message": "m",
+    } | values
+
+
+def test_a_repair_joins_the_finding_of_its_rule_in_its_line() -> None:
+    rows = [row("G601", 3, link="a"), row("G601", 4), row("G610", 3)]
+    (first, *others) = with_repairs(rows, [repair("gone; a box", 3, link="b")])
+    assert first["repair"] == "gone; a box"
+    assert first["about"] == [{"link": "a"}, {"link": "b"}]
+    assert all("repair" not in each for each in others)
+
+
+def test_equal_repairs_share_one_row_with_all_links() -> None:
+    repairs = [repair("gone", 3, link="a"), repair("gone", 5, link="b"), repair("broken", 7, code=None)]
+    rows = with_repairs([], repairs, first=8)
+    assert [(r["number"], r["message"], r["line"]) for r in rows] == [(8, "gone", 3), (9, "broken", 7)]
+    assert rows[0]["about"] == [{"link": "a"}, {"link": "b"}]
+
+
+def test_a_row_shows_its_source_line(tmp_path: Path, monkeypatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    Path("r.urdf").write_text("<robot>\n <link/>\n</robot>\n")
+    assert with_repairs([], [repair("x", 2)])[0]["lines"] == [" <link/>"]
+    assert with_repairs([], [Repair("mass", None, "x", None)])[0]["lines"] == []
+
+
+def test_each_repair_is_printed_once(capsys) -> None:
+    noted = note_repairs([repair("gone", 3, link="a"), repair("gone", 5, link="b")])
+    assert capsys.readouterr().err == "urdfkit: warning: r.urdf:3:1: gone\n"
+    assert note_repairs([repair("gone", 3), repair("new", 4)], noted) == {"gone", "new"}
+    assert capsys.readouterr().err == "urdfkit: warning: r.urdf:4:1: new\n"

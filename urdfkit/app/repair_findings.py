@@ -1,0 +1,107 @@
+"""Repairs on the page and in the terminal: rows of the findings panel, and one line for each repair."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterable
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from urdfkit.app.page import note
+from urdfkit.description.xml.source import Source
+from urdfkit.errors import ResourceError
+
+if TYPE_CHECKING:
+    from urdfkit.description.urdf.repair import Repair
+    from urdfkit.position import Position
+
+Row = dict[str, Any]
+
+
+def note_repairs(repairs: Iterable[Repair], noted: Collection[str] = ()) -> set[str]:
+    """Print each repair once.
+
+    Args:
+        repairs: the repairs.
+        noted: messages that have been printed before.
+
+    Returns:
+        The messages of these repairs.
+    """
+    messages: dict[str, Repair] = {}
+    for repair in repairs:
+        messages.setdefault(repair.message, repair)
+    for message, repair in messages.items():
+        if message not in noted:
+            note(f"urdfkit: {repair.severity}: {repair}")
+    return set(messages)
+
+
+def with_repairs(rows: list[Row], repairs: Iterable[Repair], *, first: int = 1) -> list[Row]:
+    """Return the findings of the page with the repairs.
+
+    A repair is added to the finding of the same rule in the same line. Equal repairs without a finding share a row.
+
+    Args:
+        rows: findings, one row each, as `FindingsPanel.lint` returns them; changed in place.
+        repairs: the repairs.
+        first: number of the first new row.
+    """
+    groups: dict[str, list[Repair]] = {}
+    for repair in repairs:
+        groups.setdefault(repair.message, []).append(repair)
+    by_place = {(row["code"], _real(row["file"]), row["line"]): row for row in reversed(rows)}
+    added: list[Row] = []
+    for message, group in groups.items():
+        places = ((repair.code, repair.position) for repair in group if repair.position is not None)
+        findings = (by_place.get((code, _real(at.file), at.line)) for code, at in places)
+        row = next((row for row in findings if row is not None), None)
+        if row is None:
+            row = _row(group[0], first + len(added))
+            added.append(row)
+        row["repair"] = message
+        _extend(row, group)
+    return [*rows, *added]
+
+
+def _extend(row: Row, group: list[Repair]) -> None:
+    """Add the links and joints of repairs to those of a row."""
+    names = [_owner(repair.link, repair.joint) for repair in group]
+    written = row["about"] or [_owner(row["link"], row["joint"])]
+    unique = dict.fromkeys(tuple(name.items()) for name in (*written, *names) if name)
+    row["about"] = [dict(name) for name in unique]
+
+
+def _owner(link: str | None, joint: str | None) -> dict[str, str]:
+    return {"link": link} if link else {"joint": joint} if joint else {}
+
+
+def _row(repair: Repair, number: int) -> Row:
+    at = repair.position
+    return {
+        "code": repair.code or "",
+        "name": "repair",
+        "severity": repair.severity,
+        "message": repair.message,
+        "file": "" if at is None else at.file,
+        "line": 0 if at is None else at.line,
+        "column": 0 if at is None else at.column,
+        "link": repair.link,
+        "joint": repair.joint,
+        "help": None,
+        "chains": [],
+        "fix": None,
+        "number": number,
+        "lines": [] if at is None else _lines(at),
+        "about": [],
+    }
+
+
+def _lines(at: Position) -> list[str]:
+    try:
+        return [Source.read(Path(at.file), shown_as=at.file).line(at.line)]
+    except (ResourceError, IndexError):
+        return []
+
+
+def _real(file: str) -> Path:
+    return (Path.cwd() / file).resolve()
