@@ -6,7 +6,7 @@ import argparse
 import sys
 from pathlib import Path
 
-from urdfkit.cli.parser import add_model
+from urdfkit.cli.parser import add_model, add_time_limit
 from urdfkit.cli.unused_arguments import unused
 from urdfkit.errors import ResourceError, UrdfkitError, UsageError, XacroError
 
@@ -26,6 +26,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
         "exit status of --compare: 0 equal, 1 different, 2 not compared"
     )
     add_model(parser)
+    add_time_limit(parser)
     output = parser.add_mutually_exclusive_group()
     output.add_argument("-o", "--output", type=Path, metavar="FILE", help="write to FILE, all or nothing")
     output.add_argument(
@@ -35,6 +36,13 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     """Expand and print, or write the file."""
+    from urdfkit.description.xml.cost_limit import CostLimit
+
+    with CostLimit(arguments.time_limit):
+        return _run(arguments)
+
+
+def _run(arguments: argparse.Namespace) -> int:
     from urdfkit.description.packages.resolver import Packages
     from urdfkit.description.xacro.expand import expand
     from urdfkit.resources import find_model

@@ -10,6 +10,8 @@ if TYPE_CHECKING:
     import argparse
     from collections.abc import Sequence
 
+TIME_LIMIT = 10.0
+"""Seconds of CPU that lint, expand and lsp take for a file by default."""
 _SWITCHES = ("fix", "unsafe_fixes", "diff", "statistics", "watch", "no_config", "no_cache", "quiet", "verbose")
 _NAMES = {"-q": "quiet", "-v": "verbose", **{f"--{name.replace('_', '-')}": name for name in _SWITCHES}}
 
@@ -29,7 +31,7 @@ class SimpleArguments:
         self.ignore: list[str] = []
         self.package_path: list[str] = []
         self.target = self.baseline = self.write_baseline = self.config = self.jobs = None
-        self.format, self.color = "text", "auto"
+        self.format, self.color, self.time_limit = "text", "auto", TIME_LIMIT
         for name in _SWITCHES:
             setattr(self, name, name in switches)
 

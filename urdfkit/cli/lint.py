@@ -33,6 +33,8 @@ settings: [lint] in urdfkit.toml or [tool.urdfkit.lint] in pyproject.toml, neare
 
 def configure(parser: argparse.ArgumentParser) -> None:
     """Add the arguments."""
+    from urdfkit.cli.parser import add_time_limit
+
     add = parser.add_argument
     add(
         "paths",
@@ -67,6 +69,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     )
     add("--no-cache", action="store_true", help="lint unchanged files again")
     add("--jobs", type=_count, metavar="N", help="number of processes (default: one per core)")
+    add_time_limit(parser)
     parser.epilog = _EPILOG
 
 
@@ -173,7 +176,8 @@ class _Run:
             folders = (*folders, *settings.package_path)
             xacro_arguments = {**settings.arguments, **xacro_arguments}
         named = None if target is not None and target.lower() == "any" else target
-        return Options(select, ignore, named, xacro_arguments, folders, guess_target=target is None)
+        limit = arguments.time_limit
+        return Options(select, ignore, named, xacro_arguments, folders, guess_target=target is None, time_limit=limit)
 
     def _entries(self) -> list[Entry]:
         from urdfkit.lint.project.entry_files import find_each

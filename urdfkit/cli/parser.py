@@ -8,6 +8,7 @@ import re
 import sys
 from itertools import takewhile
 
+from urdfkit.cli.fast_lint_arguments import TIME_LIMIT
 from urdfkit.errors import UsageError, did_you_mean
 
 TYPE_CHECKING = False
@@ -162,3 +163,24 @@ def add_common(parser: argparse.ArgumentParser, *, nested: bool = False) -> None
         if isinstance(action, argparse._SubParsersAction):
             for subcommand in action.choices.values():
                 add_common(subcommand, nested=True)
+
+
+def add_time_limit(parser: argparse.ArgumentParser) -> None:
+    """Add --time-limit."""
+    parser.add_argument(
+        "--time-limit",
+        type=_seconds,
+        default=TIME_LIMIT,
+        metavar="S",
+        help=f"stop reading a file after S seconds of CPU (default: {TIME_LIMIT:g}; 0: no limit)",
+    )
+
+
+def _seconds(text: str) -> float:
+    try:
+        value = float(text)
+    except ValueError:
+        value = -1.0
+    if not 0.0 <= value < 1e9:
+        raise argparse.ArgumentTypeError(f"`{text}` is not a number of seconds")
+    return value

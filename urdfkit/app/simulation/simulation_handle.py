@@ -120,6 +120,7 @@ def driving(
     from urdfkit.app.simulation.loop import DriveLoop
     from urdfkit.app.simulation.placeholder import Placeholder
     from urdfkit.app.simulation.progress import compile_kernel, compile_rays, progress
+    from urdfkit.description.xml.cost_limit import LOADING, LOADING_MEMORY, CostLimit
     from urdfkit.sim import Simulator
     from urdfkit.view.server.running_simulations import registered
 
@@ -133,7 +134,10 @@ def driving(
                 placeholder.show(server)
                 server.publish_latched("progress", label="preparing the engine …")
                 compile_kernel(server)
-                with progress(server, "loading meshes, building the world …"):
+                with (
+                    progress(server, "loading meshes, building the world …"),
+                    CostLimit(LOADING, memory=LOADING_MEMORY, option=""),
+                ):
                     simulator = Simulator(
                         robot,
                         world=world,

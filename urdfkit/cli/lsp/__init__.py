@@ -10,6 +10,7 @@ import gc
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from urdfkit.cli.parser import add_time_limit
 from urdfkit.errors import MissingDependencyError
 
 if TYPE_CHECKING:
@@ -29,6 +30,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
         metavar="DIR",
         help="search this folder for packages too (repeatable)",
     )
+    add_time_limit(parser)
     parser.add_argument("--stdio", action="store_true", help="use standard input and output (the default)")
 
 
@@ -61,7 +63,15 @@ def _options(arguments: argparse.Namespace) -> Options:
     target = arguments.target or settings.target
     named = None if target == "any" else parse_target(target)
     folders = (*map(Path, arguments.package_path), *settings.package_path)
-    return Options(settings.select, settings.ignore, named, settings.arguments, folders, guess_target=target is None)
+    return Options(
+        settings.select,
+        settings.ignore,
+        named,
+        settings.arguments,
+        folders,
+        guess_target=target is None,
+        time_limit=arguments.time_limit,
+    )
 
 
 def server_for(options: Options) -> LanguageServer:

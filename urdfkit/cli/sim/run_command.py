@@ -175,13 +175,16 @@ def load(arguments: argparse.Namespace) -> Simulator:
     from urdfkit.app.simulation.kernel_compilation import prepare_kernel
     from urdfkit.description import load as load_description
     from urdfkit.description.sdf import load_world
+    from urdfkit.description.xml.cost_limit import LOADING, LOADING_MEMORY, CostLimit
     from urdfkit.resources import find_model
     from urdfkit.sim import Simulator, Spawn
 
-    model = find_model(arguments.model, package_path=arguments.package_path)
-    robot = load_description(model.path, arguments=model.arguments, package_path=model.package_path)
-    note_unused(model.arguments, robot.files, quiet=arguments.quiet)
-    world = load_world(arguments.world)
+    limit = CostLimit(LOADING, memory=LOADING_MEMORY, option="")
+    with limit:
+        model = find_model(arguments.model, package_path=arguments.package_path)
+        robot = load_description(model.path, arguments=model.arguments, package_path=model.package_path)
+        note_unused(model.arguments, robot.files, quiet=arguments.quiet)
+        world = load_world(arguments.world)
     prepare_kernel(sys.stderr)
     spawn = None
     if arguments.spawn or arguments.initial_twist or arguments.initial_joints:
@@ -189,21 +192,22 @@ def load(arguments: argparse.Namespace) -> Simulator:
         pose = arguments.spawn._asdict() if arguments.spawn else {}
         twist = arguments.initial_twist or (0.0,) * 6
         spawn = Spawn(**pose, twist=twist, joints=positions, velocities=velocities)
-    return Simulator(
-        robot,
-        world=world,
-        dt=arguments.dt,
-        seed=arguments.seed,
-        spawn=spawn,
-        gravity=arguments.gravity,
-        fixed_base=arguments.fixed_base,
-        ros_distro=arguments.ros_distro,
-        controllers=arguments.controllers,
-        renderer=arguments.renderer,
-        strict=arguments.strict,
-        density=arguments.density,
-        note=(lambda text: None) if arguments.quiet else (lambda text: print(f"urdfkit: {text}", file=sys.stderr)),
-    )
+    with limit:
+        return Simulator(
+            robot,
+            world=world,
+            dt=arguments.dt,
+            seed=arguments.seed,
+            spawn=spawn,
+            gravity=arguments.gravity,
+            fixed_base=arguments.fixed_base,
+            ros_distro=arguments.ros_distro,
+            controllers=arguments.controllers,
+            renderer=arguments.renderer,
+            strict=arguments.strict,
+            density=arguments.density,
+            note=(lambda text: None) if arguments.quiet else (lambda text: print(f"urdfkit: {text}", file=sys.stderr)),
+        )
 
 
 def command(simulator: Simulator, arguments: argparse.Namespace) -> None:

@@ -49,14 +49,16 @@ def run(arguments: argparse.Namespace) -> int:
     from urdfkit.app.simulation.simulation_handle import driving
     from urdfkit.description import load
     from urdfkit.description.sdf import load_world
+    from urdfkit.description.xml.cost_limit import LOADING, LOADING_MEMORY, CostLimit
     from urdfkit.resources import find_model
 
     check_record(arguments.record)
     with until_interrupted():
-        model = find_model(arguments.model, package_path=arguments.package_path)
-        robot = load(model.path, arguments=model.arguments, package_path=model.package_path)
-        note_unused(model.arguments, robot.files, quiet=arguments.quiet)
-        world = load_world(arguments.world)
+        with CostLimit(LOADING, memory=LOADING_MEMORY, option=""):
+            model = find_model(arguments.model, package_path=arguments.package_path)
+            robot = load(model.path, arguments=model.arguments, package_path=model.package_path)
+            note_unused(model.arguments, robot.files, quiet=arguments.quiet)
+            world = load_world(arguments.world)
         page = Page(
             "sim",
             host=arguments.host,

@@ -7,8 +7,9 @@ from pathlib import Path
 
 from urdfkit.description.packages.resolver import Packages
 from urdfkit.description.xacro.memory import Memory
+from urdfkit.description.xml.cost_limit import CostError
 from urdfkit.errors import UrdfkitError, bug
-from urdfkit.lint.engine.checker import Checker, model_of
+from urdfkit.lint.engine.checker import Checker, model_of, too_costly
 from urdfkit.lint.engine.clean_elements import CleanElements
 from urdfkit.lint.engine.run import merged
 from urdfkit.lint.finding import Finding
@@ -145,6 +146,12 @@ class Project:
                     self._last[entry] = model
                 readable, failure = self._last.get(entry, model), found.refused
                 self._analyses[entry] = Analysis(model, findings, files, failure, bool(failure), readable)
+            except CostError as error:
+                self._memories.pop(entry, None)  # half updated
+                found = too_costly(entry.path, error)
+                files = {name: Path(path) for name, path in found.files.items()}
+                readable = self._last.get(entry)
+                self._analyses[entry] = Analysis(None, found.findings, files, str(error), False, readable)
             except UrdfkitError as error:
                 self._analyses[entry] = Analysis(None, (), {}, str(error))
             except Exception as error:

@@ -26,6 +26,7 @@ if TYPE_CHECKING:
 
     from urdfkit.description.urdf.robot import Robot
     from urdfkit.description.xacro.memory import Memory
+    from urdfkit.description.xml.cost_limit import CostError
     from urdfkit.description.xml.source import Source
     from urdfkit.lint.engine.cache import Cache
     from urdfkit.lint.engine.clean_elements import CleanElements
@@ -118,12 +119,15 @@ class Checker:
 
     def check(self, entry: Entry) -> EntryResult:
         """Lint one entry file and all files it includes."""
+        from urdfkit.description.xml.cost_limit import CostError
         from urdfkit.errors import UrdfkitError, bug
 
         try:
             found, model = self.examine(entry)
             if self.cache is not None and not found.refused:
                 self.cache.put(entry, found, model.expanded)
+        except CostError as error:
+            return too_costly(entry.path, error)
         except UrdfkitError:
             raise
         except Exception as error:
@@ -143,7 +147,9 @@ class Checker:
 
     def examine(self, entry: Entry) -> tuple[EntryResult, Model]:
         """Lint one entry file; return the result and the model."""
-        with LimitedSuggestions():
+        from urdfkit.description.xml.cost_limit import CostLimit
+
+        with LimitedSuggestions(), CostLimit(self.options.time_limit):
             return self._examine(entry)
 
     def _examine(self, entry: Entry) -> tuple[EntryResult, Model]:
@@ -267,6 +273,20 @@ class Checker:
         from urdfkit.lint.rules import RULES
 
         return {rule.code: partial(self._applies, rule) for rule in RULES}
+
+
+def too_costly(path: Path, error: CostError) -> EntryResult:
+    """Return the one finding of a file that takes more CPU time or memory than permitted."""
+    from urdfkit.description.xml.reader import shown_path
+    from urdfkit.description.xml.source import Span
+    from urdfkit.lint.rules.xacro.too_large import TooLarge
+
+    shown = shown_path(path)
+    at = error.position or Position(shown, 1, 1)
+    span = Span(at.file, at.line, at.column, at.line, at.column + 1)
+    finding = Finding(TooLarge.code, TooLarge.name, TooLarge.severity, f"linting takes {error.message}", span)
+    files = {name: os.path.join(str(Path.cwd()), name) for name in (shown, at.file)}  # noqa: PTH118
+    return EntryResult((finding,), files)
 
 
 def codes() -> tuple[str, ...]:

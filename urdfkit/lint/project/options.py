@@ -19,6 +19,7 @@ class Options:
         arguments: values for ``$(arg …)``.
         package_path: folders to search for packages first.
         texts: absolute path → content that replaces the file on disk.
+        time_limit: seconds of CPU that a file may take; 0 for no limit.
         guess_target: if `target` is None, guess the target from the package.xml of each robot.
     """
 
@@ -29,3 +30,4 @@ class Options:
     package_path: tuple[Path, ...] = ()
     texts: Mapping[str, str] = field(default_factory=dict)
     guess_target: bool = False
+    time_limit: float = 0.0

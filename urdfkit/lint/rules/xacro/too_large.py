@@ -25,6 +25,8 @@ class TooLarge(FaultRule):
     - call macros more than 10,000 times, or include files more than 2,000 times
     - create more than 150,000 elements and attributes with macros, blocks and includes
 
+    A file must not take more than 10 s of CPU (``--time-limit``) or 1 GB of memory.
+
     ## Why is this bad?
     xacro runs until the memory is exhausted, or forever.
 

@@ -1,7 +1,7 @@
 // Features of a simulation's page, in the order of their installation.
 
 import { arms } from "./controller_sliders.js";
-import { availability } from "./availability.js";
+import { availability } from "../page/availability.js";
 import { arrows } from "./contact_arrows.js";
 import { clock } from "./clock_controls.js";
 import { Drive } from "./teleop.js";

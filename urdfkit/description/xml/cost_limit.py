@@ -1,0 +1,131 @@
+"""Limit of the CPU time and memory that reading a description may take; names the element and phase that exceed it."""
+
+from __future__ import annotations
+
+import sys
+
+from urdfkit.description.xml.element import Element
+from urdfkit.errors import DescriptionError
+from urdfkit.position import Position
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from types import FrameType, TracebackType
+    from typing import Any
+
+LOADING = 60.0
+"""Seconds of CPU for loading a simulation, without compiling the engine."""
+MEMORY = 10**9
+"""Bytes of memory of a process that reads descriptions."""
+LOADING_MEMORY = 8 * 10**9
+"""Bytes of memory of a process that loads a simulation, with the libraries of the engine and the meshes."""
+_PERIOD = 0.1
+"""Seconds of CPU between two checks."""
+_PHASES = {
+    "urdfkit.description.xacro": "expanding xacro",
+    "urdfkit.description": "reading the description",
+    "urdfkit.lint": "linting",
+    "urdfkit.scene": "loading meshes",
+    "urdfkit.sim": "building the simulation",
+}
+"""Prefix of a module → the phase it belongs to; the first match counts."""
+
+
+class CostError(DescriptionError):
+    """A description takes more CPU time or memory than permitted."""
+
+
+class _ExceededError(BaseException):
+    """Ends the block; not an `Exception`, which handlers on the way would catch."""
+
+
+class CostLimit:
+    """Ends a block with a `CostError` when it takes more CPU time or memory than permitted.
+
+    The limit applies in the main thread of a process that has POSIX timers, and limits do not nest.
+
+    Args:
+        seconds: CPU time of the process for the block [s]; 0 for no limit.
+        memory: memory of the process [byte].
+        option: option of the command that sets the CPU time; empty if it has none.
+    """
+
+    def __init__(self, seconds: float, *, memory: int = MEMORY, option: str = "--time-limit") -> None:
+        self.seconds, self.memory, self.option = seconds, memory, option
+        self._what = self._phase = ""
+        self._position: Position | None = None
+        self._is_on = False
+
+    def __enter__(self) -> None:
+        import signal
+        import time
+
+        if self.seconds <= 0 or sys.platform == "win32":
+            return
+        self._begin, self._peak = time.process_time(), _peak()
+        try:
+            self._before = signal.signal(signal.SIGPROF, self._check)
+        except ValueError:  # not the main thread
+            return
+        self._is_on = True
+        signal.setitimer(signal.ITIMER_PROF, _PERIOD, _PERIOD)
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        if not self._is_on:
+            return
+        import signal
+
+        signal.setitimer(signal.ITIMER_PROF, 0.0)
+        signal.signal(signal.SIGPROF, self._before)
+        if isinstance(error, _ExceededError):
+            hint = f"; {self.option} raises the limit" if self.option and "CPU" in self._what else ""
+            raise CostError(f"{self._what} while {self._phase}{hint}", position=self._position) from None
+
+    def _check(self, _number: int, frame: FrameType | None) -> None:
+        import time
+
+        peak = _peak()
+        if time.process_time() - self._begin > self.seconds:
+            what = f"more than {self.seconds:g} s of CPU"
+        elif peak > self.memory and peak > self._peak:
+            what = f"more than {self.memory / 1e9:g} GB of memory"
+        else:
+            return
+        if not self._what:
+            self._what, self._phase, self._position = what, _phase(frame), _position(frame)
+        raise _ExceededError
+
+
+def _peak() -> int:
+    import resource
+
+    return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * (1 if sys.platform == "darwin" else 1024)
+
+
+def _phase(frame: FrameType | None) -> str:
+    """Return the rule being checked, or what the innermost function of urdfkit is part of."""
+    modules = []
+    while frame is not None:
+        rule: Any = type(frame.f_locals.get("self"))
+        if isinstance(getattr(rule, "code", None), str) and isinstance(getattr(rule, "name", None), str):
+            return f"checking the rule {rule.name}"
+        modules.append(str(frame.f_globals.get("__name__", "")))
+        frame = frame.f_back
+    found = (phase for module in modules for prefix, phase in _PHASES.items() if module.startswith(prefix))
+    return next(found, "reading the description")
+
+
+def _position(frame: FrameType | None) -> Position | None:
+    """Return the position of the element that the innermost function with an element works on."""
+    while frame is not None:
+        for value in reversed(list(frame.f_locals.values())):
+            if isinstance(value, Element):
+                return value.origin.position
+            if type(value).__module__.startswith("urdfkit."):
+                found = getattr(value, "position", None)
+                if isinstance(found, Position):
+                    return found
+        frame = frame.f_back
+    return None
