@@ -12,7 +12,18 @@ if TYPE_CHECKING:
 
 TIME_LIMIT = 10.0
 """Seconds of CPU that lint, expand and lsp take for a file by default."""
-_SWITCHES = ("fix", "unsafe_fixes", "diff", "statistics", "watch", "no_config", "no_cache", "quiet", "verbose")
+_SWITCHES = (
+    "fix",
+    "unsafe_fixes",
+    "diff",
+    "statistics",
+    "watch",
+    "no_config",
+    "no_cache",
+    "confined",
+    "quiet",
+    "verbose",
+)
 _NAMES = {"-q": "quiet", "-v": "verbose", **{f"--{name.replace('_', '-')}": name for name in _SWITCHES}}
 
 

@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from urdfkit.lint.engine.settings import LintSettings
     from urdfkit.lint.finding import Finding
     from urdfkit.lint.fixes.apply import Fixed
+    from urdfkit.lint.project.confinement import Confinement
     from urdfkit.lint.project.entry_files import Entry
     from urdfkit.lint.project.options import Options
 
@@ -66,6 +67,12 @@ def configure(parser: argparse.ArgumentParser) -> None:
         default=[],
         metavar="DIR",
         help="search this folder for packages too (repeatable)",
+    )
+    add(
+        "--confined",
+        action="store_true",
+        help="read only the package, its workspace and the package path, and no environment variables: for the files "
+        "of people who are not trusted",
     )
     add("--no-cache", action="store_true", help="lint unchanged files again")
     add("--jobs", type=_count, metavar="N", help="number of processes (default: one per core)")
@@ -131,6 +138,7 @@ class _Run:
     def __init__(self, arguments: argparse.Namespace) -> None:
         self.arguments = arguments
         self.paths, xacro_arguments = _split(arguments.paths)
+        self.confinement = self._confinement()
         self.settings = self._settings()
         self.refused: tuple[str, ...] = ()
         self.options = self._options(xacro_arguments)
@@ -144,8 +152,23 @@ class _Run:
         if arguments.fix or arguments.diff:
             return self._fix(entries)
         jobs = arguments.jobs or _cores()
-        outcome = lint(entries, self.options, cached=not arguments.no_cache, jobs=jobs, keep_going=True)
+        outcome = lint(
+            entries, self.options, cached=not (arguments.no_cache or arguments.confined), jobs=jobs, keep_going=True
+        )
         return self._report(outcome), outcome
+
+    def _confinement(self) -> Confinement | None:
+        """Return the confinement, started; settings cannot widen it."""
+        if not self.arguments.confined:
+            return None
+        from urdfkit.lint.project.confinement import confinement_of
+
+        arguments = self.arguments
+        found = confinement_of(self.paths, map(_folder, arguments.package_path))
+        named = (arguments.config, arguments.baseline, arguments.write_baseline)
+        found.folders = (*found.folders, *(os.path.realpath(file) for file in named if file is not None))
+        found.start()
+        return found
 
     def _settings(self) -> LintSettings | None:
         """Return the settings file; None without one. Most runs have none, and then the module is not imported."""
@@ -177,7 +200,16 @@ class _Run:
             xacro_arguments = {**settings.arguments, **xacro_arguments}
         named = None if target is not None and target.lower() == "any" else target
         limit = arguments.time_limit
-        return Options(select, ignore, named, xacro_arguments, folders, guess_target=target is None, time_limit=limit)
+        return Options(
+            select,
+            ignore,
+            named,
+            xacro_arguments,
+            folders,
+            guess_target=target is None,
+            time_limit=limit,
+            confinement=self.confinement,
+        )
 
     def _entries(self) -> list[Entry]:
         from urdfkit.lint.project.entry_files import find_each

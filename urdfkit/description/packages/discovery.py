@@ -77,5 +77,8 @@ def share_folders(prefix: Path) -> list[Path]:
     """Return the share folders of an install prefix, merged or isolated (colcon)."""
     if not prefix.is_dir():
         return []
-    isolated = [child / "share" for child in sorted(prefix.iterdir()) if (child / "share").is_dir()]
+    try:
+        isolated = [child / "share" for child in sorted(prefix.iterdir()) if (child / "share").is_dir()]
+    except OSError:
+        return []
     return [share for share in (prefix / "share", *isolated) if share.is_dir()]

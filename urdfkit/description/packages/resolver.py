@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from pathlib import Path
 
 from urdfkit.description.xml.reader import absolute
@@ -11,6 +11,9 @@ from urdfkit.errors import ResourceError, did_you_mean, may_suggest
 
 _PREFIX_VARIABLES = ("AMENT_PREFIX_PATH", "CMAKE_PREFIX_PATH", "COLCON_PREFIX_PATH")
 _MODEL_VARIABLES = ("GZ_SIM_RESOURCE_PATH", "IGN_GAZEBO_RESOURCE_PATH", "GAZEBO_MODEL_PATH", "SDF_PATH")
+OUTSIDE = "outside of the package, its workspace and the package path"
+VARIABLES = ("ROS_PACKAGE_PATH", *_PREFIX_VARIABLES, *_MODEL_VARIABLES)
+"""Environment variables that list folders of packages."""
 
 
 class Packages:
@@ -24,6 +27,7 @@ class Packages:
         search: folders to search first: packages, folders of packages, or install prefixes.
         near: a file or folder of the workspace to search.
         environment: environment variables; the environment of the process when None.
+        permits: whether a path may be read; every path when None. With it, ``$(env …)`` finds no variable.
     """
 
     def __init__(
@@ -32,10 +36,14 @@ class Packages:
         near: str | Path | None = None,
         *,
         environment: Mapping[str, str] | None = None,
+        permits: Callable[[Path], bool] | None = None,
     ) -> None:
         self.search = tuple(absolute(folder) for folder in search)
         self.near = None if near is None else absolute(near)
         self._environment = os.environ if environment is None else environment
+        self._permits = permits
+        self.variables: Mapping[str, str] = os.environ if permits is None else {}
+        """The environment variables that ``$(env …)`` finds."""
         self._found: dict[str, Path] = {}
         self._seen: dict[str, Path] = {}
         self._scanned: dict[Path, dict[str, Path]] = {}
@@ -58,7 +66,7 @@ class Packages:
 
     def near_file(self, near: str | Path) -> Packages:
         """Return a resolver that searches near another file and shares the cache of folders."""
-        other = Packages(self.search, near, environment=self._environment)
+        other = Packages(self.search, near, environment=self._environment, permits=self._permits)
         other._scanned = self._scanned
         return other
 
@@ -103,6 +111,8 @@ class Packages:
 
     def _resolved(self, uri: str, relative_to: str | Path) -> Path:
         path = self._path_of(uri, Path(relative_to))
+        if not self.permits(path):
+            raise ResourceError(f"{uri} is {OUTSIDE}")
         try:
             if path.exists():
                 return path
@@ -176,7 +186,7 @@ class Packages:
         from urdfkit.description.packages.discovery import package_name
 
         for folder in self._places():
-            if folder is None:
+            if folder is None or not self.permits(folder):
                 continue
             direct = folder / name
             if package_name(direct) == name or (direct / "model.config").is_file():
@@ -185,11 +195,17 @@ class Packages:
                 return found
         if self.near is not None:
             for around in (self.near, *self.near.parents):
+                if not self.permits(around):
+                    break
                 if around.name == name and around.is_dir():
                     return around
                 if len(around.parts) > 2 and (around / name).is_dir() and around != self.near:
                     return around / name
         return None
+
+    def permits(self, path: str | Path) -> bool:
+        """Return whether a path may be read."""
+        return self._permits is None or self._permits(Path(path)) or _shipped_robots() in (path, *Path(path).parents)
 
     def _places(self) -> Iterator[Path | None]:
         """Yield the folders to search, best first; each is scanned only after the previous ones had no result."""
@@ -202,7 +218,7 @@ class Packages:
             yield package
             yield package.parent
             yield workspace(package)
-            for level in (package, *package.parents[:4]):
+            for level in filter(self.permits, (package, *package.parents[:4])):
                 yield from (*share_folders(level / "install"), *share_folders(level / "devel"))
         yield from self._listed("ROS_PACKAGE_PATH")
         for variable in _PREFIX_VARIABLES:

@@ -98,7 +98,8 @@ class Checker:
         self.memory: Memory | None = None
         self.clean: CleanElements | None = None
         self.sources: dict[str, Source] = {}
-        self.packages = Packages(options.package_path)
+        confinement = options.confinement
+        self.packages = Packages(options.package_path, permits=None if confinement is None else confinement.permits)
         self.foreign = _third_party()
         self.wanted = selection(options.select, options.ignore, self._codes)
         self.cache: Cache | None = None
@@ -124,6 +125,9 @@ class Checker:
 
         try:
             found, model = self.examine(entry)
+            if self.options.confinement is not None:
+                refused = self._refused_reads(entry, self.options.confinement.take_refused())
+                return EntryResult(**{**found.__dict__, "findings": (*found.findings, *refused)})
             if self.cache is not None and not found.refused:
                 self.cache.put(entry, found, model.expanded)
         except CostError as error:
@@ -135,6 +139,18 @@ class Checker:
                 raise
             return EntryResult((), {}, refused=f"{entry.path}: {bug(error)}")
         return found
+
+    def _refused_reads(self, entry: Entry, paths: tuple[str, ...]) -> Iterator[Finding]:
+        """Yield a finding for each file that was not read because of the confinement."""
+        from urdfkit.description.packages.resolver import OUTSIDE
+        from urdfkit.description.xml.reader import shown_path
+        from urdfkit.description.xml.source import Span
+        from urdfkit.lint.rules.xacro.expansion_error import ExpansionError
+
+        span = Span(shown_path(entry.path), 1, 1, 1, 2)
+        for path in paths:
+            message = f"`{shown_path(Path(path))}` is not read: it is {OUTSIDE}"
+            yield Finding(ExpansionError.code, ExpansionError.name, "error", message, span)
 
     def check_or_refuse(self, entry: Entry) -> EntryResult:
         """Lint one of several entry files; record failures in the result instead of raising them."""

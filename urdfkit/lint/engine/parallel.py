@@ -49,6 +49,8 @@ def check_all(
 
 
 def _begin(options: Options, cached: bool, keep_going: bool) -> None:
+    if options.confinement is not None:
+        options.confinement.start()
     _checkers[:] = [Checker(options, cached=cached, keep_going=keep_going)]
 
 

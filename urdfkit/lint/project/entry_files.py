@@ -307,5 +307,12 @@ def _walk(folder: Path, depth: int) -> Iterator[Path]:
 def _text(path: Path) -> str:
     from urdfkit.description.xml.source import Source
 
-    text = Source.read(path).text
+    try:
+        text = Source.read(path).text
+    except ResourceError as error:
+        from urdfkit.description.packages.resolver import OUTSIDE
+
+        if getattr(error.__cause__, "strerror", None) != OUTSIDE:
+            raise
+        return ""  # a link that leads out, which `Confinement` reports
     return re.sub(_COMMENT, "", text) if "<!--" in text else text

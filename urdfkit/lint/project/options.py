@@ -7,6 +7,10 @@ from pathlib import Path
 
 from urdfkit.record import field, record
 
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from urdfkit.lint.project.confinement import Confinement
+
 
 @record
 class Options:
@@ -20,6 +24,7 @@ class Options:
         package_path: folders to search for packages first.
         texts: absolute path → content that replaces the file on disk.
         time_limit: seconds of CPU that a file may take; 0 for no limit.
+        confinement: what may be read; everything when None. It has to be started in the process.
         guess_target: if `target` is None, guess the target from the package.xml of each robot.
     """
 
@@ -31,3 +36,4 @@ class Options:
     texts: Mapping[str, str] = field(default_factory=dict)
     guess_target: bool = False
     time_limit: float = 0.0
+    confinement: Confinement | None = None

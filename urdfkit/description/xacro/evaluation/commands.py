@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-import os
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from pathlib import Path
 
 from urdfkit.description.xacro.evaluation.expressions.budget import Budget
@@ -32,13 +31,20 @@ class Commands:
         expressions: evaluates ``$(eval …)``.
         arguments: values of ``$(arg …)``; ``<xacro:arg>`` adds defaults to it.
         find: returns the folder of a package.
+        variables: the environment variables that the file may read.
 
     Attributes:
         log: evaluated command → its value, None if the command has no value or a value that may change.
     """
 
-    def __init__(self, expressions: Expressions, arguments: dict[str, str], find: Callable[[str], str]) -> None:
-        self._expressions, self.arguments, self._find = expressions, arguments, find
+    def __init__(
+        self,
+        expressions: Expressions,
+        arguments: dict[str, str],
+        find: Callable[[str], str],
+        variables: Mapping[str, str],
+    ) -> None:
+        self._expressions, self.arguments, self._find, self._variables = expressions, arguments, find, variables
         self.log: dict[str, Any] = {}
         self._names: dict[str, Any] | None = None
         self._builtins: dict[str, Any] = {}
@@ -90,10 +96,15 @@ class Commands:
         if command == "find":
             return self._find(words[0])
         if command == "env":
-            return _environment(words[0])
+            return self._variable(words[0])
         if command == "optenv":
-            return os.environ.get(words[0], " ".join(words[1:]))
+            return self._variables.get(words[0], " ".join(words[1:]))
         return self.argument(words[0])
+
+    def _variable(self, name: str) -> str:
+        if name not in self._variables:
+            raise ValueError(f"environment variable '{name}' is not set")
+        return self._variables[name]
 
     def argument(self, name: str) -> str:
         """Return the value of an argument.
@@ -119,8 +130,8 @@ class Commands:
         if self._names is None:
             budget: Budget = self._expressions.budget
             functions: dict[str, Callable[..., Any]] = {
-                "env": _environment,
-                "optenv": lambda name, default="": os.environ.get(name, default),
+                "env": self._variable,
+                "optenv": lambda name, default="": self._variables.get(name, default),
                 "find": self._find,
                 "arg": lambda name: converted(self.argument(name)),
                 "dirname": lambda: self._value("dirname", "dirname", []),
@@ -151,12 +162,6 @@ def converted(value: Any) -> Any:
         return float(value) if "." in value else int(value)
     except ValueError:
         return {"true": True, "false": False}.get(value.lower(), value)
-
-
-def _environment(name: str) -> str:
-    if name not in os.environ:
-        raise ValueError(f"environment variable '{name}' is not set")
-    return os.environ[name]
 
 
 def _contents(text: str) -> Iterator[str]:

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import errno
 import os
 import re
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 
+from urdfkit.description.packages.resolver import OUTSIDE
 from urdfkit.description.xacro.evaluation.expressions.functions import Functions
 from urdfkit.description.xacro.evaluation.expressions.limits import (
     MAX_INCLUDE_DEPTH,
@@ -47,7 +49,7 @@ class Files(Texts):
     def __init__(
         self, path: str, arguments: Mapping[str, str], packages: Packages, *, texts: Mapping[str, str] | None = None
     ) -> None:
-        super().__init__(arguments, self._find)
+        super().__init__(arguments, self._find, packages.variables)
         self.path, self.packages = path, packages
         self._texts = texts
         self.files: dict[Path, None] = {}
@@ -171,6 +173,8 @@ class Files(Texts):
         self.untraced += 1
         folder = os.path.dirname(self.file_stack[-1])  # noqa: PTH120 - the text that stock xacro makes
         path = os.path.join(folder, name)  # noqa: PTH118
+        if not self.packages.permits(path):
+            raise PermissionError(errno.EACCES, OUTSIDE, path)
         check_length(path)
         if not Path(path).exists() and (moved := self.packages.relocate(path)) is not None:
             return str(moved)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Mapping
 
-from urdfkit.description.packages.resolver import near_path
+from urdfkit.description.packages.resolver import OUTSIDE, near_path
 from urdfkit.description.xacro.evaluation.commands import Commands
 from urdfkit.description.xacro.evaluation.expressions.budget import Budget
 from urdfkit.description.xacro.evaluation.expressions.interpreter import Expressions
@@ -42,16 +42,17 @@ class Texts:
     Args:
         arguments: values of ``$(arg …)``.
         find: returns the folder of a package.
+        variables: the environment variables that the file may read.
 
     Attributes:
         at: the element and attribute being evaluated.
         resolving: how many properties are being evaluated, each because the one before uses it.
     """
 
-    def __init__(self, arguments: Mapping[str, str], find: Callable[[str], str]) -> None:
+    def __init__(self, arguments: Mapping[str, str], find: Callable[[str], str], variables: Mapping[str, str]) -> None:
         self.budget = Budget()
         self.expressions = Expressions(self.budget)
-        self.commands = Commands(self.expressions, dict(arguments), find)
+        self.commands = Commands(self.expressions, dict(arguments), find, variables)
         self.at: Place = (None, None)
         self._tokens: dict[str, list[tuple[int, str]]] = {}
         self._evaluated = self.resolving = 0
@@ -188,6 +189,8 @@ def unreadable(error: OSError, *, is_include: bool) -> Failure:
     path = Path(str(error.filename or ""))
     if error.errno == errno.ENAMETOOLONG:
         why = "has a name that is too long"
+    elif error.strerror == OUTSIDE:
+        why = f"is {OUTSIDE}"
     elif path.is_dir():
         why = "is a folder"
     else:

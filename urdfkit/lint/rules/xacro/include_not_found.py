@@ -55,7 +55,10 @@ def _nearest_file(fault: Fault, model: Model) -> Fix | None:
     attribute = tag.attributes.get("filename") if tag is not None else None
     if not path.name or not path.parent.is_dir() or attribute is None or not attribute.value.endswith(path.name):
         return None
-    files = sorted(file.name for file in path.parent.iterdir() if file.is_file() and file.suffix == path.suffix)
+    try:
+        files = sorted(file.name for file in path.parent.iterdir() if file.is_file() and file.suffix == path.suffix)
+    except OSError:
+        return None
     suggestion = nearest(path.name, files, cutoff=0.75)
     if suggestion is None or fault.position.file.endswith(suggestion):
         return None
