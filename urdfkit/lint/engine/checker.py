@@ -189,7 +189,7 @@ class Checker:
             if self.clean is not None:
                 self.clean.begin(model)
             features = self.clean.features if self.clean is not None else None
-            for rule in (*robot_rules(model.robot, model.target, features), *outside, *foreign):
+            for rule in (*robot_rules(model.robot, model.target, features, model.key), *outside, *foreign):
                 if self._applies(rule, model.target):
                     findings += self._run_robot_rule(rule, entry.path, model)
         used: tuple[tuple[str, str], ...] = ()
@@ -226,13 +226,19 @@ class Checker:
                     yield from self._run(type(rule), entry.path, fault, model)
 
     def _run_robot_rule(self, rule: type[Any], file: Path, model: Model) -> Iterable[Finding]:
-        if self.clean is None or not rule.checks_each_alone:
+        if not rule.checks_each_alone:
             return self._run(rule, file, model)
         failures = len(self._failures)
-        found = self.clean.check(rule, lambda part: list(self._run(rule, file, part)))
-        if len(self._failures) > failures:
-            self.clean.forget(rule)
-        return found
+        if self.clean is not None:
+            found = self.clean.check(rule, lambda part: list(self._run(rule, file, part)))
+            if len(self._failures) > failures:
+                self.clean.forget(rule)
+            return found
+        found = list(self._run(rule, file, model.distinct))
+        if model.distinct is model or not (found or len(self._failures) > failures):
+            return found
+        del self._failures[failures:]
+        return self._run(rule, file, model)
 
     def _run(self, rule: type[Any], file: Path | str, *subject: Any) -> Iterator[Finding]:
         """Yield the findings of a rule; if the rule raises an exception, record the failure and continue."""

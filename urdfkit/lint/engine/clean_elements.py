@@ -6,7 +6,6 @@ before, it is run on the whole model, so that its findings are those of a fresh 
 
 from __future__ import annotations
 
-import dataclasses
 from collections.abc import Callable
 
 from urdfkit.lint.model.model import Model
@@ -57,10 +56,10 @@ class CleanElements:
         """
         clean = self._clean.pop(rule.code, None)
         part = self._part(clean) if clean is not None else None
-        model = self._model if part is None else part
+        model = self._model.distinct if part is None else part
         before = len(model.documents_read)
         found = check(model)
-        if found and part is not None:
+        if found and model is not self._model:
             found = check(self._model)
         if not found and self._surroundings is not None and len(model.documents_read) == before:
             self._clean[rule.code] = self._every
@@ -77,12 +76,5 @@ class CleanElements:
         return self._parts[clean]
 
     def _without(self, clean: frozenset[Element]) -> Model | None:
-        model = self._model
-        robot, new = model.robot, self._every - clean
-        if len(new) > _MAX_NEW * len(self._every):
-            return None
-        root = dataclasses.replace(robot.element, children=[one for one in robot.element.children if one in new])
-        links = tuple([link for link in robot.links if link.element in new])
-        joints = tuple([joint for joint in robot.joints if joint.element in new])
-        part = dataclasses.replace(robot, element=root, links=links, joints=joints)
-        return Model(model.expanded, part, model.target, None, model.release, model.texts)
+        new = self._every - clean
+        return self._model.part(new) if len(new) <= _MAX_NEW * len(self._every) else None

@@ -4,6 +4,7 @@ A clean robot needs a third of the rules; importing and running the others takes
 set must be complete: a rule whose feature is missing does not run.
 """
 
+from collections.abc import Callable, Hashable
 from math import pi
 
 from urdfkit.description.urdf.robot import (
@@ -29,19 +30,35 @@ _FAR = 2.0 * pi
 """[rad]: larger limits and angles are suspicious."""
 
 
-def features_of(robot: Robot, earlier: dict[Element, frozenset[str]] | None = None) -> set[str]:
+def features_of(
+    robot: Robot,
+    earlier: dict[Element, frozenset[str]] | None = None,
+    key: Callable[[Element], Hashable] | None = None,
+) -> set[str]:
     """Return the features of a robot: tags, joint types, and suspicious properties, which end with ``!``.
 
     Args:
         robot: the robot.
         earlier: the features of each child of the root element from an earlier call; updated by this function.
+        key: returns the same for children of the root element that differ in names only; None if all differ.
     """
     root = robot.element
     found = _of_elements(Element(root.tag, root.attributes, [], root.text, root.origin))
     parts: dict[Element, Link | Joint] = {link.element: link for link in robot.links}
     parts.update((joint.element, joint) for joint in robot.joints)
-    cached = earlier or {}
-    features = {child: cached.get(child) or _of_child(child, parts.get(child)) for child in root.children}
+    cached, features = earlier or {}, {}
+    by_key: dict[Hashable, frozenset[str]] = {}
+    for child in root.children:
+        of_child = cached.get(child)
+        if of_child is None:
+            part = parts.get(child)
+            alike = child if key is None else key(child)
+            of_child = by_key.get(alike)
+            if of_child is None:
+                of_child = by_key[alike] = _of_child(child, part)
+            if part is not None and _is_unusual(part.name):
+                of_child |= {"name!"}
+        features[child] = of_child
     found.update(*features.values())
     if earlier is not None:
         earlier.clear()
@@ -64,17 +81,19 @@ def features_of(robot: Robot, earlier: dict[Element, frozenset[str]] | None = No
 
 
 def _of_child(element: Element, part: Link | Joint | None) -> frozenset[str]:
-    """Return the features of a child of the root element, and of the link or joint read from it."""
+    """Return the features of a child of the root element, and of the link or joint read from it, except of its name."""
     found = _of_elements(element)
     if part is not None:
-        plain = part.name.replace("_", "").replace("-", "").replace(".", "")
-        if not (plain.isalnum() and plain.isascii()) or part.name[:1] == "_" or part.name == "world":
-            found.add("name!")
         if isinstance(part, Link):
             _of_link(part, found)
         else:
             _of_joint(part, found)
     return frozenset(found)
+
+
+def _is_unusual(name: str) -> bool:
+    plain = name.replace("_", "").replace("-", "").replace(".", "")
+    return not (plain.isalnum() and plain.isascii()) or name[:1] == "_" or name == "world"
 
 
 def _of_elements(root: Element) -> set[str]:

@@ -5,21 +5,23 @@ from __future__ import annotations
 from collections import Counter
 from functools import cached_property
 
+from urdfkit.description.urdf.robot import Robot
+from urdfkit.description.xml.element import Element
 from urdfkit.description.xml.source import Position, Source, Span
 from urdfkit.errors import ResourceError
+from urdfkit.lint.model.repeated_elements import content_key
 from urdfkit.lint.model.tags import Document
 from urdfkit.lint.model.xacro_prefix import URDF_CHILDREN, signatures
 from urdfkit.record import field, record
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping
+    from collections.abc import Callable, Collection, Hashable, Mapping
     from pathlib import Path
 
-    from urdfkit.description.urdf.robot import Joint, Link, Mesh, Robot, Vector
+    from urdfkit.description.urdf.robot import Joint, Link, Mesh, Vector
     from urdfkit.description.xacro.expanded import Expanded
     from urdfkit.description.xacro.faults import Fault
-    from urdfkit.description.xml.element import Element
     from urdfkit.description.xml.source import Expansion
     from urdfkit.lint.model.masked_names import MaskedNames
     from urdfkit.lint.model.placement import Extent, Frame
@@ -41,6 +43,9 @@ _DROPPING = frozenset(
     )
 )
 """Fault kinds after which elements are missing or superfluous."""
+
+_MAX_DISTINCT = 0.75
+"""Proportion of distinct elements above which checking only these saves little."""
 
 
 @record(eq=False)
@@ -232,6 +237,47 @@ class Model:
                 pending += [child for child in element.children if child.tag in allowed]
         return found
 
+    def key(self, element: Element) -> Hashable:
+        """Return the `content_key` of a child of the root element."""
+        found = self._keys.get(element)
+        if found is None:
+            found = self._keys[element] = content_key(element)
+        return found
+
+    @cached_property
+    def _keys(self) -> dict[Element, Hashable]:
+        return {}
+
+    @cached_property
+    def distinct(self) -> Model:
+        """The model with one of the elements that calls of a macro make alike; this model if that saves little."""
+        robot = self.robot
+        if len(robot.link_by_name) < len(robot.links):  # Which of the duplicate links are checked depends on all.
+            return self
+        children = robot.element.children
+        kept = {self.key(child): child for child in reversed(children)}.values()
+        return self if len(kept) > _MAX_DISTINCT * len(children) else self.part(frozenset(kept))
+
+    def part(self, kept: Collection[Element]) -> Model:
+        """Return a model whose root element has only the children in `kept`."""
+        robot = self.robot
+        root = robot.element
+        part = Robot(
+            robot.name,
+            tuple([link for link in robot.links if link.element in kept]),
+            tuple([joint for joint in robot.joints if joint.element in kept]),
+            robot.materials,
+            robot.transmissions,
+            robot.gazebo,
+            robot.ros2_control,
+            robot.problems,
+            Element(root.tag, root.attributes, [one for one in root.children if one in kept], root.text, root.origin),
+            robot.files,
+            robot.packages,
+            robot.arguments,
+        )
+        return Model(self.expanded, part, self.target, None, self.release, self.texts)
+
     @cached_property
     def frames(self) -> dict[str, Frame]:
         """Link name → its frame in the root link, every joint at zero."""
@@ -249,11 +295,13 @@ class Model:
         # Which shapes of a duplicate link apply is undefined.
         once = (link for link in self.robot.links if counts[link.name] == 1)
         earlier = dict(self.cached_extents)
+        alike: dict[Hashable, Extent] = {}
         self.cached_extents.clear()
         found = {}
         for link in once:
-            filled = earlier.get(link.element) or extent(link, self.box_of)
+            filled = earlier.get(link.element) or alike.get(self.key(link.element)) or extent(link, self.box_of)
             if filled is not None:
+                alike[self.key(link.element)] = filled
                 found[link.name] = filled
                 if not any(isinstance(shape.geometry, Mesh) for shape in shapes_of(link)):
                     self.cached_extents[link.element] = filled

@@ -13,7 +13,7 @@ from urdfkit.lint.table import FAULTS, RELATED_FILES, ROBOT, SOURCE, SUPPRESSION
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator, Mapping
+    from collections.abc import Callable, Hashable, Iterable, Iterator, Mapping
     from typing import Any
 
     from urdfkit.description.urdf.robot import Robot
@@ -56,7 +56,10 @@ def related_file_rules() -> tuple[type[RobotRule], ...]:
 
 
 def robot_rules(
-    robot: Robot | None = None, target: str | None = None, earlier: dict[Element, frozenset[str]] | None = None
+    robot: Robot | None = None,
+    target: str | None = None,
+    earlier: dict[Element, frozenset[str]] | None = None,
+    key: Callable[[Element], Hashable] | None = None,
 ) -> tuple[type[RobotRule], ...]:
     """Return the rules for the expanded robot.
 
@@ -64,12 +67,13 @@ def robot_rules(
         robot: skip the rules that cannot apply to this robot; None returns all rules.
         target: with a robot, None skips the rules that apply only to some targets.
         earlier: see `urdfkit.lint.facts.features.features_of`.
+        key: see `urdfkit.lint.facts.features.features_of`.
     """
     if robot is None:
         return tuple(_rules((*ROBOT, *RELATED_FILES, *TARGETED)))
     from urdfkit.lint.facts.features import features_of
 
-    features = features_of(robot, earlier)
+    features = features_of(robot, earlier, key)
     rows = ROBOT if target is None else (*ROBOT, *TARGETED)
     return tuple(_rules(row for row in rows if not row[0] or not features.isdisjoint(row[0].split())))
 
