@@ -97,8 +97,9 @@ def program() -> None:
     for name in ("stdout", "stderr"):
         if getattr(sys, name) is None:  # closed by the parent process (`2>&-`): output is discarded
             setattr(sys, name, os.fdopen(os.open(os.devnull, os.O_WRONLY), "w"))
-    # A lint creates no cyclic garbage while it loads modules and builds trees; searching takes a fifteenth of a lint.
-    gc.set_threshold(100_000)
+    # A lint creates no cyclic garbage while it loads modules and builds trees; searching takes a fifth of the lint of
+    # a robot with 1,200 links.
+    gc.set_threshold(500_000)
     code = main()
     if not {"numpy", "threading", "atexit"}.isdisjoint(sys.modules):
         sys.exit(code)
