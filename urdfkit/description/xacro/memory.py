@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from bisect import bisect_right
 from collections.abc import Callable
 
 from urdfkit.description.xacro.evaluation.tree import CDATA, TEXT, Tag
@@ -179,6 +178,8 @@ class Whole:
         if starts is None:
             before = Source(source.file, old)
             starts = [before.offset(*_place(child)) for child in self.children]
+        from bisect import bisect_right
+
         first = _same(old, text)
         last = len(old) - _same(old[first:][::-1], text[first:][::-1])
         index = bisect_right(starts, first) - 1

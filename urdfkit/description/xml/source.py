@@ -104,12 +104,13 @@ class Source:
         """Decode UTF-8 (with or without byte order mark) or UTF-16 (with one); undecodable bytes become U+FFFD."""
         if content[:2] in (b"\xff\xfe", b"\xfe\xff"):
             return cls(file, content.decode("utf-16", errors="replace"), (0, "UTF-16"))
+        content = content.removeprefix(b"\xef\xbb\xbf")
         try:
-            return cls(file, content.decode("utf-8-sig"))
+            return cls(file, content.decode())
         except UnicodeDecodeError as error:
             before = error.object[: error.start].decode("utf-8", errors="replace")
             flaw = len(before), f"byte 0x{error.object[error.start]:02X}"
-            return cls(file, content.decode("utf-8-sig", errors="replace"), flaw)
+            return cls(file, content.decode(errors="replace"), flaw)
 
     @cached_property
     def line_starts(self) -> list[int]:

@@ -7,7 +7,6 @@ from pathlib import Path
 
 from urdfkit.description.xacro.evaluation.expressions.budget import Budget
 from urdfkit.description.xacro.evaluation.expressions.functions import Functions, mathematics
-from urdfkit.description.xacro.evaluation.expressions.interpreter import Expressions
 from urdfkit.description.xacro.evaluation.expressions.limits import MAX_CHARACTERS, excess
 from urdfkit.description.xacro.evaluation.expressions.values import Function
 from urdfkit.description.xacro.evaluation.failures import Failure
@@ -16,6 +15,8 @@ from urdfkit.errors import did_you_mean
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     from typing import Any
+
+    from urdfkit.description.xacro.evaluation.expressions.interpreter import Expressions
 
 _BUILTINS = (
     "abs all any bool complex dict divmod enumerate filter float frozenset hash int isinstance issubclass len list map "
@@ -28,7 +29,7 @@ class Commands:
     """Evaluates the commands of one file.
 
     Args:
-        expressions: evaluates ``$(eval …)``.
+        expressions: returns what evaluates ``$(eval …)``.
         arguments: values of ``$(arg …)``; ``<xacro:arg>`` adds defaults to it.
         find: returns the folder of a package.
         variables: the environment variables that the file may read.
@@ -39,7 +40,7 @@ class Commands:
 
     def __init__(
         self,
-        expressions: Expressions,
+        expressions: Callable[[], Expressions],
         arguments: dict[str, str],
         find: Callable[[str], str],
         variables: Mapping[str, str],
@@ -124,11 +125,11 @@ class Commands:
     def _evaluate(self, expression: str) -> str:
         if "__" in expression:
             raise ValueError("$(eval ...) may not contain double underscore expressions")
-        return str(self._expressions.evaluate(expression, _Names(self._functions(), self.arguments, self._builtins)))
+        return str(self._expressions().evaluate(expression, _Names(self._functions(), self.arguments, self._builtins)))
 
     def _functions(self) -> dict[str, Any]:
         if self._names is None:
-            budget: Budget = self._expressions.budget
+            budget: Budget = self._expressions().budget
             functions: dict[str, Callable[..., Any]] = {
                 "env": self._variable,
                 "optenv": lambda name, default="": self._variables.get(name, default),
@@ -138,7 +139,7 @@ class Commands:
             }
             self._names = {name: Function(name, call) for name, call in functions.items()}
             self._names |= {"true": True, "false": False, **mathematics(budget)}
-            self._builtins = Functions(budget, self._expressions.callable_of).builtins(_BUILTINS)
+            self._builtins = Functions(budget, self._expressions().callable_of).builtins(_BUILTINS)
         return self._names
 
 

@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Callable, Iterator, Mapping
-from contextlib import contextmanager
 from pathlib import Path
 from types import MappingProxyType
 
@@ -359,22 +358,25 @@ class Evaluator(Reuse):
             node.remove()
 
 
-@contextmanager
-def deep_calls() -> Iterator[None]:
+class deep_calls:  # noqa: N801 - used like a function; `contextlib` takes 0.5 ms to load
     """Let properties use each other as deep as `MAX_PROPERTY_DEPTH` allows; each takes about ten calls of Python."""
-    limit = sys.getrecursionlimit()
-    sys.setrecursionlimit(max(limit, 20 * MAX_PROPERTY_DEPTH))
-    try:
-        yield
-    finally:
-        sys.setrecursionlimit(limit)
+
+    def __enter__(self) -> None:
+        self._limit = sys.getrecursionlimit()
+        sys.setrecursionlimit(max(self._limit, 20 * MAX_PROPERTY_DEPTH))
+
+    def __exit__(self, *_: object) -> None:
+        sys.setrecursionlimit(self._limit)
 
 
 def is_identifier(name: Any) -> bool:
     """Whether a property can have a name."""
     import keyword
-    import unicodedata
 
     if not isinstance(name, str) or not name.isidentifier() or keyword.iskeyword(name):
         return False
-    return name.isascii() or unicodedata.normalize("NFKC", name) == name
+    if name.isascii():
+        return True
+    import unicodedata
+
+    return unicodedata.normalize("NFKC", name) == name

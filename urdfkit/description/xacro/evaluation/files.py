@@ -66,7 +66,7 @@ class Files(Texts):
             "error": lambda *words, **_: self._record_message("error", words),
             "print_location": lambda *_, **__: "",
         }
-        functions = Functions(self.budget, self.expressions.callable_of)
+        functions = Functions(self.budget, lambda function: self.expressions.callable_of(function))
         self.globals = functions.symbols(host, self.warn)
 
     def warn(self, message: str) -> None:

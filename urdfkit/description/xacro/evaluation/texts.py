@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Mapping
+from functools import cached_property
+from keyword import iskeyword
 
 from urdfkit.description.packages.resolver import OUTSIDE, near_path
 from urdfkit.description.xacro.evaluation.commands import Commands
 from urdfkit.description.xacro.evaluation.expressions.budget import Budget
-from urdfkit.description.xacro.evaluation.expressions.interpreter import Expressions
 from urdfkit.description.xacro.evaluation.expressions.limits import (
     MAX_CHARACTERS,
     MAX_EXPRESSION,
@@ -17,7 +18,7 @@ from urdfkit.description.xacro.evaluation.expressions.limits import (
     TooLarge,
     excess,
 )
-from urdfkit.description.xacro.evaluation.expressions.symbols import Scope
+from urdfkit.description.xacro.evaluation.expressions.symbols import Scope, symbol_of
 from urdfkit.description.xacro.evaluation.failures import (
     Failure,
     Place,
@@ -31,6 +32,8 @@ from urdfkit.description.xml.reader import shown_path
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     from typing import Any
+
+    from urdfkit.description.xacro.evaluation.expressions.interpreter import Expressions
 
 _TOKEN = re.compile(r"(\$\$+[{(])|\$\{([^}]*)\}|\$\(([^)]*)\)|([^$]+|\$[^{($]+|\$$)").match
 ESCAPED, EXPRESSION, COMMAND, PLAIN, INVALID = 1, 2, 3, 4, 5
@@ -51,11 +54,20 @@ class Texts:
 
     def __init__(self, arguments: Mapping[str, str], find: Callable[[str], str], variables: Mapping[str, str]) -> None:
         self.budget = Budget()
-        self.expressions = Expressions(self.budget)
-        self.commands = Commands(self.expressions, dict(arguments), find, variables)
+        self.commands = Commands(lambda: self.expressions, dict(arguments), find, variables)
         self.at: Place = (None, None)
         self._tokens: dict[str, list[tuple[int, str]]] = {}
+        self._names: dict[str, str] = {}
         self._evaluated = self.resolving = 0
+
+    @cached_property
+    def expressions(self) -> Expressions:
+        """Evaluates what is more than a name; parsing with `ast` takes 3 ms to load."""
+        from urdfkit.description.xacro.evaluation.expressions.interpreter import Expressions
+
+        made = Expressions(self.budget)
+        made.symbol = self._symbol
+        return made
 
     def place(self) -> Place:
         """Return the element and attribute being evaluated."""
@@ -135,12 +147,20 @@ class Texts:
         try:
             if kind == COMMAND:
                 return self.commands.evaluate(inner)
+            name = self._names.get(inner)
+            if name is None:
+                name = self._names[inner] = _name(inner)
+            if name:
+                return self.budget.checked(self._symbol(scope, name))
             return self.expressions.evaluate(inner, scope)
         except Failure as failure:
             failure.is_missing_file = False
             raise self.placed(failure) from None
         except Exception as error:
             raise self._failure(error, kind, inner, scope) from None
+
+    def _symbol(self, symbols: Any, name: str) -> Any:
+        return symbol_of(symbols, name)
 
     def _failure(self, error: Exception, kind: int, source: str, scope: Scope) -> Failure:
         if isinstance(error, TooLarge):
@@ -169,6 +189,13 @@ class Texts:
         expression = source if kind == EXPRESSION and len(source) <= MAX_EXPRESSION else None
         message = f"`{_shown(kind, source)}` is too large: {error}"
         return self.placed(Failure("too-large", message, expression=expression))
+
+
+def _name(expression: str) -> str:
+    """Return the name that an expression consists of; empty if it is more, or is refused."""
+    name = expression.strip()
+    is_name = name.isascii() and name.isidentifier() and not iskeyword(name) and not name.startswith("__")
+    return name if is_name and len(expression) <= MAX_EXPRESSION else ""
 
 
 def _shown(kind: int, source: str) -> str:

@@ -66,7 +66,6 @@ class RecoveringEvaluator(Evaluator):
         super().__init__(path, arguments, packages, texts=texts, memory=memory)
         self._late, self._adds_prefixes = late, add_prefixes
         self.commands.arguments = Arguments(arguments)
-        self.expressions.symbol = self._symbol
         self._faults: dict[Any, Fault] = {}
         self._unprefixed: dict[Unprefixed, None] = {}
         self._unresolved: set[tuple[Position, str | None]] = set()

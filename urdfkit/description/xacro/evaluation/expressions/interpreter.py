@@ -15,7 +15,7 @@ from urdfkit.description.xacro.evaluation.expressions.budget import SIZED, Budge
 from urdfkit.description.xacro.evaluation.expressions.formats import Formats
 from urdfkit.description.xacro.evaluation.expressions.limits import MAX_DEPTH, MAX_EXPRESSION, TooLarge
 from urdfkit.description.xacro.evaluation.expressions.loops import LoopFrame, Loops, checked_name
-from urdfkit.description.xacro.evaluation.expressions.symbols import Namespace
+from urdfkit.description.xacro.evaluation.expressions.symbols import Namespace, symbol_of
 from urdfkit.description.xacro.evaluation.expressions.values import Function
 
 TYPE_CHECKING = False
@@ -325,15 +325,3 @@ class Expressions(Loops):
         value, conversion, formats = self._compute(node.value), _CONVERSIONS[node.conversion], Formats(self.budget)
         specification = self._compute(node.format_spec) if node.format_spec is not None else lambda _: ""
         return lambda frame: formats.format_field(formats.convert_field(value(frame), conversion), specification(frame))
-
-
-def symbol_of(symbols: Any, name: str) -> Any:
-    """Return the value of a name.
-
-    Raises:
-        NameError: it is not defined.
-    """
-    try:
-        return symbols[name]
-    except KeyError:
-        raise NameError(f"name '{name}' is not defined", name=name) from None

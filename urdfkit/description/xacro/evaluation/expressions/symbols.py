@@ -134,6 +134,18 @@ class Namespace(Scope):
         return made
 
 
+def symbol_of(symbols: Any, name: str) -> Any:
+    """Return the value of a name.
+
+    Raises:
+        NameError: it is not defined.
+    """
+    try:
+        return symbols[name]
+    except KeyError:
+        raise NameError(f"name '{name}' is not defined", name=name) from None
+
+
 def literal(value: Any) -> Any:
     """Return the value of a text: without its single quotes, or the number or boolean it is."""
     if type(value) is not str:
