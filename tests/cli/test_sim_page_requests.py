@@ -715,3 +715,19 @@ def test_messages_for_which_there_is_no_time_are_counted(ride, monkeypatch) -> N
     assert len(rows) + missed == odom.count - count
     assert len(rows) * 0.01 == pytest.approx(0.25 * (ride.wall.now - begin), rel=0.1)
     assert rows[0][2] == {"long": topic_stream.ALL}
+
+
+def test_repairs_are_findings_on_the_page(made, tmp_path) -> None:
+    path = tmp_path / "cart.urdf"
+    ball = '<collision><geometry><sphere radius="0.1"/></geometry></collision>'
+    inertia = '<mass value="1"/><inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/>'
+    path.write_text(
+        f'<robot name="cart"><link name="base"><inertial>{inertia}</inertial>{ball}</link>\n'
+        f'<link name="wheel">{ball}</link>\n'
+        '<joint name="axle" type="continuous"><parent link="base"/><child link="wheel"/><axis xyz="0 1 0"/></joint>'
+        "</robot>"
+    )
+    (row,) = made(str(path)).page.said["findings"]["findings"]
+    assert (row["code"], row["severity"], row["link"], row["line"]) == ("I511", "warning", "wheel", 2)
+    assert row["lines"] == [f'<link name="wheel">{ball}</link>']
+    assert made().page.said["findings"]["findings"] == []

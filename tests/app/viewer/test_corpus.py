@@ -37,7 +37,11 @@ VARIANTS: dict[str, Callable[[str], str]] = {
     "no inertials": lambda text: re.sub(r"<inertial>.*?</inertial>|<inertial/>", "", text, flags=re.DOTALL),
     "impossible tensors": impossible,
     "negative masses": lambda text: re.sub(rf'(<mass value=")({NUMBER}")', r"\1-\2", text),
-    "unknown hardware": lambda text: re.sub(r"<plugin>[^<]*</plugin>", "<plugin>acme/Gone</plugin>", text),
+    "unknown plugins": lambda text: re.sub(
+        r'<plugin>[^<]*</plugin>|(<plugin\b[^>]*filename=")[^"]*',
+        lambda m: f"{m[1]}libgone.so" if m[1] else "<plugin>acme/Gone</plugin>",
+        text,
+    ),
 }
 """The corpus contains no meshes."""
 
