@@ -30,7 +30,7 @@ AGREEMENT = 1e-3
 
 
 class Reader:
-    """Reads values and records problems, in document order.
+    """Reads values and records problems, in document order; a text that occurs again is parsed once.
 
     Args:
         earlier: element → the part read from it before; None to read every element.
@@ -45,6 +45,9 @@ class Reader:
         self.problems: list[Problem] = []
         self.parts: dict[Element, Part] = {}
         self._earlier = earlier
+        self._poses: dict[tuple[str | None, str | None], Pose] = {}
+        self._vectors: dict[str, Vector] = {}
+        self._numbers: dict[str, float] = {}
         self.subject = ""
         """The link or joint being read, for the messages."""
 
@@ -97,6 +100,8 @@ class Reader:
             if required:
                 self.text(element, attribute)
             return None
+        if text in self._numbers:
+            return self._numbers[text]
         value = number(text)
         if value is None:
             if numbers(text):
@@ -106,6 +111,8 @@ class Reader:
         elif math.isnan(value) or (abs(value) > LARGEST and not infinite):
             self._note_infinite(element, attribute, text)
             return None
+        elif abs(value) <= LARGEST:
+            self._numbers[text] = value
         return value
 
     def number_or(self, element: Element, attribute: str, default: float) -> float:
@@ -132,23 +139,41 @@ class Reader:
 
     def vector(self, element: Element, attribute: str) -> Vector | None:
         """Return three numbers, None when they are missing or unusable."""
+        text = element.attributes.get(attribute, "")
+        if text in self._vectors:
+            return self._vectors[text]
         values = self.numbers(element, attribute, 3)
-        return None if values is None else (values[0], values[1], values[2])
+        if values is None:
+            return None
+        self._vectors[text] = found = values[0], values[1], values[2]
+        return found
 
     def pose(self, parent: Element) -> Pose:
         """Return the ``<origin>`` of an element; the identity if it is missing."""
         origin = parent.find("origin")
         if origin is None:
             return Pose()
-        xyz, rpy = self.vector(origin, "xyz") or ZERO, self.vector(origin, "rpy") or ZERO
-        if "quat_xyzw" not in origin.attributes or self.version < QUATERNION:
-            return Pose(xyz, rpy)
+        if "quat_xyzw" in origin.attributes and self.version >= QUATERNION:
+            return self._pose_of_quaternion(origin)
+        texts = origin.attributes.get("xyz"), origin.attributes.get("rpy")
+        found = self._poses.get(texts)
+        if found is None:
+            problems = len(self.problems)
+            xyz, rpy = self.vector(origin, "xyz"), self.vector(origin, "rpy")
+            found = Pose(xyz or ZERO, rpy or ZERO)
+            if len(self.problems) == problems:
+                self._poses[texts] = found
+        return found
+
+    def _pose_of_quaternion(self, origin: Element) -> Pose:
         from urdfkit.description.urdf.geometry import difference  # few robots need it
 
         turn = self.quaternion(origin) or ZERO
-        if "rpy" in origin.attributes and difference(Pose(rpy=rpy), Pose(rpy=turn)) > AGREEMENT:
-            self.note("conflict", "<origin> has different rotations in `rpy` and `quat_xyzw`", origin, "quat_xyzw")
-        return Pose(xyz, turn)
+        if "rpy" in origin.attributes:
+            rpy = self.vector(origin, "rpy") or ZERO
+            if difference(Pose(rpy=rpy), Pose(rpy=turn)) > AGREEMENT:
+                self.note("conflict", "<origin> has different rotations in `rpy` and `quat_xyzw`", origin, "quat_xyzw")
+        return Pose(self.vector(origin, "xyz") or ZERO, turn)
 
     def quaternion(self, origin: Element) -> Vector | None:
         """Return roll, pitch, yaw [rad] of ``quat_xyzw``; no rotation if it is zero, None if it is unusable."""

@@ -335,7 +335,7 @@ def _copied(source: Tag, chain: Chain, values: Iterator[str]) -> Element:
         source.content = _content(source)
     text, tags = source.content
     if text is not None:
-        children = [_copied(child, chain, values) for child in tags]
+        children = [_copied(child, chain, values) for child in tags] if tags else []
     else:
         children, text = [], ""
         for child in source.children():
