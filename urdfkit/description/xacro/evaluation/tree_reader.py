@@ -27,7 +27,7 @@ TYPE_CHECKING = False
 if TYPE_CHECKING:
     from typing import Any
 
-_SUBSET = re.compile(r"<!DOCTYPE[^\[>]*\[(.*?)\]\s*>", re.DOTALL).search
+_SUBSET = r"(?s)<!DOCTYPE[^\[>]*\[(.*?)\]\s*>"
 
 
 def read_tree(source: Source, *, namespaces: bool = True) -> Tag:
@@ -131,7 +131,7 @@ class _TreeReader:
 
     def _doctype(self, name: str, system: str | None, public: str | None, has_subset: bool) -> None:
         check_doctype(self._source, self._parser, system, public)
-        subset = _SUBSET(self._source.text) if has_subset else None
+        subset = re.search(_SUBSET, self._source.text) if has_subset else None
         self._add(Node(DOCTYPE, f"{name} [{subset[1]}]" if subset else name))
         self._subset = True
 

@@ -33,7 +33,7 @@ if TYPE_CHECKING:
 _SMALL = 1 << 62
 SIZED: tuple[type, ...] = (*TEXTS, *CONTAINERS, range)
 """The kinds of values whose size counts."""
-_FIELD = re.compile(r"%(?:\([^)]*\))?[-+ #0]*(\*|\d*)(?:\.(\*|\d*))?")
+_FIELD = r"%(?:\([^)]*\))?[-+ #0]*(\*|\d*)(?:\.(\*|\d*))?"
 
 
 class Budget:
@@ -146,7 +146,7 @@ class Budget:
         if not isinstance(a, (str, bytes)):
             return a % b
         text = a if isinstance(a, str) else a.decode("latin-1")
-        fields = _FIELD.findall(text)
+        fields = re.findall(_FIELD, text)
         check_widths(" ".join(f"{width} {precision}" for width, precision in fields))
         if any("*" in field for field in fields):
             check_characters(
