@@ -6,6 +6,7 @@ the fault rules, and a robot without ``<gazebo>`` needs no rules for Gazebo.
 
 from __future__ import annotations
 
+import re
 from importlib import import_module
 
 from urdfkit.lint.table import FAULTS, RELATED_FILES, ROBOT, SOURCE, SUPPRESSION, TARGETED
@@ -36,7 +37,10 @@ def source_rules(sources: Mapping[str, Source] | None = None) -> tuple[type[Sour
     def has(words: str) -> bool:
         if words.startswith("*"):
             return any(file.endswith(words[1:]) for file in sources)
-        return any(word in source.text for source in sources.values() for word in words.split())
+        if " " not in words:
+            return any(words in source.text for source in sources.values())
+        pattern = "|".join(map(re.escape, words.split()))
+        return any(re.search(pattern, source.text) for source in sources.values())
 
     return tuple(_rules(row for row in SOURCE if not row[0] or has(row[0])))
 
