@@ -299,12 +299,16 @@ class Model:
         self.cached_extents.clear()
         found = {}
         for link in once:
-            filled = earlier.get(link.element) or alike.get(self.key(link.element)) or extent(link, self.box_of)
+            element = link.element
+            filled = earlier.get(element)
             if filled is not None:
-                alike[self.key(link.element)] = filled
-                found[link.name] = filled
+                found[link.name] = self.cached_extents[element] = filled
+                continue
+            filled = alike.get(self.key(element)) or extent(link, self.box_of)
+            if filled is not None:
+                found[link.name] = alike[self.key(element)] = filled
                 if not any(isinstance(shape.geometry, Mesh) for shape in shapes_of(link)):
-                    self.cached_extents[link.element] = filled
+                    self.cached_extents[element] = filled
         return found
 
     def box_of(self, mesh: Mesh) -> tuple[Vector, Vector] | None:

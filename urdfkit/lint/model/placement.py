@@ -80,7 +80,8 @@ class Extent:
     @property
     def diagonal(self) -> float:
         """The length of the box's diagonal [m]."""
-        return sqrt(sum((high - low) ** 2 for low, high in zip(self.low, self.high, strict=True)))
+        (a, b, c), (x, y, z) = self.low, self.high
+        return sqrt((x - a) ** 2 + (y - b) ** 2 + (z - c) ** 2)
 
     def radius(self, point: Vector) -> float:
         """Return the distance from `point` to the farthest point of all shapes [m]."""

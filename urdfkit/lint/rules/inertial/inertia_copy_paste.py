@@ -81,12 +81,13 @@ class InertiaCopyPaste(RobotRule):
                 if any(values):
                     groups.setdefault(values, []).append(link)
         for links in groups.values():
-            sizes = sorted(
-                {round(model.extents[link.name].diagonal, 6) for link in links if link.name in model.extents}
-            )
+            if len(links) < 3:
+                continue
+            extents = {id(extent): extent for link in links if (extent := model.extents.get(link.name)) is not None}
+            sizes = sorted({round(extent.diagonal, 6) for extent in extents.values()})
             size_steps = [a for a, b in pairwise(sizes) if b > 1.1 * a]
             inertial = links[0].inertial
-            if len(links) < 3 or not size_steps or inertial is None or inertial.inertia is None:
+            if not size_steps or inertial is None or inertial.inertia is None:
                 continue
             names = ", ".join(link.name for link in links[:3])
             yield self.at(

@@ -93,5 +93,7 @@ class InertiaArguments(SourceRule):
 
 def _may_name_mass(text: str) -> bool:
     """Return whether the text before ``</inertial>`` may contain an ``m`` or ``mass`` attribute."""
-    words = text.partition("</inertial")[0].split()
-    return any(word.startswith(("m=", "mass=")) or word in ("m", "mass") for word in words)
+    before = text.partition("</inertial")[0]
+    if not any(f"{blank}m" in before for blank in " \n\t\r"):
+        return False
+    return any(word.startswith(("m=", "mass=")) or word in ("m", "mass") for word in before.split())
