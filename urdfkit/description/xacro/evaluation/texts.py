@@ -62,7 +62,7 @@ class Texts:
 
     @cached_property
     def expressions(self) -> Expressions:
-        """Evaluates what is more than a name; parsing with `ast` takes 3 ms to load."""
+        """The interpreter, loaded at the first expression that is not one name; `ast` takes 3 ms to load."""
         from urdfkit.description.xacro.evaluation.expressions.interpreter import Expressions
 
         made = Expressions(self.budget)
