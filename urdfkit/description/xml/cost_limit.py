@@ -105,7 +105,7 @@ def _peak() -> int:
 
 
 def _phase(frame: FrameType | None) -> str:
-    """Return the rule being checked, or what the innermost function of urdfkit is part of."""
+    """Return the rule being checked, or the phase of the innermost function of urdfkit."""
     modules = []
     while frame is not None:
         rule: Any = type(frame.f_locals.get("self"))

@@ -18,13 +18,13 @@ _EVENTS = ("open", "os.listdir", "os.scandir")
 
 
 class Confinement:
-    """Refuses to open or list what is outside of some folders, with `PermissionError`.
+    """Refuses to open or list paths outside of some folders, with `PermissionError`.
 
     `start` adds an audit hook to the process, which cannot be removed: the confinement holds until the process ends,
     whichever module opens a file. Symbolic links are followed first. Files of Python and of urdfkit can be read.
 
     Args:
-        folders: what may be read.
+        folders: the folders that may be read.
 
     Attributes:
         refused: paths of existing files that were not opened since `take_refused`.
@@ -68,7 +68,7 @@ def confinement_of(paths: Iterable[str], package_path: Iterable[Path]) -> Confin
     """Return the confinement to packages, their workspaces and the package path.
 
     Args:
-        paths: what is linted, as named by the user.
+        paths: the files and folders to lint, as named by the user.
         package_path: folders of packages.
     """
     from urdfkit.description.packages.discovery import workspace
