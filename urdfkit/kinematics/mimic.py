@@ -63,7 +63,7 @@ def without_impossible_mimics(robot: Robot) -> tuple[Robot, list[Repair]]:
 def _follow(joints: Mapping[str, Joint], joint: Joint) -> Coupling:
     multiplier, offset = 1.0, 0.0
     at = joint
-    passed: list[str] = []
+    passed: dict[str, None] = {}  # in order
     while at.is_movable:
         place = (at.mimic or joint.mimic).element.origin.position  # type: ignore[union-attr]
         if at.type not in _SINGLE:
@@ -74,7 +74,7 @@ def _follow(joints: Mapping[str, Joint], joint: Joint) -> Coupling:
             )
         if at.mimic is None:
             return Coupling(joint.name, at.name, multiplier, offset)
-        passed.append(at.name)
+        passed[at.name] = None
         if at.mimic.joint in passed:
             circle = " → ".join(f"`{name}`" for name in [*passed, at.mimic.joint])
             raise KinematicsError(f"mimic joints form a cycle: {circle}", position=place)
