@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from math import radians
 from pathlib import Path
 
 import pytest
@@ -130,3 +131,28 @@ def test_a_file_without_a_robot_is_refused(text: str, tmp_path: Path) -> None:
     path.write_text(text)
     with pytest.raises(ModelError):
         load_repaired(path)
+
+
+@pytest.mark.parametrize(
+    ("inside", "code", "effect", "roll"),
+    [
+        (
+            '<origin rpy="0 0 1" quat_xyzw="1 0 0 1"/><limit lower="-1" upper="1"/>',
+            "E023",
+            "`quat_xyzw` is used",
+            90,
+        ),
+        ('<limit upper="1"/>', "E014", "it is 0", 0),
+    ],
+)
+def test_defects_of_urdf_1_2_are_repaired(tmp_path: Path, inside: str, code: str, effect: str, roll: int) -> None:
+    path = tmp_path / "robot.urdf"
+    parts = links("a", "b") + joint("j", "a", "b", "revolute", inside)
+    path.write_text(f'<robot name="r" version="1.2">{parts}</robot>')
+    robot, (repair,) = load_repaired(path)
+    assert (repair.code, repair.joint) == (code, "j")
+    assert repair.message.endswith(effect)
+    assert robot.joints[0].origin.rpy == pytest.approx((radians(roll), 0.0, 0.0))
+    assert code in {finding.code for finding in lint(path)}
+    with pytest.raises(ModelError):
+        load(path)
