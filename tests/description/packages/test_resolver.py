@@ -203,3 +203,12 @@ def test_a_last_word_in_common_makes_no_package_near():
     assert near_package("flir_camera_description", known) == ""
     assert "husky_description" in near_package("huksy_description", known)
     assert "husky_description" in near_package("husky_descripton", known)
+
+
+@pytest.mark.parametrize("name", ["a" * 90_000, "ä" * 128])
+def test_a_name_too_long_for_a_folder_is_an_unknown_package(write: Write, name: str) -> None:
+    found = Packages(near=write("ws/r.urdf", ""), environment={})
+    for search in (lambda: found.find(name), lambda: found.resolve(f"package://{name}/m.stl", "ws/r.urdf")):
+        with pytest.raises(ResourceError, match="no package") as caught:
+            search()
+        assert len(str(caught.value)) < 1_000

@@ -15,6 +15,9 @@ OUTSIDE = "outside of the package, its workspace and the package path"
 VARIABLES = ("ROS_PACKAGE_PATH", *_PREFIX_VARIABLES, *_MODEL_VARIABLES)
 """Environment variables that list folders of packages."""
 
+_LONGEST_NAME = 255
+"""Length of the longest file name that Linux and macOS accept [bytes]."""
+
 
 class Packages:
     """Search for packages by name, lazy and cached.
@@ -82,8 +85,10 @@ class Packages:
         if name not in self._found:
             found = self._look_up(name) if _is_plain(name) else None
             if found is None:
-                hint = near_package(name, self._seen)
-                message = f"no package `{name}` in {self._looked_in()}{hint or '; see --package-path'}"
+                is_long = len(name) > _LONGEST_NAME
+                hint = "" if is_long else near_package(name, self._seen)
+                shown = f"{name[:60]}…" if is_long else name
+                message = f"no package `{shown}` in {self._looked_in()}{hint or '; see --package-path'}"
                 self.answers[("find", name)] = f"!{message}"
                 raise ResourceError(message, kind="package")
             self._found[name] = found
@@ -299,4 +304,9 @@ def _shipped_robots() -> Path | None:
 
 
 def _is_plain(name: str) -> bool:
-    return bool(name) and "/" not in name and "\\" not in name and name not in (".", "..")
+    return (
+        0 < len(name.encode("utf-8", "replace")) <= _LONGEST_NAME
+        and "/" not in name
+        and "\\" not in name
+        and name not in (".", "..")
+    )
