@@ -151,3 +151,23 @@ def test_a_comparison_writes_no_file(model: Path, capsys: pytest.CaptureFixture[
     assert main(["expand", str(model), "--compare", "-o", "out.urdf"]) == 2
     assert "not allowed with argument" in capsys.readouterr().err
     assert not Path("out.urdf").exists()
+
+
+@pytest.mark.parametrize("name", ["world.xacro", "world.urdf"])
+def test_sdf_without_xacro_is_refused(name: str, capsys: pytest.CaptureFixture[str]) -> None:
+    Path(name).write_text('<sdf version="1.7"><world name="w"/></sdf>')
+    assert main(["expand", name]) == 2
+    captured = capsys.readouterr()
+    assert captured.out == ""
+    assert captured.err.endswith(
+        f"this is an SDF file without xacro; simulate it with `urdfkit sim run --world {name}`\n"
+    )
+    assert len(captured.err.splitlines()) == 1
+
+
+def test_sdf_with_xacro_is_expanded(capsys: pytest.CaptureFixture[str]) -> None:
+    Path("world.sdf.xacro").write_text(
+        '<sdf version="1.7" xmlns:xacro="http://www.ros.org/wiki/xacro"><world name="w${1 + 1}"/></sdf>'
+    )
+    assert main(["expand", "world.sdf.xacro"]) == 0
+    assert '<world name="w2"/>' in capsys.readouterr().out

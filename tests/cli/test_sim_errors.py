@@ -425,3 +425,16 @@ def test_nothing_is_compiled_for_a_typing_error(
     )
     assert main(["sim", "run", *words, "--for", "1"]) == 2
     assert "did you mean" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("missing", "named"),
+    [(["numpy"], "numpy"), (["numba"], "numba"), (["numpy", "numba", "pinocchio"], "numpy, numba and pinocchio")],
+)
+def test_packages_of_the_extra_that_are_not_installed_are_named(
+    missing: list[str], named: str, capsys: Capture, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    for module in missing:
+        monkeypatch.setitem(sys.modules, module, None)
+    assert main(["sim", "run", "simpleton", "--for", "1"]) == 2
+    assert capsys.readouterr().err == f"urdfkit: sim run needs {named}: pip install 'urdfkit[sim]'\n"

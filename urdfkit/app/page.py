@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import sys
 import time
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
@@ -32,9 +32,22 @@ def require_page(command: str, extra: str, *, modules: Sequence[str] = ()) -> No
     Raises:
         MissingDependencyError: a package is missing; names it and the command that installs it.
     """
+    require_packages(command, extra, NEEDED | {module: module for module in modules})
+
+
+def require_packages(command: str, extra: str, needed: Mapping[str, str]) -> None:
+    """Check that packages and Pinocchio are installed.
+
+    Args:
+        command: the subject of the message, e.g. ``sim run``.
+        extra: the extra with all packages.
+        needed: module → package, in addition to Pinocchio.
+
+    Raises:
+        MissingDependencyError: a package is missing; names it and the command that installs it.
+    """
     from importlib.util import find_spec
 
-    needed = NEEDED | {module: module for module in modules}
     missing = [package for module, package in needed.items() if find_spec(module) is None]
     if find_spec("pinocchio") is None:
         missing.append("pinocchio")

@@ -8,7 +8,7 @@ from pathlib import Path
 
 from urdfkit.cli.parser import add_model, add_time_limit
 from urdfkit.cli.unused_arguments import unused
-from urdfkit.errors import ResourceError, UrdfkitError, UsageError, XacroError
+from urdfkit.errors import ModelError, ResourceError, UrdfkitError, UsageError, XacroError
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -54,6 +54,7 @@ def _run(arguments: argparse.Namespace) -> int:
     if arguments.compare:
         return _compare(typed, model.arguments, packages)
     expanded = expand(typed, arguments=model.arguments, packages=packages, run_xacro=True)
+    _refuse_sdf(expanded, typed)
     if not arguments.quiet:
         _show_notes(expanded, model.arguments)
     if arguments.output is None:
@@ -61,6 +62,20 @@ def _run(arguments: argparse.Namespace) -> int:
     else:
         _write(expanded, arguments.output)
     return 0
+
+
+def _refuse_sdf(expanded: Expanded, path: str) -> None:
+    """Raise if a file is SDF without xacro, in which nothing is to be expanded.
+
+    Raises:
+        ModelError: the file is SDF without xacro.
+    """
+    root = expanded.root
+    if root is not None and root.tag in ("sdf", "gazebo"):
+        if any("xmlns:xacro" in source.text for source in expanded.sources.values()):
+            return
+        message = f"this is an SDF file without xacro; simulate it with `urdfkit sim run --world {path}`"
+        raise ModelError(message, position=root.origin.position)
 
 
 def _compare(path: str, arguments: dict[str, str], packages: Packages) -> int:

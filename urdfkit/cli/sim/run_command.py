@@ -11,6 +11,7 @@ from math import ceil
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from urdfkit.app.page import require_packages
 from urdfkit.app.termination import ended_by_signals
 from urdfkit.cli.parser import add_model
 from urdfkit.cli.sim import option_values
@@ -141,6 +142,7 @@ def run(arguments: argparse.Namespace) -> int:
     """Simulate and report."""
     if arguments.cmd_ramp is not None and arguments.cmd_vel is None:
         raise UsageError("sim run: --cmd-ramp requires --cmd-vel")
+    require_packages("sim run", "sim", {name: name for name in ("numpy", "trimesh", "numba", "rosbags")})
     from urdfkit.app.simulation import image_files, save_options
     from urdfkit.atomic import write_bytes
     from urdfkit.cli.sim import scan_files
