@@ -101,6 +101,9 @@ CUBE = box("2 2 2")
 """Its corners are 1.732 m from its centre."""
 THIN = joint('<limit effort="@" velocity="1" lower="-1" upper="1"/>')
 SPHERE = '<visual><geometry><sphere radius="@"/></geometry></visual>'
+MESH = '<visual><geometry><mesh filename="plate.obj" scale="@"/></geometry></visual>'
+PLATE = "v 0 0 0\nv 3 0 0\nv 0 4 0\nf 1 2 3\n"
+"""A mesh of 3 m by 4 m, thus of 5 m."""
 
 CASES: list[tuple[str, str, dict[str, str]]] = [
     # inertia-not-positive-definite: up to 1e-9 of the largest moment
@@ -144,6 +147,14 @@ CASES: list[tuple[str, str, dict[str, str]]] = [
     # nan-or-inf
     ("E012", link(inertial("@")), {"1e10": "", "10000000000": "", "1.1e10": "error", "20000000000": "error"}),
     ("E012", link(inertial("@")), {"-2e10": "error", "1E11": "error", "9999999999": ""}),
+    # mesh-scale-suspect: a mesh of 5 m, alone; of a link of 1 m by its inertia; next to a box of 5 m
+    ("G604", link(MESH), {"20 20 20": "", "20.1 20.1 20.1": "warning"}),
+    ("G604", link(inertial("1", "0.81 0.81 0.81"), MESH), {"10 10 10": "", "10.1 10.1 10.1": "warning"}),
+    ("G604", link(box("3 4 0"), name="base") + link(MESH), {"49 49 49": "", "51 51 51": "warning"}),
+    ("G604", link(box("3 4 0"), name="base") + link(MESH), {"9990 1 1": "warning", "17000 1 1": ""}),
+    ("G604", link(box("3 4 0"), name="base") + link(MESH), {"0.021 0.021 0.021": "", "0.019 0.019 0.019": "warning"}),
+    ("G604", link(box("3 4 0"), name="base") + link(MESH), {"1.1e-4 1.1e-4 1.1e-4": "warning"}),
+    ("G604", link(box("3 4 0"), name="base") + link(MESH), {"9e-5 9e-5 9e-5": ""}),
     # nonpositive-primitive
     ("G611", link(SPHERE), {"0": "error", "1e-9": "", "-1": "error"}),
     # redundant-pi-definition: within 2 mrad of a multiple of π, π/2 or π/4, at least three digits, below 100
@@ -181,5 +192,26 @@ CASES: list[tuple[str, str, dict[str, str]]] = [
     ids=[f"{i}-{code}-{value}" for i, (code, _, cases) in enumerate(CASES) for value in cases],
 )
 def test_a_value_on_either_side_of_a_threshold(code: str, body: str, value: str, severity: str, write) -> None:
+    write("plate.obj", PLATE.encode())
     found = lint(write("r.urdf", body.replace("@", value)), select=(code,))
     assert [finding.severity for finding in found] == [severity] * bool(severity)
+
+
+@pytest.mark.parametrize(
+    ("code", "body", "message"),
+    [
+        ("I510", same_tensors("2 2 2"), "3 links of different size share this inertia: part_0, part_1, part_2"),
+        (
+            "I510",
+            same_tensors("2 2 2") + link(inertial("2"), name="part_3"),
+            "4 links of different size share this inertia: part_0, part_1, part_2 …",
+        ),
+        ("J409", disc('<limit effort="0" velocity="1"/>'), "effort limit of joint `to_wheel` is zero"),
+        ("J409", disc('<limit effort="0" velocity="0"/>'), "effort and velocity limits of joint `to_wheel` are zero"),
+        ("E007", f"<link name='a'>{'x' * 40}</link>", "x" * 40),
+        ("E007", f"<link name='a'>{'x' * 41}</link>", "x" * 39 + "…"),
+    ],
+)
+def test_messages_shorten_what_they_list(code: str, body: str, message: str, write) -> None:
+    (finding,) = lint(write("r.urdf", body), select=(code,))
+    assert message in finding.message

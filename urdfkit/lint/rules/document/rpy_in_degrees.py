@@ -69,4 +69,4 @@ class RpyInDegrees(RobotRule):
 
 
 def _is_degrees(angle: float) -> bool:
-    return 2 * pi + 0.01 < abs(angle) <= 720.0 and (2.0 * angle).is_integer()
+    return 2 * pi < abs(angle) <= 720.0 and (2.0 * angle).is_integer()
