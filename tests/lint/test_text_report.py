@@ -75,6 +75,40 @@ def test_long_lines_are_cut_around_the_place(width, start):
     assert shown[caret.index("^") :].startswith("<link")
 
 
+@pytest.mark.parametrize(
+    ("line", "span", "caret"),
+    [
+        ("  <link/>  ", (1, 3, 1, 10), "  ^^^^^^^"),
+        ("<link  ", (1, 1, 2, 3), "^^^^^"),
+        ("<link/>", (1, 3, 1, 3), "  ^"),
+        ("<link/>", (1, 8, 1, 8), "       ^"),
+        ("\t<link/>", (1, 1, 1, 2), "^^^^"),
+    ],
+    ids=["whole", "first line of several", "empty", "after the end", "tab"],
+)
+def test_the_caret_has_the_length_of_the_marked_text(line, span, caret):
+    finding = Finding("T203", "multiple-roots", "error", "wrong", Span("f.xacro", *span))
+    assert carets(TextReport({"f.xacro": Source("f.xacro", f"{line}\n b/>")}), finding)[1] == f"  | {caret}"
+
+
+@pytest.mark.parametrize(
+    ("line", "start", "width", "shown", "caret"),
+    [
+        ("<link/>" + "y" * 18, 1, 29, "<link/>" + "y" * 18, "^^^^^^^"),
+        ("<link/>" + "y" * 19, 1, 29, "<link/>" + "y" * 17 + "…", "^^^^^^^"),
+        ("x" * 50 + "<link/>" + "y" * 50, 51, 29, "…xxxxx<link/>" + "y" * 11 + "…", "      ^^^^^^^"),
+        ("x" * 50 + "<link/>", 51, 29, "…xxxxx<link/>", "      ^^^^^^^"),
+        ("x" * 17 + "<link/>yy", 18, 29, "x" * 17 + "<link/>…", " " * 17 + "^^^^^^^"),
+        ("<link/>" + "y" * 30, 1, 1, "<link/>" + "y" * 12 + "…", "^^^^^^^"),
+    ],
+    ids=["fits", "end cut", "both cut", "beginning cut", "at the end", "at least 20 columns"],
+)
+def test_a_cut_line_shows_what_fits(line, start, width, shown, caret):
+    finding = at(1, start, start + 7)
+    lines = carets(TextReport({"f.xacro": Source("f.xacro", line)}, width=width), finding)
+    assert lines == (f"1 | {shown}", f"  | {caret}")
+
+
 def test_places_without_text_have_no_excerpt():
     assert TextReport({}).finding(at(3, 1, 2, help="h")) == "f.xacro:3:1: T203 wrong\n   = help: h"
 
