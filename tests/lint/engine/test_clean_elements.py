@@ -89,3 +89,22 @@ def test_a_rule_is_run_only_on_new_elements(tmp_path: Path, monkeypatch: pytest.
         project.set_text(path, text.replace('mass value="1.0"', f'mass value="{mass}"', 1))
         project.analyses(path)
     assert set(sizes) == {1}
+
+
+def test_a_change_of_a_material_checks_links_again_that_did_not_change(tmp_path: Path) -> None:
+    box = '<geometry><box size="0.1 0.1 0.1"/></geometry>'
+    lamp = (
+        '<link name="link_0"><inertial><mass value="1"/><inertia ixx="0.00167" ixy="0" ixz="0" iyy="0.00167" iyz="0" '
+        f'izz="0.00167"/></inertial><visual>{box}</visual>'
+        f'<visual><origin xyz="15 0 0"/>{box}<material name="glass"/></visual></link></robot>'
+    )
+    text = HEAD + "".join(LINK.format(i=i, before=i - 1) for i in range(1, 12)) + lamp
+    path = tmp_path / "chain.urdf.xacro"
+    path.write_text(text)
+    project = Project(Options(select=("G617",)))
+    found = []
+    for alpha in ("0.1", "1", "0.1"):
+        project.set_text(path, text.replace("1 1 1 1", f"1 1 1 {alpha}"))
+        (analysis,) = project.analyses(path)
+        found.append([finding.code for finding in analysis.findings])
+    assert found == [[], ["G617"], []]
