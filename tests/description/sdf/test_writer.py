@@ -211,6 +211,18 @@ def test_models_read_back_equal(tmp_path: Path) -> None:
         assert load_model(tmp_path / "m.sdf") == model
 
 
+@pytest.mark.parametrize("value", [0.0, 1.0, 2.0])
+@pytest.mark.parametrize(
+    "name", ["lower", "upper", "effort", "velocity", "damping", "friction", "spring_reference", "spring_stiffness"]
+)
+def test_each_number_of_an_axis_reads_back_equal(name: str, value: float, tmp_path: Path) -> None:
+    axis = WorldAxis((0.0, 1.0, 0.0), **{name: value})
+    links = WorldLink("a", inertial=WorldInertial(1.0)), WorldLink("b", inertial=WorldInertial(1.0))
+    model = WorldModel("m", links=links, joints=(WorldJoint("j", "revolute", "a", "b", axes=(axis,)),))
+    (tmp_path / "m.sdf").write_text(model_to_sdf(model))
+    assert load_model(tmp_path / "m.sdf").joints[0].axes == (axis,)
+
+
 def test_places_do_not_count() -> None:
     assert load_model("ball") == load_model("model://ball")
     assert hash(load_world("house")) == hash(load_world("house"))
