@@ -43,7 +43,7 @@ from tests.bench.covered_lines import RECORDED, ROOT, blocks, copied, python_fil
 WANTED = 0.9
 MOST_SECONDS = 20.0
 """Time of the tests that run against a mutant, without changes: the tests of the module's own file come first [s]."""
-MOST_TESTS = 120
+MOST_TESTS = 400
 TIME_LIMIT = 300
 """A mutant whose tests take more CPU time, or twice as long, hangs and counts as noticed [s]."""
 MEMORY_LIMIT = 6 << 30
@@ -166,17 +166,24 @@ def covered_mutants(tests: dict[str, list[str]]) -> list[tuple[Mutant, list[str]
 def chosen_tests(file: str, tests: list[str], seconds: dict[str, float]) -> list[str]:
     """Return the tests to run for a change of a file, at most `MOST_SECONDS`.
 
-    First come those of its own test file, then cases with its name (such as those of a rule), then those of near
-    folders.
+    First come those of its own test file, then cases with its name (such as those of a rule), then one case of each
+    test function, those of near folders first, then a second one, and so on.
     """
     path = Path(file)
     folders = path.parent.parts[1:]
 
-    def distance(test: str) -> tuple[bool, bool, int, float]:
+    cases: Counter[str] = Counter()
+    number: dict[str, int] = {}
+    for test in sorted(tests, key=seconds.__getitem__):
+        function = test.partition("[")[0]
+        number[test] = cases[function]
+        cases[function] += 1
+
+    def distance(test: str) -> tuple[bool, bool, int, int, float]:
         place = Path(test.partition("::")[0])
         common = sum(a == b for a, b in zip(folders, place.parent.parts[1:], strict=False))
         is_own = place.name == f"test_{path.stem}.py"
-        return not is_own, f"[{path.stem.replace('_', '-')}" not in test, -common, seconds[test]
+        return not is_own, f"[{path.stem.replace('_', '-')}" not in test, number[test], -common, seconds[test]
 
     chosen: list[str] = []
     total = 0.0
