@@ -1,0 +1,55 @@
+"""The smallest content that a mesh file must have, byte by byte."""
+
+from __future__ import annotations
+
+import struct
+
+import pytest
+
+from urdfkit.lint import lint
+
+TRIANGLE = struct.pack("<12f2x", 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0)
+ASCII = b"""solid a
+facet normal 0 0 1
+outer loop
+vertex 0 0 0
+vertex 1 0 0
+vertex 0 1 0
+endloop
+endfacet
+endsolid a
+"""
+
+
+def binary(count: int, *triangles: bytes, header: bytes = b"") -> bytes:
+    return header.ljust(80, b" ") + struct.pack("<I", count) + b"".join(triangles)
+
+
+@pytest.mark.parametrize(
+    ("name", "content", "fault"),
+    [
+        ("a.stl", b"", "is empty"),
+        ("a.stl", b"version https://git-lfs.github.com/spec/v1\n", "is a Git LFS pointer: run `git lfs pull`"),
+        ("a.stl", b"solid a\nendsolid a\n", "contains no triangles"),
+        ("a.stl", binary(0)[:-1], "is truncated: 83 bytes, but 0 triangles need 84"),
+        ("a.stl", binary(0), "contains no triangles"),
+        ("a.stl", binary(1, TRIANGLE[:-1]), "is truncated: 133 bytes, but 1 triangles need 134"),
+        ("a.stl", binary(2, TRIANGLE, TRIANGLE[:-1]), "is truncated: 183 bytes, but 2 triangles need 184"),
+        ("a.stl", binary(1, TRIANGLE), None),
+        ("a.stl", binary(1, TRIANGLE, b"more"), None),
+        ("a.stl", binary(1, TRIANGLE, header=b"solid by a program"), None),
+        ("a.STL", binary(0), "contains no triangles"),
+        ("a.stl", ASCII, None),
+        ("a.stl", b" \n" + ASCII, None),
+        ("a.dae", b"<html/>", "is not a COLLADA file"),
+        ("a.glb", b"gltf", "is not a binary glTF file"),
+        ("a.obj", b"v 0 0 0\nv 1 0 0\nv 0 1 0\n", "contains no triangles"),
+        ("a.obj", b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", None),
+        ("a.obj", b"v 1 1 1\nv 1 1 1\nv 1 1 1\nf 1 2 3\n", "has all triangles in one point"),
+    ],
+)
+def test_the_fault_of_a_mesh_file(name: str, content: bytes, fault: str | None, write) -> None:
+    write(name, content)
+    mesh = f'<link name="a"><visual><geometry><mesh filename="{name}"/></geometry></visual></link>'
+    messages = [finding.message for finding in lint(write("r.urdf", mesh), select=("G607",))]
+    assert messages == ([] if fault is None else [f"mesh `{name}` {fault}"])
