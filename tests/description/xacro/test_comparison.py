@@ -37,6 +37,12 @@ def test_arguments_and_packages_reach_the_xacro_package(write: Write) -> None:
     assert text == expand(path, arguments={"n": "two"}, packages=packages, run_xacro=True).xml
 
 
+def test_the_xacro_package_finds_the_package_of_the_file(write: Write) -> None:
+    own = write("src/own/package.xml", "<package><name>own</name></package>").parent.absolute()
+    path = write("src/own/urdf/m.xacro", 'HEAD<link name="a" path="$(find own)"/></robot>')
+    assert f'path="{own}"' in text_of_xacro(path, {}, Packages([], path))
+
+
 def test_the_working_folder_cannot_replace_modules(write: Write) -> None:
     write("xacro.py", "raise SystemExit(7)")
     assert "<link" in text_of_xacro(write("m.xacro", 'HEAD<link name="a"/></robot>'), {}, Packages())
