@@ -158,8 +158,7 @@ def _is_possible(inertial: Inertial) -> bool:
     radius = abs(inertia.ixy) + abs(inertia.ixz) + abs(inertia.iyz)
     slack = 3.0 * radius + 1e-9 * (abs(xx) + abs(yy) + abs(zz))
     return (
-        min(xx, yy, zz) > slack
-        and xx + yy > zz + slack
+        xx + yy > zz + slack
         and xx + zz > yy + slack
         and yy + zz > xx + slack
         and not (xx == yy == zz == 1.0)
