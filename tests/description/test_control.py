@@ -11,7 +11,7 @@ from urdfkit.description.control import Settings, find_configuration, node_setti
 from urdfkit.description.control.parameter_yaml import parse_settings
 from urdfkit.description.control.ros1_launch import read_launch
 from urdfkit.description.packages.resolver import Packages
-from urdfkit.description.xml.source import Source
+from urdfkit.description.xml.source import Position, Source
 from urdfkit.errors import DescriptionError
 
 
@@ -179,3 +179,13 @@ def test_a_broken_file_of_the_robots_own_is_an_error(tmp_path: Path) -> None:
         find_configuration(found, "/bot")
     path.write_text("")
     assert read_settings(path).children == {}
+
+
+def test_a_later_file_overrides_values_and_adds_to_groups() -> None:
+    place = Position("a.yaml", 1, 1)
+    one, two = Settings("p", place, "1"), Settings("p", place, "2")
+    group = Settings("g", place, children={"p": one, "q": one})
+    other = Settings("g", place, children={"p": two, "r": two})
+    assert group.merged(other).children == {"p": two, "q": one, "r": two}
+    assert group.merged(two) == two
+    assert one.merged(group) == group
