@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import pytest
 from hypothesis import given, settings
@@ -221,6 +222,53 @@ def test_each_number_of_an_axis_reads_back_equal(name: str, value: float, tmp_pa
     model = WorldModel("m", links=links, joints=(WorldJoint("j", "revolute", "a", "b", axes=(axis,)),))
     (tmp_path / "m.sdf").write_text(model_to_sdf(model))
     assert load_model(tmp_path / "m.sdf").joints[0].axes == (axis,)
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        {"gravity": False},
+        {"gravity": True},
+        {"kinematic": True},
+        {"self_collide": True},
+        {"self_collide": False},
+        {"damping": (1.0, 0.0)},
+        {"damping": (0.0, 1.0)},
+        {"pose": Pose((1.0, 0.0, 0.0))},
+    ],
+)
+def test_each_setting_of_a_link_reads_back_equal(change: dict[str, Any], tmp_path: Path) -> None:
+    link = WorldLink("a", inertial=WorldInertial(1.0), **change)
+    (tmp_path / "m.sdf").write_text(model_to_sdf(WorldModel("m", links=(link,))))
+    assert load_model(tmp_path / "m.sdf").links == (link,)
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        {"mu": 0.0},
+        {"mu2": 0.0},
+        {"fdir1": (0.0, 0.0, 1.0)},
+        {"slip1": 1.0},
+        {"slip2": 1.0},
+        {"kp": 1.0},
+        {"kd": 0.0},
+        {"min_depth": 1.0},
+        {"max_vel": 0.0},
+        {"max_vel": 1.0},
+        {"restitution": 1.0},
+        {"bounce_threshold": 0.0},
+        {"collide_bitmask": 0},
+        {"collide_bitmask": 1},
+        {"collide_without_contact": True},
+        {},
+    ],
+)
+def test_each_number_of_a_surface_reads_back_equal(change: dict[str, Any], tmp_path: Path) -> None:
+    shape = WorldShape("s", Sphere(0.5), Pose(), Surface(**change))
+    link = WorldLink("a", inertial=WorldInertial(1.0), collisions=(shape,))
+    (tmp_path / "m.sdf").write_text(model_to_sdf(WorldModel("m", links=(link,))))
+    assert load_model(tmp_path / "m.sdf").links == (link,)
 
 
 def test_places_do_not_count() -> None:
