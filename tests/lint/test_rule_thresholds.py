@@ -215,3 +215,10 @@ def test_a_value_on_either_side_of_a_threshold(code: str, body: str, value: str,
 def test_messages_shorten_what_they_list(code: str, body: str, message: str, write) -> None:
     (finding,) = lint(write("r.urdf", body), select=(code,))
     assert message in finding.message
+
+
+@pytest.mark.parametrize("roll", ["1.5708", "-1.5708"])
+def test_the_suggested_axis_of_a_wheel_points_left(roll: str, write) -> None:
+    wheel = disc("", rpy=f"{roll} 0 0").replace('xyz="0 1 0"', 'xyz="1 0 0"')
+    (finding,) = lint(write("r.urdf", wheel), select=("J414",))
+    assert 'write <axis xyz="0 1 0"/>' in (finding.help or "")
