@@ -177,3 +177,24 @@ def test_a_file_without_end_is_not_loaded(write: Write) -> None:
     path = write("m.xacro", "HEAD<link name=\"${xacro.load_yaml('/dev/zero')}\"/></robot>")
     (fault,) = expand_leniently(path).faults
     assert fault.message.endswith("/dev/zero is not a regular file")
+
+
+@pytest.mark.parametrize(
+    ("expression", "most"),
+    [
+        ("len('x' * N)", 100_000),
+        ("len('x' * 9 + 'x' * (N - 9))", 100_000),
+        ("len('x'.ljust(N))", 100_000),
+        ("len(list(range(N)))", 99_999),
+        ("1 &lt;&lt; (N - 1) > 0", 10_000),
+    ],
+)
+def test_the_largest_value_is_allowed_and_a_larger_one_refused(write: Write, expression: str, most: int) -> None:
+    """The list of a range counts as one of its own elements."""
+
+    def expanded(size: int) -> str:
+        return expand(write("m.xacro", f'HEAD<link name="${{{expression.replace("N", str(size))}}}"/></robot>')).xml
+
+    assert "<link" in expanded(most)
+    with pytest.raises(XacroError, match="more than"):
+        expanded(most + 1)
