@@ -32,11 +32,11 @@ _HINTS = 20
 
 @record(eq=False)
 class Defect:
-    """A defect of a robot's structure, and what `repaired_structure` does about it.
+    """A defect of a robot's structure, and its repair by `repaired_structure`.
 
     Attributes:
-        message: the fault.
-        effect: the change that removes it, for the message.
+        message: description of the defect.
+        effect: description of the repair.
         code: code of the lint rule that reports the defect.
         element: the element that has the defect.
         link: name of the affected link.
@@ -167,8 +167,8 @@ class _Structure:
             at = other.element.origin.position
             message = f"two links are called `{link.name}`; the first is at {at}"
             self._add(message, "this one is left out", "T206", link.element, link=link.name)
-        for joint, known in repeated(self.robot.joints):
-            message = f"two joints are called `{joint.name}`; the first is at {known.element.origin.position}"
+        for joint, original in repeated(self.robot.joints):
+            message = f"two joints are called `{joint.name}`; the first is at {original.element.origin.position}"
             self._add(message, "this one is renamed", "T207", joint.element, joint=joint.name)
         if not self.defects:
             return
@@ -188,7 +188,7 @@ class _Structure:
 
     def connect_joints(self) -> None:
         """Give each joint a parent and a child, a type, an axis, and each link at most one parent."""
-        known = {link.name for link in self.links}
+        names = {link.name for link in self.links}
         undefined: dict[str, Element] = {}
         kept: dict[str, Joint] = {}
         for joint in self.joints:
@@ -196,7 +196,7 @@ class _Structure:
                 if name is None and joint.element.find(end) is None:
                     message = f"joint `{joint.name}` lacks <{end} link=…>"
                     self._add(message, "the joint is left out", "E014", joint.element, joint=joint.name)
-                elif name is not None and name not in known:
+                elif name is not None and name not in names:
                     element = joint.element.find(end) or joint.element
                     if name:
                         undefined.setdefault(name, element)
