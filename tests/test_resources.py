@@ -71,6 +71,12 @@ def test_robot_by_name(here):
     assert found.arguments == {}
 
 
+def test_suffixes_in_capital_letters(here):
+    path = urdf(here / "robots" / "R2.URDF", "r2")
+    assert find_model(["robots"]).path == path
+    assert models_in(here) == [path]
+
+
 def test_file_and_xacro_arguments(here):
     path = urdf(here / "my bot.urdf", "r2")
     found = find_model(["a:=1", "my bot.urdf", "b:=x:=y", "c:="], package_path=["."])

@@ -13,6 +13,10 @@ from pathlib import Path
 from urdfkit.errors import ResourceError, UsageError, did_you_mean
 from urdfkit.record import record
 
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from urdfkit.robot_descriptions_cache import CachedDescription
+
 MODEL_SUFFIXES = (".urdf", ".xacro")
 """Suffixes of model files."""
 
@@ -28,6 +32,7 @@ _ROOT = re.compile(r"""<robot\b((?:"[^"]*"|'[^']*'|[^>"'])*)>""")
 _NAME = re.compile(r"""(?<![\w:])name\s*=\s*(?:"([^"]*)"|'([^']*)')""")
 # A file of colours or properties is not a robot, whatever its name: a robot has a link, or an element that may add one.
 _SUBSTANCE = re.compile(r"<link\b|<xacro:(?!macro\b|property\b|arg\b)")
+_DESCRIPTION = re.compile(r"[a-z]\w*_description")
 _INCLUDED = re.compile(r"""<xacro:include\b[^>]*?filename\s*=\s*["'][^"']*?([^/"'\\]+)["']""")
 
 
@@ -40,12 +45,14 @@ class ModelArgument:
         arguments: xacro arguments, from ``key:=value`` words.
         package_path: folders to search for packages first.
         name: name of the robot before it is loaded: the one in the file if it is literal, else the file's stem.
+        macro: macro of the file to instantiate; None for the robot that the file describes.
     """
 
     path: Path
     arguments: dict[str, str]
     package_path: tuple[Path, ...]
     name: str
+    macro: str | None = None
 
 
 def robots_dir() -> Path:
@@ -116,8 +123,24 @@ def find_model(words: Sequence[str], *, package_path: Iterable[str | Path] = ())
         if separator:
             arguments[key] = value
     folders = tuple(_existing_folder(folder) for folder in package_path)
+    if models and (described := _cached_description(models[0])) is not None:
+        own = {**described.arguments, **arguments}
+        return ModelArgument(described.path, own, (*folders, *described.packages), models[0])
     path = _find(models[0]) if models else _find_here(Path.cwd())
     return ModelArgument(path, arguments, folders, _robot_name(path) or _stem(path))
+
+
+def _cached_description(word: str) -> CachedDescription | None:
+    """Return the robot of the package robot_descriptions that a word names; None for other words.
+
+    Raises:
+        ResourceError: the package is installed and does not have it.
+    """
+    if not _DESCRIPTION.fullmatch(word) or Path(word).exists() or word in robot_names():
+        return None
+    from urdfkit.robot_descriptions_cache import cached_description
+
+    return cached_description(word)
 
 
 def _shipped(kind: str) -> Path:
@@ -141,7 +164,7 @@ def _existing_folder(folder: str | Path) -> Path:
 def _find(word: str) -> Path:
     path = Path(word).expanduser()
     if path.is_file():
-        if path.suffix in _WORLD_SUFFIXES:
+        if path.suffix.lower() in _WORLD_SUFFIXES:
             raise ResourceError(f"{word} is an SDF file, not a robot description; a world goes after --world")
         return path.resolve()
     if path.is_dir():
@@ -155,15 +178,23 @@ def _find(word: str) -> Path:
         raise ResourceError(f"{word} is neither a file nor a folder")
     if _looks_like_a_path(word):
         raise ResourceError(f"no such file or folder: {word}{_near(path)}")
-    here = [p.name for p in _children(Path.cwd()) if p.is_dir() or p.suffix in MODEL_SUFFIXES]
+    here = [p.name for p in _children(Path.cwd()) if p.is_dir() or p.suffix.lower() in MODEL_SUFFIXES]
     names = robot_names()
     hint = did_you_mean(word, [*names, *here])
+    if not hint and _DESCRIPTION.fullmatch(word):
+        hint = (
+            f"; for robots of the package robot_descriptions run `pip install robot_descriptions` "
+            f"and `python -m robot_descriptions pull {word}`"
+        )
     raise ResourceError(f"no robot, file or folder `{word}`{hint or '; robots: ' + ', '.join(names)}")
 
 
 def _looks_like_a_path(word: str) -> bool:
     return (
-        "/" in word or os.sep in word or word.startswith((".", "~")) or Path(word).suffix in (*MODEL_SUFFIXES, ".xml")
+        "/" in word
+        or os.sep in word
+        or word.startswith((".", "~"))
+        or Path(word).suffix.lower() in (*MODEL_SUFFIXES, ".xml")
     )
 
 
@@ -210,10 +241,10 @@ def models_in(folder: Path) -> list[Path]:
     """
     texts: dict[Path, str] = {}
     for path in _walk(folder, 0):
-        if path.suffix in MODEL_SUFFIXES or path.suffix == ".gazebo":
+        if path.suffix.lower() in MODEL_SUFFIXES or path.suffix == ".gazebo":
             texts[path] = _text(path)
     included = {name for text in texts.values() for name in _INCLUDED.findall(text)}
-    roots = {path: _ROOT.search(text) for path, text in texts.items() if path.suffix in MODEL_SUFFIXES}
+    roots = {path: _ROOT.search(text) for path, text in texts.items() if path.suffix.lower() in MODEL_SUFFIXES}
     candidates = [
         path
         for path, root in roots.items()
@@ -221,8 +252,8 @@ def models_in(folder: Path) -> list[Path]:
     ]
     named = [path for path in candidates if _NAME.search(roots[path][1])]  # type: ignore[index]
     chosen = named or candidates
-    sources = {(path.parent, _stem(path)) for path in chosen if path.suffix == ".xacro"}
-    return sorted(p.resolve() for p in chosen if p.suffix == ".xacro" or (p.parent, _stem(p)) not in sources)
+    sources = {(path.parent, _stem(path)) for path in chosen if path.suffix.lower() == ".xacro"}
+    return sorted(p.resolve() for p in chosen if p.suffix.lower() == ".xacro" or (p.parent, _stem(p)) not in sources)
 
 
 def _the_one(entries: list[Path], where: str) -> Path:
@@ -278,4 +309,4 @@ def _robot_name(path: Path) -> str | None:
 
 
 def _stem(path: Path) -> str:
-    return path.name.removesuffix(".xacro").removesuffix(".urdf")
+    return re.sub(r"(\.urdf)?(\.xacro)?$", "", path.name, count=1, flags=re.IGNORECASE)

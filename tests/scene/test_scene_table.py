@@ -82,10 +82,19 @@ def test_one_file_used_often_is_read_once(robot_of: Build, meshes: Path) -> None
     assert scene_of(robot).shapes[0].mesh is not first.mesh
 
 
+def test_a_mesh_whose_name_differs_in_capital_letters_is_used_and_noted(robot_of: Build, meshes: Path) -> None:
+    robot = robot_of(f'<link name="root"/>\n{mesh_link("package://thing_description/meshes/wheel.STL")}\n{JOINT}')
+    (shape,) = scene_of(robot).shapes
+    assert shape.mesh is not None
+    assert robot.packages is not None
+    (note,) = robot.packages.notes
+    assert note.startswith("package://thing_description/meshes/wheel.STL: the name of the file is Wheel.stl in ")
+
+
 @pytest.mark.parametrize(
     ("uri", "message"),
     [
-        ("package://thing_description/meshes/wheel.stl", r"did you mean `Wheel\.stl`\?"),
+        ("package://thing_description/meshes/whel.stl", r"did you mean `Wheel\.stl`\?"),
         ("package://thing_description/meshes/Wheel.dae", r"did you mean `Wheel\.stl`\?"),
         ("package://thing_description/mesh/Wheel.stl", r"did you mean `meshes`\?"),
         ("package://thing_descripton/meshes/Wheel.stl", r"no package `thing_descripton` .*`thing_description`\?"),

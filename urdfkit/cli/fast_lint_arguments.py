@@ -41,7 +41,7 @@ class SimpleArguments:
         self.select: list[str] = []
         self.ignore: list[str] = []
         self.package_path: list[str] = []
-        self.target = self.baseline = self.write_baseline = self.config = self.jobs = None
+        self.target = self.baseline = self.write_baseline = self.config = self.jobs = self.macro = None
         self.format, self.color, self.time_limit = "text", "auto", TIME_LIMIT
         for name in _SWITCHES:
             setattr(self, name, name in switches)

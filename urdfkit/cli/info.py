@@ -9,6 +9,7 @@ from collections import Counter
 from typing import TYPE_CHECKING, Any
 
 from urdfkit.cli.parser import add_model
+from urdfkit.cli.robot_arguments.required_arguments import listing_required_arguments
 from urdfkit.cli.unused_arguments import note_unused
 from urdfkit.description.urdf.version import RATES
 from urdfkit.errors import MissingDependencyError, UrdfkitError
@@ -32,7 +33,8 @@ def run(arguments: argparse.Namespace) -> int:
     from urdfkit.resources import find_model
 
     model = find_model(arguments.model, package_path=arguments.package_path)
-    robot = load(model.path, arguments=model.arguments, package_path=model.package_path)
+    with listing_required_arguments(model, quiet=arguments.quiet):
+        robot = load(model.path, arguments=model.arguments, package_path=model.package_path)
     note_unused(model.arguments, robot.files, quiet=arguments.quiet)
     facts = facts_of(robot)
     if facts["note"] and not arguments.quiet:

@@ -74,6 +74,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
         help="read only the package, its workspace and the package path, and no environment variables: for the files "
         "of people who are not trusted",
     )
+    add("--macro", metavar="NAME", help="lint the robot that this macro of the file makes with key:=value parameters")
     add("--no-cache", action="store_true", help="lint unchanged files again")
     add("--jobs", type=_count, metavar="N", help="number of processes (default: one per core)")
     add_time_limit(parser)
@@ -113,6 +114,8 @@ def _check(arguments: argparse.Namespace) -> None:
         raise UsageError("--write-baseline cannot be combined with --fix or --diff")
     if arguments.statistics and arguments.format not in ("text", "json"):
         raise UsageError(f"--statistics supports the formats text and json, not {arguments.format}")
+    if arguments.macro is not None and changes:
+        raise UsageError("--macro cannot be combined with --fix or --diff; fix the file without --macro")
     if arguments.config and arguments.no_config:
         raise UsageError("--config cannot be combined with --no-config")
 
@@ -206,14 +209,33 @@ class _Run:
             named,
             xacro_arguments,
             folders,
+            self._text_with_macro(xacro_arguments, folders),
             guess_target=target is None,
             time_limit=limit,
             confinement=self.confinement,
         )
 
-    def _entries(self) -> list[Entry]:
-        from urdfkit.lint.project.entry_files import find_each
+    def _text_with_macro(self, xacro_arguments: dict[str, str], folders: tuple[Path, ...]) -> dict[str, str]:
+        """Return the text of the file with a call of the macro of the command line; empty without one."""
+        macro = self.arguments.macro
+        if macro is None:
+            return {}
+        if len(self.paths) != 1 or not Path(self.paths[0]).is_file():
+            from urdfkit.errors import UsageError
 
+            raise UsageError("--macro requires one file as PATH")
+        from urdfkit.description.packages.resolver import Packages
+        from urdfkit.description.xacro.macro_call import text_with_call
+
+        path = Path(self.paths[0])
+        permits = None if self.confinement is None else self.confinement.permits
+        return text_with_call(path, macro, xacro_arguments, Packages(folders, path, permits=permits))
+
+    def _entries(self) -> list[Entry]:
+        from urdfkit.lint.project.entry_files import Entry, find_each
+
+        if self.arguments.macro is not None:
+            return [Entry(Path(self.paths[0]))]
         entries, self.refused = find_each(self.paths)
         settings = self.settings
         if settings is None or not settings.exclude:

@@ -12,6 +12,8 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from urdfkit.cli.robot_arguments.macro_option import add_macro, with_macro, xacro_arguments
+from urdfkit.cli.robot_arguments.required_arguments import listing_required_arguments
 from urdfkit.cli.unused_arguments import note_unused
 from urdfkit.errors import MissingDependencyError, ResourceError, UsageError, did_you_mean
 
@@ -53,6 +55,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "-o", "--output", type=Path, metavar="FILE", help="with --tree: write a drawing to a .svg, .dot or .pdf file"
     )
+    add_macro(parser)
     parser.add_argument(
         "--package-path",
         action="append",
@@ -84,9 +87,10 @@ def run(arguments: argparse.Namespace) -> int:
     from urdfkit.kinematics.tf import TransformTree
     from urdfkit.resources import find_model
 
-    found = find_model(model, package_path=arguments.package_path)
-    robot = load(found.path, arguments=found.arguments, package_path=found.package_path)
-    note_unused(found.arguments, robot.files, quiet=arguments.quiet)
+    found = with_macro(find_model(model, package_path=arguments.package_path), arguments)
+    with listing_required_arguments(found, quiet=arguments.quiet):
+        robot = load(found.path, arguments=found.arguments, package_path=found.package_path, macro=found.macro)
+    note_unused(xacro_arguments(found), robot.files, quiet=arguments.quiet)
     tree = TransformTree(robot)
     _warn_of_limits(tree, positions)
     if arguments.tree:

@@ -6,12 +6,18 @@ from pathlib import Path
 from urdfkit.app.page import Page, note, require_page, until_interrupted
 from urdfkit.cli.page_options import add_page_options, announce
 from urdfkit.cli.parser import add_model
+from urdfkit.cli.robot_arguments.file_notes import warn_of_file_names
+from urdfkit.cli.robot_arguments.launch_arguments import add_launch_arguments, with_launch_arguments
+from urdfkit.cli.robot_arguments.macro_option import add_macro, with_macro, xacro_arguments
+from urdfkit.cli.robot_arguments.required_arguments import listing_required_arguments
 from urdfkit.cli.unused_arguments import note_unused
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
     """Add the arguments."""
     add_model(parser)
+    add_macro(parser)
+    add_launch_arguments(parser, "display")
     add_page_options(parser)
     parser.add_argument(
         "--html", metavar="FILE", help="write a self-contained page with sliders that needs no server, and exit"
@@ -38,11 +44,14 @@ def run(arguments: argparse.Namespace) -> int:
     from urdfkit.resources import find_model
 
     check_places("--html", [Path(arguments.html)] if arguments.html is not None else [])
-    model = find_model(arguments.model, package_path=arguments.package_path)
+    named = with_macro(find_model(arguments.model, package_path=arguments.package_path), arguments)
+    model = with_launch_arguments(named, arguments)
 
     def read() -> ShownRobot:
-        shown = ShownRobot.read(model, strict=arguments.strict)
-        note_unused(model.arguments, shown.files, quiet=arguments.quiet)
+        with listing_required_arguments(model, quiet=arguments.quiet):
+            shown = ShownRobot.read(model, strict=arguments.strict)
+        note_unused(xacro_arguments(named), shown.files, quiet=arguments.quiet)
+        warn_of_file_names(shown.kinematics.robot, quiet=arguments.quiet)
         if not arguments.quiet:
             note_repairs(shown.repairs)
         return shown

@@ -35,6 +35,7 @@ def load(
     *,
     arguments: Mapping[str, str] | None = None,
     package_path: Iterable[str | Path] = (),
+    macro: str | None = None,
 ) -> Robot:
     """Load a robot that is one tree of links and joints.
 
@@ -43,18 +44,19 @@ def load(
             returned unchanged, or loaded again if `arguments` or `package_path` is set.
         arguments: xacro arguments.
         package_path: folders to search for packages first.
+        macro: macro of the file to instantiate; `arguments` are its parameters, too.
 
     Raises:
-        UsageError: `robot` is something else.
+        UsageError: `robot` is something else, or the file has no such macro.
         ResourceError: no such file, folder or bundled robot.
         XmlError: a file is not well-formed, declares entities, or exceeds a limit.
         XacroError: xacro could not expand it.
         ModelError: the file is not a robot, the links are not a single tree, or a value is invalid.
     """
     package_path = tuple(package_path)
-    if isinstance(robot, Robot) and not arguments and not package_path:
+    if isinstance(robot, Robot) and not arguments and not package_path and macro is None:
         return robot
-    return _load(model_argument(robot, arguments=arguments, package_path=package_path), check)
+    return _load(model_argument(robot, arguments=arguments, package_path=package_path, macro=macro), check)
 
 
 def load_repaired(
@@ -62,6 +64,7 @@ def load_repaired(
     *,
     arguments: Mapping[str, str] | None = None,
     package_path: Iterable[str | Path] = (),
+    macro: str | None = None,
 ) -> tuple[Robot, list[Repair]]:
     """Load a robot whose links need not be one valid tree.
 
@@ -69,6 +72,7 @@ def load_repaired(
         robot: see `load`.
         arguments: xacro arguments.
         package_path: folders to search for packages first.
+        macro: see `load`.
 
     Returns:
         A robot that is one valid tree, and the repairs that it needed; see `repaired_structure`.
@@ -81,9 +85,9 @@ def load_repaired(
         ModelError: the file is not a robot, or has no link.
     """
     package_path = tuple(package_path)
-    if isinstance(robot, Robot) and not arguments and not package_path:
+    if isinstance(robot, Robot) and not arguments and not package_path and macro is None:
         return robot, []
-    model = model_argument(robot, arguments=arguments, package_path=package_path)
+    model = model_argument(robot, arguments=arguments, package_path=package_path, macro=macro)
     repaired, defects = repaired_structure(_load(model, require_links))
     return repaired, [defect.repair for defect in defects]
 
@@ -91,7 +95,14 @@ def load_repaired(
 def _load(model: ModelArgument, check: Callable[[Robot], None]) -> Robot:
     """Return the robot of a file after a check."""
     packages = Packages(model.package_path, model.path)
-    expanded = expand_file(model.path, arguments=model.arguments, packages=packages)
+    texts = {}
+    if model.macro is not None:
+        from urdfkit.description.xacro.macro_call import text_with_call
+
+        texts = text_with_call(model.path, model.macro, model.arguments, packages)
+    expanded = expand_file(
+        model.path, arguments=model.arguments, packages=packages, run_xacro=model.macro is not None or None, texts=texts
+    )
     try:
         robot = _parsed(expanded, model.arguments)
         check(robot)
@@ -135,6 +146,7 @@ def model_argument(
     *,
     arguments: Mapping[str, str] | None = None,
     package_path: Iterable[str | Path] = (),
+    macro: str | None = None,
 ) -> ModelArgument:
     """Return the file of a robot and the arguments to load it with.
 
@@ -142,6 +154,7 @@ def model_argument(
         robot: see `load`.
         arguments: xacro arguments, added to the arguments of a loaded robot.
         package_path: folders to search for packages first.
+        macro: macro of the file to instantiate.
 
     Raises:
         UsageError: `robot` is neither a path, a name nor a robot that was loaded from a file.
@@ -154,14 +167,14 @@ def model_argument(
         if robot.packages is not None:
             folders += robot.packages.search
         name = robot.name or robot.files[0].stem
-        return ModelArgument(robot.files[0], {**robot.arguments, **arguments}, folders, name)
+        return ModelArgument(robot.files[0], {**robot.arguments, **arguments}, folders, name, macro)
     if not isinstance(robot, (str, os.PathLike)):
         raise UsageError(f"{robot!r} is not a robot: pass a file, a package folder, a bundled name or a loaded robot")
     path = Path(robot)
     if path.is_file():
-        return ModelArgument(path, arguments, folders, path.name.split(".")[0])
+        return ModelArgument(path, arguments, folders, path.name.split(".")[0], macro)
     found = find_model([str(robot)], package_path=folders)
-    return ModelArgument(found.path, arguments, found.package_path, found.name)
+    return ModelArgument(found.path, {**found.arguments, **arguments}, found.package_path, found.name, macro)
 
 
 def _parsed(expanded: Expanded, arguments: Mapping[str, str]) -> Robot:
@@ -174,6 +187,14 @@ def _parsed(expanded: Expanded, arguments: Mapping[str, str]) -> Robot:
     if root is None:
         raise ModelError(f"{expanded.path} could not be read")
     check_is_robot(root)
+    if expanded.macros and not any(child.tag in ("link", "joint") for child in root.children):
+        from urdfkit.description.xacro.macro_call import listed
+
+        raise ModelError(
+            f"the file defines macros only: {listed(expanded)}; instantiate one with --macro NAME and its parameters "
+            "as key:=value",
+            position=root.origin.position,
+        )
     return parse(root, files=expanded.files, packages=expanded.packages, arguments=arguments)
 
 

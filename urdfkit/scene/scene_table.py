@@ -211,7 +211,7 @@ def _resolve(robot: Robot, uri: str) -> Path:
     """Return the file of a mesh URI; a relative path is relative to the entry file of the description."""
     entry = robot.files[0] if robot.files else Path("robot.urdf")
     if robot.packages is not None:
-        return robot.packages.resolve(uri, entry)
+        return robot.packages.resolve_in_any_case(uri, entry)
     if uri.startswith(("package://", "model://")):
         raise ResourceError(f"mesh `{uri}` cannot be found: the robot was not loaded from a file")
     return entry.parent / uri.removeprefix("file://")

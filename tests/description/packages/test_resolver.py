@@ -80,6 +80,48 @@ def test_models_of_gazebo(write: Write) -> None:
     assert found.resolve("model://table/meshes/top.stl", ".") == mesh.absolute()
 
 
+@pytest.mark.parametrize(
+    "folder",
+    [".gazebo/models/table", ".gz/fuel/fuel.gazebosim.org/owner/models/table/2", ".ignition/fuel/s/o/models/table/1"],
+)
+def test_models_in_the_home_folder(folder: str, write: Write) -> None:
+    mesh = write(f"home/{folder}/meshes/top.stl", "")
+    write(f"home/{folder}/model.config", "<model/>")
+    home = Path("home").absolute()
+    found = Packages(environment={"HOME": str(home)})
+    assert found.resolve(
+        "model://Table/meshes/top.stl" if "fuel" in folder else "model://table/meshes/top.stl", "."
+    ) == (mesh.absolute())
+
+
+def test_the_newest_version_in_the_cache_of_fuel(write: Write) -> None:
+    for version in (2, 10, 9):
+        write(f"fuel/server/owner/models/table/{version}/model.config", "<model/>")
+    environment = {"HOME": "/nowhere", "GZ_FUEL_CACHE_PATH": str(Path("fuel").absolute())}
+    assert Packages(environment=environment).find("table").name == "10"
+
+
+def test_bundled_models_are_packages_unless_the_user_has_the_model(write: Write) -> None:
+    assert (Packages(environment={"HOME": "/nowhere"}).find("bookshelf") / "model.sdf").is_file()
+    write("models/bookshelf/model.config", "<model/>")
+    own = {"GZ_SIM_RESOURCE_PATH": str(Path("models").absolute())}
+    assert Packages(environment=own).find("bookshelf") == Path("models/bookshelf").absolute()
+
+
+def test_capital_letters_of_files(write: Write) -> None:
+    mesh = write("Meshes/Arm.STL", "")
+    found = Packages(environment={})
+    with pytest.raises(ResourceError, match="no file"):
+        found.resolve("meshes/arm.stl", ".")
+    assert found.resolve_in_any_case("meshes/arm.stl", ".").samefile(mesh)
+    assert list(found.notes) == [
+        "meshes/arm.stl: the name of the file is Arm.STL in Meshes; correct the capital letters"
+    ]
+    write("Meshes/ARM.stl", "")
+    with pytest.raises(ResourceError, match="no file"):
+        found.resolve_in_any_case("meshes/arm.stl", ".")
+
+
 def test_robots_we_ship() -> None:
     assert robots_dir() in Packages(environment={}).find("simpleton_description").parents
 

@@ -128,8 +128,20 @@ class FindingsPanel:
             None if target == "any" else target,
             self.model.arguments,
             (*folders, *settings.package_path),
+            self._texts(),
             guess_target=target is None,
         )
+
+    def _texts(self) -> dict[str, str]:
+        """Return the text of the file with a call of the model's macro."""
+        if self.model.macro is None:
+            return {}
+        from urdfkit.description.packages.resolver import Packages
+        from urdfkit.description.xacro.macro_call import text_with_call
+
+        model = self.model
+        packages = Packages(model.package_path, model.path)
+        return text_with_call(model.path, self.model.macro, model.arguments, packages)
 
     def _row(self, number: int, finding: Finding, outcome: Outcome, places: SourceLinks | None) -> dict[str, Any]:
         source = outcome.sources.get(finding.file)

@@ -69,9 +69,11 @@ class ShownRobot:
         loader = loader or MeshLoader()
         repairs: list[Repair] = []
         if strict:
-            robot = load(model.path, arguments=model.arguments, package_path=model.package_path)
+            robot = load(model.path, arguments=model.arguments, package_path=model.package_path, macro=model.macro)
         else:
-            robot, repairs = load_repaired(model.path, arguments=model.arguments, package_path=model.package_path)
+            robot, repairs = load_repaired(
+                model.path, arguments=model.arguments, package_path=model.package_path, macro=model.macro
+            )
             robot, released = without_impossible_mimics(robot)
             repairs += released
         scene = scene_of(robot, strict=strict, meshes=loader)

@@ -78,7 +78,7 @@ def viewing(page: Page, model: ModelArgument, shown: ShownRobot, *, strict: bool
     server = page.server
     server.requests.update(request_schemas())
     try:
-        findings = FindingsPanel(model, may_write=is_loopback(page.host))
+        findings = FindingsPanel(model, may_write=model.macro is None and is_loopback(page.host))
         session = Session(server, model, shown, findings, strict=strict)
         server.publish_latched("progress", label="Preparing shapes")
         page.open()  # the browser starts while the shapes are prepared

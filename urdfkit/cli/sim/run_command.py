@@ -14,6 +14,10 @@ from typing import TYPE_CHECKING
 from urdfkit.app.page import require_packages
 from urdfkit.app.termination import ended_by_signals
 from urdfkit.cli.parser import add_model
+from urdfkit.cli.robot_arguments.file_notes import warn_of_file_names
+from urdfkit.cli.robot_arguments.launch_arguments import add_launch_arguments, with_launch_arguments
+from urdfkit.cli.robot_arguments.macro_option import add_macro, with_macro, xacro_arguments
+from urdfkit.cli.robot_arguments.required_arguments import listing_required_arguments
 from urdfkit.cli.sim import option_values
 from urdfkit.cli.sim.controllers_option import add_controllers
 from urdfkit.cli.sim.record_option import NEW_TOPIC_PERIOD, add_record, check_record, recording
@@ -42,6 +46,8 @@ def configure(parser: argparse.ArgumentParser) -> None:
     # argparse parses `-1,0,0` as an option unless this pattern matches it.
     parser._negative_number_matcher = re.compile(r"^-\.?\d|^-(inf|nan)", re.IGNORECASE)
     add_model(parser)
+    add_macro(parser)
+    add_launch_arguments(parser, "simulation")
     add = parser.add_argument
     add("--for", dest="duration", required=True, type=option_values.duration, metavar="SECONDS", help="simulated time")
     add(
@@ -183,9 +189,13 @@ def load(arguments: argparse.Namespace) -> Simulator:
 
     limit = CostLimit(LOADING, memory=LOADING_MEMORY, option="")
     with limit:
-        model = find_model(arguments.model, package_path=arguments.package_path)
-        robot = load_description(model.path, arguments=model.arguments, package_path=model.package_path)
-        note_unused(model.arguments, robot.files, quiet=arguments.quiet)
+        named = with_macro(find_model(arguments.model, package_path=arguments.package_path), arguments)
+        model = with_launch_arguments(named, arguments)
+        with listing_required_arguments(model, quiet=arguments.quiet):
+            robot = load_description(
+                model.path, arguments=model.arguments, package_path=model.package_path, macro=model.macro
+            )
+        note_unused(xacro_arguments(named), robot.files, quiet=arguments.quiet)
         world = load_world(arguments.world)
     prepare_kernel(sys.stderr)
     spawn = None
@@ -195,7 +205,7 @@ def load(arguments: argparse.Namespace) -> Simulator:
         twist = arguments.initial_twist or (0.0,) * 6
         spawn = Spawn(**pose, twist=twist, joints=positions, velocities=velocities)
     with limit:
-        return Simulator(
+        simulator = Simulator(
             robot,
             world=world,
             dt=arguments.dt,
@@ -210,6 +220,8 @@ def load(arguments: argparse.Namespace) -> Simulator:
             density=arguments.density,
             note=(lambda text: None) if arguments.quiet else (lambda text: print(f"urdfkit: {text}", file=sys.stderr)),
         )
+    warn_of_file_names(robot, quiet=arguments.quiet)
+    return simulator
 
 
 def command(simulator: Simulator, arguments: argparse.Namespace) -> None:

@@ -5,6 +5,10 @@ import argparse
 from urdfkit.app.page import Page, note, require_page, until_interrupted
 from urdfkit.cli.page_options import add_page_options, announce
 from urdfkit.cli.parser import add_model
+from urdfkit.cli.robot_arguments.file_notes import warn_of_file_names
+from urdfkit.cli.robot_arguments.launch_arguments import add_launch_arguments, with_launch_arguments
+from urdfkit.cli.robot_arguments.macro_option import add_macro, with_macro, xacro_arguments
+from urdfkit.cli.robot_arguments.required_arguments import listing_required_arguments
 from urdfkit.cli.sim.controllers_option import add_controllers
 from urdfkit.cli.sim.record_option import add_record, check_record, recording
 from urdfkit.cli.sim.renderer_option import add_renderer
@@ -20,6 +24,8 @@ Shift strafes; q/z change both speeds by 10 %, e/c the turning speed. Ctrl-C exi
 def configure(parser: argparse.ArgumentParser) -> None:
     """Add the arguments."""
     add_model(parser)
+    add_macro(parser)
+    add_launch_arguments(parser, "simulation")
     parser.add_argument(
         "--world",
         default="empty",
@@ -55,9 +61,11 @@ def run(arguments: argparse.Namespace) -> int:
     check_record(arguments.record)
     with until_interrupted():
         with CostLimit(LOADING, memory=LOADING_MEMORY, option=""):
-            model = find_model(arguments.model, package_path=arguments.package_path)
-            robot = load(model.path, arguments=model.arguments, package_path=model.package_path)
-            note_unused(model.arguments, robot.files, quiet=arguments.quiet)
+            named = with_macro(find_model(arguments.model, package_path=arguments.package_path), arguments)
+            model = with_launch_arguments(named, arguments)
+            with listing_required_arguments(model, quiet=arguments.quiet):
+                robot = load(model.path, arguments=model.arguments, package_path=model.package_path, macro=model.macro)
+            note_unused(xacro_arguments(named), robot.files, quiet=arguments.quiet)
             world = load_world(arguments.world)
         page = Page(
             "sim",
@@ -81,5 +89,6 @@ def run(arguments: argparse.Namespace) -> int:
             recording(loop.simulator, arguments.record) as loop.look,
         ):
             note(KEYS if loop.simulator.command_topics else "this robot has no drive that takes velocity commands")
+            warn_of_file_names(robot, quiet=arguments.quiet)
             loop.run()
     return 0

@@ -10,6 +10,7 @@ from urdfkit.description.xml.reader import absolute
 from urdfkit.errors import ResourceError, did_you_mean, may_suggest
 
 _PREFIX_VARIABLES = ("AMENT_PREFIX_PATH", "CMAKE_PREFIX_PATH", "COLCON_PREFIX_PATH")
+_BUNDLED_MODELS = Path(__file__).resolve().parents[1] / "library" / "models"
 _MODEL_VARIABLES = ("GZ_SIM_RESOURCE_PATH", "IGN_GAZEBO_RESOURCE_PATH", "GAZEBO_MODEL_PATH", "SDF_PATH")
 OUTSIDE = "outside of the package, its workspace and the package path"
 VARIABLES = ("ROS_PACKAGE_PATH", *_PREFIX_VARIABLES, *_MODEL_VARIABLES)
@@ -23,8 +24,8 @@ class Packages:
     """Search for packages by name, lazy and cached.
 
     The order is: `search`, the package around `near`, its workspace, ``ROS_PACKAGE_PATH``, ``AMENT_PREFIX_PATH``,
-    ``CMAKE_PREFIX_PATH``, the model paths of Gazebo, the bundled robots, and last a folder of that name around `near`
-    without a package.xml.
+    ``CMAKE_PREFIX_PATH``, the model paths of Gazebo, ``~/.gazebo/models``, the caches of Gazebo Fuel, the bundled
+    robots and models, and last a folder of that name around `near` without a package.xml.
 
     Args:
         search: folders to search first: packages, folders of packages, or install prefixes.
@@ -50,6 +51,8 @@ class Packages:
         self._found: dict[str, Path] = {}
         self._seen: dict[str, Path] = {}
         self._scanned: dict[Path, dict[str, Path]] = {}
+        self.notes: dict[str, None] = {}
+        """Notes on files that were found under a name with other capital letters, in order."""
         self.answers: dict[tuple[str, ...], str] = {}
         """Query → its result, for each query so far; a cached result is valid as long as `answer` returns the same."""
 
@@ -112,6 +115,26 @@ class Packages:
             self.answers[question] = f"!{error.message}"
             raise
         self.answers[question] = str(path)
+        return path
+
+    def resolve_in_any_case(self, uri: str, relative_to: str | Path) -> Path:
+        """Return the file of a URI as `resolve` does, also one whose path differs in capital letters; add to `notes`.
+
+        Descriptions written where capital letters do not count, as on Windows, name such files.
+
+        Raises:
+            ResourceError: the package or file does not exist, or several files differ in capital letters only.
+        """
+        from urdfkit.description.packages.letter_case import in_any_case
+
+        try:
+            return self.resolve(uri, relative_to)
+        except ResourceError:
+            wanted = self._path_of(uri, Path(relative_to))
+            path = in_any_case(wanted) if self.permits(wanted) else None
+            if path is None:
+                raise
+        self.notes[f"{uri}: the name of the file is {path.name} in {path.parent}; correct the capital letters"] = None
         return path
 
     def _resolved(self, uri: str, relative_to: str | Path) -> Path:
@@ -188,15 +211,13 @@ class Packages:
         raise ResourceError(f"{uri}: files are read from this machine only; use package://, model:// or a path")
 
     def _look_up(self, name: str) -> Path | None:
-        from urdfkit.description.packages.discovery import package_name
-
         for folder in self._places():
-            if folder is None or not self.permits(folder):
-                continue
-            direct = folder / name
-            if package_name(direct) == name or (direct / "model.config").is_file():
-                return direct
-            if (found := self._scan(folder).get(name)) is not None:
+            if folder is not None and self.permits(folder) and (found := self._below(folder, name)) is not None:
+                return found
+        if (newest := next(self._fuel_models(name), None)) is not None:
+            return newest
+        for bundled in (_shipped_robots(), _BUNDLED_MODELS):
+            if bundled is not None and (found := self._below(bundled, name)) is not None:
                 return found
         if self.near is not None:
             for around in (self.near, *self.near.parents):
@@ -210,7 +231,20 @@ class Packages:
 
     def permits(self, path: str | Path) -> bool:
         """Return whether a path may be read."""
-        return self._permits is None or self._permits(Path(path)) or _shipped_robots() in (path, *Path(path).parents)
+        return (
+            self._permits is None
+            or self._permits(Path(path))
+            or any(bundled in (Path(path), *Path(path).parents) for bundled in (_shipped_robots(), _BUNDLED_MODELS))
+        )
+
+    def _below(self, folder: Path, name: str) -> Path | None:
+        """Return the package or model of a name in or below a folder."""
+        from urdfkit.description.packages.discovery import package_name
+
+        direct = folder / name
+        if package_name(direct) == name or (direct / "model.config").is_file():
+            return direct
+        return self._scan(folder).get(name)
 
     def _places(self) -> Iterator[Path | None]:
         """Yield the folders to search, best first; each is scanned only after the previous ones had no result."""
@@ -231,7 +265,24 @@ class Packages:
                 yield from share_folders(prefix)
         for variable in _MODEL_VARIABLES:
             yield from self._listed(variable)
-        yield _shipped_robots()
+        yield self._home / ".gazebo" / "models"
+
+    @property
+    def _home(self) -> Path:
+        return Path(self._environment.get("HOME") or Path.home())
+
+    def _fuel_models(self, name: str) -> Iterator[Path]:
+        """Yield the folders of a model in the caches of Gazebo Fuel, the newest version first.
+
+        Source: gz-fuel-tools 9, src/LocalCache.cc: SERVER/OWNER/models/NAME/VERSION, the name in lower case.
+        """
+        listed = self._listed("GZ_FUEL_CACHE_PATH") + self._listed("IGN_FUEL_CACHE_PATH")
+        for cache in (*listed, self._home / ".gz" / "fuel", self._home / ".ignition" / "fuel"):
+            if not self.permits(cache):
+                continue
+            for spelling in dict.fromkeys((name.lower(), name)):
+                versions = [each for each in cache.glob(f"*/*/models/{spelling}/*") if each.name.isdigit()]
+                yield from sorted(versions, key=lambda each: -int(each.name))
 
     def _listed(self, variable: str) -> list[Path]:
         return [Path(word) for word in self._environment.get(variable, "").split(os.pathsep) if word]
@@ -246,7 +297,7 @@ class Packages:
         elif self.near is not None:
             places.append(f"the folders around {self.near}")
         places += [v for v in ("ROS_PACKAGE_PATH", *_PREFIX_VARIABLES, *_MODEL_VARIABLES) if self._listed(v)]
-        return ", ".join([*places, "the bundled robots"])
+        return ", ".join([*places, "the bundled robots and models"])
 
     def _enclosing_package(self) -> Path | None:
         if self.near is None:

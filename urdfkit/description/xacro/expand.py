@@ -24,6 +24,7 @@ def expand(
     arguments: Mapping[str, str] | None = None,
     packages: Packages | None = None,
     run_xacro: bool | None = None,
+    texts: Mapping[str, str] | None = None,
 ) -> Expanded:
     """Expand a file; stop at the first error.
 
@@ -32,6 +33,7 @@ def expand(
         arguments: values for ``$(arg …)``.
         packages: resolves ``$(find …)``; by default what lies near the file and in the environment.
         run_xacro: whether to run xacro; by default on everything but ``.urdf`` files, which consumers read as they are.
+        texts: contents to read instead of those on disk, by absolute path.
 
     Raises:
         ResourceError: no such file.
@@ -41,10 +43,10 @@ def expand(
     _check_exists(path)
     packages = packages if packages is not None else Packages(near=path)
     if not (is_xacro(path) if run_xacro is None else run_xacro):
-        return _read_plain(path, packages)
+        return _read_plain(path, packages, texts)
     from urdfkit.description.xacro.evaluation.evaluator import Evaluator
 
-    return Evaluator(str(path), arguments or {}, packages).expand()
+    return Evaluator(str(path), arguments or {}, packages, texts=texts).expand()
 
 
 def expand_leniently(

@@ -300,7 +300,7 @@ def _walk(folder: Path, depth: int) -> Iterator[Path]:
             if depth < _MAX_DEPTH and child.name not in _SKIPPED and not child.name.startswith("."):
                 yield from _walk(folder / child.name, depth + 1)
         # A dangling symbolic link, such as an editor's lock file, is not a file.
-        elif child.name.endswith(SUFFIXES) and child.is_file():
+        elif child.name.lower().endswith(SUFFIXES) and child.is_file():
             yield folder / child.name
 
 

@@ -321,6 +321,15 @@ def test_the_arguments_that_enable_the_simulation_are_listed(tmp_path: Path) -> 
         '<!-- <xacro:arg name="use_gazebo" default="false"/> --><link name="a"/></robot>'
     )
     assert simulation_hint(load(path)) == "; pass sim_gazebo:=true"
+    assert simulation_hint(load(path, arguments={"sim_gazebo": "false"})) == ""
+
+
+def test_arguments_of_included_files_are_listed_too(tmp_path: Path) -> None:
+    xacro = 'xmlns:xacro="http://www.ros.org/wiki/xacro"'
+    (tmp_path / "arguments.xacro").write_text(f'<robot {xacro}><xacro:arg name="sim_mode" default="false"/></robot>')
+    path = tmp_path / "r.urdf.xacro"
+    path.write_text(f'<robot name="r" {xacro}><xacro:include filename="arguments.xacro"/><link name="a"/></robot>')
+    assert simulation_hint(load(path)) == "; pass sim_mode:=true"
 
 
 def test_a_block_that_no_plugin_runs_is_noted(tmp_path: Path) -> None:

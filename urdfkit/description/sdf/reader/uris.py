@@ -86,6 +86,8 @@ def _users(context: Context, text: str, name: str, inside: str) -> Path | None:
         found = context.packages.find(name)
     except ResourceError:
         return None
+    if FOLDER in found.parents:
+        return None
     return found / inside if inside or _is_model(found) else None
 
 

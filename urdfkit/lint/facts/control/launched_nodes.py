@@ -84,7 +84,8 @@ def _in_yaml(source: Source) -> Iterator[Started]:
 def _in_python(source: Source) -> Iterator[Started]:
     import ast
 
-    from urdfkit.lint.facts.control.launch_files import LaunchReader, name_of, parsed, place
+    from urdfkit.description.launch.python_constants import LaunchReader, name_of, parsed
+    from urdfkit.lint.facts.control.launch_files import place
 
     tree = parsed(source) if "Node" in source.text else None
     if tree is None:

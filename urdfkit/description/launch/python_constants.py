@@ -1,0 +1,106 @@
+"""Constants of Python launch files, from their syntax tree; the files are not executed."""
+
+from __future__ import annotations
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    import ast
+
+    from urdfkit.description.xml.source import Source
+
+SHARE = frozenset(("get_package_share_directory", "get_package_share_path", "FindPackageShare"))
+"""Functions and substitutions that return the share folder of a package."""
+
+JOINS = frozenset(("join", "PathJoinSubstitution"))
+"""Functions and substitutions that join the parts of a path."""
+
+
+def parsed(source: Source) -> ast.Module | None:
+    """Return the syntax tree of a Python launch file; None if it cannot be parsed."""
+    import ast
+    import warnings
+
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        try:
+            return ast.parse(source.text)
+        except (SyntaxError, ValueError, RecursionError, MemoryError):
+            return None
+
+
+class LaunchReader:
+    """Evaluate constants, and names that are assigned exactly once.
+
+    Args:
+        tree: syntax tree of the launch file.
+
+    Attributes:
+        assigned: name → value of the variables that are assigned exactly once.
+    """
+
+    def __init__(self, tree: ast.Module) -> None:
+        import ast
+        from collections import Counter
+
+        values: dict[str, list[ast.expr | None]] = {}
+        for node in ast.walk(tree):
+            if isinstance(node, ast.Assign) and len(node.targets) == 1 and isinstance(node.targets[0], ast.Name):
+                values.setdefault(node.targets[0].id, []).append(node.value)
+        stored = Counter(n.id for n in ast.walk(tree) if isinstance(n, ast.Name) and isinstance(n.ctx, ast.Store))
+        arguments = {node.arg for node in ast.walk(tree) if isinstance(node, ast.arg)}
+        self.assigned = {
+            name: each[0]
+            for name, each in values.items()
+            if len(each) == 1 and stored[name] == 1 and name not in arguments
+        }
+
+    def text(self, node: ast.expr, depth: int = 0) -> str | None:
+        """Return the text of a constant expression; None for other expressions."""
+        import ast
+
+        if isinstance(node, ast.Constant):
+            return node.value if isinstance(node.value, str) else None
+        if isinstance(node, ast.Name) and depth < 8 and (value := self.assigned.get(node.id)) is not None:
+            return self.text(value, depth + 1)
+        return None
+
+    def share(self, node: ast.expr) -> str | None:
+        """Return the package whose share folder a call returns; None for other calls."""
+        import ast
+
+        if isinstance(node, ast.Call) and name_of(node.func) in SHARE:
+            words = [*node.args, *(word.value for word in node.keywords)]
+            return self.text(words[0]) if len(words) == 1 else None
+        return None
+
+    def path(self, node: ast.expr, depth: int = 0) -> tuple[str, str] | None:
+        """Return package and path that an expression evaluates to; None if it is computed or not a package path."""
+        import ast
+
+        if depth > 20:
+            return None
+        if isinstance(node, ast.Name) and (value := self.assigned.get(node.id)) is not None:
+            return self.path(value, depth + 1)
+        if (package := self.share(node)) is not None:
+            return package, ""
+        if isinstance(node, ast.BinOp) and isinstance(node.op, (ast.Add, ast.Div)):
+            head, tail = self.path(node.left, depth + 1), self.text(node.right)
+            if head is None or tail is None or (isinstance(node.op, ast.Add) and not tail.startswith("/")):
+                return None
+            return head[0], f"{head[1]}/{tail.strip('/')}"
+        if isinstance(node, ast.Call) and name_of(node.func) in (*JOINS, "Path", "str"):
+            parts = node.args
+            if len(parts) == 1 and isinstance(parts[0], (ast.List, ast.Tuple)):
+                parts = parts[0].elts
+            if not parts or node.keywords:
+                return None
+            head, tails = self.path(parts[0], depth + 1), [self.text(part) for part in parts[1:]]
+            if head is None or None in tails:
+                return None
+            return head[0], "/".join((head[1], *(tail.strip("/") for tail in tails if tail is not None)))
+        return None
+
+
+def name_of(node: ast.expr) -> str:
+    """Return the last part of a dotted name; empty for other expressions."""
+    return str(getattr(node, "attr", getattr(node, "id", "")))

@@ -1,0 +1,166 @@
+"""Launch files of ROS 2 in Python, read as syntax trees; computed values are unknown."""
+
+from __future__ import annotations
+
+import ast
+import os
+from collections.abc import Mapping
+
+from urdfkit.description.launch.launch_scope import MAX_TEXT, UNKNOWN, LaunchScope, is_false, is_true
+from urdfkit.description.launch.python_constants import JOINS, SHARE, LaunchReader, name_of
+
+_MAX_STEPS = 50_000
+_NODES = frozenset(("Node", "LifecycleNode", "ComposableNode", "ComposableNodeContainer"))
+_SAME = frozenset(("TextSubstitution", "str", "Path", "FindExecutable", "ParameterValue"))
+"""Calls whose value is that of their only argument, or of their `text` or `name`."""
+_OF_OBJECT = frozenset(("perform", "as_posix", "resolve"))
+"""Methods whose value is that of their object."""
+
+
+def read_tree(tree: ast.Module, scope: LaunchScope) -> None:
+    """Read the actions of a launch file.
+
+    Args:
+        tree: its syntax tree.
+        scope: its arguments, and the record of its contents.
+    """
+    _PythonLaunch(tree, scope).read()
+
+
+class _PythonLaunch:
+    def __init__(self, tree: ast.Module, scope: LaunchScope) -> None:
+        self._tree, self._scope, self._steps = tree, scope, 0
+        self._assigned: Mapping[str, ast.expr | None] = LaunchReader(tree).assigned
+
+    def read(self) -> None:
+        """Read the declared arguments, then the actions that use them."""
+        for node in ast.walk(self._tree):
+            if isinstance(node, ast.Call) and name_of(node.func) == "DeclareLaunchArgument":
+                keywords = _keywords(node, "name")
+                default = self._text(keywords["default_value"]) if "default_value" in keywords else UNKNOWN
+                self._scope.declare(
+                    self._text(keywords.get("name")), default, self._text(keywords.get("description"), "")
+                )
+        self._visit(self._tree)
+
+    def _visit(self, node: ast.AST) -> None:
+        if isinstance(node, ast.Call):
+            keywords = _keywords(node)
+            if self._is_off(keywords.get("condition")):
+                return
+            name = name_of(node.func)
+            if name == "Command":
+                self._scope.command(self._text(_first(node)))
+            elif name in ("process_file", "process", "process_doc"):
+                self._scope.expansion(self._opened(_first(node)), self._mapping(keywords.get("mappings")))
+            elif name == "IncludeLaunchDescription":
+                file = self._text(_first(node) or keywords.get("launch_description_source"))
+                passed = self._mapping(keywords.get("launch_arguments"))
+                self._scope.include(file, {**self._scope.arguments, **passed})
+            elif name in _NODES:
+                self._scope.start(self._text(keywords.get("package")))
+            elif name == "ExecuteProcess":
+                for program in self._text(keywords.get("cmd"), separator=" ").split()[:1]:
+                    self._scope.start(program)
+        for child in ast.iter_child_nodes(node):
+            self._visit(child)
+
+    def _is_off(self, condition: ast.expr | None) -> bool:
+        if not isinstance(condition, ast.Call):
+            return False
+        text = self._text(_first(condition))
+        kind = name_of(condition.func)
+        return (kind == "IfCondition" and is_false(text)) or (kind == "UnlessCondition" and is_true(text))
+
+    def _text(self, node: ast.expr | None, default: str = UNKNOWN, separator: str = "") -> str:
+        """Return the text of an expression, with `UNKNOWN` for each computed part."""
+        self._steps += 1
+        if node is None or self._steps > _MAX_STEPS:
+            return default
+        text = self._value(node, separator)
+        return text if len(text) <= MAX_TEXT else UNKNOWN
+
+    def _value(self, node: ast.expr, separator: str) -> str:
+        if isinstance(node, ast.Constant):
+            return UNKNOWN if node.value is None else str(node.value)
+        if isinstance(node, ast.Name):
+            return self._text(self._assigned.get(node.id))
+        if isinstance(node, (ast.List, ast.Tuple)):
+            return separator.join(self._text(item) for item in node.elts)
+        if isinstance(node, ast.JoinedStr):
+            return "".join(self._text(part) for part in node.values)
+        if isinstance(node, ast.FormattedValue):
+            return self._text(node.value) if node.conversion == -1 and node.format_spec is None else UNKNOWN
+        if isinstance(node, ast.BinOp) and isinstance(node.op, ast.Add):
+            return self._text(node.left) + self._text(node.right)
+        if isinstance(node, ast.BinOp) and isinstance(node.op, ast.Div):
+            return _joined([self._text(node.left), self._text(node.right)])
+        return self._call(node) if isinstance(node, ast.Call) else UNKNOWN
+
+    def _call(self, call: ast.Call) -> str:
+        name, keywords = name_of(call.func), _keywords(call)
+        first = _first(call)
+        if name == "LaunchConfiguration":
+            written = first or keywords.get("variable_name")
+            value = self._scope.value(self._text(written))
+            return self._text(keywords["default"]) if value == UNKNOWN and "default" in keywords else value
+        if name in SHARE or (name == "find" and isinstance(call.func, ast.Attribute)):
+            return self._scope.share(self._text(first or keywords.get("package") or keywords.get("package_name")))
+        if name in JOINS:
+            parts = call.args
+            if len(parts) == 1 and isinstance(parts[0], (ast.List, ast.Tuple)):
+                parts = parts[0].elts
+            return _joined([self._text(part) for part in parts])
+        if name == "joinpath" and isinstance(call.func, ast.Attribute):
+            return _joined([self._text(part) for part in (call.func.value, *call.args)])
+        if name in _OF_OBJECT and isinstance(call.func, ast.Attribute):
+            return self._text(call.func.value)
+        if name in _SAME or name.endswith("LaunchDescriptionSource"):
+            return self._text(first or keywords.get("text") or keywords.get("name"))
+        return UNKNOWN
+
+    def _opened(self, node: ast.expr | None) -> str:
+        """Return the path of a file that an expression names, opens (``open``) or parses (``xacro.parse``)."""
+        for _ in range(8):
+            if isinstance(node, ast.Name) and isinstance(value := self._assigned.get(node.id), ast.expr):
+                node = value
+            elif isinstance(node, ast.Call) and name_of(node.func) in ("parse", "open"):
+                node = _first(node)
+            else:
+                break
+        return self._text(node)
+
+    def _mapping(self, node: ast.expr | None) -> dict[str, str]:
+        """Return the constant keys and the values of a dictionary, its items or a list of pairs."""
+        for _ in range(8):
+            if isinstance(node, ast.Name):
+                node = self._assigned.get(node.id)
+            elif isinstance(node, ast.Call) and name_of(node.func) == "items" and isinstance(node.func, ast.Attribute):
+                node = node.func.value
+            elif isinstance(node, ast.Call) and name_of(node.func) == "dict":
+                return {word.arg: self._text(word.value) for word in node.keywords if word.arg is not None}
+            else:
+                break
+        pairs: list[tuple[ast.expr | None, ast.expr]] = []
+        if isinstance(node, ast.Dict):
+            pairs = list(zip(node.keys, node.values, strict=True))
+        elif isinstance(node, (ast.List, ast.Tuple)):
+            items = [item.elts for item in node.elts if isinstance(item, (ast.List, ast.Tuple))]
+            pairs = [(item[0], item[1]) for item in items if len(item) == 2]
+        return {name: self._text(value) for key, value in pairs if UNKNOWN not in (name := self._text(key))}
+
+
+def _keywords(call: ast.Call, first: str = "") -> dict[str, ast.expr]:
+    """Return the keyword arguments of a call; the first positional argument by the name `first`."""
+    keywords = {word.arg: word.value for word in call.keywords if word.arg is not None}
+    if first and call.args:
+        keywords.setdefault(first, call.args[0])
+    return keywords
+
+
+def _first(call: ast.Call) -> ast.expr | None:
+    return call.args[0] if call.args else None
+
+
+def _joined(parts: list[str]) -> str:
+    return os.path.join(*parts) if parts else UNKNOWN  # noqa: PTH118 - parts may hold unknown characters
