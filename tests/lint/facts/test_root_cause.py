@@ -79,10 +79,10 @@ def test_an_argument_under_another_name_is_one_finding(tmp_path):
 
 
 def test_numbers_that_cannot_be_read_are_no_other_defect(tmp_path):
-    body = """<link name="base"/>
+    body = """<link name="world"/>
 <link name="w"><visual><origin rpy="1.5708 0 0"/><geometry><cylinder radius=".1" length=".02"/></geometry></visual>
 <inertial><mass value="1,5"/><inertia ixx=".01" ixy="0" ixz="0" iyy=".01" iyz="0" izz=".01"/></inertial></link>
-<joint name="j" type="continuous"><parent link="base"/><child link="w"/><axis xyz="0, 1, 0"/></joint>
+<joint name="j" type="continuous"><parent link="world"/><child link="w"/><axis xyz="0, 1, 0"/></joint>
 <gazebo><plugin name="p" filename="libgazebo_ros_joint_state_publisher.so"/></gazebo>"""
     assert [(c, line) for c, line, _ in found(tmp_path, body) if c != "G610"] == [("E010", 4), ("E010", 5)]
 

@@ -38,7 +38,7 @@ def moving_bodies(robot: Robot, *, floating: bool) -> dict[str, tuple[Joint | No
 
 
 def massless(robot: Robot, *, floating: bool) -> list[tuple[Link, Joint | None]]:
-    """Return the links that move without mass or inertia, each with the joint that moves it.
+    """Return a link of each body that moves without mass or inertia, and the joint that moves it.
 
     Links fixed to each other are one body: a body needs a link with a mass and one with an inertia tensor.
 
@@ -47,14 +47,32 @@ def massless(robot: Robot, *, floating: bool) -> list[tuple[Link, Joint | None]]
         floating: whether the base is floating; the joint of the root link is then None.
 
     Returns:
-        The topmost link of each body without mass or inertia, in document order of the tree. Unknown links
-        that joints name are skipped.
+        The first link with a mass of each such body, else the first with a shape, else the topmost, in document order
+        of the tree. Unknown links that joints name are skipped.
     """
-    return [
-        (robot.link_by_name[top], joint)
-        for top, (joint, links) in moving_bodies(robot, floating=floating).items()
-        if not (any(map(has_mass, links)) and any(map(has_inertia, links)))
-    ]
+    found: list[tuple[Link, Joint | None]] = []
+    for top, (joint, links) in moving_bodies(robot, floating=floating).items():
+        if not (any(map(has_mass, links)) and any(map(has_inertia, links))):
+            found.append((first_of(links) or robot.link_by_name[top], joint))
+    return found
+
+
+def first_of(links: list[Link]) -> Link | None:
+    """Return the first link with a mass, else the first with a shape; None if no link has one."""
+    heavy = next((link for link in links if has_mass(link)), None)
+    return heavy or next((link for link in links if link.visuals or link.collisions), None)
+
+
+def is_free(robot: Robot) -> bool:
+    """Return whether the base of a robot moves, unless the user fixes it: its root link is not ``world``."""
+    roots = robot.roots()
+    return len(roots) == 1 and roots[0].name != "world"
+
+
+def first_massless(found: list[tuple[Link, Joint | None]]) -> tuple[Link, Joint | None]:
+    """Return the link that stands for a robot without any mass: the first with a shape, if one that a joint moves."""
+    shaped = [each for each in found if each[0].visuals or each[0].collisions] or found
+    return next((each for each in shaped if each[1] is not None), shaped[0])
 
 
 def has_mass(link: Link) -> bool:

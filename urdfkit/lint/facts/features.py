@@ -124,8 +124,7 @@ def _of_elements(root: Element) -> set[str]:
 def _of_link(link: Link, found: set[str]) -> None:
     inertial = link.inertial
     if inertial is None or not inertial.mass or inertial.inertia is None:
-        if link.visuals or link.collisions:
-            found.add("massless!")
+        found.add("massless!")
         if link.collisions:
             found.add("bare-collision!")
     if inertial is not None:

@@ -105,11 +105,14 @@ def references(model: Model, kinds: tuple[str, ...]) -> Iterator[tuple[str, Elem
                             yield text, element, parameter, plugin
 
 
+def is_simulator(model: Model) -> bool:
+    """Return whether the target is a simulator."""
+    return model.target is not None and model.target not in ("ros1", "ros2", "moveit")
+
+
 def is_simulated(model: Model) -> bool:
     """Return whether the target is a simulator, or the robot has plugins or sensors for Gazebo."""
-    if model.target is not None and model.target not in ("ros1", "ros2", "moveit"):
-        return True
-    return any(block.plugins or block.sensors for block in model.robot.gazebo)
+    return is_simulator(model) or any(block.plugins or block.sensors for block in model.robot.gazebo)
 
 
 def is_frame(text: str, robot: Robot) -> bool:

@@ -11,8 +11,8 @@ class InertiaNotPositiveDefinite(RobotRule):
     """An inertia tensor has a principal moment that is zero or negative.
 
     ## What it does
-    Computes the principal moments (eigenvalues) of the inertia tensor of every link with a mass. Tensors of zeros are
-    reported by I504.
+    Computes the principal moments (eigenvalues) of the inertia tensor of every link. Tensors of zeros are reported by
+    I504.
 
     ## Why is this bad?
     A body with mass and size has a positive moment of inertia about every axis. check_urdf and Pinocchio accept the
@@ -50,7 +50,7 @@ class InertiaNotPositiveDefinite(RobotRule):
         """Yield a finding for each tensor that is not positive definite."""
         for link in model.robot.links:
             mass = link.inertial.mass if link.inertial is not None else None
-            if mass is None or mass <= 0.0:
+            if mass is not None and mass < 0.0:
                 continue
             for moments, element in principal_moments(link):
                 largest = max(abs(moments[0]), abs(moments[2]))

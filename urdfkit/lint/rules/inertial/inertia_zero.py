@@ -1,6 +1,6 @@
 """I504 inertia-zero."""
 
-from urdfkit.description.urdf.massless_links import massless
+from urdfkit.description.urdf.massless_links import is_free, massless
 from urdfkit.lint.facts.inertia.inertia_from_shapes import COMPONENTS, computed
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
@@ -18,7 +18,7 @@ class InertiaZero(RobotRule):
     ## Example
     ```xml
     <robot name="arm">
-      <link name="base"/>
+      <link name="world"/>
       <link name="arm">
         <inertial>
           <mass value="1"/>
@@ -26,7 +26,7 @@ class InertiaZero(RobotRule):
         </inertial>
       </link>
       <joint name="elbow" type="continuous">
-        <parent link="base"/>
+        <parent link="world"/>
         <child link="arm"/>
         <axis xyz="0 1 0"/>
       </joint>
@@ -36,7 +36,7 @@ class InertiaZero(RobotRule):
     ## Use instead
     ```xml
     <robot name="arm">
-      <link name="base"/>
+      <link name="world"/>
       <link name="arm">
         <inertial>
           <mass value="1"/>
@@ -44,7 +44,7 @@ class InertiaZero(RobotRule):
         </inertial>
       </link>
       <joint name="elbow" type="continuous">
-        <parent link="base"/>
+        <parent link="world"/>
         <child link="arm"/>
         <axis xyz="0 1 0"/>
       </joint>
@@ -71,7 +71,7 @@ class InertiaZero(RobotRule):
             if any(getattr(inertia, name) for name in COMPONENTS):
                 continue
             if moving is None:
-                moving = {body.name for body, joint in massless(model.robot, floating=False) if joint is not None}
+                moving = {body.name for body, _ in massless(model.robot, floating=is_free(model.robot))}
             yield self.at(
                 model,
                 inertia.element,

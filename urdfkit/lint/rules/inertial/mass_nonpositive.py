@@ -1,6 +1,6 @@
 """I501 mass-nonpositive."""
 
-from urdfkit.description.urdf.massless_links import massless
+from urdfkit.description.urdf.massless_links import is_free, massless
 from urdfkit.lint.facts.gazebo.plugins import is_simulated
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
@@ -49,7 +49,7 @@ class MassNonpositive(RobotRule):
 
     def check(self, model: Model) -> Findings:
         """Yield a finding for each negative mass and each mass of zero of a moving link."""
-        moved: dict[str, str] | None = None
+        moved: dict[str, str | None] | None = None
         fixed = {joint.child for joint in model.robot.joints if joint.type == "fixed"}
         for link in model.robot.links:
             mass = link.inertial.mass if link.inertial is not None else None
@@ -74,13 +74,14 @@ class MassNonpositive(RobotRule):
                 )
                 continue
             if moved is None:
-                bodies = massless(model.robot, floating=False)
-                moved = {body.name: joint.name for body, joint in bodies if joint is not None}
+                found = massless(model.robot, floating=is_free(model.robot))
+                moved = {body.name: None if joint is None else joint.name for body, joint in found}
             if link.name in moved:
+                why = f"is moved by joint `{moved[link.name]}`" if moved[link.name] else "is free to move"
                 yield self.at(
                     model,
                     element,
-                    f"link `{link.name}` is moved by joint `{moved[link.name]}` but has no mass",
+                    f"link `{link.name}` {why} but has no mass",
                     attribute="value",
                     link=link.name,
                     help=_HELP,

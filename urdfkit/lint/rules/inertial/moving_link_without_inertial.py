@@ -1,9 +1,7 @@
 """I511 moving-link-without-inertial."""
 
-from urdfkit.description.urdf.massless_links import massless
-from urdfkit.description.urdf.robot import Joint
-from urdfkit.description.xml.numbers import number
-from urdfkit.lint.facts.gazebo.plugins import is_simulated
+from urdfkit.description.urdf.massless_links import first_massless, is_free, massless
+from urdfkit.lint.facts.gazebo.plugins import is_simulated, is_simulator
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
 TYPE_CHECKING = False
@@ -15,13 +13,15 @@ class MovingLinkWithoutInertial(RobotRule):
     """A link that moves has no mass or no inertia.
 
     ## What it does
-    Checks for links with a shape that a joint moves, where neither the link nor any link fixed to it has a mass and a
-    tensor. The finding is an error for simulators: with ``--target gz``, ``classic``, ``mujoco``, ``isaac`` or
-    ``drake``, or if the robot contains Gazebo plugins. For other robots it is a note. A robot without any mass is
-    reported once, and only if it is simulated.
+    Checks for links that move, because a joint moves them or the robot has no root link ``world``, where neither the
+    link nor any link fixed to it has a mass and a tensor. The finding is an error for simulators: with ``--target gz``,
+    ``classic``, ``mujoco``, ``isaac`` or ``drake``, or if the robot contains Gazebo plugins. For other robots it is a
+    note. A robot without any ``<inertial>`` is reported once: with these targets if it has shapes, or if joints
+    move its shapes and it contains Gazebo plugins. Other robots describe kinematics only.
 
     ## Why is this bad?
-    Gazebo silently drops the link and all links attached to it; MuJoCo rejects the model.
+    Gazebo silently drops the link and all links attached to it; MuJoCo rejects the model. `urdfkit sim` estimates the
+    mass and warns.
 
     ## Example
     ```xml
@@ -78,45 +78,37 @@ class MovingLinkWithoutInertial(RobotRule):
         robot = model.robot
         if model.is_incomplete:
             return
-        shaped = [link.name for link in robot.links if link.visuals or link.collisions]
         severity: Severity = "error" if is_simulated(model) else "note"
-        if all(link.inertial is None for link in robot.links):
-            moved = {joint.child for joint in robot.joints if _is_moving(joint)}
-            first = next((link for link in robot.links if link.name in moved and link.name in shaped), None)
-            if first is not None and severity == "error":
-                yield self.at(
-                    model,
-                    first.element,
-                    f"no link of the robot has a mass, but joints move `{first.name}` and other links",
-                    attribute="name",
-                    link=first.name,
-                    help="add <inertial> with <mass> and <inertia> to every link that moves",
-                    severity=severity,
-                )
+        found = massless(robot, floating=is_free(robot))
+        if not found:
             return
-        for link, joint in massless(robot, floating=False):
-            if joint is None or link.name not in shaped:
-                continue
-            inertial = link.inertial
-            if inertial is not None and inertial.mass is not None and inertial.inertia is not None:
-                continue  # Both exist but are zero: reported by I501 and I504.
-            if inertial is not None and any(
-                model.is_unresolved(child, name) or (child.tag in ("mass", "inertia") and number(value) is None)
-                for child in inertial.element.children
-                for name, value in child.attributes.items()
-            ):
-                continue  # They exist, but could not be computed or read.
+        if all(link.inertial is None for link in robot.links):
+            link, joint = first_massless(found)
+            is_shaped = link.visuals or link.collisions
+            if severity == "note" or not is_shaped or (joint is None and not is_simulator(model)):
+                return  # It describes kinematics only.
+            effect = f"joints move `{link.name}` and other links" if joint is not None else "the robot is free to move"
             yield self.at(
                 model,
                 link.element,
-                f"link `{link.name}` is moved by joint `{joint.name}` but has no mass or no inertia",
+                f"no link of the robot has a mass, but {effect}",
                 attribute="name",
                 link=link.name,
-                joint=joint.name,
+                help="add <inertial> with <mass> and <inertia> to every link that moves",
+                severity=severity,
+            )
+            return
+        for link, joint in found:
+            if link.inertial is not None:
+                continue  # Reported by E014, I501 or I504.
+            effect = f"is moved by joint `{joint.name}`" if joint is not None else "is free to move"
+            yield self.at(
+                model,
+                link.element,
+                f"link `{link.name}` {effect} but has no mass or no inertia",
+                attribute="name",
+                link=link.name,
+                joint=None if joint is None else joint.name,
                 help="add <inertial> with <mass> and <inertia>",
                 severity=severity,
             )
-
-
-def _is_moving(joint: Joint) -> bool:
-    return joint.is_movable or (joint.type is None and joint.element.find("axis") is not None)

@@ -11,6 +11,9 @@ from urdfkit.scene import Scene, Shape
 from urdfkit.sim.construction.repairs.inertia_tensors import repair_at
 from urdfkit.sim.construction.validation import invalid_sizes
 
+_SHOWN = 6
+"""Largest number of links in a message."""
+
 
 def without_empty_shapes(robot: Robot) -> tuple[Robot, list[Repair]]:
     """Return a robot without the collision shapes whose size is not positive, and a repair for each."""
@@ -36,24 +39,35 @@ def with_substitutes(scene: Scene) -> tuple[Scene, list[Repair]]:
     """Return a scene in which visual shapes replace the missing collision shapes, and a repair for each missing shape.
 
     A link whose collision shapes are all missing collides with its visual shapes, meshes as their convex hulls. Where
-    other collision shapes remain, or no visual shape can be read, the missing ones are left out.
+    other collision shapes remain, or no visual shape can be read, the missing ones are left out. A missing package is
+    one repair, at its first mesh.
     """
     missing = [problem for problem in scene.problems if problem.role == "collision"]
+    packages: dict[str, list[str]] = {}
     if not missing:
         return scene, []
     left = {shape.body for shape in scene.with_role("collision")}
     replaced: dict[str, list[Shape]] = {}
     repairs = []
     for problem in missing:
-        body = problem.body
+        body, fault = problem.body, problem.error.message
         if body not in left and body not in replaced:
             replaced[body] = list(_substitutes(scene, body))
+        if problem.code == "G602":
+            packages.setdefault(fault, []).append(body)
+            continue
         if replaced.get(body):
             effect = "the link collides with its visual shapes"
         else:
             effect = f"shape `{problem.name}` is left out: it has no contacts"
-        message = f"{problem.error.message}; {effect}"
-        repairs.append(Repair("mesh", problem.code, message, problem.error.position, body))
+        repairs.append(Repair("mesh", problem.code, f"{fault}; {effect}", problem.error.position, body))
+    for fault, bodies in packages.items():
+        first = next(problem.error for problem in scene.problems if problem.error.message == fault)
+        names = list(dict.fromkeys(bodies))
+        shown = ", ".join(f"`{name}`" for name in names[:_SHOWN])
+        more = f" and {len(names) - _SHOWN} others" if len(names) > _SHOWN else ""
+        message = f"{fault}; the collision meshes of {shown}{more} are replaced by their visual shapes, if readable"
+        repairs.append(Repair("mesh", "G602", message, first.position, names[0]))
     shapes = [*scene.shapes, *(shape for found in replaced.values() for shape in found)]
     order = scene.body_index
     shapes.sort(key=lambda shape: (order[shape.body], shape.role == "collision"))

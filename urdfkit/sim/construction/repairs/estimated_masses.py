@@ -7,7 +7,7 @@ from dataclasses import replace
 from math import pi
 
 from urdfkit.description.urdf.geometry import rotation_of, rpy_of
-from urdfkit.description.urdf.massless_links import has_inertia, has_mass, moving_bodies
+from urdfkit.description.urdf.massless_links import first_of, has_inertia, has_mass, moving_bodies
 from urdfkit.description.urdf.repair import Repair
 from urdfkit.description.urdf.robot import Geometry, Inertia, Inertial, Joint, Link, Pose, Robot
 from urdfkit.description.urdf.volume_moments import Moments, of_primitive, union
@@ -36,17 +36,18 @@ def with_estimates(robot: Robot, scene: Scene, *, floating: bool, density: float
         heavy = [link for link in links if has_mass(link)]
         if (heavy and any(map(has_inertia, links))) or any(map(_is_negative, links)):
             continue
+        inertials: list[Inertial] = []
+        basis = "the inertia from its shapes" if heavy else f"from its shapes at {density:g} kg/m³"
         for link in heavy or links:
             volume = _volume(scene, link.name)
             if not heavy and volume.volume <= 0.0:
                 continue
-            inertial = _estimated(link, volume, density)
-            changed[link.name] = replace(link, inertial=inertial)
+            inertials.append(_estimated(link, volume, density))
+            changed[link.name] = replace(link, inertial=inertials[-1])
             if volume.volume <= 0.0:
                 basis = f"the inertia of a sphere of {density:g} kg/m³"
-            else:
-                basis = "the inertia from its shapes" if heavy else f"from its shapes at {density:g} kg/m³"
-            repairs.append(mass_repair(link, inertial, joint, basis))
+        if inertials and (first := first_of(links)) is not None:
+            repairs.append(mass_repair(first, inertials, joint, basis))
     if not changed:
         return robot, repairs
     return replace(robot, links=tuple([changed.get(link.name, link) for link in robot.links])), repairs
@@ -79,12 +80,12 @@ def _sphere(mass: float, density: float, link: Link) -> Inertia:
     return Inertia(moment, 0.0, 0.0, moment, 0.0, moment, link.element)
 
 
-def mass_repair(link: Link, inertial: Inertial, joint: Joint | None, basis: str) -> Repair:
-    """Return the repair of a link without mass or inertia.
+def mass_repair(link: Link, inertials: list[Inertial], joint: Joint | None, basis: str) -> Repair:
+    """Return the repair of a body without mass or inertia.
 
     Args:
-        link: the link as written.
-        inertial: its mass and inertia in the simulation.
+        link: the first link of the body that has a mass or a shape.
+        inertials: masses and inertias of its links in the simulation.
         joint: the joint that moves it; None for the base.
         basis: where the values come from.
     """
@@ -94,15 +95,19 @@ def mass_repair(link: Link, inertial: Inertial, joint: Joint | None, basis: str)
         problem = "has no <inertial>"
     elif not has_mass(link):
         problem = "has no mass"
+        element, code = written.element, "E014"
         if written.mass is not None:
             element, code = written.element.find("mass") or element, "I501"
     else:
         problem = "has no moment of inertia"
+        element, code = written.element, "E014"
         if written.inertia is not None:
             element, code = written.inertia.element, "I504"
-    i = inertial.inertia
-    moments = f" and {i.ixx:.4g}, {i.iyy:.4g}, {i.izz:.4g} kg·m²" if i is not None else ""
-    amount = f"{inertial.mass:.4g} kg{moments}"
+    amount = f"{sum(inertial.mass or 0.0 for inertial in inertials):.4g} kg"
+    if len(inertials) > 1:
+        amount += f" in {len(inertials)} links that are fixed to each other"
+    elif (i := inertials[0].inertia) is not None:
+        amount += f" and {i.ixx:.4g}, {i.iyy:.4g}, {i.izz:.4g} kg·m²"
     message = f"link `{link.name}` {problem}, but {why}; simulated with {amount} ({basis})"
     return repair_at(element, "mass", code, message, link=link.name, joint=None if joint is None else joint.name)
 

@@ -28,6 +28,9 @@ Array = NDArray[np.float64]
 ROUNDING = 1e-6
 """Largest violation that is not repaired, relative to the largest moment: CAD programs write six digits (I503)."""
 
+ZERO = 1e-9
+"""Smallest principal moment that is not a zero, relative to the largest moment (I502)."""
+
 SLIP = 1e-4
 """Largest violation that is a note, relative to the largest moment."""
 
@@ -60,7 +63,7 @@ def possible(link: Link) -> tuple[Link, Repair | None]:
     repair = repair_at(
         inertial.inertia.element,
         "inertia",
-        "I502" if a < 0.0 else "I503",
+        "I502" if a <= ZERO * c else "I503",
         message,
         link=link.name,
         is_note=excess < SLIP,

@@ -55,7 +55,7 @@ def with_least_masses(robot: Robot, *, floating: bool) -> tuple[Robot, list[Repa
         mass, radius = ALONE
         basis = "no other link has a mass"
     changed = {link.name: _inertial(link, mass, radius) for link, _ in found}
-    repairs = [mass_repair(link, changed[link.name], joint, basis) for link, joint in found]
+    repairs = [mass_repair(link, [changed[link.name]], joint, basis) for link, joint in found]
     return _replaced(robot, changed), repairs
 
 

@@ -4,13 +4,18 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+from urdfkit.description.urdf.massless_links import first_massless, massless
+from urdfkit.description.urdf.repair import Repair
 from urdfkit.description.urdf.robot import Robot
 from urdfkit.scene import Scene, scene_of
 from urdfkit.sim.construction.repairs.collector import Repairs
 from urdfkit.sim.construction.repairs.collision_shapes import with_substitutes, without_empty_shapes
 from urdfkit.sim.construction.repairs.estimated_masses import with_estimates
-from urdfkit.sim.construction.repairs.inertia_tensors import possible
+from urdfkit.sim.construction.repairs.inertia_tensors import possible, repair_at
 from urdfkit.sim.construction.repairs.least_masses import with_least_masses
+
+_SHOWN = 6
+"""Largest number of masses in a message."""
 
 
 def repaired(robot: Robot, scene: Scene | None, repairs: Repairs, *, floating: bool) -> tuple[Robot, Scene]:
@@ -26,6 +31,7 @@ def repaired(robot: Robot, scene: Scene | None, repairs: Repairs, *, floating: b
     """
     if repairs.strict:
         return robot, scene or scene_of(robot, strict=False)
+    written = robot
     robot, found = without_empty_shapes(robot)
     scene, missing = with_substitutes(scene_of(robot, strict=False) if scene is None or found else scene)
     pairs = [possible(link) for link in robot.links]
@@ -34,6 +40,25 @@ def repaired(robot: Robot, scene: Scene | None, repairs: Repairs, *, floating: b
         robot = replace(robot, links=tuple([link for link, _ in pairs]))
     robot, estimated = with_estimates(robot, scene, floating=floating, density=repairs.density)
     robot, least = with_least_masses(robot, floating=floating)
-    for repair in [*found, *estimated, *least]:
+    masses = _of_whole_robot(written, robot, [*estimated, *least], repairs.density, floating=floating)
+    for repair in [*found, *masses]:
         repairs.add(repair)
     return robot, scene
+
+
+def _of_whole_robot(
+    written: Robot, robot: Robot, masses: list[Repair], density: float, *, floating: bool
+) -> list[Repair]:
+    """Return one repair instead of one per body if no link of a robot has an ``<inertial>``."""
+    bodies = massless(written, floating=floating)
+    if len(bodies) < 2 or not masses or any(link.inertial is not None for link in written.links):
+        return masses
+    link, joint = first_massless(bodies)
+    amounts = [f"`{each.name}` {each.inertial.mass:.4g} kg" for each in robot.links if each.inertial is not None]
+    more = f" and {len(amounts) - _SHOWN} others" if len(amounts) > _SHOWN else ""
+    message = (
+        f"no link of the robot has a mass, but joints move `{link.name}` and other links; simulated with "
+        f"{', '.join(amounts[:_SHOWN])}{more} (from shapes at {density:g} kg/m³, the least for links without shapes)"
+    )
+    name = None if joint is None else joint.name
+    return [repair_at(link.element, "mass", "I511", message, link=link.name, joint=name)]

@@ -1,0 +1,118 @@
+"""Every repair has a finding of its code at its element, for each kind of defect."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from urdfkit.description import load
+from urdfkit.description.urdf.repair import Repair
+from urdfkit.description.xml.source import Source
+from urdfkit.description.xml.start_tag import start_tag
+from urdfkit.lint import Finding, lint
+from urdfkit.sim.construction.repairs.collector import Repairs
+from urdfkit.sim.construction.repairs.robot_repairs import repaired
+
+BOX = '<collision><geometry><box size="0.1 0.2 0.3"/></geometry></collision>'
+INERTIAL = '<inertial><mass value="{}"/><inertia ixx="{}" ixy="0" ixz="0" iyy="0.01" iyz="0" izz="0.01"/></inertial>'
+GOOD = INERTIAL.format(1, 0.01)
+
+BASES = {"heavy": GOOD, "free": "", "world": None}
+
+LINKS = {
+    "no inertial": (BOX, "I511"),
+    "no inertial and no shape": ("", "I511"),
+    "no tensor": (BOX + '<inertial><mass value="1"/></inertial>', "E014"),
+    "no mass": (BOX + INERTIAL.format(0, 0.01), "I501"),
+    "zero tensor": (BOX + INERTIAL.format(1, 0).replace("0.01", "0"), "I504"),
+    "impossible tensor": (BOX + INERTIAL.format(1, 0.05), "I503"),
+    "note": (BOX + INERTIAL.format(1, 0.020001), "I503"),
+    "moment of zero": (BOX + INERTIAL.format(1, 0).replace('izz="0.01"', 'izz="0.05"'), "I502"),
+    "negative moment": (BOX + INERTIAL.format(1, -0.01), "I502"),
+    "negative moment without mass": (INERTIAL.format(0, -0.01), "I502"),
+    "empty shape": (GOOD + BOX.replace("0.2", "0"), "G611"),
+    "missing mesh": (GOOD + BOX.replace('box size="0.1 0.2 0.3"', 'mesh filename="no.stl"'), "G601"),
+    "missing package": (GOOD + BOX.replace('box size="0.1 0.2 0.3"', 'mesh filename="package://no/no.stl"'), "G602"),
+    "pointer": (GOOD + BOX.replace('box size="0.1 0.2 0.3"', 'mesh\n filename="pointer.stl"'), "G607"),
+}
+
+
+def repairs_of(path: Path, *, floating: bool = True) -> list[Repair]:
+    found = Repairs(lambda _: None)
+    repaired(load(path), None, found, floating=floating)
+    return found.found
+
+
+def reports(finding: Finding, repair: Repair) -> bool:
+    """Return whether a finding has the code of a repair, and marks its element or one of its attributes."""
+    assert repair.position is not None
+    tag = start_tag(Source(repair.position.file, Path(repair.position.file).read_text()), repair.position)
+    assert tag is not None
+    same = Path(finding.span.file).resolve() == Path(repair.position.file).resolve()
+    return same and finding.code == repair.code and tag.span.line <= finding.span.line <= tag.span.end_line
+
+
+@pytest.mark.parametrize("base", BASES)
+@pytest.mark.parametrize("link", LINKS)
+def test_every_repair_has_a_finding_of_its_code_at_its_element(tmp_path: Path, base: str, link: str) -> None:
+    inside, code = LINKS[link]
+    (tmp_path / "pointer.stl").write_text("version https://git-lfs.github.com/spec/v1\noid sha256:0\nsize 9\n")
+    root = f'<link name="base">{BASES[base]}</link>' if BASES[base] is not None else '<link name="world"/>'
+    name = "world" if BASES[base] is None else "base"
+    path = tmp_path / "r.urdf"
+    path.write_text(
+        f'<robot name="r">\n{root}\n<link name="heavy">{GOOD}</link>\n<link name="arm">\n{inside}\n</link>\n'
+        f'<joint name="k" type="continuous"><parent link="{name}"/><child link="heavy"/><axis xyz="0 1 0"/></joint>\n'
+        '<joint name="j" type="continuous"><parent link="heavy"/><child link="arm"/><axis xyz="0 1 0"/></joint></robot>'
+    )
+    repairs = repairs_of(path, floating=base != "world")
+    assert code in {repair.code for repair in repairs}
+    findings = lint(path)
+    for repair in repairs:
+        assert any(reports(finding, repair) for finding in findings), (str(repair), [str(each) for each in findings])
+
+
+def test_a_robot_without_any_mass_is_one_repair_and_one_finding_for_simulators(tmp_path: Path) -> None:
+    path = tmp_path / "r.urdf"
+    path.write_text(
+        f'<robot name="r">\n<link name="base">{BOX}</link>\n<link name="a">{BOX}</link>\n<link name="b">{BOX}</link>\n'
+        '<joint name="j" type="continuous"><parent link="base"/><child link="a"/><axis xyz="0 1 0"/></joint>\n'
+        '<joint name="k" type="fixed"><parent link="a"/><child link="b"/></joint></robot>'
+    )
+    for floating in (True, False):
+        (repair,) = repairs_of(path, floating=floating)
+        assert (repair.link, repair.joint) == ("a", "j")
+        assert ("`base` 6 kg, `a` 6 kg, `b` 6 kg" in repair.message) == floating
+        assert any(reports(finding, repair) for finding in lint(path, target="gz"))
+
+
+def test_links_that_are_fixed_to_each_other_are_one_repair(tmp_path: Path) -> None:
+    path = tmp_path / "r.urdf"
+    path.write_text(
+        f'<robot name="r">\n<link name="base">{GOOD}</link>\n<link name="a"/>\n<link name="b">{BOX}</link>\n'
+        f'<link name="c">{BOX}</link>\n'
+        '<joint name="i" type="continuous"><parent link="base"/><child link="a"/><axis xyz="0 1 0"/></joint>\n'
+        '<joint name="j" type="fixed"><parent link="a"/><child link="b"/></joint>\n'
+        '<joint name="k" type="fixed"><parent link="a"/><child link="c"/></joint></robot>'
+    )
+    (repair,) = repairs_of(path)
+    assert repair.link == "b"
+    assert "simulated with 12 kg in 2 links that are fixed to each other" in repair.message
+    assert any(reports(finding, repair) for finding in lint(path))
+
+
+def test_a_missing_package_is_one_repair_at_its_first_mesh(tmp_path: Path) -> None:
+    mesh = '<geometry><mesh filename="package://no/{}.stl"/></geometry>'
+    links = "".join(
+        f'<link name="l{n}">{GOOD}\n<visual>{mesh.format(n)}</visual>\n<collision>{mesh.format(n)}</collision></link>'
+        f'<joint name="j{n}" type="fixed"><parent link="base"/><child link="l{n}"/></joint>\n'
+        for n in range(8)
+    )
+    path = tmp_path / "r.urdf"
+    path.write_text(f'<robot name="r">\n<link name="base">{GOOD}</link>\n{links}</robot>')
+    (repair,) = repairs_of(path)
+    assert repair.position is not None
+    assert repair.position.line == 4
+    assert "the collision meshes of `l0`, `l1`, `l2`, `l3`, `l4`, `l5` and 2 others" in repair.message
+    assert any(reports(finding, repair) for finding in lint(path))
