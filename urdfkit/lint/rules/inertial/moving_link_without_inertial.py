@@ -84,6 +84,13 @@ class MovingLinkWithoutInertial(RobotRule):
             return
         if all(link.inertial is None for link in robot.links):
             link, joint = first_massless(found)
+            if joint is None:  # A joint without a type moves its child if it has an axis.
+                typeless = [
+                    each for each in robot.joints if each.type is None and each.element.find("axis") is not None
+                ]
+                moved = {each.child: each for each in typeless}
+                shaped = [each for each in robot.links if each.name in moved and (each.visuals or each.collisions)]
+                link, joint = (shaped[0], moved[shaped[0].name]) if shaped else (link, joint)
             is_shaped = link.visuals or link.collisions
             if severity == "note" or not is_shaped or (joint is None and not is_simulator(model)):
                 return  # It describes kinematics only.
