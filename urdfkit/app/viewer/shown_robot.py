@@ -86,7 +86,7 @@ class ShownRobot:
 
 
 def mesh_files(robot: Robot) -> tuple[tuple[Path, ...], tuple[str, ...]]:
-    """Return the mesh files of a robot, and the URIs of those that do not exist."""
+    """Return the mesh files of a robot, and the URIs of its missing mesh files."""
     entry = robot.files[0] if robot.files else Path("robot.urdf")
     shapes: list[Visual | Collision] = []
     for link in robot.links:

@@ -70,7 +70,7 @@ def is_free(robot: Robot) -> bool:
 
 
 def first_massless(found: list[tuple[Link, Joint | None]]) -> tuple[Link, Joint | None]:
-    """Return the link that stands for a robot without any mass: the first with a shape, if one that a joint moves."""
+    """Return the link that represents a robot without any mass: the first with a shape, preferably moved by a joint."""
     shaped = [each for each in found if each[0].visuals or each[0].collisions] or found
     return next((each for each in shaped if each[1] is not None), shaped[0])
 

@@ -1,4 +1,4 @@
-"""Limits of mesh files: what is larger is not read."""
+"""Limits of mesh files: larger files are not read."""
 
 MAX_BYTES = 256 * 2**20
 """Largest supported mesh file [byte]."""

@@ -150,8 +150,8 @@ class Project:
                 self._memories.pop(entry, None)  # half updated
                 found = too_costly(entry.path, error)
                 files = {name: Path(path) for name, path in found.files.items()}
-                readable = self._last.get(entry)
-                self._analyses[entry] = Analysis(None, found.findings, files, str(error), False, readable)
+                kept = self._last.get(entry)
+                self._analyses[entry] = Analysis(None, found.findings, files, str(error), False, kept)
             except UrdfkitError as error:
                 self._analyses[entry] = Analysis(None, (), {}, str(error))
             except Exception as error:

@@ -156,12 +156,7 @@ def _is_possible(inertial: Inertial) -> bool:
     xx, yy, zz = inertia.ixx, inertia.iyy, inertia.izz
     radius = abs(inertia.ixy) + abs(inertia.ixz) + abs(inertia.iyz)
     slack = 3.0 * radius + 1e-9 * (abs(xx) + abs(yy) + abs(zz))
-    return (
-        xx + yy > zz + slack
-        and xx + zz > yy + slack
-        and yy + zz > xx + slack
-        and not (xx == yy == zz == 1.0)
-    )
+    return xx + yy > zz + slack and xx + zz > yy + slack and yy + zz > xx + slack and not (xx == yy == zz == 1.0)
 
 
 def _of_tree(robot: Robot, found: set[str]) -> None:
