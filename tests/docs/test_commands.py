@@ -29,6 +29,15 @@ MODEL = """<?xml version="1.0"?>
 </robot>
 """
 
+ARM = """<?xml version="1.0"?>
+<robot name="arm">
+  <link name="upper_arm">
+    <visual><geometry><mesh filename="meshes/upper_arm.stl"/></geometry></visual>
+    <inertial><mass value="1"/><inertia ixx="0.01" ixy="0" ixz="0" iyy="0.01" iyz="0" izz="0.01"/></inertial>
+  </link>
+</robot>
+"""
+
 
 def shown_commands(page: Path) -> list[str]:
     """Return the urdfkit commands on a page, in order: after `$` in console blocks, and in code spans.
@@ -61,6 +70,8 @@ def run(command: str, folder: Path) -> None:
 @pytest.mark.parametrize("page", [p for p in PAGES if shown_commands(p)], ids=lambda p: p.name)
 def test_the_commands_on_a_page_work(page: Path, tmp_path: Path) -> None:
     (tmp_path / "robot.urdf.xacro").write_text(MODEL)
+    (tmp_path / "arm.urdf.xacro").write_text(ARM)
+    (tmp_path / "arm.urdf").write_text(ARM)
     (tmp_path / "tests").symlink_to(ROOT / "tests")  # pages that name a file of ours speak of a checkout's root
     done = set()
     for command in shown_commands(page):

@@ -22,6 +22,11 @@ def moved(inside: str, *, type: str = "continuous") -> str:
     return BASE + joint(type=type).replace('<link name="arm"/>', f'<link name="arm">{inside}</link>')
 
 
+def fixed(inside: str) -> str:
+    """Return a link that is fixed to a base with a mass."""
+    return moved(inside, type="fixed").replace(BASE, f'<link name="base">{inertial(1)}</link>')
+
+
 def inertial(mass: float, tensor: str = UNIT, xyz: str = "0 0 0") -> str:
     return f'<inertial><origin xyz="{xyz}"/><mass value="{mass}"/>{tensor}</inertial>'
 
@@ -69,14 +74,14 @@ CASES: list[tuple[str, str, list[str]]] = [
     # mass-nonpositive
     ("I501", moved(inertial(0) + f"<visual>{BOX}</visual>"), ["warning: link `arm` has an inertia but no mass"]),
     ("I501", moved(inertial(0) + f"<collision>{BOX}</collision>"), ["warning: link `arm` has an inertia but no mass"]),
-    ("I501", moved(inertial(0) + f"<visual>{BOX}</visual>", type="fixed"), []),
+    ("I501", fixed(inertial(0) + f"<visual>{BOX}</visual>"), []),
     ("I501", moved(inertial(-1), type="fixed"), ["error: mass of link `arm` is negative: -1 kg"]),
     ("I501", moved(inertial(1e-6)), []),
     # inertia-zero
     ("I504", moved(inertial(2, diagonal(0, 0, 0))), ["error: link `arm` has a mass of 2 kg but zero inertia"]),
     (
         "I504",
-        moved(inertial(2, diagonal(0, 0, 0)), type="fixed"),
+        fixed(inertial(2, diagonal(0, 0, 0))),
         ["note: link `arm` has a mass of 2 kg but zero inertia"],
     ),
     ("I504", moved(inertial(2, diagonal(0, 0, 1e-9))), []),

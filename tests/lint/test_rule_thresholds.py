@@ -108,7 +108,7 @@ PLATE = "v 0 0 0\nv 3 0 0\nv 0 4 0\nf 1 2 3\n"
 CASES: list[tuple[str, str, dict[str, str]]] = [
     # inertia-not-positive-definite: up to 1e-9 of the largest moment
     ("I502", link(inertial("1", "1 1 @")), {"1e-8": "", "1e-10": "error", "0": "error", "-1": "error"}),
-    ("I502", link(inertial("@", "1 1 -1")), {"0": "", "-1": "", "0.5": "error"}),
+    ("I502", link(inertial("@", "1 1 -1")), {"0": "error", "-1": "", "0.5": "error"}),
     # inertia-triangle-inequality: notes for rounded numbers, 1e-6 to 1e-3 of the largest moment
     ("I503", link(inertial("1", "1 1 @")), {"2": "", "2.000001": "", "2.00001": "note", "2.001": "note"}),
     ("I503", link(inertial("1", "1 1 @")), {"2.003": "error", "5": "error"}),

@@ -80,6 +80,6 @@ def test_a_change_of_the_version_reads_all_parts_again() -> None:
     text = ROBOT.format(version="1.0", origin='<origin quat_xyzw="0 0 0.6 0.8"/>', limit=LIMIT)
     root = document_of(Source("r.urdf", text))
     parts: dict = {}
-    assert parse(root, known=parts).joints[0].origin.rpy == (0.0, 0.0, 0.0)
+    assert parse(root, cached_parts=parts).joints[0].origin.rpy == (0.0, 0.0, 0.0)
     root.attributes["version"] = "1.1"
-    assert parse(root, known=parts).joints[0].origin.rpy != (0.0, 0.0, 0.0)
+    assert parse(root, cached_parts=parts).joints[0].origin.rpy != (0.0, 0.0, 0.0)

@@ -39,6 +39,16 @@ ROBOT = """<?xml version="1.0"?>
     <parent link="base"/>
     <child link="mast"/>
   </joint>
+  <link name="hull">
+    <inertial>
+      <mass value="5"/>
+      <inertia ixx="0.1" ixy="0" ixz="0" iyy="0.1" iyz="0" izz="0.1"/>
+    </inertial>
+  </link>
+  <joint name="hull_joint" type="fixed">
+    <parent link="mast"/>
+    <child link="hull"/>
+  </joint>
   <gazebo reference="mast"/>
   <gazebo>
     <plugin name="drive" filename="libgazebo_ros_diff_drive.so">

@@ -101,14 +101,14 @@ def test_the_wheel_is_let_go_with_the_key_the_page_and_the_line(client, page, se
     assert server.drive_lock.axes is None  # silence
 
 
-def test_a_second_page_watches_while_the_first_drives(client, page, server, until) -> None:
+def test_a_second_page_watches_while_the_first_drives(client, page, server, text, until) -> None:
     second = client.socket()
     page.send(AHEAD)
     until(lambda: server.drive_lock.axes)
     holder = server.drive_lock.holder
     second.send('{"type":"axes","axes":[-1,0,0,0],"speed":0.5,"turn":1}')
     second.send('{"type":"control","action":"play"}')  # comes after
-    until(lambda: server.inbox.take().actions)
+    assert text(second, "notice")["text"].startswith("play refused")
     assert server.drive_lock.holder == holder
     assert server.drive_lock.axes.axes[0] == 1.0
 
