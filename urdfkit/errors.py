@@ -202,3 +202,14 @@ def did_you_mean(name: str, candidates: Iterable[str]) -> str:
 def suggestion(name: str | None) -> str:
     """Return ``; did you mean `x`?`` for a name, or an empty string for None."""
     return f"; did you mean `{name}`?" if name is not None else ""
+
+
+def with_effect(defect: str, effect: str) -> str:
+    """Return the description of a defect and its effect, in front of a suggestion at the end of the description.
+
+    Args:
+        defect: message of an error, such as ``no joint `elbw`; did you mean `elbow`?``.
+        effect: the consequence, such as ``the controller is left out``.
+    """
+    before, separator, suggested = defect.partition("; did you mean ")
+    return f"{before}; {effect}{separator}{suggested}"

@@ -21,6 +21,7 @@ from urdfkit.description.urdf.robot import (
 )
 from urdfkit.description.xacro.evaluation.failures import chain_words
 from urdfkit.description.xml.element import Element
+from urdfkit.errors import with_effect
 from urdfkit.linear_algebra import Array
 from urdfkit.scene.colors import DEFAULT
 from urdfkit.scene.placeholder_sizes import PlaceholderSizes
@@ -28,6 +29,7 @@ from urdfkit.scene.scene_table import Role, Scene, Shape
 
 _SHAPELESS = {"missing": "E014", "unknown-value": "E008"}
 """Kind of a problem without which a shape would have a geometry → code of the lint rule that reports it."""
+_EFFECT = "a placeholder is shown"
 _CLEAR = 0.5
 """Opacity of a placeholder that may cover other shapes of its link."""
 
@@ -44,7 +46,7 @@ def with_placeholders(robot: Robot, scene: Scene) -> tuple[Scene, list[Repair]]:
         scene: its scene, with the missing meshes in `Scene.problems`.
     """
     repairs = [
-        Repair("mesh", each.code, f"{each.error.message}; a placeholder is shown", each.error.position, each.body)
+        Repair("mesh", each.code, with_effect(each.error.message, _EFFECT), each.error.position, each.body)
         for each in scene.problems
     ]
     problems = {problem.element: problem for problem in reversed(robot.problems) if problem.kind in _SHAPELESS}
@@ -116,7 +118,7 @@ def _unknown_shapes(link: Link, item: Visual | Collision, problems: Mapping[Elem
     for element in item.element.walk():
         if (problem := problems.get(element)) is not None:
             origin = element.origin
-            message = f"{problem.message}; a placeholder is shown{chain_words(origin.expansions)}"
+            message = with_effect(problem.message, _EFFECT) + chain_words(origin.expansions)
             yield Repair("shape", _SHAPELESS[problem.kind], message, origin.position, link.name)
 
 
@@ -124,6 +126,6 @@ def _negative_size(link: Link, role: Role, item: Visual | Collision, size: float
     kind = type(item.geometry).__name__.lower()
     geometry = item.element.find("geometry") or item.element
     element = geometry.find(kind) or geometry
-    message = f"link `{link.name}`: the <{kind}> of a {role} shape has the size {size:g} m; a placeholder is shown"
+    message = f"link `{link.name}`: the <{kind}> of a {role} shape has the size {size:g} m; {_EFFECT}"
     origin = element.origin
     return Repair("shape", "G611", message + chain_words(origin.expansions), origin.position, link.name)

@@ -157,7 +157,7 @@ def test_an_unknown_package_names_places_and_the_nearest(package: Package) -> No
     with pytest.raises(ResourceError) as caught:
         Packages(near=own, environment={}).find("simpel_description")
     line = str(caught.value)
-    assert line.startswith("no package `simpel_description` in the workspace ")
+    assert line.startswith("no package `simpel_description` (searched: the workspace ")
     assert line.endswith("; did you mean `simple_description`?")
     assert "\n" not in line
 

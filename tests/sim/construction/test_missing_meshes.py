@@ -140,5 +140,5 @@ def test_a_misspelt_material_of_a_world_is_told_with_the_nearest(tmp_path: Path)
     Simulator(written(tmp_path, BOX), world=world, note=notes.append)
     (note,) = [each for each in notes if "material" in each]
     assert note.endswith(
-        "no material `Gazebo/Oragne`; did you mean `Gazebo/Orange`?; the visual keeps its plain colour"
+        "no material `Gazebo/Oragne`; the visual keeps its plain colour; did you mean `Gazebo/Orange`?"
     )

@@ -91,7 +91,8 @@ class Packages:
                 is_long = len(name) > _LONGEST_NAME
                 hint = "" if is_long else near_package(name, self._seen)
                 shown = f"{name[:60]}…" if is_long else name
-                message = f"no package `{shown}` in {self._looked_in()}{hint or '; see --package-path'}"
+                advice = "" if hint else "; add folders with --package-path"
+                message = f"no package `{shown}` (searched: {self._looked_in()}{advice}){hint}"
                 self.answers[("find", name)] = f"!{message}"
                 raise ResourceError(message, kind="package")
             self._found[name] = found

@@ -227,7 +227,7 @@ def _material(context: Context, visual: Element) -> tuple[Rgba | None, str, tupl
         place, name, meant = strange
         hint = "" if meant is None else f"; did you mean `{meant}`?"
         then = "; the visual keeps its plain colour" if rgba is None else ""
-        context.note(place, f"no material `{name}`{hint}{then}")
+        context.note(place, f"no material `{name}`{then}{hint}")
     plain = ambient in (None, rgba) and all(
         child.tag in ("ambient", "diffuse") or (child.tag == "script" and _is_gazebos(child))
         for child in element.children

@@ -7,6 +7,7 @@ from dataclasses import replace
 
 from urdfkit.description.urdf.repair import Repair
 from urdfkit.description.urdf.robot import Link, Robot
+from urdfkit.errors import with_effect
 from urdfkit.scene import Scene, Shape
 from urdfkit.sim.construction.repairs.inertia_tensors import repair_at
 from urdfkit.sim.construction.validation import invalid_sizes
@@ -60,13 +61,14 @@ def with_substitutes(scene: Scene) -> tuple[Scene, list[Repair]]:
             effect = "the link collides with its visual shapes"
         else:
             effect = f"shape `{problem.name}` is left out: it has no contacts"
-        repairs.append(Repair("mesh", problem.code, f"{fault}; {effect}", problem.error.position, body))
+        repairs.append(Repair("mesh", problem.code, with_effect(fault, effect), problem.error.position, body))
     for fault, bodies in packages.items():
         first = next(problem.error for problem in scene.problems if problem.error.message == fault)
         names = list(dict.fromkeys(bodies))
         shown = ", ".join(f"`{name}`" for name in names[:_SHOWN])
         more = f" and {len(names) - _SHOWN} others" if len(names) > _SHOWN else ""
-        message = f"{fault}; the collision meshes of {shown}{more} are replaced by their visual shapes, if readable"
+        effect = f"the collision meshes of {shown}{more} are replaced by their visual shapes, if readable"
+        message = with_effect(fault, effect)
         repairs.append(Repair("mesh", "G602", message, first.position, names[0]))
     shapes = [*scene.shapes, *(shape for found in replaced.values() for shape in found)]
     order = scene.body_index

@@ -56,7 +56,7 @@ def noise_of(parent: Element | None, random: np.random.Generator) -> Noise:
     kind = (written.text if written is not None else element.get("type")) or "none"
     if kind not in TYPES:
         raise SimulationError(
-            f"noise of type `{kind}`{did_you_mean(kind, TYPES)}; it must be {', '.join(TYPES)}",
+            f"the type of the noise is `{kind}`; it must be {', '.join(TYPES)}{did_you_mean(kind, TYPES)}",
             position=(written or element).origin.position,
         )
     if kind == "none":

@@ -94,10 +94,10 @@ def test_boxes_go_round_what_is_seen(post) -> None:
 @pytest.mark.parametrize(
     ("sensor", "said"),
     [
-        (segmentation("panoptick"), "<segmentation_type> is `panoptick`; did you mean `panoptic`?; it must be"),
+        (segmentation("panoptick"), "<segmentation_type> is `panoptick`; it must be semantic, "),
         (
             eye(inside=camera(more="<box_type>full_3d</box_type>"), type="boundingbox"),
-            "boxes of type `full_3d` are not made; did you mean `full_2d`?; there are 2d, visible_2d, visible_box_2d, ",
+            "<box_type> is `full_3d`; it must be 2d, visible_2d, visible_box_2d, ",
         ),
     ],
 )

@@ -90,8 +90,8 @@ class GzSegmentationCamera(Camera):
         kind = "semantic" if written is None or not written.text else written.text.lower()
         if kind not in (*SEMANTIC, *PANOPTIC):
             raise SimulationError(
-                f"<segmentation_type> is `{kind}`{did_you_mean(kind, (*SEMANTIC, *PANOPTIC))}; it must be "
-                + ", ".join((*SEMANTIC, *PANOPTIC)),
+                f"<segmentation_type> is `{kind}`; it must be {', '.join((*SEMANTIC, *PANOPTIC))}"
+                + did_you_mean(kind, (*SEMANTIC, *PANOPTIC)),
                 position=None if written is None else written.origin.position,
             )
         self._by_instance = kind in PANOPTIC
@@ -148,8 +148,8 @@ class GzBoundingBoxCamera(Camera):
         self._type = "2d" if written is None or not written.text else written.text.strip().lower()
         if self._type not in BOX_TYPES:
             raise SimulationError(
-                f"boxes of type `{self._type}` are not made{did_you_mean(self._type, BOX_TYPES)}; there are "
-                + ", ".join(BOX_TYPES),
+                f"<box_type> is `{self._type}`; it must be {', '.join(BOX_TYPES)}"
+                + did_you_mean(self._type, BOX_TYPES),
                 position=None if written is None else written.origin.position,
             )
         name, bus = topics.resolve(read.text("image_topic")), setup.bus

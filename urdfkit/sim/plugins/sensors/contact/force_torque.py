@@ -232,7 +232,7 @@ class GzForceTorque(ForceTorque):
         text = "" if child is None else child.text
         if child is not None and text and text not in allowed:
             raise SimulationError(
-                f"<{tag}> is `{text}`{did_you_mean(text, allowed)}; it must be {', '.join(allowed)}",
+                f"<{tag}> is `{text}`; it must be {', '.join(allowed)}{did_you_mean(text, allowed)}",
                 position=child.origin.position,
             )
         return text or default

@@ -31,8 +31,8 @@ class RaySensor(Lidar):
         self._output = read.text("output_type")
         if self._output not in OUTPUTS:
             raise SimulationError(
-                f"<output_type> is `{self._output}`{did_you_mean(self._output, OUTPUTS)}; it must be "
-                + ", ".join(OUTPUTS),
+                f"<output_type> is `{self._output}`; it must be {', '.join(OUTPUTS)}"
+                + did_you_mean(self._output, OUTPUTS),
                 position=read.place("output_type"),
             )
         self._min_intensity = read.number("min_intensity")

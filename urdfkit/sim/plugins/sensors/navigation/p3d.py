@@ -45,8 +45,8 @@ class P3d(Sensor):
         self._frame = read.text("frame").lstrip("/")
         if self._frame not in (*WORLD, *links):
             raise SimulationError(
-                f"<{read.tag('frame')}> is `{self._frame}`{did_you_mean(self._frame, (*WORLD, *links))}; "
-                "it must be world or a link",
+                f"<{read.tag('frame')}> is `{self._frame}`; it must be world or a link"
+                + did_you_mean(self._frame, (*WORLD, *links)),
                 position=read.place("frame"),
             )
         name = read.text("topic") if self.spec.generation == "ros1" else "odom"
