@@ -187,7 +187,7 @@ def test_models_that_can_be_repaired_run_with_one_warning(
     kind, code, said = REPAIRED[what]
     (repair,) = json.loads(out)["repairs"]
     assert (repair["kind"], repair["code"]) == (kind, code)
-    assert f"urdfkit: {repair['file']}:{repair['line']}:{repair['column']}: {repair['message']}\n" in err
+    assert f"urdfkit: warning: {repair['file']}:{repair['line']}:{repair['column']}: {repair['message']}\n" in err
     assert said in err
 
 

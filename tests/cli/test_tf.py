@@ -138,6 +138,7 @@ def test_the_tree_as_text_and_json(capsys: pytest.CaptureFixture[str], limited: 
     assert out == "base\n└── arm  [bend, revolute]\n    └── finger  [follow, revolute, mimics bend]\n"
     _, out, _ = ran(capsys, limited, "--tree", "--json")
     assert json.loads(out) == {
+        "repairs": [],
         "root": "base",
         "frames": ["base", "arm", "finger"],
         "edges": [
@@ -246,12 +247,12 @@ def test_a_mimic_joint_cannot_be_set(capsys: pytest.CaptureFixture[str], limited
         (LOOP, "loop"),
     ],
 )
-def test_what_is_no_robot_is_refused_at_its_place(
+def test_a_file_that_is_no_robot_is_refused_with_its_position(
     capsys: pytest.CaptureFixture[str], tmp_path: Path, text: str, message: str
 ) -> None:
     path = tmp_path / "robot.urdf"
     path.write_text(text, encoding="utf-8")
-    code, out, err = ran(capsys, str(path), "a", "b")
+    code, out, err = ran(capsys, str(path), "a", "b", "--strict")
     assert (code, out) == (2, "")
     assert err.count("\n") == 1
     assert message in err

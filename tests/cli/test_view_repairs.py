@@ -90,6 +90,6 @@ def test_a_placeholder_is_hatched_and_its_link_has_a_badge(visits, robot: Path, 
     card = page.locator(".finding", has_text="G602")
     assert "a placeholder is shown" in card.inner_text()
     page.locator('.badge[data-link="stray"]').click()
-    assert "it stands at the origin of base" in page.locator(".finding", has_text="T203").inner_text()
+    assert "is fixed to the origin of base" in page.locator(".finding", has_text="T203").inner_text()
     keep(page, "placeholder")
     assert visits.problems == []

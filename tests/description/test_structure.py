@@ -27,7 +27,7 @@ CASES = {
     "several roots": (
         links("a", "b") + joint("j", "a", "b") + "\n" + links("c"),
         "T203",
-        "it stands at the origin of `a`",
+        "`c` is fixed to the origin of `a`",
     ),
     "undefined parent": (links("a", "b") + "\n" + joint("j", "aa", "b"), "T201", "an empty link `aa` is added"),
     "undefined child": (
@@ -92,8 +92,8 @@ def test_the_rest_is_one_tree_and_the_fault_is_named_at_the_line_of_the_finding(
     inside, code, effect = CASES[case]
     path = tmp_path / "r.urdf"
     path.write_text(f'<robot name="r">{inside}</robot>\n')
-    robot, repairs = load_repaired(path)
-    repair = next(repair for repair in repairs if effect in repair.message)
+    robot = load_repaired(path)
+    repair = next(repair for repair in robot.repairs if effect in repair.message)
     assert (repair.code, repair.position.line) == (code, 2)
     assert any(f.code == code and f.line == 2 for f in lint(path))
     names = [link.name for link in robot.links]
@@ -103,14 +103,14 @@ def test_the_rest_is_one_tree_and_the_fault_is_named_at_the_line_of_the_finding(
     assert {"a", "b"} <= set(names)
     with pytest.raises(ModelError) as caught:
         load(path)
-    assert caught.value.position in [repair.position for repair in repairs]
+    assert caught.value.position in [repair.position for repair in robot.repairs]
 
 
 def test_one_fault_is_one_repair(tmp_path: Path) -> None:
     path = tmp_path / "r.urdf"
     path.write_text(f'<robot name="r">{links("a", "b", "c")}{joint("j", "aa", "b")}{joint("k", "a", "c")}</robot>')
-    robot, repairs = load_repaired(path)
-    assert [repair.code for repair in repairs] == ["T201"]
+    robot = load_repaired(path)
+    assert [repair.code for repair in robot.repairs] == ["T201"]
     assert robot.roots()[0].name == "a"
     assert {(j.parent, j.child) for j in robot.joints} == {("aa", "b"), ("a", "c"), ("a", "aa")}
 
@@ -118,8 +118,8 @@ def test_one_fault_is_one_repair(tmp_path: Path) -> None:
 def test_a_valid_robot_stays_as_it_is(tmp_path: Path) -> None:
     path = tmp_path / "r.urdf"
     path.write_text(f'<robot name="r">{links("a", "b")}{joint("j", "a", "b", "revolute", LIMIT)}</robot>')
-    robot, repairs = load_repaired(path)
-    assert repairs == []
+    robot = load_repaired(path)
+    assert robot.repairs == ()
     assert [joint.name for joint in robot.joints] == ["j"]
 
 
@@ -149,7 +149,8 @@ def test_defects_of_urdf_1_2_are_repaired(tmp_path: Path, inside: str, code: str
     path = tmp_path / "robot.urdf"
     parts = links("a", "b") + joint("j", "a", "b", "revolute", inside)
     path.write_text(f'<robot name="r" version="1.2">{parts}</robot>')
-    robot, (repair,) = load_repaired(path)
+    robot = load_repaired(path)
+    (repair,) = robot.repairs
     assert (repair.code, repair.joint) == (code, "j")
     assert repair.message.endswith(effect)
     assert robot.joints[0].origin.rpy == pytest.approx((radians(roll), 0.0, 0.0))

@@ -18,7 +18,7 @@ GONE = '<visual><geometry><mesh filename="gone.stl"/></geometry></visual>'
 def shown(tmp_path: Path, inside: str) -> tuple[Scene, list[str]]:
     path = tmp_path / "r.urdf"
     path.write_text(f'<robot name="r">{inside}</robot>')
-    robot, _ = load_repaired(path)
+    robot = load_repaired(path)
     scene, repairs = with_placeholders(robot, scene_of(robot, strict=False))
     return scene, [f"{repair.code} {repair.link} {repair.message}" for repair in repairs]
 

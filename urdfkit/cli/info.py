@@ -9,7 +9,7 @@ from collections import Counter
 from typing import TYPE_CHECKING, Any
 
 from urdfkit.cli.parser import add_model
-from urdfkit.cli.robot_arguments.required_arguments import listing_required_arguments
+from urdfkit.cli.robot_arguments.robot_loading import add_strict, load_robot, print_repairs
 from urdfkit.cli.unused_arguments import note_unused
 from urdfkit.description.urdf.version import RATES
 from urdfkit.errors import MissingDependencyError, UrdfkitError
@@ -24,18 +24,18 @@ def configure(parser: argparse.ArgumentParser) -> None:
     """Add the arguments of ``urdfkit info``."""
     parser.epilog = "examples:\n  urdfkit info simpleton\n  urdfkit info urdf/arm.urdf.xacro --json"
     add_model(parser)
+    add_strict(parser, "a second root link")
     parser.add_argument("--json", action="store_true", help="print one JSON value")
 
 
 def run(arguments: argparse.Namespace) -> int:
     """Print the properties of the robot."""
-    from urdfkit.description import load
     from urdfkit.resources import find_model
 
     model = find_model(arguments.model, package_path=arguments.package_path)
-    with listing_required_arguments(model, quiet=arguments.quiet):
-        robot = load(model.path, arguments=model.arguments, package_path=model.package_path)
+    robot = load_robot(model, arguments)
     note_unused(model.arguments, robot.files, quiet=arguments.quiet)
+    print_repairs(robot, quiet=arguments.quiet)
     facts = facts_of(robot)
     if facts["note"] and not arguments.quiet:
         print(f"urdfkit: note: {facts['note']}", file=sys.stderr)
@@ -64,6 +64,7 @@ def facts_of(robot: Robot) -> dict[str, Any]:
         "bounding_box": None,
         "drives": _drives(robot),
         "sensors": _sensors(robot),
+        "repairs": [repair.as_json() for repair in robot.repairs],
         "note": None,
     }
     try:

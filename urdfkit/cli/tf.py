@@ -10,10 +10,10 @@ import sys
 from collections.abc import Iterable
 from dataclasses import asdict
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from urdfkit.cli.robot_arguments.macro_option import add_macro, with_macro, xacro_arguments
-from urdfkit.cli.robot_arguments.required_arguments import listing_required_arguments
+from urdfkit.cli.robot_arguments.robot_loading import add_strict, load_robot, print_repairs
 from urdfkit.cli.unused_arguments import note_unused
 from urdfkit.errors import MissingDependencyError, ResourceError, UsageError, did_you_mean
 
@@ -56,6 +56,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
         "-o", "--output", type=Path, metavar="FILE", help="with --tree: write a drawing to a .svg, .dot or .pdf file"
     )
     add_macro(parser)
+    add_strict(parser, "a second root link")
     parser.add_argument(
         "--package-path",
         action="append",
@@ -83,14 +84,13 @@ def run(arguments: argparse.Namespace) -> int:
     from urdfkit.kinematics.pinocchio_requirement import require_pinocchio
 
     require_pinocchio("tf")
-    from urdfkit.description import load
     from urdfkit.kinematics.tf import TransformTree
     from urdfkit.resources import find_model
 
     found = with_macro(find_model(model, package_path=arguments.package_path), arguments)
-    with listing_required_arguments(found, quiet=arguments.quiet):
-        robot = load(found.path, arguments=found.arguments, package_path=found.package_path, macro=found.macro)
+    robot = load_robot(found, arguments)
     note_unused(xacro_arguments(found), robot.files, quiet=arguments.quiet)
+    print_repairs(robot, quiet=arguments.quiet)
     tree = TransformTree(robot)
     _warn_of_limits(tree, positions)
     if arguments.tree:
@@ -101,7 +101,8 @@ def run(arguments: argparse.Namespace) -> int:
             print(f"wrote {arguments.output}", file=sys.stderr)
     elif frames:
         transform = tree.transform(frames[0], frames[1], positions)
-        _write(json.dumps(asdict(transform)) + "\n" if arguments.json else _echo(transform))
+        values = asdict(transform) | _repairs(tree)
+        _write(json.dumps(values) + "\n" if arguments.json else _echo(transform))
     else:
         q = tree.kinematics.configuration(positions)
         transforms = [tree.transform(tree.root, frame, q) for frame in tree.frames]
@@ -151,6 +152,10 @@ def _warn_of_limits(tree: TransformTree, positions: dict[str, float]) -> None:
         print(f"urdfkit: warning: {error}", file=sys.stderr)
 
 
+def _repairs(tree: TransformTree) -> dict[str, Any]:
+    return {"repairs": [repair.as_json() for repair in tree.kinematics.robot.repairs]}
+
+
 def _echo(transform: Transform) -> str:
     """Return a transform as ``tf2_echo`` prints it."""
     degrees = [number * 57.29577951308232 for number in transform.rpy]
@@ -197,7 +202,8 @@ def _show_tree(tree: TransformTree, *, output: Path | None, as_json: bool) -> No
             _write(as_text(tree, ascii_only=True))
     if as_json:
         edges = [asdict(edge) for edge in tree.edges]
-        _write(json.dumps({"root": tree.root, "frames": list(tree.frames), "edges": edges}) + "\n")
+        values = {"root": tree.root, "frames": list(tree.frames), "edges": edges}
+        _write(json.dumps(values | _repairs(tree)) + "\n")
     if output is not None:
         match output.suffix.lower():
             case ".svg":

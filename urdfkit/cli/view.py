@@ -10,6 +10,7 @@ from urdfkit.cli.robot_arguments.file_notes import warn_of_file_names
 from urdfkit.cli.robot_arguments.launch_arguments import add_launch_arguments, with_launch_arguments
 from urdfkit.cli.robot_arguments.macro_option import add_macro, with_macro, xacro_arguments
 from urdfkit.cli.robot_arguments.required_arguments import listing_required_arguments
+from urdfkit.cli.robot_arguments.robot_loading import add_strict
 from urdfkit.cli.unused_arguments import note_unused
 
 
@@ -22,11 +23,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--html", metavar="FILE", help="write a self-contained page with sliders that needs no server, and exit"
     )
-    parser.add_argument(
-        "--strict",
-        action="store_true",
-        help="refuse robots that need a repair, such as a placeholder for a missing mesh (default: repair and warn)",
-    )
+    add_strict(parser, "a placeholder for a missing mesh")
     parser.epilog = (
         "examples:\n  urdfkit view simpleton\n  urdfkit view urdf/robot.urdf.xacro use_camera:=true --port 8080\n"
         "  urdfkit view simpleton --html simpleton.html"

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Iterable, Mapping
+from dataclasses import replace
 from pathlib import Path
 
 from urdfkit.description.packages.resolver import Packages
 from urdfkit.description.structure import repaired_structure
 from urdfkit.description.urdf.parser import parse
-from urdfkit.description.urdf.repair import Repair
 from urdfkit.description.urdf.robot import Robot
 from urdfkit.description.xacro.evaluation.failures import chain_words
 from urdfkit.description.xacro.expand import expand as expand_file
@@ -65,7 +65,7 @@ def load_repaired(
     arguments: Mapping[str, str] | None = None,
     package_path: Iterable[str | Path] = (),
     macro: str | None = None,
-) -> tuple[Robot, list[Repair]]:
+) -> Robot:
     """Load a robot whose links need not be one valid tree.
 
     Args:
@@ -75,7 +75,7 @@ def load_repaired(
         macro: see `load`.
 
     Returns:
-        A robot that is one valid tree, and the repairs that it needed; see `repaired_structure`.
+        A robot that is one valid tree, with the `repairs` that it needed; see `repaired_structure`.
 
     Raises:
         UsageError: see `load`.
@@ -86,10 +86,10 @@ def load_repaired(
     """
     package_path = tuple(package_path)
     if isinstance(robot, Robot) and not arguments and not package_path and macro is None:
-        return robot, []
+        return robot
     model = model_argument(robot, arguments=arguments, package_path=package_path, macro=macro)
     repaired, defects = repaired_structure(_load(model, require_links))
-    return repaired, [defect.repair for defect in defects]
+    return replace(repaired, repairs=tuple([defect.repair for defect in defects])) if defects else repaired
 
 
 def _load(model: ModelArgument, check: Callable[[Robot], None]) -> Robot:

@@ -9,7 +9,7 @@ from urdfkit.description.urdf.repair import Repair
 from urdfkit.description.urdf.robot import Joint, Link, Pose, Problem, Robot
 from urdfkit.description.xacro.evaluation.failures import chain_words
 from urdfkit.description.xml.element import Element
-from urdfkit.errors import ModelError, did_you_mean
+from urdfkit.errors import ModelError, did_you_mean, with_effect
 from urdfkit.record import field, record
 
 TYPE_CHECKING = False
@@ -63,7 +63,7 @@ class Defect:
     @property
     def repair(self) -> Repair:
         """The repair."""
-        message = f"{self.message}; {self.effect}{self._chain}"
+        message = with_effect(self.message, self.effect) + self._chain
         return Repair("structure", self.code, message, self.position, self.link, self.joint)
 
     @property
@@ -275,8 +275,8 @@ class _Structure:
             f"{len(others) + 1} root links: {names} {verb} no parent joint; a joint to the tree of `{main.name}` "
             f"({main.element.origin.position}) is missing"
         )
-        stand = "it stands" if len(others) == 1 else "they stand"
-        effect = f"{stand} at the origin of `{main.name}`"
+        fixed = f"{names} is fixed" if len(others) == 1 else "they are fixed"
+        effect = f"{fixed} to the origin of `{main.name}`"
         self._add(message, effect, "T203", others[0].element, link=others[0].name)
 
     def _tree_sizes(self, roots: list[Link]) -> dict[str, int]:

@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 
 from urdfkit.description.urdf.repair import Repair
 from urdfkit.description.urdf.robot import Joint, Robot
-from urdfkit.errors import KinematicsError, did_you_mean
+from urdfkit.errors import KinematicsError, did_you_mean, with_effect
 
 _SINGLE = ("revolute", "continuous", "prismatic")
 
@@ -41,8 +41,8 @@ def couplings(robot: Robot) -> dict[str, Coupling]:
     return found
 
 
-def without_impossible_mimics(robot: Robot) -> tuple[Robot, list[Repair]]:
-    """Return a robot without each <mimic> that `couplings` refuses, and a repair for each."""
+def without_impossible_mimics(robot: Robot) -> Robot:
+    """Return a robot without each <mimic> that `couplings` refuses, with a repair for each."""
     joints, repairs = dict(robot.joint_by_name), []
     for joint in robot.joints:
         if joint.mimic is None or not joint.is_movable:
@@ -52,12 +52,13 @@ def without_impossible_mimics(robot: Robot) -> tuple[Robot, list[Repair]]:
         except KinematicsError as error:
             joints[joint.name] = replace(joint, mimic=None)
             origin = joint.mimic.element.origin
-            message = f"{error.message}; joint `{joint.name}` moves by itself"
+            message = with_effect(error.message, f"joint `{joint.name}` moves by itself")
             code = "J416" if joint.mimic.joint == joint.name else None
             repairs.append(Repair("structure", code, message, origin.position, joint=joint.name))
     if not repairs:
-        return robot, []
-    return replace(robot, joints=tuple([joints[joint.name] for joint in robot.joints])), repairs
+        return robot
+    kept = tuple([joints[joint.name] for joint in robot.joints])
+    return replace(robot, joints=kept, repairs=(*robot.repairs, *repairs))
 
 
 def _follow(joints: Mapping[str, Joint], joint: Joint) -> Coupling:

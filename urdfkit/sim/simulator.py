@@ -9,7 +9,8 @@ from typing import Any
 import numpy as np
 
 from urdfkit.bus import Bus, Subscription, absolute, nearest_topic
-from urdfkit.description import Robot, load
+from urdfkit.description import Robot
+from urdfkit.description.loading import load, load_repaired
 from urdfkit.description.sdf import Physics, World
 from urdfkit.description.urdf.repair import Repair
 from urdfkit.errors import SimulationError, UnknownNameError, suggestion
@@ -106,7 +107,8 @@ class Simulator:
     ) -> None:
         distro = Distro(ros_distro)
         require_valid_arguments(seed, spawn)
-        self.robot = robot if isinstance(robot, Robot) else load(robot, package_path=package_path)
+        read = load if strict else load_repaired
+        self.robot = robot if isinstance(robot, Robot) else read(robot, package_path=package_path)
         found = world_with_gravity(world, gravity, package_path)
         self.dt = dt = found.physics.max_step_size if dt is None else number(dt, "the step", "s")
         if not 1e-6 <= dt <= 0.1:

@@ -189,10 +189,10 @@ def test_repairs_are_printed_once_and_join_the_findings_of_their_line(session: S
     checked(session, lambda: session.shown.repairs)
     printed = capsys.readouterr().err
     assert printed.count("urdfkit: warning: ") == 1
-    assert "it stands at the origin of `base`" in printed
+    assert "is fixed to the origin of `base`" in printed
     rows = [row for row in session.server.said["findings"]["findings"] if row["code"] == "T203"]
     assert [row["link"] for row in rows] == ["stray"]
-    assert "it stands at the origin of `base`" in rows[0]["repair"]
+    assert "is fixed to the origin of `base`" in rows[0]["repair"]
     path.write_text(path.read_text() + "\n")
     seen = session.shown
     checked(session, lambda: session.shown is not seen)

@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING
 
 from urdfkit.app.page import Page, faults_on_page, require_page
 from urdfkit.app.page_handle import PageHandle
-from urdfkit.description import Robot, load
+from urdfkit.description import Robot
+from urdfkit.description.loading import load, load_repaired
 from urdfkit.description.sdf import World, load_world
 
 if TYPE_CHECKING:
@@ -67,7 +68,7 @@ def teleop(
     """
     require_page("teleop", "sim", modules=("numba", "rosbags"))
     folders = tuple(package_path)
-    loaded = load(robot, arguments=arguments, package_path=folders)
+    loaded = (load if strict else load_repaired)(robot, arguments=arguments, package_path=folders)
     place = world if isinstance(world, World) else load_world(world, package_path=folders)
     with ExitStack() as stack:
         page = Page("sim", host=host, port=port)

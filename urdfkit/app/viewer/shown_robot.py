@@ -67,22 +67,19 @@ class ShownRobot:
         from urdfkit.scene.placeholders import with_placeholders
 
         loader = loader or MeshLoader()
-        repairs: list[Repair] = []
+        replaced: list[Repair] = []
         if strict:
             robot = load(model.path, arguments=model.arguments, package_path=model.package_path, macro=model.macro)
         else:
-            robot, repairs = load_repaired(
-                model.path, arguments=model.arguments, package_path=model.package_path, macro=model.macro
+            robot = without_impossible_mimics(
+                load_repaired(model.path, arguments=model.arguments, package_path=model.package_path, macro=model.macro)
             )
-            robot, released = without_impossible_mimics(robot)
-            repairs += released
         scene = scene_of(robot, strict=strict, meshes=loader)
         if not strict:
             scene, replaced = with_placeholders(robot, scene)
-            repairs += replaced
         found, missing = mesh_files(robot)
         files = robot.files or (model.path,)
-        return cls(Kinematics(robot), scene, files, found, missing, tuple(repairs), loader)
+        return cls(Kinematics(robot), scene, files, found, missing, (*robot.repairs, *replaced), loader)
 
 
 def mesh_files(robot: Robot) -> tuple[tuple[Path, ...], tuple[str, ...]]:

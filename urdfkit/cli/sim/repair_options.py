@@ -1,19 +1,17 @@
-"""The options `--strict` and `--density` of every command that simulates."""
+"""The options `--strict` and `--density` of every command that simulates, and the lines of its warnings."""
 
 from __future__ import annotations
 
 import argparse
+import sys
 
+from urdfkit.cli.robot_arguments.robot_loading import add_strict
 from urdfkit.cli.sim import option_values
 
 
 def add_repair_options(parser: argparse.ArgumentParser) -> None:
     """Add the options."""
-    parser.add_argument(
-        "--strict",
-        action="store_true",
-        help="refuse robots that need a repair, such as an estimated mass (default: repair and warn)",
-    )
+    add_strict(parser, "an estimated mass")
     parser.add_argument(
         "--density",
         type=option_values.positive,
@@ -21,3 +19,10 @@ def add_repair_options(parser: argparse.ArgumentParser) -> None:
         metavar="KG/M3",
         help="density from which to estimate the mass of moving links that have none [kg/m³] (default: 1000)",
     )
+
+
+def print_warning(text: str) -> None:
+    """Print a warning of a simulation, a note (`Repairs.add`) or the line before a compilation on standard error."""
+    if not text.startswith("compiling "):
+        text = f"urdfkit: {text}" if text.startswith("note: ") else f"urdfkit: warning: {text}"
+    print(text, file=sys.stderr, flush=True)

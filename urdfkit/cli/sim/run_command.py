@@ -17,12 +17,12 @@ from urdfkit.cli.parser import add_model
 from urdfkit.cli.robot_arguments.file_notes import warn_of_file_names
 from urdfkit.cli.robot_arguments.launch_arguments import add_launch_arguments, with_launch_arguments
 from urdfkit.cli.robot_arguments.macro_option import add_macro, with_macro, xacro_arguments
-from urdfkit.cli.robot_arguments.required_arguments import listing_required_arguments
+from urdfkit.cli.robot_arguments.robot_loading import load_robot
 from urdfkit.cli.sim import option_values
 from urdfkit.cli.sim.controllers_option import add_controllers
 from urdfkit.cli.sim.record_option import NEW_TOPIC_PERIOD, add_record, check_record, recording
 from urdfkit.cli.sim.renderer_option import add_renderer
-from urdfkit.cli.sim.repair_options import add_repair_options
+from urdfkit.cli.sim.repair_options import add_repair_options, print_warning
 from urdfkit.cli.sim.ros_distro_option import add_distro
 from urdfkit.cli.unused_arguments import note_unused
 from urdfkit.errors import SimulationError, UsageError, suggestion
@@ -181,7 +181,6 @@ def load(arguments: argparse.Namespace) -> Simulator:
         UrdfkitError: robot or world cannot be loaded or simulated.
     """
     from urdfkit.app.simulation.kernel_compilation import prepare_kernel
-    from urdfkit.description import load as load_description
     from urdfkit.description.sdf import load_world
     from urdfkit.description.xml.cost_limit import LOADING, LOADING_MEMORY, CostLimit
     from urdfkit.resources import find_model
@@ -191,10 +190,7 @@ def load(arguments: argparse.Namespace) -> Simulator:
     with limit:
         named = with_macro(find_model(arguments.model, package_path=arguments.package_path), arguments)
         model = with_launch_arguments(named, arguments)
-        with listing_required_arguments(model, quiet=arguments.quiet):
-            robot = load_description(
-                model.path, arguments=model.arguments, package_path=model.package_path, macro=model.macro
-            )
+        robot = load_robot(model, arguments)
         note_unused(xacro_arguments(named), robot.files, quiet=arguments.quiet)
         world = load_world(arguments.world)
     prepare_kernel(sys.stderr)
@@ -218,7 +214,7 @@ def load(arguments: argparse.Namespace) -> Simulator:
             renderer=arguments.renderer,
             strict=arguments.strict,
             density=arguments.density,
-            note=(lambda text: None) if arguments.quiet else (lambda text: print(f"urdfkit: {text}", file=sys.stderr)),
+            note=(lambda text: None) if arguments.quiet else print_warning,
         )
     warn_of_file_names(robot, quiet=arguments.quiet)
     return simulator

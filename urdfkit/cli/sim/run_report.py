@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING, Any
 from urdfkit.sim.state.quaternion import to_rpy
 
 if TYPE_CHECKING:
-    from urdfkit.description.urdf.repair import Repair
     from urdfkit.sim.simulator import Simulator
 
 MAX_JOINTS = 8
@@ -74,7 +73,7 @@ def as_json(simulator: Simulator, spent: Effort) -> dict[str, Any]:
             }
             for contact in state.contacts
         ],
-        "repairs": [_repair(repair) for repair in simulator.repairs],
+        "repairs": [repair.as_json() for repair in simulator.repairs],
         "energy": {"kinetic": kinetic, "potential": potential},
         "topics": {
             topic.name: {"type": topic.type.replace("/msg/", "/"), "count": topic.count}
@@ -108,21 +107,6 @@ def as_text(simulator: Simulator, spent: Effort) -> str:
     touching = {contact.a for contact in state.contacts}
     lines.append(f"on the ground: {', '.join(sorted(touching)) or 'nothing'}")
     return "\n".join(lines)
-
-
-def _repair(repair: Repair) -> dict[str, Any]:
-    place = repair.position
-    return {
-        "kind": repair.kind,
-        "severity": repair.severity,
-        "code": repair.code,
-        "message": repair.message,
-        "file": place and place.file,
-        "line": place and place.line,
-        "column": place and place.column,
-        "link": repair.link,
-        "joint": repair.joint,
-    }
 
 
 def _several(simulator: Simulator, joint: str) -> dict[str, Any]:

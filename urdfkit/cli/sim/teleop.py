@@ -8,11 +8,11 @@ from urdfkit.cli.parser import add_model
 from urdfkit.cli.robot_arguments.file_notes import warn_of_file_names
 from urdfkit.cli.robot_arguments.launch_arguments import add_launch_arguments, with_launch_arguments
 from urdfkit.cli.robot_arguments.macro_option import add_macro, with_macro, xacro_arguments
-from urdfkit.cli.robot_arguments.required_arguments import listing_required_arguments
+from urdfkit.cli.robot_arguments.robot_loading import load_robot
 from urdfkit.cli.sim.controllers_option import add_controllers
 from urdfkit.cli.sim.record_option import add_record, check_record, recording
 from urdfkit.cli.sim.renderer_option import add_renderer
-from urdfkit.cli.sim.repair_options import add_repair_options
+from urdfkit.cli.sim.repair_options import add_repair_options, print_warning
 from urdfkit.cli.sim.ros_distro_option import add_distro
 from urdfkit.cli.unused_arguments import note_unused
 
@@ -53,7 +53,6 @@ def run(arguments: argparse.Namespace) -> int:
     """Simulate and serve until interrupted."""
     require_page("sim teleop", "sim", modules=("numba", "rosbags"))
     from urdfkit.app.simulation.simulation_handle import driving
-    from urdfkit.description import load
     from urdfkit.description.sdf import load_world
     from urdfkit.description.xml.cost_limit import LOADING, LOADING_MEMORY, CostLimit
     from urdfkit.resources import find_model
@@ -63,8 +62,7 @@ def run(arguments: argparse.Namespace) -> int:
         with CostLimit(LOADING, memory=LOADING_MEMORY, option=""):
             named = with_macro(find_model(arguments.model, package_path=arguments.package_path), arguments)
             model = with_launch_arguments(named, arguments)
-            with listing_required_arguments(model, quiet=arguments.quiet):
-                robot = load(model.path, arguments=model.arguments, package_path=model.package_path, macro=model.macro)
+            robot = load_robot(model, arguments)
             note_unused(xacro_arguments(named), robot.files, quiet=arguments.quiet)
             world = load_world(arguments.world)
         page = Page(
@@ -84,7 +82,7 @@ def run(arguments: argparse.Namespace) -> int:
                 renderer=arguments.renderer,
                 strict=arguments.strict,
                 density=arguments.density,
-                note=lambda text: note(f"urdfkit: {text}"),
+                note=print_warning,
             ) as loop,
             recording(loop.simulator, arguments.record) as loop.look,
         ):

@@ -7,7 +7,7 @@ from urdfkit.record import record
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from typing import Literal
+    from typing import Any, Literal
 
     RepairKind = Literal["structure", "inertia", "mass", "shape", "mesh", "plugin", "hardware", "controller"]
 
@@ -37,3 +37,18 @@ class Repair:
     def __str__(self) -> str:
         """Return the message with its position."""
         return self.message if self.position is None else f"{self.position}: {self.message}"
+
+    def as_json(self) -> dict[str, Any]:
+        """Return the repair as JSON values."""
+        place = self.position
+        return {
+            "kind": self.kind,
+            "severity": self.severity,
+            "code": self.code,
+            "message": self.message,
+            "file": place and place.file,
+            "line": place and place.line,
+            "column": place and place.column,
+            "link": self.link,
+            "joint": self.joint,
+        }

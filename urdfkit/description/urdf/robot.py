@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from typing import Literal
 
     from urdfkit.description.packages.resolver import Packages
+    from urdfkit.description.urdf.repair import Repair
 
     ProblemKind = Literal["bad-number", "wrong-arity", "not-finite", "missing", "unknown-value", "conflict"]
 
@@ -324,7 +325,8 @@ class Robot:
     """A robot as in its description; may be invalid (see `problems`, `roots`, `cycles`).
 
     `links` and `joints` keep document order and duplicates. `files` are all files that were read, the entry first;
-    `packages` resolves the URIs of its meshes; `arguments` are the xacro arguments. `load` sets all three.
+    `packages` resolves the URIs of its meshes; `arguments` are the xacro arguments. `load` sets all three. `repairs`
+    are the changes to a defective robot.
     """
 
     name: str | None
@@ -339,6 +341,7 @@ class Robot:
     files: tuple[Path, ...] = ()
     packages: Packages | None = field(default=None, repr=False)
     arguments: Mapping[str, str] = field(default_factory=dict, repr=False)
+    repairs: tuple[Repair, ...] = field(default=(), repr=False)
 
     def __repr__(self) -> str:
         """Return the name, the file and the numbers of links and joints."""

@@ -12,7 +12,7 @@ from urdfkit.description.plugins.sensors.table import BARE
 from urdfkit.description.plugins.unknown_plugins import unknown
 from urdfkit.description.sdf.reader.world_plugins import NEEDLESS
 from urdfkit.description.urdf.robot import Plugin, Robot, SensorTag
-from urdfkit.errors import SimulationError, UrdfkitError, UsageError
+from urdfkit.errors import SimulationError, UrdfkitError, UsageError, with_effect
 from urdfkit.sim.plugins.base import Controller, Drive, Sensor
 from urdfkit.sim.plugins.builtin_publishers import JointStates, all_joint_states, joint_states
 from urdfkit.sim.plugins.controllers import CONTROLLERS
@@ -181,5 +181,5 @@ def _configure(made: Drive | Sensor | Controller | JointStates, setup: Setup) ->
             raise
         place = "" if error.position is not None else f"{made.plugin.element.origin.position}: "
         name = setup.sensor.name if setup.sensor is not None else made.plugin.name
-        return LeftOut(f"{place}{error}; sensor `{name}` is left out")
+        return LeftOut(place + with_effect(str(error), f"sensor `{name}` is left out"))
     return Simulated(made)

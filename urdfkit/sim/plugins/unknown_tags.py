@@ -17,7 +17,7 @@ def misspelt(robot: Robot) -> Iterator[str]:
     """Yield a note for each unknown material, and for each unknown element of a sensor."""
     for element, name, meant in unknown_materials(robot):
         hint = "" if meant is None else f"; did you mean `{meant}`?"
-        yield f"{element.origin.position}: no material `{name}`{hint}; the link keeps its plain colour"
+        yield f"{element.origin.position}: no material `{name}`; the link keeps its plain colour{hint}"
     for block in robot.gazebo:
         for sensor in block.sensors:
             for each in unknown_elements(sensor.element):
@@ -42,7 +42,7 @@ def unsupported_sensor(sensor: SensorTag, *, simulated: bool) -> str:
     if kind in INSTEAD:
         return f"{place}: sensors of type `{kind}` are not simulated: {INSTEAD[kind]}; {left_out}"
     if kind not in SENSOR_TYPES:
-        return f"{place}: unknown sensor type `{kind}`{did_you_mean(kind, SENSOR_TYPES)}; {left_out}"
+        return f"{place}: unknown sensor type `{kind}`; {left_out}{did_you_mean(kind, SENSOR_TYPES)}"
     return f"{place}: sensors of type `{kind}` are not simulated yet; {left_out}"
 
 

@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from urdfkit.description import load
+from urdfkit.description.loading import load_repaired
 from urdfkit.description.sdf import WorldModel, WorldRobot, load_model, model_names
 from urdfkit.description.urdf.robot import Robot
 from urdfkit.errors import DescriptionError, ResourceError, UrdfkitError, did_you_mean
@@ -47,7 +47,7 @@ def spawn_request(
     text = str(model)
     path = Path(text)
     if path.suffix in _ROBOTS or (path.is_dir() and not (path / "model.config").is_file()):
-        return _robot(load(path, package_path=package_path))
+        return _robot(load_repaired(path, package_path=package_path))
     if path.is_dir():
         return SpawnRequest(load_model(f"model://{path.name}", package_path=[path.parent, *package_path]))
     if path.suffix in (".sdf", ".world") or text.startswith("model://"):
@@ -66,7 +66,7 @@ def spawn_request(
                 f"no model or robot `{text}`{did_you_mean(text, [*names, *robots])} "
                 f"(models: {', '.join(names)}; robots: {', '.join(robots)})"
             ) from None
-    return _robot(load(text, package_path=package_path))
+    return _robot(load_repaired(text, package_path=package_path))
 
 
 def spawn_request_of_text(text: str, package_path: Sequence[str | Path] = ()) -> SpawnRequest:

@@ -4,7 +4,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from urdfkit.description import load
+from urdfkit.description.loading import load_repaired
 from urdfkit.description.sdf import WorldModel, WorldRobot
 from urdfkit.description.sdf.model_as_robot import groups_of
 from urdfkit.description.urdf.geometry import IDENTITY, compose
@@ -77,7 +77,7 @@ class EntityFactory:
         if isinstance(source, WorldRobot):
             return self._robot_entry(
                 source,
-                robot or load(source.file, package_path=self._package_path),
+                robot or load_repaired(source.file, package_path=self._package_path),
                 spawn,
                 ground,
                 fixed_base=fixed_base or source.static,

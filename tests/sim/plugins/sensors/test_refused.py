@@ -91,7 +91,7 @@ WRONG = [
     ),
     (
         BLOCK.format(sensor(LASER, inside=scan(noise='<noise type="gausian"/>'))),
-        "noise of type `gausian`; did you mean `gaussian`?",
+        "sensor `lidar` is left out; did you mean `gaussian`?",
     ),
     (
         BLOCK.format(sensor(LASER.replace("ros_laser", "ros_block_laser"))),
@@ -99,7 +99,7 @@ WRONG = [
     ),
     (
         BLOCK.format(sensor(LASER.replace("ros_laser", "ros_lazer"))),
-        "no plugin `libgazebo_ros_lazer.so`; did you mean `libgazebo_ros_laser.so`?; sensor `lidar` is left out",
+        "no plugin `libgazebo_ros_lazer.so`; sensor `lidar` is left out; did you mean `libgazebo_ros_laser.so`?",
     ),
 ]
 
@@ -125,7 +125,7 @@ def test_the_command_says_it_in_one_line_and_goes_on(robot, capsys: Any) -> None
     assert main(["sim", "run", str(file), "--world", "void", "--for", "0.01"]) == 0
     said = capsys.readouterr().err.splitlines()
     assert [line for line in said if "raay" in line] == [
-        f"urdfkit: {file}:4:25: unknown sensor type `raay`; did you mean `ray`?; sensor `lidar` is left out"
+        f"urdfkit: warning: {file}:4:25: unknown sensor type `raay`; sensor `lidar` is left out; did you mean `ray`?"
     ]
 
 

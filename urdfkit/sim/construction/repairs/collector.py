@@ -6,6 +6,7 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 from urdfkit.description.urdf.repair import Repair
+from urdfkit.errors import with_effect
 
 if TYPE_CHECKING:
     from urdfkit.description.urdf.repair import RepairKind
@@ -39,7 +40,7 @@ class Repairs:
         """Record and report a repair, unless an equal one was recorded before."""
         if repair not in self.found:
             self.found.append(repair)
-            self._note(str(repair))
+            self._note(str(repair) if repair.severity == "warning" else f"note: {repair}")
 
     def leave_out(
         self,
@@ -64,4 +65,4 @@ class Repairs:
         """
         if self.strict:
             raise error
-        self.add(Repair(kind, code, f"{error.message}; {effect}", error.position or position))
+        self.add(Repair(kind, code, with_effect(error.message, effect), error.position or position))

@@ -1,4 +1,4 @@
-"""Repair of a robot before it is simulated: shapes, inertia tensors and masses, in this order."""
+"""Repair of a robot before it is simulated: mimic joints, shapes, inertia tensors and masses, in this order."""
 
 from __future__ import annotations
 
@@ -7,6 +7,8 @@ from dataclasses import replace
 from urdfkit.description.urdf.massless_links import first_massless, massless
 from urdfkit.description.urdf.repair import Repair
 from urdfkit.description.urdf.robot import Robot
+from urdfkit.errors import ModelError
+from urdfkit.kinematics.mimic import without_impossible_mimics
 from urdfkit.scene import Scene, scene_of
 from urdfkit.sim.construction.repairs.collector import Repairs
 from urdfkit.sim.construction.repairs.collision_shapes import with_substitutes, without_empty_shapes
@@ -24,14 +26,21 @@ def repaired(robot: Robot, scene: Scene | None, repairs: Repairs, *, floating: b
     Defects that no repair removes, such as negative masses, stay.
 
     Args:
-        robot: the robot as written.
+        robot: the robot, one tree.
         scene: its shapes, if they have been loaded already.
         repairs: collects the repairs.
         floating: whether the base of the robot moves.
+
+    Raises:
+        ModelError: the structure of the robot was repaired, and `repairs` is strict.
     """
     if repairs.strict:
+        for repair in robot.repairs:
+            raise ModelError(repair.message, position=repair.position)
         return robot, scene or scene_of(robot, strict=False)
-    written = robot
+    written = robot = without_impossible_mimics(robot)
+    for repair in robot.repairs:
+        repairs.add(repair)
     robot, found = without_empty_shapes(robot)
     scene, missing = with_substitutes(scene_of(robot, strict=False) if scene is None or found else scene)
     pairs = [possible(link) for link in robot.links]

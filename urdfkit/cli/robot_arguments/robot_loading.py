@@ -1,0 +1,57 @@
+"""The option `--strict`, and loading of the robot of a command: repaired by default, refused with `--strict`."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+
+from urdfkit.cli.robot_arguments.required_arguments import listing_required_arguments
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from urdfkit.description import Robot
+    from urdfkit.resources import ModelArgument
+
+
+def add_strict(parser: argparse.ArgumentParser, example: str) -> None:
+    """Add the option.
+
+    Args:
+        parser: parser of the command.
+        example: a repair of the command.
+    """
+    parser.add_argument(
+        "--strict",
+        action="store_true",
+        help=f"refuse robots that need a repair, such as {example} (default: repair and warn)",
+    )
+
+
+def load_robot(model: ModelArgument, arguments: argparse.Namespace) -> Robot:
+    """Load a robot, with the repairs of its structure unless ``--strict`` is set.
+
+    Args:
+        model: the robot.
+        arguments: values of ``--strict`` and ``--quiet``.
+
+    Raises:
+        UrdfkitError: the file has no robot, or the robot needs a repair and ``--strict`` is set.
+    """
+    from urdfkit.description.loading import load, load_repaired
+    from urdfkit.kinematics.mimic import without_impossible_mimics
+
+    read = load if arguments.strict else load_repaired
+    with listing_required_arguments(model, quiet=arguments.quiet):
+        robot = read(model.path, arguments=model.arguments, package_path=model.package_path, macro=model.macro)
+    return robot if arguments.strict else without_impossible_mimics(robot)
+
+
+def print_repairs(robot: Robot, *, quiet: bool) -> None:
+    """Print one line per repair on standard error.
+
+    Args:
+        robot: the robot.
+        quiet: print nothing.
+    """
+    for repair in () if quiet else dict.fromkeys(robot.repairs):
+        print(f"urdfkit: {repair.severity}: {repair}", file=sys.stderr)
