@@ -163,6 +163,20 @@ def test_links_that_carry_others_stay_without_mass(arm: Repaired, tmp_path: Path
     assert robot.link_by_name["l0"].inertial is None
 
 
+def test_links_that_carry_the_only_masses_have_their_mean(arm: Repaired) -> None:
+    """As an arm without meshes, whose fingers alone have shapes: a mass without influence makes the steps diverge."""
+    robot, found = arm("", "", INERTIAL.format(x=0.1, m=0.02, i=1e-5), INERTIAL.format(x=0.1, m=0.04, i=1e-5))
+    assert values(robot, "l0")[0] == values(robot, "l1")[0] == pytest.approx((5.0 + 0.02 + 0.04) / 3.0)
+    assert values(robot, "l2")[0] == 0.02
+    assert all("the mean of the other links" in repair.message for repair in found)
+
+
+def test_a_link_at_the_end_of_one_heavy_link_has_the_least_mass(arm: Repaired) -> None:
+    robot, found = arm(INERTIAL.format(x=0.15, m=1.0, i=0.01), "")
+    assert 1e-6 < values(robot, "l1")[0] < 1e-3
+    assert "at most 0.05 %" in found[0].message
+
+
 def test_a_robot_without_any_mass_gets_one(tmp_path: Path) -> None:
     path = tmp_path / "r.urdf"
     path.write_text('<robot name="r"><link name="a"/></robot>')

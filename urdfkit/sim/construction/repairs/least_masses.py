@@ -4,6 +4,9 @@ Every such link gets the same mass m and the inertia m·r², where r is the radi
 They add m·D to the mass matrix M of the rest. If m·D ≤ ε·M, the kinetic energy of every motion of the rest changes by
 at most the factor ε, and so do its accelerations, in the norm of M. The base counts as moving, so the bound includes
 gravity. m is the largest mass that fulfils the bound in the neutral configuration.
+
+If M is singular for the joints that move the rest, such as those of an arm of which only the fingers have masses, the
+rest does not determine its own motion, and no mass is small. Then m is the mean mass of the links with mass.
 """
 
 from __future__ import annotations
@@ -49,9 +52,12 @@ def with_least_masses(robot: Robot, *, floating: bool) -> tuple[Robot, list[Repa
     if is_regular(kinematics, kinematics.neutral()):
         return robot, []
     radius = _radius(robot)
-    mass = _mass(robot, [link for link, _ in found], radius)
+    mass = _mass(robot, [link for link, _ in found], radius, floating=floating)
     basis = f"it changes the motion of the other links by at most {100.0 * INFLUENCE:g} %"
-    if not mass:
+    if mass is None:
+        mass = _mean_mass(robot)
+        basis = "the mean of the other links, too few for the joints that move them"
+    elif not mass:
         mass, radius = ALONE
         basis = "no other link has a mass"
     changed = {link.name: _inertial(link, mass, radius) for link, _ in found}
@@ -69,16 +75,22 @@ def _radius(robot: Robot) -> float:
     return float(np.sqrt(trace / (3.0 * mass))) if mass > 0.0 and trace > 0.0 else ALONE[1]
 
 
-def _mass(robot: Robot, links: Sequence[Link], radius: float) -> float:
-    """Return the mass of each of the links [kg]; zero if no other link has a mass."""
+def _mean_mass(robot: Robot) -> float:
+    """Return the mean mass of the links with a mass [kg]."""
+    return float(np.mean([link.inertial.mass for link in robot.links if link.inertial and link.inertial.mass]))
+
+
+def _mass(robot: Robot, links: Sequence[Link], radius: float, *, floating: bool) -> float | None:
+    """Return the mass of each of the links [kg]; zero if no other link has a mass, None if M is singular."""
+    own = _scaled(_mass_matrix(robot, floating=floating))[0]
+    if own.size and symmetric_eigen(own)[0][0] <= SINGULAR:
+        return None
     heavy = _mass_matrix(robot)
     added = _mass_matrix(_replaced(robot, {link.name: _inertial(link, 1.0, radius) for link in links})) - heavy
-    size = np.sqrt(np.maximum(np.diag(heavy), 0.0))
-    moved = size > 1e-9 * size.max(initial=0.0)
+    scaled, moved, scale = _scaled(heavy)
     if not moved.any():
         return 0.0
-    scale = np.outer(size[moved], size[moved])
-    values, axes = symmetric_eigen(heavy[np.ix_(moved, moved)] / scale)
+    values, axes = symmetric_eigen(scaled)
     kept = values > SINGULAR
     basis = axes[:, kept] / np.sqrt(values[kept])
     influence = matmul(matmul(basis.T, added[np.ix_(moved, moved)] / scale), basis)
@@ -86,11 +98,19 @@ def _mass(robot: Robot, links: Sequence[Link], radius: float) -> float:
     return INFLUENCE / largest if largest > 0.0 else ALONE[0]
 
 
-def _mass_matrix(robot: Robot) -> Array:
+def _scaled(M: Array) -> tuple[Array, NDArray[np.bool_], Array]:
+    """Return the rows and columns of M that move a mass, with a diagonal of ones; these rows; and their scale."""
+    size = np.sqrt(np.maximum(np.diag(M), 0.0))
+    moved = size > 1e-9 * size.max(initial=0.0)
+    scale = np.outer(size[moved], size[moved])
+    return M[np.ix_(moved, moved)] / scale, moved, scale
+
+
+def _mass_matrix(robot: Robot, *, floating: bool = True) -> Array:
     import pinocchio
 
     pin: Any = pinocchio
-    kinematics = Kinematics(robot, floating_base=True)
+    kinematics = Kinematics(robot, floating_base=floating)
     upper = np.triu(pin.crba(kinematics.model, kinematics.data, kinematics.neutral()))
     return np.asarray(upper + np.triu(upper, 1).T)
 

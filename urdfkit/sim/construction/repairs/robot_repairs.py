@@ -67,7 +67,7 @@ def _of_whole_robot(
     more = f" and {len(amounts) - _SHOWN} others" if len(amounts) > _SHOWN else ""
     message = (
         f"no link of the robot has a mass, but joints move `{link.name}` and other links; simulated with "
-        f"{', '.join(amounts[:_SHOWN])}{more} (from shapes at {density:g} kg/m³, the least for links without shapes)"
+        f"{', '.join(amounts[:_SHOWN])}{more} (from shapes at {density:g} kg/m³, an estimate for links without shapes)"
     )
     name = None if joint is None else joint.name
     return [repair_at(link.element, "mass", "I511", message, link=link.name, joint=name)]
