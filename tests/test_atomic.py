@@ -1,10 +1,12 @@
 import os
 import signal
+import subprocess
+import sys
 from pathlib import Path
 
 import pytest
 
-from urdfkit.atomic import move_into_place, staging, undisturbed, write_bytes, write_text
+from urdfkit.atomic import clean_up, move_into_place, staging, undisturbed, write_bytes, write_text
 from urdfkit.errors import ResourceError
 
 
@@ -143,3 +145,62 @@ def test_a_reader_that_goes_away_is_no_file_that_cannot_be_written(tmp_path):
     with pytest.raises(BrokenPipeError), staging(tmp_path):
         raise BrokenPipeError(32, "Broken pipe")
     assert list(tmp_path.iterdir()) == []
+
+
+KILLED = """
+import os, signal, sys
+from pathlib import Path
+from urdfkit.atomic import move_into_place, staging, write_text
+
+def kill(event, arguments):
+    if event == "os.rename" and str(arguments[0]).endswith(sys.argv[1]):
+        os.kill(os.getpid(), signal.SIGKILL)
+
+write_text(Path("old"), "old")
+sys.addaudithook(kill)
+write_text(Path("old"), "new")
+with staging(Path()) as stage:
+    for name in "abc":
+        (stage / name).write_text(name)
+    move_into_place(stage, Path())
+"""
+"""Replaces a file, then moves three into place; killed just before the path that ends in the argument is moved."""
+
+
+def killed_before(move, folder):
+    result = subprocess.run([sys.executable, "-c", KILLED, move], cwd=folder, capture_output=True, check=False)
+    assert result.returncode == -signal.SIGKILL, result.stderr
+    return {path.name for path in folder.iterdir() if not path.name.startswith(".urdfkit-")}
+
+
+@pytest.mark.parametrize(
+    ("move", "begun", "completed"),
+    [("/.urdfkit-moves.part", "", ""), ("/a", "", ""), ("/b", "a", "abc"), ("/c", "ab", "abc")],
+)
+def test_a_killed_program_has_moved_all_or_nothing_after_the_next(tmp_path, move, begun, completed):
+    assert killed_before(move, tmp_path) == {"old", *begun}
+    clean_up(tmp_path)
+    assert {path.name for path in tmp_path.iterdir()} == {"old", *completed}
+    assert all((tmp_path / name).read_text() == name for name in completed)
+
+
+def test_what_was_removed_or_made_since_stays_so(tmp_path):
+    killed_before("/b", tmp_path)
+    (tmp_path / "b").write_text("mine")
+    clean_up(tmp_path)
+    assert (tmp_path / "b").read_text() == "mine"
+    for name in "abc":
+        (tmp_path / name).unlink()
+    killed_before("/b", tmp_path)
+    (tmp_path / "a").unlink()
+    clean_up(tmp_path)
+    assert {path.name for path in tmp_path.iterdir()} == {"old"}
+
+
+def test_a_program_killed_while_it_writes_leaves_the_old_file_and_the_next_removes_the_rest(tmp_path):
+    code = KILLED.replace("endswith(sys.argv[1])", "rpartition('/')[2].startswith('.urdfkit-')")
+    subprocess.run([sys.executable, "-c", code, ""], cwd=tmp_path, capture_output=True, check=False)
+    assert (tmp_path / "old").read_text() == "old"
+    assert len(list(tmp_path.iterdir())) == 2
+    write_text(tmp_path / "other", "")
+    assert {path.name for path in tmp_path.iterdir()} == {"old", "other"}

@@ -9,12 +9,14 @@ import signal
 import tempfile
 import threading
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 
 from urdfkit.errors import ResourceError, UrdfkitError
 
 _TEMPORARY_PREFIX = ".urdfkit-"
+_MOVES = ".urdfkit-moves"
+"""File in a temporary folder that lists what is being moved into place, for `clean_up`."""
 
 
 def write_text(path: Path, text: str) -> None:
@@ -45,19 +47,21 @@ def write_bytes(path: Path, content: bytes) -> None:
     """
     target = path.resolve()
     temporary: str | None = None
-    try:
-        mode = target.stat().st_mode & 0o7777 if target.exists() else 0o666 & ~_umask()
-        descriptor, temporary = tempfile.mkstemp(prefix=f".{target.name}.", dir=target.parent)
-        with os.fdopen(descriptor, "wb") as file:
-            file.write(content)
-        Path(temporary).chmod(mode)
-        Path(temporary).replace(target)
-        temporary = None
-    except OSError as error:
-        raise ResourceError(f"cannot write {path}: {error.strerror}") from error
-    finally:
-        if temporary is not None:
-            Path(temporary).unlink(missing_ok=True)
+    clean_up(target.parent)
+    with undisturbed():
+        try:
+            mode = target.stat().st_mode & 0o7777 if target.exists() else 0o666 & ~_umask()
+            descriptor, temporary = tempfile.mkstemp(prefix=_temporary_name(), dir=target.parent)
+            with os.fdopen(descriptor, "wb") as file:
+                file.write(content)
+            Path(temporary).chmod(mode)
+            Path(temporary).replace(target)
+            temporary = None
+        except OSError as error:
+            raise ResourceError(f"cannot write {path}: {error.strerror}") from error
+        finally:
+            if temporary is not None:
+                Path(temporary).unlink(missing_ok=True)
 
 
 @contextmanager
@@ -75,7 +79,7 @@ def staging(folder: Path) -> Iterator[Path]:
     Raises:
         ResourceError: nothing can be written there.
     """
-    _sweep(folder)
+    clean_up(folder)
     with _temporary(folder) as place, _errors_name_target(place, folder):
         yield place
 
@@ -87,7 +91,7 @@ def _temporary(folder: Path) -> Iterator[Path]:
     try:
         with undisturbed():
             try:
-                place = Path(tempfile.mkdtemp(prefix=f"{_TEMPORARY_PREFIX}{_host()}-{os.getpid()}-", dir=folder))
+                place = Path(tempfile.mkdtemp(prefix=_temporary_name(), dir=folder))
             except OSError as error:
                 raise ResourceError(f"cannot write into {folder}: {error.strerror}") from error
         yield place
@@ -139,6 +143,10 @@ def move_into_place(staged: Path, folder: Path) -> list[Path]:
             raise ResourceError(f"{target} already exists; nothing is overwritten")
     done: list[tuple[Path, Path]] = []
     with undisturbed():
+        if len(moves) > 1:  # one move is atomic; of several, a killed program makes only some
+            part = staged / f"{_MOVES}.part"
+            part.write_text("\n".join(target.name for _, target in moves), encoding="utf-8")
+            part.rename(staged / _MOVES)
         try:
             for source, target in moves:
                 source.rename(target)
@@ -175,14 +183,35 @@ def undisturbed() -> Iterator[None]:
             signal.raise_signal(number)
 
 
-def _sweep(folder: Path) -> None:
-    """Remove the temporary folders of programs of this machine that have ended."""
+def clean_up(folder: Path) -> None:
+    """Remove the temporary files of killed programs of this machine, and complete the moves that they had begun.
+
+    Args:
+        folder: may be missing.
+    """
     if not hasattr(os, "uname"):  # no safe test for a running process on this platform
         return
     for path in folder.glob(f"{_TEMPORARY_PREFIX}{_host()}-*-*"):
         process = path.name.removeprefix(f"{_TEMPORARY_PREFIX}{_host()}-").partition("-")[0]
         if process.isdigit() and not _is_alive(int(process)):
-            shutil.rmtree(path, ignore_errors=True)
+            with suppress(OSError):
+                if path.is_dir():
+                    _complete(path, folder)
+                    shutil.rmtree(path)
+                else:
+                    path.unlink()
+
+
+def _complete(staged: Path, folder: Path) -> None:
+    """Move the rest into place if some of it is there; existing paths are not overwritten."""
+    if not (staged / _MOVES).is_file():
+        return
+    names = (staged / _MOVES).read_text(encoding="utf-8").split("\n")
+    remaining = [name for name in names if os.path.lexists(staged / name)]
+    if any(os.path.lexists(folder / name) for name in names if name not in remaining):
+        for name in remaining:
+            if not os.path.lexists(folder / name):
+                (staged / name).rename(folder / name)
 
 
 def _is_alive(process: int) -> bool:
@@ -193,6 +222,10 @@ def _is_alive(process: int) -> bool:
     except OSError:
         return True
     return True
+
+
+def _temporary_name() -> str:
+    return f"{_TEMPORARY_PREFIX}{_host()}-{os.getpid()}-"
 
 
 def _host() -> str:

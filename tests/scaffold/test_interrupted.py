@@ -6,6 +6,7 @@ import signal
 import subprocess
 import sys
 from contextlib import contextmanager
+from pathlib import Path
 
 import pytest
 
@@ -145,3 +146,11 @@ def test_a_disk_that_is_read_only(mounted, monkeypatch, capsys):
     for into in (disk, disk / "a/b"):
         assert main(["new", "robot", "scout", "--into", str(into), "--yes"]) == 2
         assert capsys.readouterr().err == f"urdfkit: cannot write into {into}: Read-only file system\n"
+
+
+@pytest.mark.slow
+def test_commands_that_write_survive_sigkill_full_disks_and_damaged_caches():
+    script = Path(__file__).parents[1] / "bench/kills.py"
+    sample = ["--count", "4", "--disks", "2", "--caches", "4"]
+    result = subprocess.run([sys.executable, script, *sample], capture_output=True, text=True, check=False)
+    assert result.returncode == 0, result.stdout + result.stderr

@@ -1,5 +1,6 @@
 """Made again in place: what was edited stays, what was not follows, and all of it or nothing."""
 
+import shutil
 from pathlib import Path
 
 import pytest
@@ -193,21 +194,53 @@ def test_parts_of_models_that_nothing_names_are_not_looked_at(template, place, s
 
 def test_a_failure_undoes_all(template, place, monkeypatch):
     before = contents(place)
-    rename = Path.rename
+    replace = Path.replace
 
     def full(self, target):
         if Path(target) == place / "box/made.toml" and self.parent.name == "box":
             raise OSError(28, "No space left on device")
-        return rename(self, target)
+        return replace(self, target)
 
     recipe, into = find_recipe(template, place)
     answers = template.answers(read_recipe(template, recipe, {"colour": "blue"})) | {"year": "2026", "into": "."}
     with updating(template, answers, into, read_made(recipe)) as update:
-        monkeypatch.setattr(Path, "rename", full)
+        monkeypatch.setattr(Path, "replace", full)
         with pytest.raises(ResourceError, match=r"nothing was changed: cannot write .*made\.toml: No space left"):
             update.apply()
-        monkeypatch.setattr(Path, "rename", rename)
+        monkeypatch.setattr(Path, "replace", replace)
     assert contents(place) == before
+
+
+class Killed(BaseException):
+    """No code reverts the changes after it, as after SIGKILL."""
+
+
+@pytest.mark.parametrize("moment", range(1, 5))
+def test_a_killed_update_loses_no_file_and_the_next_one_completes_it(template, place, tmp_path, monkeypatch, moment):
+    changed(template, place, colour="blue")
+    whole = tmp_path / "whole"
+    shutil.copytree(place, whole)
+    changed(template, whole, colour="red", size="2")
+    before, calls = contents(place), []
+
+    def killed(self, target):
+        calls.append((self, target))
+        if len(calls) == moment:
+            raise Killed
+        return move(self, target)
+
+    for name in ("replace", "rename"):
+        move = getattr(Path, name)
+        monkeypatch.setattr(Path, name, killed)
+        try:
+            changed(template, place, colour="red", size="2")
+        except Killed:
+            pass
+        finally:
+            monkeypatch.setattr(Path, name, move)
+        assert set(before) & set(contents(whole)) <= set(contents(place))
+    changed(template, place, colour="red", size="2")
+    assert contents(place) == contents(whole)
 
 
 def test_found_from_inside_the_package(template, place):

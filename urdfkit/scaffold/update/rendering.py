@@ -6,7 +6,7 @@ from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 
-from urdfkit.atomic import move_into_place, staging
+from urdfkit.atomic import clean_up, move_into_place, staging
 from urdfkit.errors import ResourceError
 from urdfkit.scaffold.templates.placeholders import fill, path_inside
 from urdfkit.scaffold.templates.recipe_file import digest, recipe_text
@@ -62,6 +62,7 @@ def create(
     """
     if folder.suffix in _WORLDS and not folder.is_dir():
         raise ResourceError(f"{folder} has the name of a world file, but would be a folder; try {folder.parent}")
+    clean_up(folder)
     spare = template.spare(answers)
     for name in sorted({target.parts[0] for _, target in template.files(answers)} - spare):
         if os.path.lexists(folder / name):

@@ -63,13 +63,13 @@ def worsened(
         place.mkdir()
         for top in tops:
             if (folder / top).is_dir():
-                shutil.copytree(folder / top, place / top, copy_function=_linked, symlinks=True)
+                shutil.copytree(folder / top, place / top, copy_function=link_or_copy, symlinks=True)
     for path in removed:
         (after / path).unlink(missing_ok=True)
     for path in put:
         (after / path).unlink(missing_ok=True)
         (after / path).parent.mkdir(parents=True, exist_ok=True)
-        _linked(str(staged / path), str(after / path))
+        link_or_copy(str(staged / path), str(after / path))
     parts = sorted(path for path in added if path.suffix in _MODELS)
     used = needed(parts, after, set(parts)) if parts else {}
     unused = [path for path in parts if path not in used]
@@ -90,7 +90,13 @@ def _without_line(fault: PackageFault) -> str:
     return _LINE.sub("", fault.message)
 
 
-def _linked(source: str, target: str) -> None:
+def link_or_copy(source: str, target: str) -> None:
+    """Make `target` a hard link to `source`, or a copy where the file system has no links.
+
+    Args:
+        source: a file or a symbolic link, which is not followed.
+        target: a path that does not exist.
+    """
     try:
         os.link(source, target, follow_symlinks=False)
     except OSError:  # a file system without links

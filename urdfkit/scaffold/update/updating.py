@@ -20,7 +20,7 @@ from urdfkit.scaffold.templates.recipe_file import Made, digest
 from urdfkit.scaffold.templates.template import Template
 from urdfkit.scaffold.update.file_references import needed
 from urdfkit.scaffold.update.rendering import Finisher, finished, render, write_recipe
-from urdfkit.scaffold.update.staged_packages import Checker, PackageFault, worsened
+from urdfkit.scaffold.update.staged_packages import Checker, PackageFault, link_or_copy, worsened
 
 NEW_SUFFIX = ".new"
 """Suffix of the new version of an edited file."""
@@ -102,28 +102,32 @@ class Update:
 
     def _make(self, changes: Sequence[Change]) -> None:
         undo: list[tuple[Path, Path]] = []
-        old = self._staged / ".old"
-        try:
-            with undisturbed():
+        with undisturbed():
+            try:
                 for number, change in enumerate(changes):
-                    target = self._folder / (change.at or change.path)
-                    if change.is_empty:
-                        continue
-                    if os.path.lexists(target):
-                        old.mkdir(exist_ok=True)
-                        target.rename(old / str(number))
-                        undo.append((old / str(number), target))
-                    if change.kind != "remove":
-                        target.parent.mkdir(parents=True, exist_ok=True)
-                        (self._staged / change.path).rename(target)
-                        undo.append((target, self._staged / change.path))
-        except OSError as error:
-            for here, there in reversed(undo):
-                here.rename(there)
-            raise ResourceError(f"nothing was changed: cannot write {target}: {error.strerror}") from error
-        for change in changes:
-            if change.kind == "remove":
-                _remove_empty(self._folder / change.path.parent, self._folder)
+                    if not change.is_empty:
+                        target = self._folder / (change.at or change.path)
+                        undo.append(self._make_one(change, target, self._staged / ".old" / str(number)))
+            except OSError as error:
+                for here, there in reversed(undo):
+                    here.replace(there)
+                raise ResourceError(f"nothing was changed: cannot write {target}: {error.strerror}") from error
+            for change in changes:
+                if change.kind == "remove":
+                    _remove_empty(self._folder / change.path.parent, self._folder)
+
+    def _make_one(self, change: Change, target: Path, backup: Path) -> tuple[Path, Path]:
+        """Make a change in one step, so that a killed update loses no file; return the move that reverts it."""
+        backup.parent.mkdir(exist_ok=True)
+        if change.kind == "remove":
+            target.rename(backup)
+            return backup, target
+        staged, existed = self._staged / change.path, os.path.lexists(target)
+        target.parent.mkdir(parents=True, exist_ok=True)
+        if existed:
+            link_or_copy(str(target), str(backup))
+        staged.replace(target)
+        return (backup, target) if existed else (target, staged)
 
 
 def find_recipe(template: Template | None, folder: Path) -> tuple[Path, Path]:
@@ -196,8 +200,10 @@ def updating(
         )
         needed_yet = {change.path: change.before for change in going if change.kind == "needed"}
         write_recipe(template, answers, staged, files, also=needed_yet)
-        coming.append((recipe, _change(recipe, folder, staged, made, recipe)))
-        changes = (*(change for _, change in coming if change is not None), *going)
+        # The recipe last: until then, the next update finds what a killed one has left to do.
+        recipe_change = _change(recipe, folder, staged, made, recipe)
+        every = (*(change for _, change in coming), *going, recipe_change)
+        changes = tuple(change for change in every if change is not None)
         faults, unused = ([], []) if check is None else _worsened(changes, check, folder, staged)
         warned = tuple(_shortened([str(fault) for fault in faults]))
         yield Update(changes, _refusal(changes, faults), warned, tuple(unused), staged, folder)

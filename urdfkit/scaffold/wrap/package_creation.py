@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from urdfkit.atomic import move_into_place, staging
+from urdfkit.atomic import clean_up, move_into_place, staging
 from urdfkit.description import load
 from urdfkit.description.urdf.robot import Robot
 from urdfkit.errors import DescriptionError, ResourceError
@@ -70,6 +70,7 @@ def wrap(
         ResourceError: a mesh is missing, a package exists, or a file cannot be read or written.
         DescriptionError: the file is not a valid robot.
     """
+    clean_up(folder)
     kinds = KINDS if answers["ros"] != "none" else KINDS[:1]
     folder_names = [f"{name}_{kind}" for kind in kinds]
     for target in (folder / each for each in folder_names):
