@@ -16,7 +16,7 @@ from urdfkit.errors import ResourceError, UrdfkitError
 
 _TEMPORARY_PREFIX = ".urdfkit-"
 _MOVES = ".urdfkit-moves"
-"""File in a temporary folder that lists what is being moved into place, for `clean_up`."""
+"""File in a temporary folder that lists the paths of a move into place, for `clean_up`."""
 
 
 def write_text(path: Path, text: str) -> None:
@@ -203,7 +203,7 @@ def clean_up(folder: Path) -> None:
 
 
 def _complete(staged: Path, folder: Path) -> None:
-    """Move the rest into place if some of it is there; existing paths are not overwritten."""
+    """Move the remaining paths into place if at least one was moved; existing paths are not overwritten."""
     if not (staged / _MOVES).is_file():
         return
     names = (staged / _MOVES).read_text(encoding="utf-8").split("\n")
