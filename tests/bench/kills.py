@@ -165,7 +165,7 @@ def faults_between(now: Tree, before: Tree, after: Tree) -> Iterator[str]:
 
 
 def faults_after(code: int, text: str, now: Tree, after: Tree, wanted: int) -> Iterator[str]:
-    """Yield what is wrong after the same command was run again."""
+    """Yield the faults after the same command was run again."""
     different = sorted(path for path in {*now, *after} if now.get(path, 0) != after.get(path, 0))
     if different:
         yield f"next run: {len(different)} paths differ, e.g. {different[0]}: {text[:200]!r}"
@@ -222,7 +222,7 @@ def disk(place: Path) -> Iterator[Callable[[str], None]]:
 
 
 def on_disks(name: str, count: int, chance: random.Random, base: Path) -> tuple[int, list[str]]:
-    """Run a command on disks with too little space, and on one that is read-only; return the refusals and faults."""
+    """Run a command on disks with too little space, and on a read-only disk; return the refusals and faults."""
     prepare, words = COMMANDS[name]
     (base / "before").mkdir(parents=True)
     prepare(base / "before")
