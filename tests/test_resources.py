@@ -201,7 +201,7 @@ def test_what_resolves_to_nothing_names_the_nearest(here, words, message):
 
 
 def test_nothing_near_lists_the_robots(here):
-    with pytest.raises(ResourceError, match=r"no robot, file or folder `xyzzy`; robots: .*simpleton"):
+    with pytest.raises(ResourceError, match=r"no robot, file or folder `xyzzy`; bundled robots: .*simpleton"):
         find_model(["xyzzy"])
 
 

@@ -186,7 +186,7 @@ def _find(word: str) -> Path:
             f"; for robots of the package robot_descriptions run `pip install robot_descriptions` "
             f"and `python -m robot_descriptions pull {word}`"
         )
-    raise ResourceError(f"no robot, file or folder `{word}`{hint or '; robots: ' + ', '.join(names)}")
+    raise ResourceError(f"no robot, file or folder `{word}`{hint or '; bundled robots: ' + ', '.join(names)}")
 
 
 def _looks_like_a_path(word: str) -> bool:

@@ -114,7 +114,7 @@ def test_joints_may_point_to_the_root(tmp_path: Path) -> None:
         (
             link("a") + link("b") + joint("revolute", "a", "b", "<xyz>0 0 1</xyz><dynamics><spring_stiffness>3"
             "</spring_stiffness></dynamics>"),
-            "has a spring of 3, which cannot be simulated: leave <spring_stiffness> out",
+            "has a spring of 3, which cannot be simulated: remove <spring_stiffness>",
         ),
         (
             link("a") + link("b") + "".join(

@@ -28,7 +28,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     add_model(parser)
     add_time_limit(parser)
     output = parser.add_mutually_exclusive_group()
-    output.add_argument("-o", "--output", type=Path, metavar="FILE", help="write to FILE, all or nothing")
+    output.add_argument("-o", "--output", type=Path, metavar="FILE", help="write to FILE, atomically")
     output.add_argument(
         "--compare", action="store_true", help="print the first difference from the output of the xacro package"
     )

@@ -36,7 +36,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     )
     if isinstance(parser, Parser):
         parser.elsewhere = _suggestion
-    parser.add_argument("file", metavar="FILE", help="the URDF; it is only read")
+    parser.add_argument("file", metavar="FILE", help="the URDF file, which stays unchanged")
     parser.add_argument("--name", help="prefix of the packages' names (default: the robot's name)")
     parser.add_argument(
         "--ros", default="jazzy", help="ROS distribution: humble, jazzy, kilted, lyrical, noetic, or none"

@@ -35,7 +35,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
         "  urdfkit inertia simpleton chassis\n"
         "  urdfkit inertia urdf/arm.urdf.xacro forearm --density 2700 --write\n\n"
         "solids have uniform density; the overlap of primitives counts once; --write changes the source file\n"
-        "exit: 0 no defects, 1 defects found, 2 could not compute or write"
+        "exit status: 0 no defects, 1 defects found, 2 could not compute or write"
     )
     parser.add_argument(
         "words",

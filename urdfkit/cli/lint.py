@@ -71,10 +71,14 @@ def configure(parser: argparse.ArgumentParser) -> None:
     add(
         "--confined",
         action="store_true",
-        help="read only the package, its workspace and the package path, and no environment variables: for the files "
-        "of people who are not trusted",
+        help="read only the package, its workspace and the package path, and no environment variables: for "
+        "untrusted files",
     )
-    add("--macro", metavar="NAME", help="lint the robot that this macro of the file makes with key:=value parameters")
+    add(
+        "--macro",
+        metavar="NAME",
+        help="instantiate this macro of the file; key:=value arguments are its parameters, too",
+    )
     add("--no-cache", action="store_true", help="lint unchanged files again")
     add("--jobs", type=_count, metavar="N", help="number of processes (default: one per core)")
     add_time_limit(parser)

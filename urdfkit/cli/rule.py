@@ -36,7 +36,7 @@ def run(arguments: argparse.Namespace) -> int:
     from urdfkit.errors import UsageError, did_you_mean
 
     names = [word for rule in rules() for word in (rule.code, rule.name)]
-    raise UsageError(f"unknown rule `{wanted}`{did_you_mean(wanted, names) or '; run urdfkit rule to list all rules'}")
+    raise UsageError(f"unknown rule `{wanted}`{did_you_mean(wanted, names) or '; `urdfkit rule` lists the rules'}")
 
 
 def _catalogue(rules: tuple[type[Rule], ...]) -> str:

@@ -16,7 +16,7 @@ class Palette:
 
     A colour defined at robot level has precedence over a colour with the same name in a visual, and a colour defined in
     a visual applies to all later visuals that refer to its name, as in urdfdom and RViz. A URDF colour has precedence
-    over the ``<material>`` of a ``<gazebo reference=…>`` block, which only Gazebo classic reads.
+    over the ``<material>`` of a ``<gazebo reference=…>`` block, which only Gazebo Classic reads.
     """
 
     def __init__(self, robot: Robot) -> None:

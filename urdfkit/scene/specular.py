@@ -2,7 +2,7 @@
 
 A surface has specular reflections if the description defines them: with ``<specular>`` and a ``<shininess>`` above zero
 in SDF or in a ``<gazebo>`` block, by the name of a glossy Gazebo material, or with ``Ks`` and ``Ns`` in the materials
-of an OBJ file. The default shininess of SDF is zero (sdformat, material.sdf), and OGRE, the renderer of Gazebo classic,
+of an OBJ file. The default shininess of SDF is zero (sdformat, material.sdf), and OGRE, the renderer of Gazebo Classic,
 skips specular reflections without shininess (OGRE 1, FFPLighting::preAddToRenderState).
 """
 

@@ -1,4 +1,4 @@
-"""Names and colours of the materials of Gazebo classic.
+"""Names and colours of the materials of Gazebo Classic.
 
 Source: gazebo-classic, media/materials/scripts/gazebo.material and grid.material.
 """

@@ -77,7 +77,8 @@ def unread(plugin: Plugin, spec: PluginSpec) -> Iterator[Unread]:
             continue
         key = (spec.kind, spec.generation, tag)
         if key in _PROMISED:
-            yield Unread(child, f"<{tag}> is shown in examples of the plugin, but not read", None, True)
+            message = f"<{tag}> appears in examples of the plugin, but the plugin does not read it"
+            yield Unread(child, message, None, True)
             continue
         meant = _EQUIVALENT.get(key) or nearest(tag, names, cutoff=0.8)
         if meant is not None and plugin.element.find(meant) is not None:

@@ -204,7 +204,7 @@ class _Builder:
                 if beyond in reached:
                     raise SimulationError(
                         f"joint `{each[1].name}` of model `{model.name}` closes a loop, which cannot be simulated: "
-                        "leave one of its joints out",
+                        "remove one of its joints",
                         position=each[1].position,
                     )
                 reached.add(beyond)
@@ -311,7 +311,7 @@ def _axis_of(model: WorldModel, joint: WorldJoint) -> WorldAxis:
     if axis.spring_stiffness:
         raise SimulationError(
             f"joint `{joint.name}` of model `{model.name}` has a spring of {axis.spring_stiffness:g}, which cannot be "
-            "simulated: leave <spring_stiffness> out",
+            "simulated: remove <spring_stiffness>",
             position=joint.position,
         )
     return axis

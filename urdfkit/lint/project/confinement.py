@@ -1,4 +1,4 @@
-"""Confinement: refuse to read files outside of given folders, for descriptions of people who are not trusted."""
+"""Confinement: refuse to read files outside of given folders, for untrusted descriptions."""
 
 from __future__ import annotations
 

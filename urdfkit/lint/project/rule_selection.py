@@ -44,5 +44,6 @@ def checked(option: str, prefixes: Iterable[str], codes: Callable[[], tuple[str,
     wanted = tuple(word.strip().upper() for prefix in prefixes for word in prefix.split(",") if word.strip())
     for prefix in wanted:
         if not any(code.startswith(prefix) for code in codes()):
-            raise UsageError(f"{option} {prefix}: unknown rule{did_you_mean(prefix, codes())}; see urdfkit rule")
+            near = did_you_mean(prefix, codes())
+            raise UsageError(f"{option} {prefix}: unknown rule{near}; `urdfkit rule` lists the rules")
     return wanted

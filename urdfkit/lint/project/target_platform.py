@@ -19,7 +19,7 @@ DISTROS: dict[str, tuple[str, ...]] = {
 """Target → its releases, oldest first (REP-3, REP-2000, gazebosim.org/docs/all/releases)."""
 
 WITHOUT_CLASSIC = frozenset(("jazzy", "kilted", "lyrical", "rolling"))
-"""Releases of ROS 2 that have neither Gazebo classic nor its plugins (rosdistro#40759 and #41224)."""
+"""Releases of ROS 2 that have neither Gazebo Classic nor its plugins (rosdistro#40759 and #41224)."""
 
 _COMMENT = r"(?s)<!--.*?(?:-->|\Z)"
 _BUILD = r"<build(?:tool_depend|_type)\b[^>]*>\s*([\w.-]+)\s*<"
@@ -66,7 +66,7 @@ class Guess:
 def guess(path: Path) -> Guess:
     """Guess the target of a description file from the package.xml above it.
 
-    A package that depends on gz sim, and not on Gazebo classic, has the target ``gz``; otherwise the build tool
+    A package that depends on gz sim, and not on Gazebo Classic, has the target ``gz``; otherwise the build tool
     distinguishes ROS 1 from ROS 2.
     """
     above = (folder / "package.xml" for folder in path.absolute().parents)

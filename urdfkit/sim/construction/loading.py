@@ -84,7 +84,7 @@ def require_masses(kinematics: Kinematics, q: NDArray[np.float64], note: Callabl
         return
     if is_regular(kinematics, q):
         for link, _ in found:
-            note(f"{link.element.origin.position}: link `{link.name}` has no mass; it moves with the links it carries")
+            note(f"{link.element.origin.position}: link `{link.name}` has no mass; it moves with its child links")
         return
     # Report the last link of a chain without mass, because the others carry it.
     link, joint = found[-1]

@@ -374,7 +374,7 @@ def test_load_model(tmp_path: Path) -> None:
         load_model("sun")
 
 
-# The state that Gazebo classic saves
+# The state that Gazebo Classic saves
 
 
 def test_state(tmp_path: Path) -> None:
@@ -490,7 +490,10 @@ def test_a_newer_version_is_noted(tmp_path: Path) -> None:
             "nothing is downloaded; use the bundled model://coke_can",
         ),
         ("<include><uri>model://box</uri><placement_frame>l</placement_frame></include>", "requires a <pose>"),
-        ('<include merge="true"><uri>model://box</uri></include>', 'merge="true" is for models in models'),
+        (
+            '<include merge="true"><uri>model://box</uri></include>',
+            'merge="true" is supported for models inside models only',
+        ),
         ('<light name="l" type="sopt"/>', "unknown type `sopt` of light `l`; did you mean `spot`?"),
         ("<model/>", "<model> lacks its name"),
         ('<model name="m"/>', "model `m` has no link; give it one or make it <static>"),

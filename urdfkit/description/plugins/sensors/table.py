@@ -71,7 +71,7 @@ INSTEAD: dict[str, str] = {
     **dict.fromkeys(("sonar", "ultrasonic", "ultrasound"), _NEAREST_OF_RAYS.format("ultrasound")),
     **dict.fromkeys(("infrared", "ir", "range"), _NEAREST_OF_RAYS.format("infrared")),
     **dict.fromkeys(("thermal", "thermal_camera"), 'use type="camera"; temperatures are not simulated'),
-    **dict.fromkeys(("wideanglecamera", "wide_angle_camera"), 'write type="camera", with <distortion> if need be'),
+    **dict.fromkeys(("wideanglecamera", "wide_angle_camera"), 'write type="camera", with <distortion> if needed'),
     **dict.fromkeys(("multicamera", "stereo", "stereo_camera"), _TWO),
     **dict.fromkeys(
         ("openni", "openni_kinect", "kinect"), 'write type="depth"; ROS 1 needs libgazebo_ros_openni_kinect.so'

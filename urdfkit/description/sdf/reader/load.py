@@ -107,7 +107,7 @@ def load_model(
     root = context.open()
     written = root.find("model") if root.tag == "sdf" else None
     if written is None and root.tag == "sdf" and root.find("world") is not None:
-        raise wrong(root, "this is a world, not a model; give it as --world, or save its models one by one")
+        raise wrong(root, "this is a world, not a model; pass it with --world, or save its models one by one")
     if written is None:
         raise wrong(root, "an SDF model starts with <sdf> and has a <model> in it")
     found = read_model(context, written)
@@ -187,7 +187,7 @@ def _entity(context: Context, element: Element) -> ReadEntity | None:
     if element.tag == "light":
         return ReadEntity(read_light(context, element, Pose()), raw_pose(element))
     if element.tag == "include" and element.get("merge", "false") in ("true", "1"):
-        raise wrong(element, 'merge="true" is for models in models; leave it out')
+        raise wrong(element, 'merge="true" is supported for models inside models only; remove it')
     return read_include(context, element) if element.tag == "include" else None
 
 

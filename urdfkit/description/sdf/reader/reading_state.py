@@ -96,6 +96,6 @@ def root_error(root: Element) -> DescriptionError:
     """Return the error for a file that is not SDF."""
     if root.tag == "robot":
         return wrong(
-            root, "this is a robot; an SDF world starts with <sdf>: give the robot as ROBOT, or include it in a world"
+            root, "this is a robot; an SDF world starts with <sdf>: pass the robot as ROBOT, or include it in a world"
         )
     return wrong(root, "an SDF world starts with <sdf> and has a <world> or a <model> in it")

@@ -1,4 +1,4 @@
-"""``<state>``: the poses of a world that Gazebo classic saved."""
+"""``<state>``: the poses of a world that Gazebo Classic saved."""
 
 from dataclasses import replace
 
@@ -18,7 +18,7 @@ _ROUNDED = 1e-4
 class SavedState:
     """The state of a world: saved poses of models, links and lights.
 
-    Gazebo classic saves the world poses of all models and links, nested ones included (gazebo, LinkState.cc).
+    Gazebo Classic saves the world poses of all models and links, nested ones included (gazebo, LinkState.cc).
     Velocities are ignored. A saved scale applies to the sizes in the model, as in Gazebo.
 
     Args:
@@ -84,7 +84,7 @@ def _moved(model: WorldModel, saved: Element, around: Pose) -> WorldModel:
 
 
 def _scaled(link: WorldLink, scale: Vector) -> WorldLink:
-    """Return a link with its shapes scaled; poses and masses stay, as in Gazebo classic (Link::SetScale)."""
+    """Return a link with its shapes scaled; poses and masses stay, as in Gazebo Classic (Link::SetScale)."""
     return replace(
         link,
         collisions=tuple([replace(each, geometry=scaled(each.geometry, scale)) for each in link.collisions]),

@@ -67,7 +67,7 @@ def find_model(context: Context, uri: Element) -> Path:
         return found[1]
     if name:
         hint = did_you_mean(name, model_names())
-        where = "on GAZEBO_MODEL_PATH, GZ_SIM_RESOURCE_PATH, around this file or among the bundled models"
+        where = "on GAZEBO_MODEL_PATH, GZ_SIM_RESOURCE_PATH, near this file or among the bundled models"
         raise ResourceError(f"no model `{name}` {where}{hint}", position=uri.origin.position)
     raise ResourceError(f"no model {text}{near_path(context.path.parent / text)}", position=uri.origin.position)
 

@@ -117,7 +117,7 @@ class Commands:
             return self.arguments[name]
         except KeyError:
             candidates = tuple(self.arguments)
-            hint = did_you_mean(name, candidates) or f"; give it as {name}:=value or a default with <xacro:arg>"
+            hint = did_you_mean(name, candidates) or f"; pass {name}:=value, or declare a default with <xacro:arg>"
             raise Failure(
                 "undefined-arg", f"argument `{name}` has no value{hint}", name=name, candidates=candidates
             ) from None

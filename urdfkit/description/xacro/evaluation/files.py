@@ -111,7 +111,7 @@ class Files(Texts):
             raise self.placed(recursive_include(cycle([shown_path(name) for name in self.file_stack])))
         self._opened += 1
         if self._opened > MAX_INCLUDES:
-            message = f"more than {MAX_INCLUDES:,} files are included: do they multiply each other?"
+            message = f"more than {MAX_INCLUDES:,} files are included; check for includes that multiply each other"
             raise self.placed(Failure("too-many", message))
         try:
             document = self.open(Path(file))
@@ -129,7 +129,7 @@ class Files(Texts):
         self.at = (node, "filename")
         text = self.text(specification, scope)
         if not isinstance(text, str):
-            raise self.placed(Failure("other", f"the file name `{short(str(text))}` is not a text"))
+            raise self.placed(Failure("other", f"the file name `{short(str(text))}` is not text"))
         try:
             path = self._absolute(text)
             is_pattern = re.search("[*[?]+", path) is not None

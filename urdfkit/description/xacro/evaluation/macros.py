@@ -93,7 +93,7 @@ class Calls(Elements):
             names = [str(macro.body.attributes.get("name", "")) for macro in self._stack if macro.body is not None]
             raise self.placed(recursive_macro(cycle(names)))
         if self._calls > MAX_MACRO_CALLS:
-            what = f"there are more than {MAX_MACRO_CALLS:,} calls: do macros multiply each other?"
+            what = f"there are more than {MAX_MACRO_CALLS:,} calls; check for nested calls that multiply each other"
             raise self.placed(Failure("too-many", f"with this call, {what}"))
         assert macro.body is not None
         body = macro.body.copy((Expansion(name, node.position), *node.chain), self.count)

@@ -40,7 +40,7 @@ def printed(document: Tag, path: str) -> str:
     try:
         text.encode()
     except UnicodeEncodeError as error:
-        message = f"the expanded file contains {text[error.start]!a}, which is not a character"
+        message = f"the expanded file contains {text[error.start]!a}, which is not a valid character"
         raise XacroError(message, position=next(document.tags()).position) from None
     return text
 

@@ -81,7 +81,7 @@ class Texts:
         """
         if not isinstance(text, str):
             if text:
-                raise self.placed(Failure("other", f"`{short(str(text))}` is not a text"))
+                raise self.placed(Failure("other", f"`{short(str(text))}` is not text"))
             return ""
         if "$" not in text:
             return text

@@ -72,9 +72,9 @@ def yaml_values(text: str, evaluate: Callable[[str], Any], spend: Callable[[int]
     try:
         return wrapped(yaml.load(text, Loader))
     except RecursionError:
-        raise TooLarge("the YAML file is nested too deep") from None
+        raise TooLarge("the YAML file is nested too deeply") from None
 
 
 def _check_depth(depth: int) -> None:
     if depth > MAX_NESTING:
-        raise TooLarge("the YAML file is nested too deep")
+        raise TooLarge("the YAML file is nested too deeply")

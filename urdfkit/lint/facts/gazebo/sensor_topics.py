@@ -60,7 +60,7 @@ class Published:
 
 
 def published(model: Model) -> Iterator[Published]:
-    """Yield the topics of the robot's sensors; sensors without a Gazebo classic plugin publish as in gz sim."""
+    """Yield the topics of the robot's sensors; sensors without a Gazebo Classic plugin publish as in gz sim."""
     classic: set[int] = set()
     for plugin, block, sensor in plugins(model.robot):
         spec = spec_of(plugin, model.target)

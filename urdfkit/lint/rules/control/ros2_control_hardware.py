@@ -26,7 +26,7 @@ class HardwareMismatch(RobotRule):
     these or ``mock_components/GenericSystem``. Other hardware is accepted.
 
     ROS 2 from Jazzy on (``--target ros2-jazzy``) and Gazebo Sim (``--target gz``) have no
-    ``gazebo_ros2_control/GazeboSystem``; Gazebo classic (``--target classic``) has only that hardware.
+    ``gazebo_ros2_control/GazeboSystem``; Gazebo Classic (``--target classic``) has only that hardware.
 
     ## Why is this bad?
     pluginlib does not find the class, and the controller manager stops.

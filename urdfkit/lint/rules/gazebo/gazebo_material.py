@@ -4,13 +4,13 @@ from urdfkit.lint.rule import Findings, Model, RobotRule
 
 
 class GazeboMaterial(RobotRule):
-    """A material script of Gazebo classic is used with Gazebo Sim.
+    """A material script of Gazebo Classic is used with Gazebo Sim.
 
     ## What it does
     With ``--target gz``, checks for ``<material>Gazebo/…</material>``.
 
     ## Why is this bad?
-    Gazebo Sim does not support these scripts, and the link is white.
+    Gazebo Sim does not support these scripts, so the link is white.
 
     ## Example
     ```xml

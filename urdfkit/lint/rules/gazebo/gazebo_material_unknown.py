@@ -8,7 +8,7 @@ class GazeboMaterialUnknown(RobotRule):
     """A Gazebo material is unknown.
 
     ## What it does
-    Compares ``<material>Gazebo/…</material>`` with the materials of Gazebo classic. Names without the prefix
+    Compares ``<material>Gazebo/…</material>`` with the materials of Gazebo Classic. Names without the prefix
     ``Gazebo/`` are accepted, because the robot may define them.
 
     ## Why is this bad?

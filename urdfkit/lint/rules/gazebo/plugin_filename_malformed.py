@@ -10,7 +10,7 @@ class PluginFilenameMalformed(RobotRule):
     """The file name of a plugin is malformed.
 
     ## What it does
-    Checks for white space and line breaks in ``filename``, and for libraries of Gazebo classic without the prefix
+    Checks for white space and line breaks in ``filename``, and for libraries of Gazebo Classic without the prefix
     ``lib`` or the suffix ``.so``.
 
     ## Why is this bad?
@@ -37,7 +37,7 @@ class PluginFilenameMalformed(RobotRule):
     ```
 
     ## Fix safety
-    Safe: library names contain no white space, and libraries of Gazebo classic are named ``lib….so``.
+    Safe: library names contain no white space, and libraries of Gazebo Classic are named ``lib….so``.
     """
 
     code = "Z809"

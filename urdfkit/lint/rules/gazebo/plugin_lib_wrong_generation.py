@@ -8,9 +8,9 @@ class PluginLibWrongGeneration(RobotRule):
     """A plugin library does not exist for the target.
 
     ## What it does
-    Checks for libraries of Gazebo classic (``libgazebo_ros_….so``) with ``--target gz``, for systems of Gazebo Sim
+    Checks for libraries of Gazebo Classic (``libgazebo_ros_….so``) with ``--target gz``, for systems of Gazebo Sim
     (``gz-sim-…-system``) with ``classic`` and ``ros1``, and for libraries of only one ROS generation with ``ros1`` or
-    ``ros2``. From Jazzy on (``ros2-jazzy``), ROS 2 has no Gazebo classic.
+    ``ros2``. From Jazzy on (``ros2-jazzy``), ROS 2 has no Gazebo Classic.
 
     ## Why is this bad?
     Gazebo reports "Failed to load plugin", and the robot has no drive or sensor.

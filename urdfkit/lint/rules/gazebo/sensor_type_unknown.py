@@ -11,7 +11,7 @@ _CLASSIC = {
     "rgbd": "depth",
     "navsat": "gps",
 }
-"""Types of Gazebo Sim → equivalent types of Gazebo classic (gazebo11, `SensorFactory::RegisterAll`)."""
+"""Types of Gazebo Sim → equivalent types of Gazebo Classic (gazebo11, `SensorFactory::RegisterAll`)."""
 
 _MISNOMERS = {
     "laser": "ray",
@@ -81,7 +81,7 @@ class SensorTypeUnknown(RobotRule):
                     expected = {"ray": "gpu_lidar"}.get(expected or "", expected) if model.target == "gz" else expected
                 if expected is None:
                     continue
-                defect = "Gazebo classic has no sensor type" if kind in SENSOR_TYPES else "unknown sensor type"
+                defect = "Gazebo Classic has no sensor type" if kind in SENSOR_TYPES else "unknown sensor type"
                 yield self.at(
                     model,
                     sensor.element,

@@ -14,7 +14,7 @@ class LeftRightSwapped(RobotRule):
     checks for wheels whose axes point right, so that they roll backwards.
 
     ## Why is this bad?
-    The robot turns in the wrong direction. The drive plugin of Gazebo classic up to ROS Indigo swaps the sides itself,
+    The robot turns in the wrong direction. The drive plugin of Gazebo Classic up to ROS Indigo swaps the sides itself,
     and so does that of ROS Kinetic unless ``legacyMode`` is false. A robot written for these versions turns in the
     wrong direction from ROS Melodic on.
 

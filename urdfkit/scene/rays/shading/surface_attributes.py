@@ -13,7 +13,7 @@ COLORS, UV, TEXTURE, OPACITY, GLOSS = 9, 18, 24, 25, 26
 """Offsets of these attributes."""
 
 FINEST = 8
-"""Maximum number of texture samples per pixel (the same anisotropy as in Gazebo classic)."""
+"""Maximum number of texture samples per pixel (the same anisotropy as in Gazebo Classic)."""
 
 SMOOTH, COLORED = 1, 2
 """Flags of a shape that uses the attributes of its triangles: normals; colours and textures."""

@@ -1,4 +1,4 @@
-"""What rows of an island do, found as the minimum of a convex function of the velocities: it gets there from anywhere.
+"""Impulses of an island's rows by minimising a convex function of the velocities; converges from any start.
 
 Each contact gives way along its cone, softly first: the velocities minimise the energy of the change plus, for every
 row or contact, P(z)²/2D with z = x - D·(w + s), where x are the impulses so far, w the velocity of the row, D its

@@ -187,7 +187,7 @@ def _warning_first(call: Callable[..., Any], message: str, warn: Callable[[str],
 
 
 def _refuse_vars(*_: Any) -> None:
-    raise TypeError("vars() is not available: it looks inside Python's own objects")
+    raise TypeError("vars() is not supported, because it exposes internal objects of Python")
 
 
 def _refuse_type(*_: Any, **__: Any) -> None:
@@ -205,6 +205,6 @@ def tokenize(s: Any, sep: str = ",; ", skip_empty: Any = True) -> list[str]:
         TooLarge: the separators are a regular expression of their own.
     """
     if "]" in sep[1:]:
-        raise TooLarge("a `]` among the separators of tokenize() makes any regular expression of them")
+        raise TooLarge("a `]` among the separators of tokenize() is not supported: it makes them a regular expression")
     parts = re.split(f"[{sep}]", s)
     return [part for part in parts if part] if skip_empty else parts

@@ -125,7 +125,7 @@ class Expressions(Loops):
             if any(isinstance(node, _SCOPED) for node in ast.walk(tree)):
                 compile(tree, "<expression>", "eval")  # only for the errors that Python reports; never run
         except (RecursionError, MemoryError) as error:
-            raise TooLarge("it is nested too deep") from error
+            raise TooLarge("it is nested too deeply") from error
         return compute, self._size
 
     def call(self, function: Any, /, *values: Any, **named: Any) -> Any:
