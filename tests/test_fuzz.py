@@ -9,7 +9,7 @@ CASES = 10
 
 
 @pytest.mark.filterwarnings("ignore")
-@pytest.mark.parametrize("family", sorted(FAMILIES.keys() - {"lsp"}))  # lsp takes minutes
+@pytest.mark.parametrize("family", sorted(FAMILIES.keys() - {"lsp"}))
 def test_a_changed_file_is_read_or_refused_in_one_line(family, tmp_path):
     for seed in range(CASES):
         (tmp_path / str(seed)).mkdir()

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -48,13 +49,13 @@ def test_the_file_that_was_found_is_named(run: Callable[..., Any]) -> None:
 def test_errors_are_one_line_with_their_place(run: Callable[..., Any], tmp_path: Path) -> None:
     path = tmp_path / "own.yaml"
     path.write_text(OWN.replace("joint1", "joint_1"))
-    wrong = f"{path}:3:10: no joint `joint_1` in robot `rrbot`; did you mean `joint1`?"
+    wrong, suggestion = f"{path}:3:10: no joint `joint_1` in robot `rrbot`", "; did you mean `joint1`?"
     code, _, err = run("--for", 0.01, "--controllers", path)
     assert code == 0
-    assert f"{wrong}; controller" in err
+    assert re.search(f"{re.escape(wrong)}; controller .* is left out{re.escape(suggestion)}", err)
     code, _, err = run("--for", 1, "--controllers", path, "--strict")
     assert code == 2
-    assert wrong in err
+    assert wrong + suggestion in err
     code, _, err = run("--for", 1, "--controllers", tmp_path / "none.yaml")
     assert code == 2
     assert "cannot read" in err

@@ -6,12 +6,13 @@ import json
 import signal
 import sys
 import threading
+import time
 from pathlib import Path
 
 import pytest
 
 from urdfkit.cli import main
-from urdfkit.description.xml.cost_limit import CostError, CostLimit
+from urdfkit.description.xml.cost_limit import CostError, CostLimit, excluded
 from urdfkit.lint.editor.open_files import Project
 from urdfkit.lint.project.options import Options
 from urdfkit.lint.rules.joints.joint_type_unknown import JointTypeUnknown
@@ -110,3 +111,25 @@ def test_other_threads_run_without_a_limit() -> None:
 def test_a_limit_that_is_no_time_is_refused(text, capsys) -> None:
     assert main(["lint", "r.urdf", f"--time-limit={text}"]) == 2
     assert f"`{text}` is not a number of seconds" in capsys.readouterr().err
+
+
+def busy(seconds: float) -> None:
+    end = time.process_time() + seconds
+    while time.process_time() < end:
+        pass
+
+
+def busy_but_for(left_out: float, seconds: float) -> None:
+    with excluded():
+        busy(left_out)
+    busy(seconds)
+
+
+def test_an_excluded_block_does_not_count() -> None:
+    with CostLimit(0.5):
+        with excluded():
+            busy(1.0)
+        busy(0.2)
+    limit = CostLimit(0.5)
+    with pytest.raises(CostError, match=r"more than 0\.5 s of CPU"), limit:
+        busy_but_for(0.2, 1.0)

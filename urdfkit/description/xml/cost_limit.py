@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+from contextlib import contextmanager
 
 from urdfkit.description.xml.element import Element
 from urdfkit.errors import DescriptionError
@@ -10,6 +11,7 @@ from urdfkit.position import Position
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
+    from collections.abc import Iterator
     from types import FrameType, TracebackType
     from typing import Any
 
@@ -29,6 +31,24 @@ _PHASES = {
     "urdfkit.sim": "building the simulation",
 }
 """Prefix of a module → the phase it belongs to; the first match counts."""
+
+
+_excluded: float | None = 0.0
+"""CPU time of the blocks of `excluded` so far [s]; None within such a block."""
+
+
+@contextmanager
+def excluded() -> Iterator[None]:
+    """Exclude a block from the limits, such as compiling the engine, which a description does not cause."""
+    import time
+
+    global _excluded
+    before, begin = _excluded, time.process_time()
+    _excluded = None
+    try:
+        yield
+    finally:
+        _excluded = None if before is None else before + time.process_time() - begin
 
 
 class CostError(DescriptionError):
@@ -62,7 +82,7 @@ class CostLimit:
 
         if self.seconds <= 0 or sys.platform == "win32":
             return
-        self._begin, self._peak = time.process_time(), _peak()
+        self._begin, self._peak = time.process_time() - (_excluded or 0.0), _peak()
         try:
             self._before = signal.signal(signal.SIGPROF, self._check)
         except ValueError:  # not the main thread
@@ -86,8 +106,10 @@ class CostLimit:
     def _check(self, _number: int, frame: FrameType | None) -> None:
         import time
 
+        if _excluded is None:
+            return
         peak = _peak()
-        if time.process_time() - self._begin > self.seconds:
+        if time.process_time() - self._begin - _excluded > self.seconds:
             what = f"more than {self.seconds:g} s of CPU"
         elif peak > self.memory and peak > self._peak:
             what = f"more than {self.memory / 1e9:g} GB of memory"

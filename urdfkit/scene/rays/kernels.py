@@ -6,6 +6,7 @@ from collections.abc import Callable
 from functools import lru_cache
 from typing import Any
 
+from urdfkit.description.xml.cost_limit import excluded
 from urdfkit.scene.rays.compilation import load_compiled
 
 Progress = Callable[[int], None]
@@ -164,7 +165,7 @@ def warmup(progress: Progress | None = None) -> bool:
         def on_end(self, event: Any) -> None:
             pass
 
-    with event.install_listener("numba:compile", RayKernelEvents()):
+    with excluded(), event.install_listener("numba:compile", RayKernelEvents()):
         for kernel in (builder, widener, filler, placer, caster, tracer, outliner):
             kernel()
     return bool(compiled)

@@ -8,6 +8,8 @@ from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
+from urdfkit.description.xml.cost_limit import excluded
+
 KERNEL_MODULES = (
     "simulation_memory",
     "compilation",
@@ -83,7 +85,7 @@ def warmup(progress: Progress | None = None, *, world: bool = False) -> bool:
         def on_end(self, event: Any) -> None:
             pass
 
-    with event.install_listener("numba:compile", CompilationListener()):
+    with excluded(), event.install_listener("numba:compile", CompilationListener()):
         (world_kernel if world else kernel)()
     return bool(compiled)
 

@@ -11,6 +11,7 @@ import pytest
 from tests.description.xacro.evaluation.test_expression_limits import GROWING
 from urdfkit.description.packages.resolver import Packages
 from urdfkit.description.xacro.evaluation.evaluator import Evaluator
+from urdfkit.description.xacro.evaluation.texts import unreadable
 from urdfkit.description.xacro.expand import expand_leniently
 from urdfkit.description.xacro.expanded import Expanded
 from urdfkit.errors import UrdfkitError
@@ -108,3 +109,13 @@ def test_recovery_spends_no_more_on_files_that_are_refused(write: Write) -> None
     start = time.process_time()
     assert "nested too deep" in expand_leniently(path).faults[0].message
     assert time.process_time() - start < 10
+
+
+def test_a_file_in_a_folder_without_permission_cannot_be_read(monkeypatch: pytest.MonkeyPatch) -> None:
+    def refuse(path: Path) -> bool:
+        raise PermissionError(13, "Permission denied", str(path))
+
+    monkeypatch.setattr(Path, "is_dir", refuse)
+    missing = OSError("cannot open")
+    missing.filename = "private/part.xacro"
+    assert str(unreadable(missing, is_include=True)) == "included file private/part.xacro cannot be read"

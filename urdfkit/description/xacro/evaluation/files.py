@@ -176,7 +176,7 @@ class Files(Texts):
         if not self.packages.permits(path):
             raise PermissionError(errno.EACCES, OUTSIDE, path)
         check_length(path)
-        if not Path(path).exists() and (moved := self.packages.relocate(path)) is not None:
+        if not os.path.exists(path) and (moved := self.packages.relocate(path)) is not None:  # noqa: PTH110 - `Path.exists` raises without permission
             return str(moved)
         return path
 

@@ -218,10 +218,14 @@ def unreadable(error: OSError, *, is_include: bool) -> Failure:
         why = "has a name that is too long"
     elif error.strerror == OUTSIDE:
         why = f"is {OUTSIDE}"
-    elif path.is_dir():
-        why = "is a folder"
     else:
-        why = f"{'cannot be read' if path.is_file() else 'does not exist'}{near_path(path)}"
+        try:
+            if path.is_dir():
+                why = "is a folder"
+            else:
+                why = f"{'cannot be read' if path.is_file() else 'does not exist'}{near_path(path)}"
+        except PermissionError:  # of a folder above it
+            why = "cannot be read"
     kind = "include-not-found" if is_include else "other"
     shown = shown_path(path)
     named = short(shown) if "\n" in shown else shown
