@@ -3,7 +3,7 @@
 from pathlib import Path
 
 from urdfkit.app.repair_findings import note_repairs, with_repairs
-from urdfkit.description.urdf.repair import Repair
+from urdfkit.description.urdf.repair_record import Repair
 from urdfkit.position import Position
 
 

@@ -70,7 +70,7 @@ def run(scene: str, processor: dict[str, str], *options: str) -> dict[str, Any]:
 
 def here(scene: str, *, seconds: float, record: bool) -> dict[str, Any]:
     """Run a scene in this process; return its CPU time [s] and digests of its end and of all that was published."""
-    from urdfkit.compilation.level import level
+    from urdfkit.compilation.instruction_set import level
 
     if scene == HEAP:
         engine = heap()

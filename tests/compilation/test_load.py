@@ -14,7 +14,7 @@ import pytest
 
 import urdfkit
 from urdfkit.compilation import load, whole_program
-from urdfkit.compilation.level import level
+from urdfkit.compilation.instruction_set import level
 
 SCRIPT = """
 import numba, numpy as np

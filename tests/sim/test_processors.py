@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from urdfkit.compilation.level import level
+from urdfkit.compilation.instruction_set import level
 
 BENCH = Path(__file__).parents[1] / "bench"
 if str(BENCH) not in sys.path:

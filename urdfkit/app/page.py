@@ -12,7 +12,7 @@ from urdfkit.app.termination import ended_by_signals
 from urdfkit.errors import MissingDependencyError, UrdfkitError
 
 if TYPE_CHECKING:
-    from urdfkit.view.content.display import StatusDisplay
+    from urdfkit.view.content.display_interface import StatusDisplay
     from urdfkit.view.server.server import Server
 
 NEEDED = {"meshcat": "meshcat", "tornado": "tornado", "umsgpack": "u-msgpack-python", "trimesh": "trimesh"}

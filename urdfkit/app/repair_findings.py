@@ -11,7 +11,7 @@ from urdfkit.description.xml.source import Source
 from urdfkit.errors import ResourceError
 
 if TYPE_CHECKING:
-    from urdfkit.description.urdf.repair import Repair
+    from urdfkit.description.urdf.repair_record import Repair
     from urdfkit.position import Position
 
 Row = dict[str, Any]

@@ -11,7 +11,7 @@ from numba.core.codegen import JITCPUCodegen
 from numba.core.compiler_lock import global_compiler_lock
 from numba.core.registry import cpu_target
 
-from urdfkit.compilation.level import NATIVE, TUNED, level
+from urdfkit.compilation.instruction_set import NATIVE, TUNED, level
 
 
 class LevelCodegen(JITCPUCodegen):  # type: ignore[misc]

@@ -13,7 +13,7 @@ from typing import Any
 
 import numba
 
-from urdfkit.compilation.level import LEVELS, NATIVE, level
+from urdfkit.compilation.instruction_set import LEVELS, NATIVE, level
 
 LOG = logging.getLogger("urdfkit.compilation")
 TESTED_VERSIONS = ("0.68.1",)

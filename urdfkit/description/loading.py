@@ -8,7 +8,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from urdfkit.description.packages.resolver import Packages
-from urdfkit.description.structure import repaired_structure
+from urdfkit.description.structure_defects import repaired_structure
 from urdfkit.description.urdf.parser import parse
 from urdfkit.description.urdf.robot import Robot
 from urdfkit.description.xacro.evaluation.failures import chain_words

@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from urdfkit.description.urdf.repair import Repair
+from urdfkit.description.urdf.repair_record import Repair
 from urdfkit.description.urdf.robot import (
     Box,
     Capsule,

@@ -12,7 +12,7 @@ from urdfkit.bus import Bus, Subscription, absolute, nearest_topic
 from urdfkit.description import Robot
 from urdfkit.description.loading import load, load_repaired
 from urdfkit.description.sdf import Physics, World
-from urdfkit.description.urdf.repair import Repair
+from urdfkit.description.urdf.repair_record import Repair
 from urdfkit.errors import SimulationError, UnknownNameError, suggestion
 from urdfkit.linear_algebra import Array
 from urdfkit.messages import TWIST, TWIST_STAMPED, header, message_type, twist

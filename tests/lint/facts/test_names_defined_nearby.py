@@ -8,7 +8,7 @@ from urdfkit.description.xml.source import Source
 from urdfkit.lint import lint
 from urdfkit.lint.engine.run import run
 from urdfkit.lint.facts.control.controller_joints import controllers, joints
-from urdfkit.lint.facts.control.launch_files import package_paths
+from urdfkit.lint.facts.control.launch_package_paths import package_paths
 from urdfkit.lint.project.entry_files import find_entries
 from urdfkit.lint.project.options import Options
 

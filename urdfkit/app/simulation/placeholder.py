@@ -14,7 +14,7 @@ from urdfkit.sim.construction.start_pose import Spawn
 if TYPE_CHECKING:
     from urdfkit.description import Robot
     from urdfkit.description.sdf import World
-    from urdfkit.view.content.display import Display
+    from urdfkit.view.content.display_interface import Display
 
 
 class Placeholder:

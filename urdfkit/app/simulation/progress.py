@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 from urdfkit.app.page import note
 
 if TYPE_CHECKING:
-    from urdfkit.view.content.display import StatusDisplay
+    from urdfkit.view.content.display_interface import StatusDisplay
 
 PATIENCE = 1.0
 """Seconds that an operation may take before it is reported."""

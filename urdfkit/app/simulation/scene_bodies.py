@@ -12,7 +12,7 @@ from urdfkit.description import Robot
 from urdfkit.description.urdf.queries import tree_order
 from urdfkit.scene import Shape
 from urdfkit.sim.simulator import Simulator
-from urdfkit.view.content.display import Display
+from urdfkit.view.content.display_interface import Display
 
 BODY = "world/"
 """Prefix of the names of the world's bodies; no name of a link begins with it."""

@@ -14,7 +14,7 @@ from urdfkit.errors import ResourceError
 if TYPE_CHECKING:
     from urdfkit.description import Robot
     from urdfkit.description.packages.resolver import Packages
-    from urdfkit.description.urdf.repair import Repair
+    from urdfkit.description.urdf.repair_record import Repair
     from urdfkit.kinematics import Kinematics
     from urdfkit.resources import ModelArgument
     from urdfkit.scene import MeshLoader, Scene

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 from urdfkit.app.page import require_packages
 from urdfkit.app.termination import ended_by_signals
 from urdfkit.cli.parser import add_model
-from urdfkit.cli.robot_arguments.file_notes import warn_of_file_names
+from urdfkit.cli.robot_arguments.file_name_case import warn_of_file_names
 from urdfkit.cli.robot_arguments.launch_arguments import add_launch_arguments, with_launch_arguments
 from urdfkit.cli.robot_arguments.macro_option import add_macro, with_macro, xacro_arguments
 from urdfkit.cli.robot_arguments.robot_loading import load_robot

@@ -5,7 +5,7 @@ import argparse
 from urdfkit.app.page import Page, note, require_page, until_interrupted
 from urdfkit.cli.page_options import add_page_options, announce
 from urdfkit.cli.parser import add_model
-from urdfkit.cli.robot_arguments.file_notes import warn_of_file_names
+from urdfkit.cli.robot_arguments.file_name_case import warn_of_file_names
 from urdfkit.cli.robot_arguments.launch_arguments import add_launch_arguments, with_launch_arguments
 from urdfkit.cli.robot_arguments.macro_option import add_macro, with_macro, xacro_arguments
 from urdfkit.cli.robot_arguments.robot_loading import load_robot

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from typing import Literal
 
     from urdfkit.description.packages.resolver import Packages
-    from urdfkit.description.urdf.repair import Repair
+    from urdfkit.description.urdf.repair_record import Repair
 
     ProblemKind = Literal["bad-number", "wrong-arity", "not-finite", "missing", "unknown-value", "conflict"]
 

@@ -60,7 +60,7 @@ def of_model(model: Model) -> list[Occurrence]:
 def in_settings(model: Model) -> Iterator[Occurrence]:
     """Yield the links and joints named in YAML files of the package and of related packages."""
     from urdfkit.lint.facts.control.controller_joints import joints
-    from urdfkit.lint.facts.control.launch_files import uncommented
+    from urdfkit.lint.facts.control.launch_package_paths import uncommented
 
     def occurrence(source: Source, kind: str, written: str, start: int) -> Occurrence:
         name = written.rpartition("/")[2]

@@ -19,7 +19,7 @@ from urdfkit.description.urdf.mesh_limits import MAX_BYTES, MAX_TRIANGLES
 from urdfkit.description.urdf.robot import Vector
 from urdfkit.errors import MissingDependencyError, ResourceError, did_you_mean
 from urdfkit.linear_algebra import matmul
-from urdfkit.scene.meshes.collada import harm, metres_per_unit
+from urdfkit.scene.meshes.collada_checks import harm, metres_per_unit
 from urdfkit.scene.meshes.mesh_appearance import colors_in, gloss_in, normals_in, places_in, texture_in
 from urdfkit.scene.meshes.stl import corners_of
 from urdfkit.scene.meshes.textures import Beside, Texture, is_as_read

@@ -66,7 +66,7 @@ class Spawn:
         upright = np.array([0.0, 0.0, 0.0, *quaternion])
         if kinematics.floating_base:
             return lowest_point(scene, kinematics.link_poses(kinematics.configuration(self.joints, base=upright)))
-        from urdfkit.sim.state.mechanics import link_poses
+        from urdfkit.sim.state.poses_and_energy import link_poses
 
         return lowest_point(scene, link_poses(kinematics, kinematics.configuration(self.joints), upright))
 

@@ -15,7 +15,7 @@ from urdfkit.sim.engine import Contact, Engine
 from urdfkit.sim.engine.articulation import Articulation
 from urdfkit.sim.engine.scalar_views import numbers
 from urdfkit.sim.engine.state_conversion import configuration
-from urdfkit.sim.state.mechanics import energy_of, in_the_world, link_poses, pose_and_twist
+from urdfkit.sim.state.poses_and_energy import energy_of, in_the_world, link_poses, pose_and_twist
 from urdfkit.sim.state.quaternion import product, rotate
 
 Placement = tuple[tuple[float, float, float], tuple[float, float, float, float]]

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from urdfkit.description import load
-from urdfkit.description.urdf.repair import Repair
+from urdfkit.description.urdf.repair_record import Repair
 from urdfkit.description.xml.source import Source
 from urdfkit.description.xml.start_tag import start_tag
 from urdfkit.lint import Finding, lint

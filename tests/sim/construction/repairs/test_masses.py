@@ -11,7 +11,7 @@ import pytest
 import trimesh
 
 from urdfkit.description import load
-from urdfkit.description.urdf.repair import Repair
+from urdfkit.description.urdf.repair_record import Repair
 from urdfkit.description.urdf.robot import Robot
 from urdfkit.kinematics import Kinematics
 from urdfkit.sim.construction.repairs.collector import Repairs

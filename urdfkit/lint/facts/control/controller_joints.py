@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterator
 
 from urdfkit.description.xml.source import Source
-from urdfkit.lint.facts.control.launch_files import uncommented
+from urdfkit.lint.facts.control.launch_package_paths import uncommented
 from urdfkit.lint.facts.control.yaml_tree import Node, documents, groups, start_of, walk
 from urdfkit.record import record
 

@@ -37,7 +37,7 @@ def launches(model: Model) -> Iterator[Source]:
 
 def started(source: Source) -> Iterator[Started]:
     """Yield the nodes that a launch file starts."""
-    from urdfkit.lint.facts.control.launch_files import uncommented
+    from urdfkit.lint.facts.control.launch_package_paths import uncommented
 
     if source.file.endswith(".py"):
         yield from _in_python(source)
@@ -85,7 +85,7 @@ def _in_python(source: Source) -> Iterator[Started]:
     import ast
 
     from urdfkit.description.launch.python_constants import LaunchReader, name_of, parsed
-    from urdfkit.lint.facts.control.launch_files import place
+    from urdfkit.lint.facts.control.launch_package_paths import place
 
     tree = parsed(source) if "Node" in source.text else None
     if tree is None:

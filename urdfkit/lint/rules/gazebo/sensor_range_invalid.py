@@ -59,7 +59,7 @@ class SensorRangeInvalid(RobotRule):
 
     def check(self, model: Model) -> Findings:
         """Yield a finding for each invalid value."""
-        from urdfkit.description.plugins.sensor_values import (
+        from urdfkit.description.plugins.invalid_sensor_values import (
             WIDE,
             senseless_camera,
             senseless_numbers,

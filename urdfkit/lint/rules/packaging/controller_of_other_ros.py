@@ -103,7 +103,7 @@ class ControllerOfOtherRos(RobotRule):
 
 def _types(source: Source) -> Iterator[tuple[str, Span]]:
     """Yield the controller types with their spans; with ROS 2 parameters, only those of declared controllers."""
-    from urdfkit.lint.facts.control.launch_files import uncommented
+    from urdfkit.lint.facts.control.launch_package_paths import uncommented
     from urdfkit.lint.facts.control.ros2_controllers import PARAMETERS, declared
     from urdfkit.lint.facts.control.yaml_tree import span_of
 

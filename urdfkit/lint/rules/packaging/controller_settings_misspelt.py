@@ -58,7 +58,7 @@ class ControllerSettingsMisspelt(RobotRule):
     def check(self, model: Model) -> Findings:
         """Yield a finding for each misspelt name, and for the first tab of a file."""
         from urdfkit.lint.facts.control.controller_joints import typed
-        from urdfkit.lint.facts.control.launch_files import uncommented
+        from urdfkit.lint.facts.control.launch_package_paths import uncommented
 
         for source in model.related_files.values():
             if not source.file.endswith((".yaml", ".yml")):

@@ -50,7 +50,7 @@ class FrameUndefined(RobotRule):
 
     def check(self, model: Model) -> Findings:
         """Yield a finding for each named link that no description in these packages can define."""
-        from urdfkit.lint.facts.control.launch_files import uncommented
+        from urdfkit.lint.facts.control.launch_package_paths import uncommented
         from urdfkit.lint.fix_builders import meant
 
         links_by_name = model.robot.link_by_name

@@ -42,7 +42,7 @@ class LaunchPathMissing(RobotRule):
         """Yield a finding for each path that does not exist in its package."""
         from urdfkit.description.packages.related_files import LAUNCH, neighbours
         from urdfkit.description.packages.resolver import near_path
-        from urdfkit.lint.facts.control.launch_files import package_paths
+        from urdfkit.lint.facts.control.launch_package_paths import package_paths
 
         if model.package is None:
             return

@@ -71,7 +71,7 @@ class PackageXmlDependency(RobotRule):
 
     def _check_launch_files(self, model: Model, declared: dict[Path, set[str]]) -> Findings:
         """Yield a finding for each package that a launch file uses without a dependency in its own package."""
-        from urdfkit.lint.facts.control.launch_files import packages_used
+        from urdfkit.lint.facts.control.launch_package_paths import packages_used
 
         for file, source in model.related_files.items():
             package = package_of(Path(file)) if file.endswith(LAUNCH) else None

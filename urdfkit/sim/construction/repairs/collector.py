@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TYPE_CHECKING
 
-from urdfkit.description.urdf.repair import Repair
+from urdfkit.description.urdf.repair_record import Repair
 from urdfkit.errors import with_effect
 
 if TYPE_CHECKING:
-    from urdfkit.description.urdf.repair import RepairKind
+    from urdfkit.description.urdf.repair_record import RepairKind
     from urdfkit.description.xml.source import Position
     from urdfkit.errors import UrdfkitError
 

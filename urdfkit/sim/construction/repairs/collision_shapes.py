@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import replace
 
-from urdfkit.description.urdf.repair import Repair
+from urdfkit.description.urdf.repair_record import Repair
 from urdfkit.description.urdf.robot import Link, Robot
 from urdfkit.errors import with_effect
 from urdfkit.scene import Scene, Shape

@@ -8,7 +8,7 @@ from math import pi
 
 from urdfkit.description.urdf.geometry import rotation_of, rpy_of
 from urdfkit.description.urdf.massless_links import first_of, has_inertia, has_mass, moving_bodies
-from urdfkit.description.urdf.repair import Repair
+from urdfkit.description.urdf.repair_record import Repair
 from urdfkit.description.urdf.robot import Geometry, Inertia, Inertial, Joint, Link, Pose, Robot
 from urdfkit.description.urdf.volume_moments import Moments, of_primitive, union
 from urdfkit.scene import Scene, Shape

@@ -13,14 +13,14 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from urdfkit.description.urdf.repair import Repair
+from urdfkit.description.urdf.repair_record import Repair
 from urdfkit.description.urdf.robot import Inertia, Link
 from urdfkit.description.xacro.evaluation.failures import chain_words
 from urdfkit.linear_algebra import matmul, symmetric_eigen, vector_norm
 from urdfkit.sim.construction.validation import impossible, tensor_matrix
 
 if TYPE_CHECKING:
-    from urdfkit.description.urdf.repair import RepairKind
+    from urdfkit.description.urdf.repair_record import RepairKind
     from urdfkit.description.xml.element import Element
 
 Array = NDArray[np.float64]

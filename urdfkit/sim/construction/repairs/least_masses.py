@@ -19,7 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from urdfkit.description.urdf.massless_links import massless
-from urdfkit.description.urdf.repair import Repair
+from urdfkit.description.urdf.repair_record import Repair
 from urdfkit.description.urdf.robot import Inertia, Inertial, Link, Pose, Robot
 from urdfkit.kinematics import Kinematics
 from urdfkit.linear_algebra import matmul, symmetric_eigen

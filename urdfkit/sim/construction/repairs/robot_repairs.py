@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from urdfkit.description.urdf.massless_links import first_massless, massless
-from urdfkit.description.urdf.repair import Repair
+from urdfkit.description.urdf.repair_record import Repair
 from urdfkit.description.urdf.robot import Robot
 from urdfkit.errors import ModelError
 from urdfkit.kinematics.mimic import without_impossible_mimics

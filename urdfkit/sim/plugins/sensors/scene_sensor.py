@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from urdfkit.description.plugins.sensor_values import senseless_parameters
+from urdfkit.description.plugins.invalid_sensor_values import senseless_parameters
 from urdfkit.description.urdf.robot import SensorTag
 from urdfkit.errors import SimulationError
 from urdfkit.linear_algebra import Array, matmul

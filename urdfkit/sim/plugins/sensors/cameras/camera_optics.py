@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from urdfkit.description.plugins.sensor_values import senseless_camera
+from urdfkit.description.plugins.invalid_sensor_values import senseless_camera
 from urdfkit.description.urdf.robot import SensorTag
 from urdfkit.description.xml.element import Element
 from urdfkit.errors import SimulationError, did_you_mean

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from urdfkit.description.plugins.sensor_values import senseless_scan
+from urdfkit.description.plugins.invalid_sensor_values import senseless_scan
 from urdfkit.description.urdf.robot import SensorTag
 from urdfkit.description.xml.element import Element
 from urdfkit.errors import SimulationError

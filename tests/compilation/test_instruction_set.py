@@ -9,7 +9,7 @@ from numba.core.registry import cpu_target
 
 from urdfkit.compilation import compile_or_load
 from urdfkit.compilation.codegen import fixed_level
-from urdfkit.compilation.level import LEVELS, NATIVE, level
+from urdfkit.compilation.instruction_set import LEVELS, NATIVE, level
 
 FLOATS = (numba.float64[::1],)
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from urdfkit.description.plugins.sensor_values import senseless_camera, senseless_numbers, senseless_scan
+from urdfkit.description.plugins.invalid_sensor_values import senseless_camera, senseless_numbers, senseless_scan
 from urdfkit.description.xml.reader import document_of
 from urdfkit.description.xml.source import Source
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from urdfkit.description.urdf.queries import cycles, repeated
-from urdfkit.description.urdf.repair import Repair
+from urdfkit.description.urdf.repair_record import Repair
 from urdfkit.description.urdf.robot import Joint, Link, Pose, Problem, Robot
 from urdfkit.description.xacro.evaluation.failures import chain_words
 from urdfkit.description.xml.element import Element
