@@ -164,7 +164,7 @@ def _table(facts: dict[str, Any]) -> str:
         ("robot", f"{facts['robot']}  ({facts['file']})"),
         ("links", f"{len(facts['links'])}, root {facts['root']}"),
         ("joints", ", ".join(f"{count} {kind}" for kind, count in kinds.items()) or "none"),
-        ("freedoms", str(facts["degrees_of_freedom"])),
+        ("degrees of freedom", str(facts["degrees_of_freedom"])),
         ("mass", f"{facts['mass']:.6g} kg"),
     ]
     if (center := facts["center_of_mass"]) is not None:

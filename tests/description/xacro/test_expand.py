@@ -173,6 +173,11 @@ def test_threads_expand_files_at_the_same_time(write: Write) -> None:
         ('HEAD\n<link name="${radus}"/><xacro:property name="radius" value="1"/></robot>', "2:1", "property `radus` is not defined"),
         ('HEAD<xacro:property name="radius" value="1"/>\n<link><a b="${radus}"/></link></robot>', "2:7", "did you mean `radius`?"),
         ('HEAD\n<xacro:property name="a" value="${b*2}"/>\n<link name="${a}"/></robot>', "2:1", "`b` is not defined"),
+        (
+            'HEAD\n<xacro:property name="a" value="1"/><xacro:property name="a" remove="true"/>\n<link name="${a}"/></robot>',
+            "3:1",
+            "is not defined here: it is defined at m.xacro:2:1",
+        ),
         ('HEAD\n<link name="${late}"/>\n<xacro:property name="late" value="1"/></robot>', "2:1", "is not defined yet: its definition follows at m.xacro:3:1"),
         ('HEAD<xacro:macro name="wheel"/>\n<xacro:whel/></robot>', "2:1", "macro `whel` is not defined; did you mean `wheel`?"),
         ('HEAD<xacro:macro name="w" params="a b:=1"/>\n<xacro:w/></robot>', "2:1", "macro `w` needs `a`"),

@@ -200,7 +200,7 @@ def updating(
         )
         needed_yet = {change.path: change.before for change in going if change.kind == "needed"}
         write_recipe(template, answers, staged, files, also=needed_yet)
-        # The recipe last: until then, the next update finds what a killed one has left to do.
+        # The recipe last: until then, the next update finds the unfinished work of a killed one.
         recipe_change = _change(recipe, folder, staged, made, recipe)
         every = (*(change for _, change in coming), *going, recipe_change)
         changes = tuple(change for change in every if change is not None)

@@ -169,7 +169,10 @@ def error_of(failure: Failure, sources: Iterable[Source]) -> XacroError:
     if fault.kind in ("undefined-property", "undefined-macro") and fault.name is not None:
         later = definition(sources, fault.kind.removeprefix("undefined-"), fault.name)
         if later is not None:
-            message = f"{message.split('; did you mean')[0]} yet: its definition follows at {later}"
+            at = fault.position
+            follows = at is not None and at.file == later.file and (at.line, at.column) < (later.line, later.column)
+            where = f"yet: its definition follows at {later}" if follows else f"here: it is defined at {later}"
+            message = f"{message.split('; did you mean')[0]} {where}"
     chain = "" if fault.kind == "recursion" else chain_words(fault.expansions)
     return XacroError(message + chain, position=fault.position)
 
