@@ -119,3 +119,20 @@ def test_a_file_in_a_folder_without_permission_cannot_be_read(monkeypatch: pytes
     missing = OSError("cannot open")
     missing.filename = "private/part.xacro"
     assert str(unreadable(missing, is_include=True)) == "included file private/part.xacro cannot be read"
+
+
+@pytest.mark.parametrize(
+    ("definition", "use"),
+    [
+        ('<xacro:property name="part_{}" value="1"/>', '<link name="${{part_{}x}}"/>'),
+        ('<xacro:macro name="part_{}"><a/></xacro:macro>', "<xacro:part_{}x/>"),
+    ],
+    ids=["properties", "macros"],
+)
+def test_many_undefined_names_take_linear_time(definition: str, use: str, write: Write) -> None:
+    names = range(5_000)
+    text = "\n".join([*(definition.format(k) for k in names), *(use.format(k) for k in names)])
+    start = time.process_time()
+    found = expand_leniently(write("m.xacro", f"HEAD\n{text}</robot>"))
+    assert time.process_time() - start < 10
+    assert len(found.faults) >= len(names)

@@ -16,7 +16,6 @@ from urdfkit.description.xacro.evaluation.failures import (
     undefined_property,
 )
 from urdfkit.description.xacro.evaluation.parameters import MacroParameter, parameters
-from urdfkit.description.xacro.evaluation.texts import visible
 from urdfkit.description.xacro.evaluation.tree import Tag
 from urdfkit.description.xacro.faults import MacroDefinition
 from urdfkit.description.xml.source import Expansion
@@ -134,7 +133,7 @@ class Calls(Elements):
         try:
             return name, *found_macro(name, macros, scope)
         except KeyError:
-            raise self.placed(undefined_macro(name, dict.fromkeys(macros.names()))) from None
+            raise self.placed(undefined_macro(name, self.visible(macros))) from None
 
     def _take_blocks(self, node: Tag, names: list[str], scope: Scope, title: str) -> None:
         blocks = node.tags()
@@ -161,7 +160,7 @@ class Calls(Elements):
             elif parameter.default is not None:
                 value = self.text(parameter.default, scope)
             else:
-                raise self.placed(undefined_property(name, visible(scope)))
+                raise self.placed(undefined_property(name, self.visible(scope)))
             self.at = (node, None)
             inner.set(name, value, is_lazy=False)
             names.remove(name)

@@ -35,6 +35,8 @@ if TYPE_CHECKING:
 
     from urdfkit.description.xacro.evaluation.expressions.interpreter import Expressions
 
+MAX_CANDIDATES = 200_000
+"""Names that are collected for suggestions in one expansion, so that many undefined names take linear time."""
 _TOKEN = re.compile(r"(\$\$+[{(])|\$\{([^}]*)\}|\$\(([^)]*)\)|([^$]+|\$[^{($]+|\$$)").match
 ESCAPED, EXPRESSION, COMMAND, PLAIN, INVALID = 1, 2, 3, 4, 5
 
@@ -58,7 +60,7 @@ class Texts:
         self.at: Place = (None, None)
         self._tokens: dict[str, list[tuple[int, str]]] = {}
         self._names: dict[str, str] = {}
-        self._evaluated = self.resolving = 0
+        self._evaluated = self.resolving = self._candidates = 0
 
     @cached_property
     def expressions(self) -> Expressions:
@@ -170,7 +172,7 @@ class Texts:
             return self.placed(Failure("recursion", message))
         expression = source if kind == EXPRESSION else None
         if isinstance(error, NameError) and error.name is not None and kind == EXPRESSION:
-            failure = undefined_property(error.name, visible(scope))
+            failure = undefined_property(error.name, self.visible(scope))
             failure.facts["expression"] = expression
         elif isinstance(error, NameError) and error.name is not None:
             failure = undefined_in_command(error.name, tuple(self.commands.arguments))
@@ -184,6 +186,14 @@ class Texts:
             message = f"cannot evaluate `{_shown(kind, source)}`: {short(text)}"
             failure = Failure("bad-expression", message, expression=expression)
         return self.placed(failure)
+
+    def visible(self, scope: Scope) -> list[str]:
+        """Return the names that a scope has for suggestions; none after `MAX_CANDIDATES` names in all."""
+        if self._candidates > MAX_CANDIDATES:
+            return []
+        names = list(dict.fromkeys(name for name in scope.names() if not name.startswith(("*", "__"))))
+        self._candidates += len(names)
+        return names
 
     def _too_large(self, error: TooLarge, kind: int, source: str) -> Failure:
         expression = source if kind == EXPRESSION and len(source) <= MAX_EXPRESSION else None
@@ -201,11 +211,6 @@ def _name(expression: str) -> str:
 def _shown(kind: int, source: str) -> str:
     """Return a part of a text as it is written, in one line."""
     return {EXPRESSION: "${%s}", COMMAND: "$(%s)"}.get(kind, "%s") % short(source)
-
-
-def visible(scope: Scope) -> list[str]:
-    """Return the names of properties that an expression can use."""
-    return list(dict.fromkeys(name for name in scope.names() if not name.startswith(("*", "__"))))
 
 
 def unreadable(error: OSError, *, is_include: bool) -> Failure:

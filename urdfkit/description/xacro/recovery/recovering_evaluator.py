@@ -13,7 +13,7 @@ from urdfkit.description.xacro.evaluation.expressions.limits import MAX_CHARACTE
 from urdfkit.description.xacro.evaluation.expressions.symbols import Scope
 from urdfkit.description.xacro.evaluation.failures import Failure, definition, undefined_property
 from urdfkit.description.xacro.evaluation.macros import Macro, found_macro
-from urdfkit.description.xacro.evaluation.texts import EXPRESSION, visible
+from urdfkit.description.xacro.evaluation.texts import EXPRESSION
 from urdfkit.description.xacro.evaluation.tree import Tag, element_of
 from urdfkit.description.xacro.evaluation.tree_reader import read_tree
 from urdfkit.description.xacro.expanded import Expanded
@@ -254,7 +254,7 @@ class RecoveringEvaluator(Evaluator):
         return value
 
     def _record_undefined(self, name: str, scope: Scope) -> None:
-        failure = undefined_property(name, visible(scope))
+        failure = undefined_property(name, self.visible(scope))
         failure.facts["expression"] = self._expression
         if name in self._late.properties:
             _mark_late(failure, "property", name, self._late.properties[name][1])
@@ -333,7 +333,7 @@ class RecoveringEvaluator(Evaluator):
             _mark_late(failure, "macro", name, macro.body.position)
             self._record(failure)
             return name, self.top_macros, self.top_scope, macro
-        for near in near_macros(name, macros.names()):
+        for near in near_macros(name, failure.facts.get("candidates", ())):
             try:
                 inner_macros, inner_scope, macro = found_macro(near, macros, scope)
             except KeyError:

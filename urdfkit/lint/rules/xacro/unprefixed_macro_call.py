@@ -51,13 +51,11 @@ class UnprefixedMacroCall(SourceRule):
     def check(self, document: Document, model: Model) -> Findings:
         """Yield a finding for each call without the prefix."""
         sources = model.expanded.sources.values()
-        if not any(f"<{name}" in document.source.text for source in sources for name in _near_definitions(source.text)):
+        used = set(re.findall(r"<([^\s/>]+)", document.source.text))
+        if all(used.isdisjoint(_near_definitions(source.text)) for source in sources):
             return
         macros = model.signatures
-        if not macros:
-            return
-        names = "|".join(re.escape(name) for name in macros)
-        if not re.search(rf"<(?:{names})[\s/>]", document.source.text):
+        if used.isdisjoint(macros):
             return
         for tag in document.walk():
             if tag.name in macros and _is_call(tag, macros[tag.name]):
