@@ -70,8 +70,8 @@ def run(command: str, folder: Path) -> None:
 @pytest.mark.parametrize("page", [p for p in PAGES if shown_commands(p)], ids=lambda p: p.name)
 def test_the_commands_on_a_page_work(page: Path, tmp_path: Path) -> None:
     (tmp_path / "robot.urdf.xacro").write_text(MODEL)
-    (tmp_path / "arm.urdf.xacro").write_text(ARM)
-    (tmp_path / "arm.urdf").write_text(ARM)
+    for name in {word for command in shown_commands(page) for word in command.split()} & {"arm.urdf", "arm.urdf.xacro"}:
+        (tmp_path / name).write_text(ARM)
     (tmp_path / "tests").symlink_to(ROOT / "tests")  # pages that name a file of ours speak of a checkout's root
     done = set()
     for command in shown_commands(page):
