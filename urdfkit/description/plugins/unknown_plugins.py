@@ -26,9 +26,8 @@ def unknown(plugin: Plugin, sensor: str | None = None, others: Iterable[str] = (
         return f"{place}: plugin `{plugin.name or ''}` has no filename and is ignored{left_out}"
     name = stem(plugin.filename)
     if near := nearest(name, others):
-        return (
-            f"{place}: no plugin `{plugin.filename}`; did you mean `{plugin.filename.replace(name, near)}`?{left_out}"
-        )
+        suggestion = f"did you mean `{plugin.filename.replace(name, near)}`?"
+        return f"{place}: no plugin `{plugin.filename}`{left_out}; {suggestion}"
     if _GAZEBO.search(name):
         return f"plugin {plugin.filename}: not simulated yet{left_out}"
     return f"{place}: unknown plugin `{plugin.filename}`: urdfkit does not simulate it{left_out}"
