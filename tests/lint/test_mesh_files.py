@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import struct
+from pathlib import Path
 
+import numpy as np
 import pytest
 
 from urdfkit.lint import lint
@@ -53,3 +55,21 @@ def test_the_fault_of_a_mesh_file(name: str, content: bytes, fault: str | None, 
     mesh = f'<link name="a"><visual><geometry><mesh filename="{name}"/></geometry></visual></link>'
     messages = [finding.message for finding in lint(write("r.urdf", mesh), select=("G607",))]
     assert messages == ([] if fault is None else [f"mesh `{name}` {fault}"])
+
+
+def test_messages_give_the_size_of_all_vertices_though_large_meshes_are_estimated_first(tmp_path: Path) -> None:
+    corners = np.zeros((60_000, 3, 3))
+    corners[:, 1, 0] = corners[:, 2, 1] = 0.05
+    corners[31_234, 2, 2] = 0.31  # no sample has this triangle
+    records = np.zeros(len(corners), dtype=[("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("rest", "<u2")])
+    records["corners"] = corners
+    (tmp_path / "part.stl").write_bytes(bytes(80) + len(corners).to_bytes(4, "little") + records.tobytes())
+    path = tmp_path / "part.urdf"
+    for height, wanted in ((0.3, []), (0.5, ["centre of mass of link `part` is 0.19 m outside its shapes"])):
+        path.write_text(
+            f"""<robot name="part"><link name="part">
+            <inertial><origin xyz="0 0 {height}"/><mass value="1"/>
+            <inertia ixx="1e-3" ixy="0" ixz="0" iyy="1e-3" iyz="0" izz="1e-3"/></inertial>
+            <visual><geometry><mesh filename="part.stl"/></geometry></visual></link></robot>"""
+        )
+        assert [found.message for found in lint(path, select=["I513"])] == wanted

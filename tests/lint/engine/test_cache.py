@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from urdfkit.lint.engine import checker
+from urdfkit.lint.engine import cache, checker
 from urdfkit.lint.engine.cache import folder
 from urdfkit.lint.engine.run import Outcome, run
 from urdfkit.lint.project.entry_files import find_entries
@@ -78,6 +78,29 @@ def test_the_content_of_meshes_counts(package):
     after = lint(package)
     assert after.cached == 0
     assert [f.message for f in after.findings] != [f.message for f in before.findings]
+
+
+def test_large_files_count_by_size_and_times_once_they_are_older_than_the_clock_can_tell(package, monkeypatch):
+    mesh = write_large(Path("p/meshes/b.stl"), b"a")
+    lint(package)
+    read: list[str] = []
+    monkeypatch.setattr(cache, "content_of", lambda path: read.append(path.name) or path.read_bytes())
+    assert lint(package).cached == 1
+    assert "b.stl" in read, "it has just been written"
+    monkeypatch.setattr(cache, "_JUST_CHANGED", 0)
+    write_large(mesh, b"b")
+    assert lint(package).cached == 0
+    read.clear()
+    assert lint(package).cached == 1
+    assert "b.stl" not in read
+    write_large(mesh, b"c")
+    assert lint(package).cached == 0
+
+
+def write_large(path: Path, content: bytes) -> Path:
+    path.parent.mkdir(exist_ok=True)
+    path.write_bytes(content * 300_000)
+    return path
 
 
 def test_a_touched_file_is_the_same_file(package):

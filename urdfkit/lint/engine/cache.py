@@ -1,9 +1,9 @@
 """Cache of findings per entry file, valid as long as no input of the lint run has changed.
 
 Each cache entry is one file. The hash in its name covers the description, the lint options, and the versions of urdfkit
-and its dependencies. The file stores digests of all files read, the answers to all package and mesh queries, and the
-findings. Digests and answers are verified before the findings are used. A damaged entry counts as missing. Entries are
-replaced atomically, so concurrent writers do not conflict.
+and its dependencies. The file stores the states of all files read (a digest, or size and times of a large file), the
+answers to all package and mesh queries, and the findings. States and answers are verified before the findings are used.
+A damaged entry counts as missing. Entries are replaced atomically, so concurrent writers do not conflict.
 """
 
 from __future__ import annotations
@@ -12,6 +12,7 @@ import marshal
 import os
 import re
 import sys
+import time
 from functools import cached_property
 from pathlib import Path
 
@@ -43,6 +44,13 @@ _MANIFESTS = ("package.xml", "CMakeLists.txt", "setup.py")
 _ENVIRONMENT = r"\$\(\s*(?:opt)?env\s+([^\s()]+)"
 _UNTRACKED = r"environ|getenv|\.gltf"
 """Expressions whose inputs the cache does not track; files that contain them are linted every time."""
+
+_STATUS = "="
+"""First character of the state of a file that is not a digest."""
+_LARGE = 256 * 1024
+"""Size of files, such as meshes, that are not read again to see whether they have changed [byte]."""
+_JUST_CHANGED = 2_000_000_000
+"""[ns]"""
 
 _MAX_FILES = 64
 """Maximum number of files in each of the 256 cache folders; the oldest files are deleted first."""
@@ -94,8 +102,8 @@ class Cache:
         return found
 
     def _holds(self, kept: Any, entry: Entry) -> bool:
-        for path, digest in kept["digests"].items():
-            if self._digest_of(path) != digest:
+        for path, state in kept["states"].items():
+            if (_status_of(path) if state[:1] == _STATUS else self._digest_of(path)) != state:
                 return False
         if any(os.environ.get(name) != value for name, value in kept["environment"].items()):
             return False
@@ -130,7 +138,7 @@ class Cache:
         self._store(
             self._path(entry),
             {
-                "digests": {path: self._digest_of(path) for path in read},
+                "states": {path: self._state_of(path) for path in read},
                 "environment": environment,
                 "answers": [[list(question), answer] for question, answer in packages.answers.items()],
                 "findings": [_row(finding) for finding in found.findings],
@@ -161,6 +169,11 @@ class Cache:
             except OSError:
                 self._digests[path] = ""
         return self._digests[path]
+
+    def _state_of(self, path: str) -> str:
+        """Return what changes when a file does: of a large file its size and times, otherwise a digest."""
+        status = _status_of(path)
+        return status if status else self._digest_of(path)
 
     def _path(self, entry: Entry) -> Path:
         parts = (
@@ -206,6 +219,21 @@ def _versions() -> Iterable[str]:
                 yield f"{package}{os.stat(f'{folder}/{package}/__init__.py').st_mtime_ns}"  # noqa: PTH116
             except OSError:
                 continue
+
+
+def _status_of(path: str) -> str:
+    """Return size, inode and times of a large file; empty for other files, and for files that just changed.
+
+    A file that changes twice within the resolution of the clock of the file system has the same times.
+    """
+    try:
+        status = os.stat(path)  # noqa: PTH116
+    except OSError:
+        return ""
+    newest = max(status.st_mtime_ns, status.st_ctime_ns)
+    if status.st_size < _LARGE or time.time_ns() - newest < _JUST_CHANGED:
+        return ""
+    return f"{_STATUS}{status.st_size} {status.st_ino} {status.st_mtime_ns} {status.st_ctime_ns}"
 
 
 def _digest(content: bytes) -> str:

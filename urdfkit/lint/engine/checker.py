@@ -225,7 +225,17 @@ class Checker:
                 if rule.claims(fault) and self._applies(type(rule), model.target):
                     yield from self._run(type(rule), entry.path, fault, model)
 
-    def _run_robot_rule(self, rule: type[Any], file: Path, model: Model) -> Iterable[Finding]:
+    def _run_robot_rule(self, rule: type[Any], file: Path, model: Model) -> list[Finding]:
+        """Return the findings of a rule; sizes of meshes in their conditions and messages are exact."""
+        boxes, failures = model.mesh_boxes, len(self._failures)
+        while True:
+            boxes.were_used = False
+            found = list(self._findings_of(rule, file, model))
+            if not (found and boxes.were_used and boxes.measure(model.robot, (finding.link for finding in found))):
+                return found
+            del self._failures[failures:]
+
+    def _findings_of(self, rule: type[Any], file: Path, model: Model) -> Iterable[Finding]:
         if not rule.checks_each_alone:
             return self._run(rule, file, model)
         failures = len(self._failures)

@@ -1,4 +1,4 @@
-"""Mesh files: path, bounding box and volume moments. trimesh is imported only for existing meshes."""
+"""Mesh files: their elements and paths."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
     from pathlib import Path
 
-    from urdfkit.description.urdf.robot import Link, Mesh, Robot, Vector
+    from urdfkit.description.urdf.robot import Link, Mesh, Robot
     from urdfkit.description.xacro.expanded import Expanded
     from urdfkit.description.xml.element import Element
 
@@ -38,24 +38,6 @@ def path_of(mesh: Mesh, expanded: Expanded) -> Path | None:
         return expanded.packages.resolve(mesh.uri.strip(), expanded.path)
     except ResourceError:
         return None
-
-
-def box(mesh: Mesh, expanded: Expanded) -> tuple[Vector, Vector] | None:
-    """Return centre and size of a mesh's bounding box [m], scale included; None if it cannot be read."""
-    from urdfkit.errors import UrdfkitError
-
-    path = path_of(mesh, expanded)
-    if path is None:
-        return None
-    try:
-        from urdfkit.scene.meshes.loader import MeshLoader
-
-        low, high = MeshLoader().load(path, mesh.scale).bounds.tolist()
-    except (UrdfkitError, ImportError):
-        return None
-    centre = [(a + b) / 2.0 for a, b in zip(low, high, strict=True)]
-    size = [b - a for a, b in zip(low, high, strict=True)]
-    return (centre[0], centre[1], centre[2]), (size[0], size[1], size[2])
 
 
 def missing(mesh: Mesh, expanded: Expanded) -> tuple[str, str] | None:

@@ -9,6 +9,7 @@ from urdfkit.description.urdf.robot import Robot
 from urdfkit.description.xml.element import Element
 from urdfkit.description.xml.source import Position, Source, Span
 from urdfkit.errors import ResourceError
+from urdfkit.lint.model.mesh_boxes import MeshBoxes
 from urdfkit.lint.model.repeated_elements import content_key
 from urdfkit.lint.model.tags import Document
 from urdfkit.lint.model.xacro_prefix import URDF_CHILDREN, signatures
@@ -60,6 +61,7 @@ class Model:
         release: release of the target (``jazzy``); empty if unspecified.
         texts: absolute path → content that replaces the file on disk.
         cached_extents: extents of links without meshes from an earlier check, by element; updated by `extents`.
+        mesh_boxes: bounding boxes of meshes.
     """
 
     expanded: Expanded
@@ -69,6 +71,7 @@ class Model:
     release: str = ""
     texts: Mapping[str, str] = field(default_factory=dict, repr=False)
     cached_extents: dict[Element, Extent] = field(default_factory=dict, repr=False)
+    mesh_boxes: MeshBoxes = field(default_factory=MeshBoxes, repr=False)
 
     @cached_property
     def as_written(self) -> Robot:
@@ -276,7 +279,7 @@ class Model:
             robot.packages,
             robot.arguments,
         )
-        return Model(self.expanded, part, self.target, None, self.release, self.texts)
+        return Model(self.expanded, part, self.target, None, self.release, self.texts, {}, self.mesh_boxes)
 
     @cached_property
     def frames(self) -> dict[str, Frame]:
@@ -285,9 +288,20 @@ class Model:
 
         return frames(self.robot)
 
-    @cached_property
+    @property
     def extents(self) -> dict[str, Extent]:
         """Link name → extent of its shapes; without links that have no shapes or a shape of unknown size."""
+        version = self.mesh_boxes.version
+        if version not in self._extents:
+            self._extents[version] = self._compute_extents(self._extents.get(version - 1, {}))
+        self.mesh_boxes.were_used = True
+        return self._extents[version]
+
+    @cached_property
+    def _extents(self) -> dict[int, dict[str, Extent]]:
+        return {}
+
+    def _compute_extents(self, estimated: Mapping[str, Extent]) -> dict[str, Extent]:
         from urdfkit.description.urdf.robot import Mesh
         from urdfkit.lint.model.placement import extent, shapes_of
 
@@ -304,6 +318,9 @@ class Model:
             if filled is not None:
                 found[link.name] = self.cached_extents[element] = filled
                 continue
+            if link.name in estimated and not self.mesh_boxes.are_new(shapes_of(link)):
+                found[link.name] = estimated[link.name]
+                continue
             filled = alike.get(self.key(element)) or extent(link, self.box_of)
             if filled is not None:
                 found[link.name] = alike[self.key(element)] = filled
@@ -313,15 +330,7 @@ class Model:
 
     def box_of(self, mesh: Mesh) -> tuple[Vector, Vector] | None:
         """Return centre and size of a mesh's bounding box [m], scale included; None if it cannot be read."""
-        if mesh not in self._boxes:
-            from urdfkit.lint.model.mesh_files import box
-
-            self._boxes[mesh] = box(mesh, self.expanded)
-        return self._boxes[mesh]
-
-    @cached_property
-    def _boxes(self) -> dict[Mesh, tuple[Vector, Vector] | None]:
-        return {}
+        return self.mesh_boxes.box(mesh, self.expanded)
 
     @cached_property
     def documents_read(self) -> list[str]:

@@ -14,8 +14,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from urdfkit.description.meshes.limits import MAX_BYTES, MAX_TRIANGLES
 from urdfkit.description.packages.resolver import near_path
-from urdfkit.description.urdf.mesh_limits import MAX_BYTES, MAX_TRIANGLES
 from urdfkit.description.urdf.robot import Vector
 from urdfkit.errors import MissingDependencyError, ResourceError, did_you_mean
 from urdfkit.linear_algebra import matmul

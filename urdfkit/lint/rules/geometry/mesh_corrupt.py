@@ -3,7 +3,8 @@
 import re
 from pathlib import Path
 
-from urdfkit.description.urdf.mesh_limits import MAX_BYTES, MAX_TRIANGLES
+from urdfkit.description.meshes.bounds import bounds
+from urdfkit.description.meshes.limits import MAX_BYTES, MAX_TRIANGLES
 from urdfkit.lint.model.mesh_files import LFS, meshes, path_of
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
@@ -93,7 +94,9 @@ def _fault(path: Path) -> str:
     if suffix == ".glb" and not head.startswith(b"glTF"):
         return "is not a binary glTF file"
     faces = _FACES.get(suffix)
-    if faces is not None and size <= _LARGE and not head.startswith(_UTF16) and not faces.search(path.read_bytes()):
+    if faces is None or bounds(path, estimated=True) is not None:
+        return ""
+    if size <= _LARGE and not head.startswith(_UTF16) and not faces.search(path.read_bytes()):
         return "contains no triangles"
     return ""
 

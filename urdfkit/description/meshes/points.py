@@ -1,0 +1,72 @@
+"""Bounding boxes of points, and parts of files."""
+
+from __future__ import annotations
+
+from math import isfinite
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Sequence
+    from typing import BinaryIO
+
+    Corners = tuple[tuple[float, float, float], tuple[float, float, float]]
+    """Lowest and highest corner."""
+
+
+class UnusualFileError(Exception):
+    """A file that the quick readers do not read: it is damaged, or uses a feature that they lack."""
+
+
+def corners_of_columns(columns: Sequence[Sequence[float]]) -> Corners:
+    """Return the corners of the bounding box of points.
+
+    Args:
+        columns: x, y and z of all points; more columns repeat them, as the corners of triangles do.
+
+    Raises:
+        UnusualFileError: there is no point, or a coordinate is not finite.
+    """
+    if not columns or not columns[0]:
+        raise UnusualFileError
+    low = [min(min(column) for column in columns[axis::3]) for axis in range(3)]
+    high = [max(max(column) for column in columns[axis::3]) for axis in range(3)]
+    if not all(isfinite(sum(column)) for column in columns):  # min and max skip values that are not numbers
+        raise UnusualFileError
+    return (low[0], low[1], low[2]), (high[0], high[1], high[2])
+
+
+def corners_of_numbers(words: Iterable[bytes], stride: int = 3) -> Corners:
+    """Return the corners of the bounding box of points written as text.
+
+    Args:
+        words: the numbers; the first three of each `stride` are a point.
+        stride: numbers for each point.
+
+    Raises:
+        UnusualFileError: there is no point, or a number is invalid or not finite.
+    """
+    try:
+        numbers = list(map(float, words))
+    except ValueError as error:
+        raise UnusualFileError from error
+    if len(numbers) % stride:
+        raise UnusualFileError
+    return corners_of_columns([numbers[axis::stride] for axis in range(3)])
+
+
+def union(boxes: Sequence[Corners]) -> Corners:
+    """Return the corners of the box around boxes.
+
+    Raises:
+        UnusualFileError: there is no box.
+    """
+    if not boxes:
+        raise UnusualFileError
+    lows, highs = zip(*boxes, strict=True)
+    return tuple(map(min, zip(*lows, strict=True))), tuple(map(max, zip(*highs, strict=True)))
+
+
+def part(file: BinaryIO, start: int, size: int) -> bytes:
+    """Return a part of an open file."""
+    file.seek(start)
+    return file.read(size)
