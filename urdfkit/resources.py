@@ -10,7 +10,7 @@ import re
 from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 
-from urdfkit.errors import ResourceError, UsageError, did_you_mean
+from urdfkit.errors import ResourceError, UsageError, did_you_mean, suggestion
 from urdfkit.record import record
 
 TYPE_CHECKING = False
@@ -114,7 +114,10 @@ def find_model(words: Sequence[str], *, package_path: Iterable[str | Path] = ())
     """
     models = [word for word in words if ":=" not in word]
     if len(models) > 1:
-        raise UsageError(f"one ROBOT at a time, not {len(models)}: {' '.join(models)}; xacro arguments are key:=value")
+        key, equals, value = models[-1].partition("=")
+        meant = f"{key}:={value}" if equals else None
+        hint = suggestion(meant) or "; xacro arguments are key:=value"
+        raise UsageError(f"one ROBOT at a time, not {len(models)}: {' '.join(models)}{hint}")
     arguments: dict[str, str] = {}
     for word in words:
         key, separator, value = word.partition(":=")

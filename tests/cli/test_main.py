@@ -51,9 +51,33 @@ def test_a_misspelt_option_gets_the_nearest_one(capsys: pytest.CaptureFixture[st
     assert "did you mean `--json`?" in capsys.readouterr().err
 
 
-def test_no_command_is_one_line(capsys: pytest.CaptureFixture[str]) -> None:
-    assert main([]) == 2
-    assert capsys.readouterr().err.count("\n") == 1
+@pytest.mark.parametrize(
+    ("line", "message"),
+    [
+        ("", "pass a command: `urdfkit --help` lists all; try `urdfkit view simpleton`"),
+        ("help", "unknown command `help`; did you mean `urdfkit --help`?"),
+        ("help tf", "unknown command `help`; did you mean `urdfkit tf --help`?"),
+        ("simpleton", "unknown command `simpleton`; did you mean `urdfkit view simpleton`?"),
+        ("arm.urdf", "unknown command `arm.urdf`; did you mean `urdfkit view arm.urdf`?"),
+        ("sim", "sim: pass a subcommand: teleop, run, warmup"),
+        ("sim simpleton", "sim: no subcommand `simpleton`; did you mean `urdfkit sim teleop simpleton`?"),
+        ("sim rum simpleton", "sim: no subcommand `rum`; did you mean `run`?"),
+        ("sim run simpleton --duration 3", "sim run: unrecognized arguments: --duration; did you mean `--for`?"),
+        ("topic ecko /odom", "topic: no subcommand `ecko`; did you mean `echo`?"),
+        ("topic --list", "topic: unrecognized arguments: --list; did you mean `list`?"),
+        (
+            "view --robot artoo",
+            "view: unrecognized arguments: --robot; it is a positional argument: urdfkit view ROBOT",
+        ),
+        ("view --port 80x", "view: argument --port: `80x` is not an integer"),
+        ("expand artoo a=1", "one ROBOT at a time, not 2: artoo a=1; did you mean `a:=1`?"),
+        ("completion tcsh", "completion: argument {bash,zsh,fish}: `tcsh` is not available; use bash, zsh or fish"),
+        ("new diffdrive", "new: no kind `diffdrive`; use package, robot, world, arm, controllers or sensor"),
+    ],
+)
+def test_a_wrong_command_line_gets_one_line_with_the_nearest_right_one(line, message, capsys):
+    assert main(line.split()) == 2
+    assert capsys.readouterr().err == f"urdfkit: {message}\n"
 
 
 def test_a_bug_is_one_line_and_verbose_shows_it(
@@ -88,7 +112,7 @@ def test_a_misspelt_option_is_reported_before_the_missing_argument(capsys):
 def test_an_option_with_a_value_that_it_does_not_take(capsys):
     for word, value in (("-h2", "2"), ("--help=me", "me")):
         assert main(["new", "robot", word]) == 2
-        said = f"urdfkit: new robot: argument -h/--help: accepts no value, got `{value}`\n"
-        assert capsys.readouterr().err == said
+        message = f"urdfkit: new robot: argument -h/--help: accepts no value, got `{value}`\n"
+        assert capsys.readouterr().err == message
     assert main(["sim", "run", "simpleton"]) == 2
     assert "arguments are required: --for" in capsys.readouterr().err

@@ -218,7 +218,7 @@ def test_end_of_input_writes_nothing(place, monkeypatch):
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
-        (["robot"], "name of the robot is missing"),
+        (["robot"], "name of the robot is missing; pass NAME"),
         (["robot", "My Robot"], "not a valid ROS package name: .*; did you mean `my_robot`?"),
         (["robot", "scout_description"], "did you mean `scout`?"),
         (["robot", "my", "scout"], "unrecognized arguments: scout; did you mean `my_scout`?"),
@@ -284,11 +284,11 @@ def test_end_of_input_writes_nothing(place, monkeypatch):
         (["--updat"], "new: unrecognized arguments: --updat; did you mean `--update`"),
         (["--drve", "diff"], "--drve; did you mean `urdfkit new robot NAME --drive`"),
         (["--drive", "diff"], "--drive; did you mean `urdfkit new robot NAME --drive`"),
-        (["robt", "scout", "--drive", "diff"], "invalid choice: 'robt'.*did you mean `robot`"),
+        (["robt", "scout", "--drive", "diff"], "no kind `robt`; did you mean `robot`"),
         (["robot", "scout", "more"], "unrecognized arguments: more"),
         (["wrld", "w"], "did you mean `world`?"),
-        (["robto", "r"], "invalid choice: 'robto'.*did you mean `robot`"),
-        ([], r"required: KIND \(.*robot, world"),
+        (["robto", "r"], "no kind `robto`; did you mean `robot`"),
+        ([], "pass a kind: .*robot, world"),
         (["robot", "scout", "--diff"], "--diff requires --update"),
         (["--update"], r"nothing to update in \.: no \*/urdfkit-new\.toml"),
         (["robot", "scout", "--template", "mine"], "--template mine: no such folder"),
@@ -344,7 +344,7 @@ def test_options_come_before_the_file(place):
         ('nmae = "x"\n', r"a\.toml: no question `nmae`; did you mean `name`"),
         ("mass = true\n", r"a\.toml: `mass` must be a text, a number or a list of texts"),
         ('template = "world"\n', r"is a recipe for `urdfkit new world`, not for `urdfkit new robot`"),
-        ("mass = 3\n", "name of the robot is missing"),
+        ("mass = 3\n", "name of the robot is missing; pass NAME"),
     ],
 )
 def test_a_wrong_file_is_one_line(place, capsys, text, message):

@@ -50,7 +50,7 @@ def test_a_renderer_has_several_names(capsys: Capture, monkeypatch, called: str)
 
 def test_a_renderer_that_there_is_not_is_refused(capsys: Capture) -> None:
     assert main(["sim", "run", "simpleton", "--for", "0", "--renderer", "vulkan"]) == 2
-    assert "invalid choice: 'vulkan' (choose from 'auto', 'ray', 'gl')" in capsys.readouterr().err
+    assert "`vulkan` is not available; use auto, ray or gl" in capsys.readouterr().err
 
 
 def test_a_renderer_that_does_not_work_is_refused_in_one_line(tmp_path: Path, capsys: Capture, monkeypatch) -> None:

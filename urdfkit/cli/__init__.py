@@ -127,7 +127,7 @@ def _run(arguments: list[str]) -> int:
     if command is not None and command not in COMMANDS and command == arguments[0]:
         from urdfkit.cli.unknown_command import refuse
 
-        refuse(command, COMMANDS)
+        refuse(command, list(COMMANDS), arguments[1:])
     parsed = parser_of(command, complete=arguments[:1] != [command]).parse_args(arguments)
     return int(_module(parsed.command).run(parsed))
 

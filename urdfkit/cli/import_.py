@@ -117,8 +117,10 @@ def _file(word: str) -> Path:
 
         models = models_in(path)
         if len(models) != 1:
-            listed = f": {', '.join(each.name for each in models[:8])}" if models else ""
-            raise ResourceError(f"{word} is a folder with {len(models)} descriptions; name the file{listed}")
+            if not models:
+                raise ResourceError(f"no robot description in folder {word}; pass the URDF file")
+            listed = ", ".join(each.name for each in models[:8])
+            raise ResourceError(f"{word} is a folder with {len(models)} descriptions; name the file: {listed}")
         path = models[0]
     if not path.is_file():
         siblings = [each.name for each in path.parent.iterdir()] if path.parent.is_dir() else []

@@ -4,17 +4,28 @@ from __future__ import annotations
 
 import argparse
 import os
-import re
 import sys
 from itertools import takewhile
 
 from urdfkit.cli.fast_lint_arguments import TIME_LIMIT
-from urdfkit.errors import UsageError, did_you_mean
+from urdfkit.errors import UsageError, nearest, suggestion
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     from collections.abc import Callable
     from typing import Any, NoReturn
+
+
+OTHER_OPTIONS = {
+    **dict.fromkeys(("--duration", "--time", "--seconds", "--sec", "-t"), "--for"),
+    **dict.fromkeys(("--timestep", "--time-step", "--step-size"), "--dt"),
+    **dict.fromkeys(("--headless", "--no-gui", "--no-window"), "--no-browser"),
+    **dict.fromkeys(("--velocity", "--twist"), "--cmd-vel"),
+    **dict.fromkeys(("--output-format", "--format"), "--json"),
+}
+"""Option of another tool → option of urdfkit, where the command has it."""
+
+ROBOT_OPTIONS = ("--robot", "--model", "--urdf", "--xacro", "--file")
 
 
 class HelpFormatter(argparse.RawDescriptionHelpFormatter):
@@ -45,8 +56,18 @@ class Parser(argparse.ArgumentParser):
         self.intermixed = True
         """Whether options may stand between positional arguments."""
         self._words: list[str] = []
+        self._commands: argparse.Action | None = None
+        self._must_have_subcommand = False
         self.elsewhere: Callable[[str], str] = lambda _: ""
         """Return the suggestion for an option that this command does not have, e.g. the subcommand that has it."""
+        self.default_subcommand = ""
+        """Subcommand to suggest where a word that is no subcommand is given, e.g. a robot."""
+
+    def add_subparsers(self, **options: Any) -> Any:
+        """Add subcommands; a missing required one is reported with the list of all."""
+        self._must_have_subcommand = options.pop("required", False)
+        self._commands = super().add_subparsers(**options)
+        return self._commands
 
     def parse_known_args(self, args: Any = None, namespace: Any = None) -> Any:
         """Accept options between positional arguments too: ``urdfkit tf simpleton --json base camera``.
@@ -58,10 +79,13 @@ class Parser(argparse.ArgumentParser):
         if not self.intermixed or {"-h", "--help"} & set(words):
             return super().parse_known_args(words, namespace)
         self._words = words
-        if self._subparsers is not None:
+        self._check_flags()
+        if self._commands is not None:
             parsed, unknown = super().parse_known_args(words, namespace)
             if unknown:
                 self._refuse_unknown(unknown)
+            if self._must_have_subcommand and getattr(parsed, self._commands.dest) is None:
+                self._refuse_missing_subcommand(self._commands)
             return parsed, unknown
         self.intermixed = False  # argparse's own method for it calls this method again
         usage, self.usage = self.usage, self.usage or ""  # argparse would format it for its own error messages
@@ -82,27 +106,63 @@ class Parser(argparse.ArgumentParser):
         Raises:
             UsageError: always.
         """
-        # A misspelt option often is the cause of a missing argument.
+        self._refuse_misspelt_option()
+        self._refuse(message)
+
+    def _refuse_misspelt_option(self) -> None:
+        """Refuse an unknown option, which often is the cause of a missing or wrong argument."""
         if (misspelt := self._unknown_option()) is not None:
             self._refuse_unknown([misspelt])
-        # Only reworded: argparse does not ignore the value.
-        self._refuse(re.sub(r"ignored explicit argument '(.*)'", r"accepts no value, got `\1`", message))
 
     def _refuse_unknown(self, words: list[str]) -> NoReturn:
-        hint = self.elsewhere(words[0]) or did_you_mean(words[0], self._option_string_actions)
+        options, word = self._option_string_actions, words[0]
+        subcommands = self._commands.choices or () if self._commands is not None else ()
+        if (meant := OTHER_OPTIONS.get(word)) in options or (meant := word.lstrip("-")) in subcommands:
+            hint = suggestion(meant)
+        elif word in ROBOT_OPTIONS and any(action.dest == "model" for action in self._actions):
+            hint = f"; it is a positional argument: {self.prog} ROBOT"
+        else:
+            names = {option.lstrip("-"): option for option in options if option.startswith("--")}
+            hint = self.elsewhere(word) or suggestion(names.get(nearest(word.lstrip("-"), names) or ""))
         self._refuse(f"unrecognized arguments: {' '.join(words)}{hint}")
 
     def _refuse(self, message: str) -> NoReturn:
         raise UsageError(f"{self.prog.removeprefix('urdfkit').strip()}: {message}".removeprefix(": "))
 
+    def _refuse_missing_subcommand(self, commands: argparse.Action) -> NoReturn:
+        if self.prog == "urdfkit":
+            raise UsageError("pass a command: `urdfkit --help` lists all; try `urdfkit view simpleton`")
+        self._refuse(f"pass a {str(commands.metavar).lower()}: {', '.join(commands.choices or ())}")
+
+    def _check_flags(self) -> None:
+        """Refuse a value of an option that accepts none; argparse reports it as "ignored"."""
+        for word in self._own_words():
+            name, separator, value = word.partition("=")
+            action = self._option_string_actions.get(name if name.startswith("--") else word[:2])
+            if action is None or action.nargs != 0:
+                continue
+            if not name.startswith("--"):  # `-qv` stands for `-q -v`
+                value = word[2:]
+                separator = "" if f"-{value[:1]}" in self._option_string_actions else value
+            if separator:
+                self._refuse(f"argument {'/'.join(action.option_strings)}: accepts no value, got `{value}`")
+
     def _check_value(self, action: argparse.Action, value: Any) -> None:
-        try:
-            super()._check_value(action, value)
-        except argparse.ArgumentError as error:
-            option = f"--{value}"
-            as_option = f"; did you mean `{option}`?" if option in self._option_string_actions else ""
-            error.message += as_option or did_you_mean(str(value), [str(choice) for choice in action.choices or ()])
-            raise
+        choices = [str(choice) for choice in action.choices or ()]
+        if not choices or str(value) in choices:
+            return
+        listed = f"{', '.join(choices[:-1])} or {choices[-1]}"
+        if action is not self._commands:
+            raise argparse.ArgumentError(action, f"`{value}` is not available; use {listed}")
+        self._refuse_misspelt_option()
+        if (option := f"--{value}") in self._option_string_actions:
+            self._refuse(f"no {str(action.metavar).lower()} `{value}`; did you mean `{option}`?")
+        near = nearest(str(value), choices)
+        if near is None and self.default_subcommand:
+            hint = f"; did you mean `{self.prog} {self.default_subcommand} {value}`?"
+        else:
+            hint = suggestion(near) or f"; use {listed}"
+        self._refuse(f"no {str(action.metavar).lower()} `{value}`{hint}")
 
     def _match_argument(self, action: argparse.Action, arg_strings_pattern: str) -> int:
         try:
@@ -114,11 +174,21 @@ class Parser(argparse.ArgumentParser):
 
     def _unknown_option(self) -> str | None:
         """Return the first long option that this command does not have."""
-        words = self._words[: self._words.index("--")] if "--" in self._words else self._words
-        if self._subparsers is not None:  # words after a subcommand belong to the subcommand
-            words = list(takewhile(lambda word: word.startswith("-"), words))
-        named = (word.partition("=")[0] for word in words if word.startswith("--"))
+        named = (word.partition("=")[0] for word in self._own_words() if word.startswith("--"))
         return next((name for name in named if name not in self._option_string_actions), None)
+
+    def _own_words(self) -> list[str]:
+        """Return the words before `--`; of a command with subcommands, those before the subcommand."""
+        words = self._words[: self._words.index("--")] if "--" in self._words else self._words
+        return words if self._commands is None else list(takewhile(lambda word: word.startswith("-"), words))
+
+    def _get_value(self, action: argparse.Action, arg_string: str) -> Any:
+        try:
+            return super()._get_value(action, arg_string)
+        except argparse.ArgumentError as error:
+            if (expected := {int: "an integer", float: "a number"}.get(action.type)) is not None:  # type: ignore[call-overload]
+                error.message = f"`{arg_string}` is not {expected}"
+            raise
 
 
 def add_model(parser: argparse.ArgumentParser, *, optional: bool = True) -> None:

@@ -2,41 +2,54 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Sequence
 
-from urdfkit.errors import UsageError, nearest
+from urdfkit.errors import UsageError, nearest, suggestion
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     from typing import NoReturn
 
 OTHER_NAMES = {
-    **dict.fromkeys(("teleop", "drive"), "sim teleop"),
+    **dict.fromkeys(("help", "commands", "list", "usage"), "--help"),
+    "version": "--version",
+    **dict.fromkeys(("teleop", "drive", "start"), "sim teleop"),
     **dict.fromkeys(("run", "play"), "sim run"),
     **dict.fromkeys(("simulate", "simulation", "simulator", "gazebo"), "sim"),
     "warmup": "sim warmup",
     **dict.fromkeys(("echo", "pub", "hz", "bw"), "topic"),
-    **dict.fromkeys(("create", "init", "scaffold", "generate"), "new"),
-    **dict.fromkeys(("check", "fix", "validate", "check_urdf"), "lint"),
-    **dict.fromkeys(("show", "display", "visualize", "visualise", "rviz"), "view"),
+    **dict.fromkeys(("create", "add", "init", "scaffold", "generate", "update"), "new"),
+    **dict.fromkeys(("check", "fix", "format", "validate", "check_urdf"), "lint"),
+    **dict.fromkeys(("show", "display", "visualize", "visualise", "rviz", "open"), "view"),
     **dict.fromkeys(("xacro", "convert"), "expand"),
-    **dict.fromkeys(("transform", "frames", "tf_echo", "view_frames"), "tf"),
+    **dict.fromkeys(("transform", "frames", "tree", "tf_echo", "view_frames"), "tf"),
     **dict.fromkeys(("rules", "explain"), "rule"),
 }
 """Subcommand or command of another tool → command of urdfkit."""
 
 
-def refuse(word: str, commands: Iterable[str]) -> NoReturn:
+def refuse(word: str, commands: Sequence[str], following: Sequence[str] = ()) -> NoReturn:
     """Raise for an unknown command.
 
     Args:
         word: the word typed.
         commands: names of all commands.
+        following: the words after it.
 
     Raises:
         UsageError: always.
     """
-    near = nearest(word, [*commands, *OTHER_NAMES])
-    if near is None:
-        raise UsageError(f"unknown command `{word}`; `urdfkit --help` lists the commands")
-    raise UsageError(f"unknown command `{word}`; did you mean `urdfkit {OTHER_NAMES.get(near, near)}`?")
+    near = word if word in OTHER_NAMES else nearest(word, [*commands, *OTHER_NAMES.keys() - {"list", "help"}])
+    meant = OTHER_NAMES.get(near or "", near)
+    if word == "help" and following and following[0] in commands:
+        meant = f"{following[0]} --help"
+    elif word not in OTHER_NAMES and _is_robot(word):
+        meant = f"view {word}"
+    hint = suggestion(f"urdfkit {meant}") if meant else "; `urdfkit --help` lists the commands"
+    raise UsageError(f"unknown command `{word}`{hint}")
+
+
+def _is_robot(word: str) -> bool:
+    from urdfkit.resources import MODEL_SUFFIXES, robot_names
+
+    return word.endswith(MODEL_SUFFIXES) or word in robot_names()

@@ -126,7 +126,7 @@ def test_a_urdf_without_xacro_gets_plain_elements(place):
 @pytest.mark.parametrize(
     ("options", "says"),
     [
-        (["--dof", "8"], "invalid choice: '8'"),
+        (["--dof", "8"], "`8` is not available; use 3, 4, 5, 6 or 7"),
         (["--parent", "chasis"], "did you mean `chassis`?"),
         (["--reach", "50"], "urdfkit: --reach 50 m is out of range"),
         (["--griper"], "did you mean `--gripper`?"),

@@ -45,9 +45,12 @@ def test_no_such_port(port: int) -> None:
         bind("127.0.0.1", port)
 
 
-@pytest.mark.parametrize("host", ["192.0.2.7", "no-such-host.invalid"])
-def test_an_address_that_is_not_ours(host: str) -> None:
-    with pytest.raises(UsageError, match=f"cannot listen on `{host}`"):
+@pytest.mark.parametrize(
+    ("host", "reason"),
+    [("192.0.2.7", "not an address of this machine"), ("no-such-host.invalid", "unknown host name")],
+)
+def test_an_address_that_is_not_ours_is_reported_with_a_usable_one(host: str, reason: str) -> None:
+    with pytest.raises(UsageError, match=f"cannot listen on `{host}`: {reason}; use 127.0.0.1 for this machine alone"):
         bind(host, 0)
 
 

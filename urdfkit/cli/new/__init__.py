@@ -96,9 +96,7 @@ def _written(arguments: argparse.Namespace) -> tuple[int, Path | None]:
         return int(import_module(f"urdfkit.cli.new.{arguments.new_kind}").run(arguments)), None
     if arguments.new_kind is None:
         if not arguments.update:
-            raise UsageError(
-                f"new: the following arguments are required: KIND ({', '.join([*template_names(), *ADDITIONS])})"
-            )
+            raise UsageError(f"new: pass a kind: {', '.join([*template_names(), *ADDITIONS])}")
         return update.run(None, {}, Path(arguments.above_into), arguments, own_template=arguments.above_template), None
     template = chosen(arguments.new_kind, arguments.template)
     preset = {

@@ -4,7 +4,7 @@ import argparse
 import sys
 
 from urdfkit.cli.new.change_workflow import add_description, apply, description, number, vector
-from urdfkit.errors import UsageError, did_you_mean
+from urdfkit.errors import UsageError, did_you_mean, suggestion
 
 SUMMARY = "a sensor, added to an existing description"
 _KINDS = ("lidar", "lidar3d", "camera", "depth", "imu", "gps")
@@ -56,11 +56,11 @@ def run(arguments: argparse.Namespace) -> int:
     from urdfkit.scaffold.additions.sensor import SensorRequest, add_sensor
 
     if arguments.sensor is None:
-        raise UsageError(f"new sensor: the following arguments are required: SENSOR ({', '.join(_KINDS)})")
+        raise UsageError(f"new sensor: pass a sensor: {', '.join(_KINDS)}")
     if arguments.sensor not in _KINDS:
         called = _ALIASES.get(arguments.sensor.lower())
-        near = f"; the nearest is `{called}`" if called else did_you_mean(arguments.sensor, _KINDS)
-        raise UsageError(f"new sensor: unknown sensor `{arguments.sensor}`{near}; available: {', '.join(_KINDS)}")
+        near = suggestion(called) or did_you_mean(arguments.sensor, _KINDS)
+        raise UsageError(f"new sensor: unknown sensor `{arguments.sensor}`{near or '; use ' + ', '.join(_KINDS)}")
     model, robot, generation = description(arguments)
     rate = None
     if arguments.update_rate is not None:

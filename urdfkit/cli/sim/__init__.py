@@ -6,7 +6,7 @@ One module per subcommand reads its options and prints its result; `urdfkit.app.
 import argparse
 from importlib import import_module
 
-from urdfkit.cli.parser import add_common
+from urdfkit.cli.parser import Parser, add_common
 
 SUBCOMMANDS = {
     "teleop": ("teleop", "drive a robot in real time, in the browser or the terminal"),
@@ -22,6 +22,8 @@ def configure(parser: argparse.ArgumentParser) -> None:
         "examples:\n  urdfkit sim teleop simpleton\n  urdfkit sim run simpleton --for 10 --cmd-vel 0.5,0,0.5"
     )
     subcommands = parser.add_subparsers(dest="subcommand", metavar="SUBCOMMAND", required=True)
+    if isinstance(parser, Parser):
+        parser.default_subcommand = "teleop"
     for name, (module, summary) in SUBCOMMANDS.items():
         sub = subcommands.add_parser(
             name, help=summary, description=summary, formatter_class=argparse.RawDescriptionHelpFormatter

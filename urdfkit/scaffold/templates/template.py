@@ -134,7 +134,7 @@ class Template:
                 raise UsageError(f"{question.option} requires {required_options(question.when)}")
             answer = user_answers.get(question.name, question.default_after(answers | {FRESH: "yes" if fresh else "no"}))
             if answer is None:
-                raise UsageError(f"{question.prompt[0].lower()}{question.prompt[1:]} is missing")
+                raise UsageError(f"{question.prompt[0].lower()}{question.prompt[1:]} is missing; pass {question.name.upper()}")
             try:
                 answers[question.name] = question.accept(answer)
             except UsageError:

@@ -9,6 +9,7 @@ from urdfkit.view.server.access_control import is_loopback
 
 DEFAULT_PORT = 7007
 TRIES = 50
+_ADVICE = "use 127.0.0.1 for this machine alone, or 0.0.0.0 to accept others"
 WILDCARDS = ("0.0.0.0", "::", "")
 
 
@@ -37,7 +38,7 @@ def bind(host: str, port: int | None) -> tuple[socket.socket, int]:
             if error.errno == errno.EACCES:
                 free = _free_port(host, DEFAULT_PORT)
                 raise UsageError(f"port {candidate} requires privileges; use {free}") from error
-            raise UsageError(f"cannot listen on `{host}`: {_reason(error)}") from error
+            raise UsageError(f"cannot listen on `{host}`: {_reason(host, error)}; {_ADVICE}") from error
         return listening, int(listening.getsockname()[1])
     raise UsageError(f"port {port} is in use; {_free_port(host, (port or 0) + 1)} is free")
 
@@ -61,10 +62,14 @@ def _free_port(host: str, start: int) -> int:
     return DEFAULT_PORT
 
 
-def _reason(error: OSError) -> str:
-    if isinstance(error, socket.gaierror) or error.errno is None:
-        return str(error.strerror or error)
-    return os.strerror(error.errno)
+def _reason(host: str, error: OSError) -> str:
+    try:
+        socket.getaddrinfo(host, None)
+    except OSError:
+        return "unknown host name"
+    if error.errno == errno.EADDRNOTAVAIL:
+        return "not an address of this machine"
+    return os.strerror(error.errno) if error.errno is not None else str(error)
 
 
 def urls(host: str, port: int, token: str) -> list[str]:
