@@ -59,51 +59,34 @@ __all__ = [
 ]
 
 
-_CALLABLE = ("lint", "teleop", "view")
-"""Public functions that have the name of a module: importing the module must not hide the function."""
+_FUNCTIONS = ("lint", "teleop", "view")
+"""Public functions that have the name of a module, which importing that module must not hide."""
 
 
 def __getattr__(name: str) -> Any:
-    if name in _CALLABLE:
-        return _import_module(f"urdfkit.{name}")
     if name not in _MODULES:
         from urdfkit.errors import did_you_mean
 
         raise AttributeError(f"module 'urdfkit' has no attribute {name!r}{did_you_mean(name, __all__)}")
-    return getattr(_import_module(_MODULES[name]), name)
+    from importlib import import_module
+
+    value = getattr(import_module(_MODULES[name]), name)
+    if name in _FUNCTIONS:  # `urdfkit.lint.rule` is the module after `import urdfkit.lint.rule`
+        value.__dict__ = import_module(f"urdfkit.{name}").__dict__
+        globals()[name] = value
+    return value
 
 
 def __dir__() -> list[str]:
     return sorted(__all__)
 
 
-def _import_module(name: str) -> ModuleType:
-    from importlib import import_module
-
-    return import_module(name)
-
-
-class _Root(ModuleType):
-    """Type of this package: makes the modules of `_CALLABLE` callable when they are imported."""
+class _Package(ModuleType):
+    """Type of this package: the import system does not replace the functions of `_FUNCTIONS` by modules."""
 
     def __setattr__(self, name: str, value: Any) -> None:
-        if name in _CALLABLE and type(value) is ModuleType:
-            value.__class__ = _CallableModule
-        super().__setattr__(name, value)
+        if name not in _FUNCTIONS or type(value) is not ModuleType:
+            super().__setattr__(name, value)
 
 
-class _CallableModule(ModuleType):
-    """Module that calls the public function of the same name: `urdfkit.lint` and `urdfkit.lint.engine` both work."""
-
-    @property
-    def __wrapped__(self) -> Any:
-        """The function; `inspect.signature` and editors show its parameters."""
-        name = self.__name__.rpartition(".")[2]
-        return getattr(_import_module(_MODULES[name]), name)
-
-    def __call__(self, *args: Any, **kwargs: Any) -> Any:
-        """Call the function."""
-        return self.__wrapped__(*args, **kwargs)
-
-
-sys.modules[__name__].__class__ = _Root
+sys.modules[__name__].__class__ = _Package
