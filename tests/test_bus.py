@@ -21,6 +21,13 @@ def test_subscribers_hear_in_order_until_they_close() -> None:
     assert (bus.topics[0].count, bus.latest("a")) == (2, 2)
 
 
+def test_the_repr_of_a_subscription_names_its_topic_and_state() -> None:
+    subscription = Bus().subscribe("odom", "nav_msgs/Odometry", print)
+    assert repr(subscription) == "<Subscription to /odom [nav_msgs/msg/Odometry]>"
+    subscription.close()
+    assert repr(subscription) == "<Subscription to /odom [nav_msgs/msg/Odometry], closed>"
+
+
 def test_a_topic_has_one_type() -> None:
     bus = Bus()
     bus.advertise("a", "T")

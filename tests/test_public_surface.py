@@ -99,6 +99,10 @@ def test_what_is_no_robot_is_an_error(function: str, wrong: Any) -> None:
         getattr(urdfkit, function)(wrong)
 
 
+def test_the_repr_of_kinematics_names_the_robot_and_its_size() -> None:
+    assert repr(urdfkit.Kinematics("simpleton")) == "<Kinematics of simpleton: 7 links, nq = 4, nv = 2>"
+
+
 ARM = """<robot name="arm" xmlns:xacro="http://www.ros.org/wiki/xacro">
   <xacro:arg name="mass" default="1"/>
   <link name="base"><inertial><mass value="$(arg mass)"/>
@@ -119,6 +123,28 @@ def test_a_loaded_robot_keeps_its_xacro_arguments(tmp_path: Path) -> None:
     both = urdfkit.lint([robot, file])
     assert {finding.code for finding in both} == {finding.code for finding in wrong + right}
     assert urdfkit.load(robot) is robot
+
+
+@pytest.mark.parametrize("function", ["load", "expand", "view", "teleop"])
+def test_an_argument_that_no_file_uses_is_an_error_with_the_nearest_name(function: str, tmp_path: Path) -> None:
+    pytest.importorskip("tornado")
+    file = tmp_path / "arm.urdf.xacro"
+    file.write_text(ARM)
+    with pytest.raises(urdfkit.UrdfkitError, match="no file uses the argument `mas`; did you mean `mass`"):
+        getattr(urdfkit, function)(file, arguments={"mas": "2"})
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        ({"select": ["ZZ9"]}, "^select ZZ9: unknown rule; `urdfkit rule` lists the rules"),
+        ({"ignore": "I5O3"}, "^ignore I5O3: unknown rule; did you mean `I5"),
+        ({"target": "ros2-jazy"}, "^target ros2-jazy: unknown target; did you mean `ros2-jazzy`"),
+    ],
+)
+def test_errors_of_lint_name_its_parameters(options: dict[str, Any], message: str) -> None:
+    with pytest.raises(urdfkit.UrdfkitError, match=message):
+        urdfkit.lint("simpleton", **options)
 
 
 def test_a_robot_without_a_file_cannot_be_linted() -> None:

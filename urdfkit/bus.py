@@ -62,6 +62,11 @@ class Subscription:
         self._topic = topic
         self._callback = callback
 
+    def __repr__(self) -> str:
+        """Return topic and type, and whether the subscription is closed."""
+        state = "" if self._callback in self._topic.subscribers else ", closed"
+        return f"<Subscription to {self._topic.name} [{self._topic.type}]{state}>"
+
     def close(self) -> None:
         """Stop receiving; closing twice is harmless."""
         if self._callback in self._topic.subscribers:

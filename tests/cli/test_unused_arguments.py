@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from urdfkit.cli import main
-from urdfkit.cli.unused_arguments import unused
+from urdfkit.description.xacro.declared_arguments import unused_arguments
 from urdfkit.description.xml.source import Source
 
 TEXT = """<robot xmlns:xacro="http://www.ros.org/wiki/xacro"><xacro:arg default=""
@@ -24,11 +24,11 @@ TEXT = """<robot xmlns:xacro="http://www.ros.org/wiki/xacro"><xacro:arg default=
     ],
 )
 def test_what_is_used(name: str, said: list[str]) -> None:
-    assert unused({name: "1"}, [Source("robot.xacro", TEXT)]) == said
+    assert unused_arguments({name: "1"}, [Source("robot.xacro", TEXT)]) == said
 
 
 def test_a_file_without_arguments() -> None:
-    assert unused({"a": "1"}, [Source("robot.urdf", "<robot/>")]) == [
+    assert unused_arguments({"a": "1"}, [Source("robot.urdf", "<robot/>")]) == [
         "no file uses the argument `a`; the robot declares none"
     ]
 

@@ -18,6 +18,10 @@ def tree(arm: Robot) -> TransformTree:
     return TransformTree(arm)
 
 
+def test_the_repr_names_the_robot_and_the_root(tree: TransformTree) -> None:
+    assert repr(tree) == f"<TransformTree of {tree.kinematics.robot.name}: {len(tree.frames)} frames, root {tree.root}>"
+
+
 def test_placements_are_those_of_pinocchio(tree: TransformTree, arm_xml: str) -> None:
     reference = pin.buildModelFromXML(arm_xml, mimic=True)
     data = reference.createData()

@@ -7,7 +7,7 @@ import sys
 from pathlib import Path
 
 from urdfkit.cli.parser import add_model, add_time_limit
-from urdfkit.cli.unused_arguments import unused
+from urdfkit.description.xacro.declared_arguments import unused_arguments
 from urdfkit.errors import ModelError, ResourceError, UrdfkitError, UsageError, XacroError
 
 TYPE_CHECKING = False
@@ -116,7 +116,7 @@ def _compare(path: str, arguments: dict[str, str], packages: Packages) -> int:
 def _show_notes(expanded: Expanded, arguments: dict[str, str]) -> None:
     for note in expanded.warnings:
         print(f"{note.position}: {note.level}: {note.message}", file=sys.stderr)
-    for line in unused(arguments, expanded.sources.values()):
+    for line in unused_arguments(arguments, expanded.sources.values()):
         print(f"urdfkit: warning: {line}", file=sys.stderr)
 
 

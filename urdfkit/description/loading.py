@@ -11,11 +11,13 @@ from urdfkit.description.packages.resolver import Packages
 from urdfkit.description.structure_defects import repaired_structure
 from urdfkit.description.urdf.parser import parse
 from urdfkit.description.urdf.robot import Robot
+from urdfkit.description.xacro.declared_arguments import unused_arguments
 from urdfkit.description.xacro.evaluation.failures import chain_words
 from urdfkit.description.xacro.expand import expand as expand_file
 from urdfkit.description.xacro.expand import is_xacro
 from urdfkit.description.xacro.expanded import Expanded
 from urdfkit.description.xml.element import Element
+from urdfkit.description.xml.reader import read_source
 from urdfkit.errors import ModelError, UsageError, did_you_mean
 from urdfkit.resources import ModelArgument, find_model
 
@@ -47,7 +49,7 @@ def load(
         macro: macro of the file to instantiate; `arguments` are its parameters, too.
 
     Raises:
-        UsageError: `robot` is something else, or the file has no such macro.
+        UsageError: `robot` is something else, or the file has no such macro or argument.
         ResourceError: no such file, folder or bundled robot.
         XmlError: a file is not well-formed, declares entities, or exceeds a limit.
         XacroError: xacro could not expand it.
@@ -56,23 +58,47 @@ def load(
     package_path = tuple(package_path)
     if isinstance(robot, Robot) and not arguments and not package_path and macro is None:
         return robot
-    return _load(model_argument(robot, arguments=arguments, package_path=package_path, macro=macro), check)
+    loaded = load_valid(model_argument(robot, arguments=arguments, package_path=package_path, macro=macro))
+    if macro is None:
+        refuse_unused(arguments, loaded.files)
+    return loaded
+
+
+def load_valid(model: ModelArgument) -> Robot:
+    """Load a robot that is one tree of links and joints, and accept xacro arguments that no file uses.
+
+    Raises:
+        UrdfkitError: see `load`.
+    """
+    return _load(model, check)
+
+
+def refuse_unused(arguments: Mapping[str, str] | None, files: Iterable[Path]) -> None:
+    """Raise for xacro arguments that no file declares or uses.
+
+    Args:
+        arguments: the xacro arguments.
+        files: the files of the robot.
+
+    Raises:
+        UsageError: a file uses no such argument; the message names the nearest one.
+    """
+    if arguments and (lines := unused_arguments(arguments, [read_source(file) for file in files])):
+        raise UsageError(lines[0])
 
 
 def load_repaired(
-    robot: Robot | str | Path,
+    robot: Robot | ModelArgument | str | Path,
     *,
     arguments: Mapping[str, str] | None = None,
     package_path: Iterable[str | Path] = (),
-    macro: str | None = None,
 ) -> Robot:
     """Load a robot whose links need not be one valid tree.
 
     Args:
-        robot: see `load`.
+        robot: see `load`, or the robot argument of a command, which may have xacro arguments that no file uses.
         arguments: xacro arguments.
         package_path: folders to search for packages first.
-        macro: see `load`.
 
     Returns:
         A robot that is one valid tree, with the `repairs` that it needed; see `repaired_structure`.
@@ -85,10 +111,12 @@ def load_repaired(
         ModelError: the file is not a robot, or has no link.
     """
     package_path = tuple(package_path)
-    if isinstance(robot, Robot) and not arguments and not package_path and macro is None:
+    if isinstance(robot, Robot) and not arguments and not package_path:
         return robot
-    model = model_argument(robot, arguments=arguments, package_path=package_path, macro=macro)
-    repaired, defects = repaired_structure(_load(model, require_links))
+    if not isinstance(robot, ModelArgument):
+        robot = model_argument(robot, arguments=arguments, package_path=package_path)
+    repaired, defects = repaired_structure(_load(robot, require_links))
+    refuse_unused(arguments, repaired.files)
     return replace(repaired, repairs=tuple([defect.repair for defect in defects])) if defects else repaired
 
 
@@ -131,14 +159,17 @@ def expand(
         The URDF, byte for byte what stock xacro prints.
 
     Raises:
-        UsageError: `robot` is neither a path, a name nor a robot that was loaded from a file.
+        UsageError: `robot` is neither a path, a name nor a robot that was loaded from a file, or no file uses one of
+            `arguments`.
         ResourceError: no such file, folder or bundled robot.
         XmlError: a file is not well-formed, declares entities, or exceeds a limit.
         XacroError: xacro could not expand it.
     """
     model = model_argument(robot, arguments=arguments, package_path=package_path)
     packages = Packages(model.package_path, model.path)
-    return expand_file(model.path, arguments=model.arguments, packages=packages, run_xacro=True).xml
+    expanded = expand_file(model.path, arguments=model.arguments, packages=packages, run_xacro=True)
+    refuse_unused(arguments, expanded.files)
+    return expanded.xml
 
 
 def model_argument(

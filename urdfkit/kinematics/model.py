@@ -67,6 +67,11 @@ class Kinematics:
         self.variable_names: tuple[str, ...] = tuple(name for name in self._variables if name not in self.couplings)
         self._frames = {name: int(self.model.getFrameId(name, pin.BODY)) for name in self.link_names}
 
+    def __repr__(self) -> str:
+        """Return the name of the robot and the sizes of the model."""
+        nq, nv = self.model.nq, self.model.nv
+        return f"<Kinematics of {self.robot.name}: {len(self.link_names)} links, nq = {nq}, nv = {nv}>"
+
     # Configurations and velocities by name
 
     def neutral(self) -> Array:

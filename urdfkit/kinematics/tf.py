@@ -75,6 +75,10 @@ class TransformTree:
         self.parents: dict[str, str | None] = {self.root: None}
         self.parents.update((edge.child, edge.parent) for edge in self.edges)
 
+    def __repr__(self) -> str:
+        """Return the name of the robot, the root and the number of frames."""
+        return f"<TransformTree of {self.kinematics.robot.name}: {len(self.frames)} frames, root {self.root}>"
+
     def placement(
         self, frame: str, relative_to: str | None = None, q: Array | Mapping[str, float] | None = None
     ) -> Any:

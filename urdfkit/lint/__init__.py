@@ -54,15 +54,20 @@ def lint(
     from collections.abc import Iterable
     from pathlib import Path
 
+    from urdfkit.lint.engine.checker import every_code
     from urdfkit.lint.engine.run import merged, run
     from urdfkit.lint.finding import Findings
     from urdfkit.lint.project.entry_files import find_entries
     from urdfkit.lint.project.options import Options
+    from urdfkit.lint.project.rule_selection import checked
+    from urdfkit.lint.project.target_platform import parse_target
 
+    selected = checked("select", [select] if isinstance(select, str) else select, every_code)
+    ignored = checked("ignore", [ignore] if isinstance(ignore, str) else ignore, every_code)
     every = list(robots) if isinstance(robots, Iterable) and not isinstance(robots, str) else [robots]
     paths = [one for one in every if isinstance(one, (str, Path))]
     folders = tuple(Path(folder) for folder in package_path)
-    options = Options(tuple(select), tuple(ignore), target, dict(arguments or {}), folders)
+    options = Options(selected, ignored, parse_target(target, "target"), dict(arguments or {}), folders)
     outcomes = [run(find_entries(paths), options)]
     for robot in every:
         if not isinstance(robot, (str, Path)):

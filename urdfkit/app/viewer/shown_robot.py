@@ -59,8 +59,7 @@ class ShownRobot:
         Raises:
             UrdfkitError: there is no robot in the file, or it needs a repair (`strict`).
         """
-        from urdfkit.description import load
-        from urdfkit.description.loading import load_repaired
+        from urdfkit.description.loading import load_repaired, load_valid
         from urdfkit.kinematics import Kinematics
         from urdfkit.kinematics.mimic import without_impossible_mimics
         from urdfkit.scene import MeshLoader, scene_of
@@ -68,12 +67,7 @@ class ShownRobot:
 
         loader = loader or MeshLoader()
         replaced: list[Repair] = []
-        if strict:
-            robot = load(model.path, arguments=model.arguments, package_path=model.package_path, macro=model.macro)
-        else:
-            robot = without_impossible_mimics(
-                load_repaired(model.path, arguments=model.arguments, package_path=model.package_path, macro=model.macro)
-            )
+        robot = load_valid(model) if strict else without_impossible_mimics(load_repaired(model))
         scene = scene_of(robot, strict=strict, meshes=loader)
         if not strict:
             scene, replaced = with_placeholders(robot, scene)

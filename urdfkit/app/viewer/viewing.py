@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 from urdfkit.app.page import Page, require_page
 from urdfkit.app.page_handle import PageHandle
 from urdfkit.description import Robot
-from urdfkit.description.loading import model_argument
+from urdfkit.description.loading import model_argument, refuse_unused
 
 if TYPE_CHECKING:
     from urdfkit.app.viewer.session import Session
@@ -53,10 +53,11 @@ def view(
     from urdfkit.app.viewer.shown_robot import ShownRobot
 
     model = model_argument(robot, arguments=arguments, package_path=package_path)
+    shown = ShownRobot.read(model, strict=strict)
+    refuse_unused(arguments, shown.files)
+    note_repairs(shown.repairs)
     with ExitStack() as stack:
         page = Page("view", host=host, port=port)
-        shown = ShownRobot.read(model, strict=strict)
-        note_repairs(shown.repairs)
         session = stack.enter_context(viewing(page, model, shown, strict=strict))
         return PageHandle(page.server, session.run, stack.pop_all())
 

@@ -37,12 +37,11 @@ def load_robot(model: ModelArgument, arguments: argparse.Namespace) -> Robot:
     Raises:
         UrdfkitError: the file has no robot, or the robot needs a repair and ``--strict`` is set.
     """
-    from urdfkit.description.loading import load, load_repaired
+    from urdfkit.description.loading import load_repaired, load_valid
     from urdfkit.kinematics.mimic import without_impossible_mimics
 
-    read = load if arguments.strict else load_repaired
     with listing_required_arguments(model, quiet=arguments.quiet):
-        robot = read(model.path, arguments=model.arguments, package_path=model.package_path, macro=model.macro)
+        robot = (load_valid if arguments.strict else load_repaired)(model)
     return robot if arguments.strict else without_impossible_mimics(robot)
 
 

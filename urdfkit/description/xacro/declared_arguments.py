@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 
 from urdfkit.description.xml.reader import document_of
 from urdfkit.description.xml.source import Source
-from urdfkit.errors import XmlError
+from urdfkit.errors import XmlError, did_you_mean
 
 
 def declared_arguments(sources: Iterable[Source]) -> dict[str, str | None]:
@@ -25,3 +25,26 @@ def declared_arguments(sources: Iterable[Source]) -> dict[str, str | None]:
             if element.tag.rpartition(":")[2] == "arg" and (name := element.get("name")):
                 declared.setdefault(name, element.get("default"))
     return declared
+
+
+def unused_arguments(arguments: Mapping[str, str], sources: Iterable[Source]) -> list[str]:
+    """Return one line per argument that is neither declared nor used, with the nearest declared name.
+
+    xacro ignores such arguments, and with them misspelt names.
+
+    Args:
+        arguments: the arguments passed to xacro.
+        sources: all files of the robot.
+    """
+    import re
+
+    sources = list(sources)
+    declared = declared_arguments(sources)
+    lines = []
+    for name in arguments:
+        own = re.escape(name)
+        use = re.compile(rf"\$\(arg\s+{own}\s*\)|\$\(eval\b[^<\"]*?\b{own}\b|\bxacro\.arg\(.{own}.\)")
+        if name not in declared and not any(use.search(source.text) for source in sources):
+            available = f" (declared: {', '.join(declared)})" if declared else "; the robot declares none"
+            lines.append(f"no file uses the argument `{name}`{did_you_mean(name, declared) or available}")
+    return lines

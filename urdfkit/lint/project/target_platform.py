@@ -112,15 +112,14 @@ def parse_target(name: str | None, option: str = "--target") -> str | None:
     found = f"{family}-{distro}" if distro else family
     if found in TARGETS or distro in DISTROS.get(family, ()):
         return found
-    from urdfkit.errors import UsageError, did_you_mean
+    from urdfkit.errors import UsageError, did_you_mean, nearest
 
     if written in _SEVERAL:
         raise UsageError(f"{option} {name} is ambiguous: use {_SEVERAL[written]}")
     releases = {release: target for target, distros in DISTROS.items() for release in distros}
     if distro and family in DISTROS and ("-" in written or distro.isdecimal()):
         others = {} if distro.isdecimal() else releases
-        hint = did_you_mean(distro, DISTROS[family]) or did_you_mean(distro, others)
-        near = hint.partition("`")[2].partition("`")[0]
+        near = nearest(distro, DISTROS[family]) or nearest(distro, others)
         hint = f"; did you mean `{releases[near]}-{near}`?" if near else f"; {family} has {', '.join(DISTROS[family])}"
         raise UsageError(f"{option} {name}: unknown target{hint}")
     names = (one for one in releases if not one.isdecimal())
