@@ -50,7 +50,7 @@ def small_template(tmp_path):
         default = "red"
         [[check]]
         holds = "twice >= size"
-        otherwise = "--twice must be at least --size"
+        otherwise = "{twice} must be at least {size}"
         [[layer]]
         folder = "all"
         [[layer]]

@@ -4,7 +4,6 @@ import argparse
 import sys
 
 from urdfkit.cli.new.change_workflow import add_description, apply, description, vector
-from urdfkit.errors import UsageError
 
 SUMMARY = "an arm, added to an existing description"
 _SIZES = {"reach": "arm_reach", "mass": "arm_mass", "payload": "payload", "finger_travel": "finger_travel"}
@@ -44,18 +43,11 @@ def run(arguments: argparse.Namespace) -> int:
     Raises:
         UrdfkitError: the arm could not be added; nothing was written.
     """
-    try:
-        return _add_arm(arguments)
-    except UsageError as error:  # the template's options have longer names
-        raise UsageError(str(error).replace("--arm-", "--")) from error
-
-
-def _add_arm(arguments: argparse.Namespace) -> int:
     from urdfkit.resources import templates_dir
     from urdfkit.scaffold import load_template
-    from urdfkit.scaffold.additions.arm import ArmRequest, add_arm
+    from urdfkit.scaffold.additions.arm import OPTIONS, ArmRequest, add_arm
 
-    template = load_template(templates_dir() / "robot")
+    template = load_template(templates_dir() / "robot", options=OPTIONS)
     answers = {"arm": arguments.dof, "gripper": "yes" if arguments.gripper else "no"}
     for option, question in _SIZES.items():
         if (value := getattr(arguments, option)) is not None:

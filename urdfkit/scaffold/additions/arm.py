@@ -31,6 +31,10 @@ _ROOMY = 20.0
 """Length of the base in multiples of the arm's reach, so that all checks of the template on the base hold."""
 
 
+OPTIONS = {"arm_reach": "--reach", "arm_mass": "--mass"}
+"""Question of the robot template → option of `urdfkit new arm`, where it is not the name of the question."""
+
+
 @dataclass(frozen=True, slots=True)
 class ArmRequest:
     """A request for an arm.
@@ -147,7 +151,7 @@ def _reach(size: Vector | None) -> float:
 
 def _alone(answers: Mapping[str, str]) -> tuple[Robot, str]:
     """Return a robot that consists of the arm on a base large enough for any arm, and its URDF."""
-    template = load_template(templates_dir() / "robot")
+    template = load_template(templates_dir() / "robot", options=OPTIONS)
     side = f"{_ROOMY * float(answers['arm_reach']):.6g}"
     weight = f"{5000 * float(side) ** 2 * 0.1 * 0.1:.6g}"
     base = {"base_length": side, "base_width": side, "base_height": "0.1", "mass": min(weight, "50000", key=float)}

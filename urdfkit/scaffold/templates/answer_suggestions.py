@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-import re
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Collection, Iterable, Mapping
 from math import ceil, floor, isfinite, log10
 
 from urdfkit.scaffold.templates.questions import Question
@@ -18,7 +17,7 @@ def suggest_change(
     questions: Iterable[Question],
     user_answers: Mapping[str, str],
     answers: Mapping[str, str],
-    message: str,
+    named: Collection[str],
     accepts: Accepts,
 ) -> str:
     """Return a suggestion such as ``--payload 5 kg, at most 0.42 kg``; empty if changing one number is not enough.
@@ -29,15 +28,14 @@ def suggest_change(
         questions: the questions of the template.
         user_answers: the answers of the user.
         answers: all answers, including defaults.
-        message: the error message.
+        named: names of the questions that the error message names.
         accepts: returns whether the template accepts other answers in place of `user_answers`.
     """
-    named = re.findall(r"--[a-z-]+[a-z]", message)
     numeric = [
         each for each in questions if each.kind == "number" and each.name in answers and isfinite(sum(each.range))
     ]
-    changeable = [each for each in numeric if each.name in user_answers or each.option in named]
-    for question in sorted(changeable, key=lambda each: (each.name not in user_answers, each.option not in named)):
+    changeable = [each for each in numeric if each.name in user_answers or each.name in named]
+    for question in sorted(changeable, key=lambda each: (each.name not in user_answers, each.name not in named)):
         value = float(answers[question.name])
         for end, at_most in ((question.range[0], True), (question.range[1], False)):
             bound = _bound(question, value, end, user_answers, accepts)

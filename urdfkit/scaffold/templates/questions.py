@@ -29,7 +29,7 @@ class Question:
     """One question of a template; its answer replaces ``@name@`` in the files.
 
     Attributes:
-        name: the placeholder, and, with dashes, the option of the command line.
+        name: the placeholder, and, with dashes, the option of the command line unless `own_option` is set.
         prompt: text of the interactive prompt.
         kind: type of the answer.
         default: default answer, computed from earlier answers if it begins with ``=``; None: an answer is required.
@@ -43,6 +43,7 @@ class Question:
         help: additional line for ``--help``.
         interactive: whether the interactive dialog shows the question; if False, the default applies.
         when: answers to earlier questions that enable this question.
+        own_option: the option, if it differs from the name.
     """
 
     name: str
@@ -59,11 +60,12 @@ class Question:
     help: str = ""
     interactive: bool = True
     when: When = field(default_factory=dict)
+    own_option: str = ""
 
     @property
     def option(self) -> str:
         """The option of the command line."""
-        return "--" + self.name.replace("_", "-")
+        return self.own_option or "--" + self.name.replace("_", "-")
 
     @property
     def several(self) -> bool:

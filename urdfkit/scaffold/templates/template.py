@@ -87,11 +87,12 @@ class Template:
         answers, out_of_range = self._filled(user_answers, fresh)
         if failure := self._failure(answers) or out_of_range:
             # Suggest a number that satisfies all checks, or at least the failing one.
-            others = [check for check in self.checks if check.otherwise != failure]
+            others = [check for check in self.checks if check is not failure]
             for ignored in ([], others):
-                if suggestion := suggest_change(self.questions, user_answers, answers, failure, self._accepts(ignored, fresh)):
-                    raise UsageError(f"{failure} ({suggestion})")
-            raise UsageError(failure)
+                accepts = self._accepts(ignored, fresh)
+                if suggestion := suggest_change(self.questions, user_answers, answers, failure.named, accepts):
+                    raise UsageError(f"{failure.otherwise} ({suggestion})")
+            raise UsageError(failure.otherwise)
         return answers
 
     def contradiction(self, so_far: Mapping[str, str], last: str) -> tuple[str, str]:
@@ -117,18 +118,18 @@ class Template:
                 ignored = [other for other in self.checks if other is not check]
                 question = [self.question(last)]
                 return check.otherwise, suggest_change(
-                    question, enabled, answers, check.otherwise, self._accepts(ignored, False)
+                    question, enabled, answers, check.named, self._accepts(ignored, False)
                 )
         return "", ""
 
-    def _filled(self, user_answers: Mapping[str, str], fresh: bool) -> tuple[dict[str, str], str]:
-        """Return an answer to every question, and the error of a computed answer that is out of range, or empty.
+    def _filled(self, user_answers: Mapping[str, str], fresh: bool) -> tuple[dict[str, str], Check | None]:
+        """Return an answer to every question, and a failing check for a computed answer that is out of range.
 
         Raises:
             UsageError: an answer of the user is invalid, or an answer is missing.
         """
         answers: dict[str, str] = {}
-        out_of_range = ""
+        out_of_range = None
         for question in self.questions:
             if question.name in user_answers and not applies(question.when, answers) and not question.declines(user_answers):
                 raise UsageError(f"{question.option} requires {required_options(question.when)}")
@@ -142,19 +143,20 @@ class Template:
                     raise
                 answers[question.name] = answer
                 if applies(question.when, answers):
-                    out_of_range = out_of_range or f"with these sizes {question.out_of_range(answer)}"
+                    message = f"with these sizes {question.out_of_range(answer)}"
+                    out_of_range = out_of_range or Check("", message, {}, (question.name,))
         for fact in self.facts:
             answers[fact.name] = "yes" if any(applies(when, answers) for when in fact.any) else "no"
         return answers, out_of_range
 
-    def _failure(self, answers: Mapping[str, str], ignored: Sequence[Check] = ()) -> str:
-        """Return the message of the first failing check; empty if all checks hold."""
+    def _failure(self, answers: Mapping[str, str], ignored: Sequence[Check] = ()) -> Check | None:
+        """Return the first failing check; None if all checks hold."""
         for check in self.checks:
             if check in ignored or not applies(check.when, answers):
                 continue
             if not (check.holds and holds(check.holds, numbers(answers))):
-                return check.otherwise
-        return ""
+                return check
+        return None
 
     def _accepts(self, ignored: Sequence[Check], fresh: bool) -> Accepts:
         def accepts(user_answers: Mapping[str, str]) -> bool:

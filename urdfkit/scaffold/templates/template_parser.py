@@ -54,14 +54,20 @@ _REQUIRED = {
     "next": ("commands",),
 }
 
+_NAMED = r"\{([a-z][a-z0-9_]*)\}"
+"""Question in the message of a check, which names its option."""
 
-def load_template(folder: Path, *, source: str = "", name: str = "") -> Template:
+
+def load_template(
+    folder: Path, *, source: str = "", name: str = "", options: Mapping[str, str] | None = None
+) -> Template:
     """Read the ``template.toml`` of a template.
 
     Args:
         folder: folder of the template.
         source: the folder as the user gave it, for a template that is not bundled.
         name: name of the template, if it differs from the folder's name.
+        options: question → its option, where it is not the name of the question.
 
     Raises:
         ResourceError: the file is missing or invalid; the message has the line and the nearest valid name.
@@ -76,7 +82,7 @@ def load_template(folder: Path, *, source: str = "", name: str = "") -> Template
         raise ResourceError(f"{path} is not UTF-8: {error.reason}") from error
     except tomllib.TOMLDecodeError as error:
         raise ResourceError(_placed(path, str(error), text.count("\n") + 1)) from error
-    return _TemplateReader(path, text, table).template(source, name or folder.name)
+    return _TemplateReader(path, text, table, options or {}).template(source, name or folder.name)
 
 
 def _placed(path: Path, message: str, last: int) -> str:
@@ -89,8 +95,8 @@ def _placed(path: Path, message: str, last: int) -> str:
 class _TemplateReader:
     """Converts the checked tables of one file into a template."""
 
-    def __init__(self, path: Path, text: str, table: dict[str, Any]) -> None:
-        self._path, self._lines, self._table = path, text.splitlines(), table
+    def __init__(self, path: Path, text: str, table: dict[str, Any], options: Mapping[str, str]) -> None:
+        self._path, self._lines, self._table, self._options = path, text.splitlines(), table, options
         self._values: dict[str, tuple[str, ...]] = {FRESH: ("yes", "no")}
 
     def template(self, source: str, name: str) -> Template:
@@ -109,7 +115,7 @@ class _TemplateReader:
             questions=tuple(questions),
             words=tuple(self._word(index, entry) for index, entry in enumerate(self._entries("word"))),
             layers=tuple(self._layer(index, entry) for index, entry in enumerate(self._entries("layer"))),
-            checks=tuple(self._checked(index, entry) for index, entry in enumerate(self._entries("check"))),
+            checks=tuple(self._checked(index, entry, questions) for index, entry in enumerate(self._entries("check"))),
             next=tuple(
                 Next(entry.get("title", ""), tuple(entry["commands"]), self._when("next", index, entry))
                 for index, entry in enumerate(self._entries("next"))
@@ -130,7 +136,7 @@ class _TemplateReader:
         when = self._when("question", index, entry)
         values: dict[str, Any] = {k: tuple(v) if isinstance(v, list) else v for k, v in entry.items()}
         values["interactive"] = values.pop("ask", True)
-        question = Question(**values | {"when": when})
+        question = Question(**values | {"when": when, "own_option": self._options.get(entry["name"], "")})
         if not re.fullmatch(r"[a-z][a-z0-9_]*", question.name):
             self._error("question", index, "name", f"`{question.name}` is not a valid placeholder: use a-z, 0-9 and _")
         if question.name in self._values:
@@ -154,10 +160,17 @@ class _TemplateReader:
             self._computable("word", index, "says", value, named=False)
         return Word(entry["name"], entry["by"], entry["says"])
 
-    def _checked(self, index: int, entry: dict[str, Any]) -> Check:
+    def _checked(self, index: int, entry: dict[str, Any], questions: list[Question]) -> Check:
         if entry.get("holds"):
             self._computable("check", index, "holds", entry["holds"], comparison=True)
-        return Check(entry.get("holds", ""), entry["otherwise"], self._when("check", index, entry))
+        options = {question.name: question.option for question in questions}
+        named = re.findall(_NAMED, entry["otherwise"])
+        for name in named:
+            if name not in options:
+                near = did_you_mean(name, options)
+                self._error("check", index, "otherwise", f"unknown question `{name}`{near}")
+        message = re.sub(_NAMED, lambda found: options[found[1]], entry["otherwise"])
+        return Check(entry.get("holds", ""), message, self._when("check", index, entry), tuple(named))
 
     def _computable(
         self, kind: str, index: int, key: str, value: object, *, named: bool = True, comparison: bool = False

@@ -50,12 +50,13 @@ class Fact:
 class Check:
     """A comparison that must hold if the answers match `when`, and the error message otherwise.
 
-    Without a comparison, answers that match `when` are an error.
+    Without a comparison, answers that match `when` are an error. The message names the options of the questions `named`.
     """
 
     holds: str
     otherwise: str
     when: When
+    named: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
