@@ -17,7 +17,7 @@ from urdfkit.description.xacro.expand import expand as expand_file
 from urdfkit.description.xacro.expand import is_xacro
 from urdfkit.description.xacro.expanded import Expanded
 from urdfkit.description.xml.element import Element
-from urdfkit.description.xml.reader import read_source
+from urdfkit.description.xml.reader import absolute, read_source
 from urdfkit.errors import ModelError, UsageError, did_you_mean
 from urdfkit.resources import ModelArgument, find_model
 
@@ -115,15 +115,30 @@ def load_repaired(
         return robot
     if not isinstance(robot, ModelArgument):
         robot = model_argument(robot, arguments=arguments, package_path=package_path)
-    repaired, defects = repaired_structure(_load(robot, require_links))
+    repaired = _repaired(_load(robot, require_links))
     refuse_unused(arguments, repaired.files)
+    return repaired
+
+
+def repaired_robot_of_text(text: str, *, package_path: Iterable[str | Path] = ()) -> Robot:
+    """Return the robot of a URDF document as `load_repaired` does.
+
+    Raises:
+        UrdfkitError: see `load_repaired`.
+    """
+    model = ModelArgument(Path("spawned.urdf"), {}, tuple(Path(folder) for folder in package_path), "spawned")
+    return replace(_repaired(_load(model, require_links, text)), files=())
+
+
+def _repaired(robot: Robot) -> Robot:
+    repaired, defects = repaired_structure(robot)
     return replace(repaired, repairs=tuple([defect.repair for defect in defects])) if defects else repaired
 
 
-def _load(model: ModelArgument, check: Callable[[Robot], None]) -> Robot:
-    """Return the robot of a file after a check."""
+def _load(model: ModelArgument, check: Callable[[Robot], None], text: str | None = None) -> Robot:
+    """Return the robot of a file, or of a text in its place, after a check."""
     packages = Packages(model.package_path, model.path)
-    texts = {}
+    texts = {} if text is None else {str(absolute(model.path)): text}
     if model.macro is not None:
         from urdfkit.description.xacro.macro_call import text_with_call
 

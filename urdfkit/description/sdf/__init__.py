@@ -5,7 +5,7 @@ Input: SDF files; output: models and lights with resolved poses and source posit
 
 from urdfkit.description.sdf.model import WorldAxis, WorldInertial, WorldJoint, WorldLink, WorldMimic, WorldModel
 from urdfkit.description.sdf.model_library import model_names, world_names
-from urdfkit.description.sdf.reader.load import load_model, load_world
+from urdfkit.description.sdf.reader.load import load_model, load_world, model_of_text
 from urdfkit.description.sdf.shapes import Cone, Ellipsoid, Kept, Light, Plane, Surface, WorldGeometry, WorldShape
 from urdfkit.description.sdf.world import GRAVITY, GROUND_MU, Ground, Physics, World, WorldRobot, ground_of
 from urdfkit.description.sdf.world_edits import add_model, move_model, remove_model
@@ -37,6 +37,7 @@ __all__ = [
     "load_model",
     "load_world",
     "model_names",
+    "model_of_text",
     "model_to_sdf",
     "move_model",
     "remove_model",

@@ -40,7 +40,8 @@ def expand(
         XmlError: it, or a file it includes, is not well-formed or is hostile.
         XacroError: xacro could not expand it.
     """
-    _check_exists(path)
+    if str(absolute(path)) not in (texts or {}):
+        _check_exists(path)
     packages = packages if packages is not None else Packages(near=path)
     if not (is_xacro(path) if run_xacro is None else run_xacro):
         return _read_plain(path, packages, texts)

@@ -1,13 +1,13 @@
 """Requests to spawn a model or robot: by name, from a file, from text, or already loaded."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 
-from urdfkit.description.loading import load_repaired
-from urdfkit.description.sdf import WorldModel, WorldRobot, load_model, model_names
+from urdfkit.description.loading import load_repaired, repaired_robot_of_text
+from urdfkit.description.sdf import WorldModel, WorldRobot, load_model, model_names, model_of_text
 from urdfkit.description.urdf.robot import Robot
-from urdfkit.errors import DescriptionError, ResourceError, UrdfkitError, did_you_mean
+from urdfkit.errors import ResourceError, did_you_mean
 from urdfkit.resources import robot_names
 
 _ROBOTS = (".urdf", ".xacro")
@@ -75,21 +75,12 @@ def spawn_request_of_text(text: str, package_path: Sequence[str | Path] = ()) ->
     Raises:
         UrdfkitError: the document is invalid.
     """
-    from tempfile import TemporaryDirectory
-
-    suffix = ".urdf" if "<robot" in text else ".sdf"
+    if "<robot" in text:
+        robot = repaired_robot_of_text(text, package_path=package_path)
+        return SpawnRequest(WorldRobot(robot.name or "robot", "", ""), robot)
     if text.lstrip().startswith("<model"):  # as gz's EntityFactory allows
         text = f'<sdf version="1.9">{text}</sdf>'
-    with TemporaryDirectory() as folder:
-        path = Path(folder) / f"spawned{suffix}"
-        path.write_text(text, encoding="utf-8")
-        try:
-            request = spawn_request(path, package_path)
-        except UrdfkitError as error:
-            raise DescriptionError(str(error).replace(f"{folder}/", "")) from None
-    if isinstance(request.source, WorldRobot):
-        return replace(request, source=replace(request.source, uri="", file=""))
-    return request
+    return SpawnRequest(model_of_text(text, package_path=package_path))
 
 
 def _robot(robot: Robot) -> SpawnRequest:

@@ -103,7 +103,24 @@ def load_model(
     path = model_file(str(model)) or Path(model)
     if str(model).startswith("model://") or (path.suffix != ".sdf" and "/" not in str(model)):
         path = _named(str(model).removeprefix("model://"), package_path)
-    context = Context(Packages(package_path, path), path)
+    return _model(Context(Packages(package_path, path), path), name, pose)
+
+
+def model_of_text(text: str, *, package_path: Iterable[str | Path] = ()) -> WorldModel:
+    """Return the model of an SDF document.
+
+    Args:
+        text: the document.
+        package_path: folders to search for models and packages.
+
+    Raises:
+        UrdfkitError: see `load_model`.
+    """
+    path = Path("spawned.sdf")
+    return _model(Context(Packages(package_path, path), path, text), "", None)
+
+
+def _model(context: Context, name: str, pose: Pose | None) -> WorldModel:
     root = context.open()
     written = root.find("model") if root.tag == "sdf" else None
     if written is None and root.tag == "sdf" and root.find("world") is not None:

@@ -24,6 +24,7 @@ class Context:
     Args:
         packages: resolver of ``model://`` and ``package://``.
         path: the current file.
+        text: content to use instead of the file on disk; None for the file.
 
     Attributes:
         notes: notes for the user, shared by all files of a world.
@@ -31,9 +32,10 @@ class Context:
         version: SDF version of the current file.
     """
 
-    def __init__(self, packages: Packages, path: Path) -> None:
+    def __init__(self, packages: Packages, path: Path, text: str | None = None) -> None:
         self.packages = packages
         self.path = absolute(path)
+        self._texts = {} if text is None else {str(self.path): text}
         self.version = NEWEST
         self.notes: list[str] = []
         self.files: list[Path] = []
@@ -50,7 +52,7 @@ class Context:
         """
         root = self._documents.get(self.path)
         if root is None:
-            root = document_of(read_source(self.path, shown_as=shown_path(self.path)))
+            root = document_of(read_source(self.path, shown_as=shown_path(self.path), texts=self._texts))
             self._documents[self.path] = root
             self.files.append(self.path)
         if root.tag == "sdf":
