@@ -8,11 +8,16 @@ import shutil
 import signal
 import tempfile
 import threading
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager, suppress
 from pathlib import Path
 
 from urdfkit.errors import ResourceError, UrdfkitError
+from urdfkit.file_replacement import CONTENTS, check_unchanged, replace_files, restore_files, write_list
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from urdfkit.file_replacement import Replacement
 
 _TEMPORARY_PREFIX = ".urdfkit-"
 _MOVES = ".urdfkit-moves"
@@ -137,16 +142,14 @@ def move_into_place(staged: Path, folder: Path) -> list[Path]:
     Raises:
         ResourceError: a path of that name exists, or it cannot be written.
     """
-    moves = [(child, folder / child.name) for child in sorted(staged.iterdir())]
+    moves = [(child, folder / child.name) for child in sorted(staged.iterdir()) if child.name != CONTENTS]
     for _, target in moves:
         if os.path.lexists(target):
             raise ResourceError(f"{target} already exists; nothing is overwritten")
     done: list[tuple[Path, Path]] = []
     with undisturbed():
         if len(moves) > 1:  # one move is atomic; of several, a killed program makes only some
-            part = staged / f"{_MOVES}.part"
-            part.write_text("\n".join(target.name for _, target in moves), encoding="utf-8")
-            part.rename(staged / _MOVES)
+            write_list(staged / _MOVES, [target.name for _, target in moves])
         try:
             for source, target in moves:
                 source.rename(target)
@@ -158,6 +161,33 @@ def move_into_place(staged: Path, folder: Path) -> list[Path]:
                 for source, target in reversed(done):
                     target.rename(source)
     return [target for _, target in moves]
+
+
+def replace_and_move(changes: Sequence[Replacement], staged: Path, folder: Path) -> list[Path]:
+    """Write files, then move the content of `staged` into `folder`: all or nothing.
+
+    If the program is killed on the way, the next `clean_up` of the folder of `staged` restores the old files, unless
+    one of them was edited since.
+
+    Args:
+        changes: the files, in the order of writing.
+        staged: a folder of `staging`.
+        folder: see `move_into_place`.
+
+    Returns:
+        The moved paths, sorted.
+
+    Raises:
+        ResourceError: a file was changed or created since it was read, a path exists, or it cannot be written.
+    """
+    check_unchanged(changes)
+    with undisturbed():
+        try:
+            replace_files(changes, staged)
+            return move_into_place(staged, folder)
+        except BaseException:
+            restore_files(staged)
+            raise
 
 
 @contextmanager
@@ -184,7 +214,9 @@ def undisturbed() -> Iterator[None]:
 
 
 def clean_up(folder: Path) -> None:
-    """Remove the temporary files of killed programs of this machine, and complete the moves that they had begun.
+    """Remove the temporary files of killed programs of this machine, and complete or revert what they had begun.
+
+    Moves are completed; replaced files are restored.
 
     Args:
         folder: may be missing.
@@ -197,6 +229,7 @@ def clean_up(folder: Path) -> None:
             with suppress(OSError):
                 if path.is_dir():
                     _complete(path, folder)
+                    restore_files(path)
                     shutil.rmtree(path)
                 else:
                     path.unlink()

@@ -11,8 +11,6 @@ from urdfkit.description import load
 from urdfkit.errors import ResourceError
 from urdfkit.lint import lint
 from urdfkit.resources import find_model, robots_dir
-from urdfkit.scaffold.additions import file_changes as alterations
-from urdfkit.scaffold.additions.file_changes import Alteration, write_all
 from urdfkit.scaffold.additions.free_placement import Part, spot
 from urdfkit.scaffold.additions.link_boxes import Boxes
 from urdfkit.scaffold.additions.package_manifest import with_installed
@@ -327,24 +325,6 @@ def test_a_topic_that_is_taken_is_refused(place, capsys):
     assert new("lidar", folder, "--name", "b", "--topic", "a/scan") == 2
     assert "already publishes `a/scan`" in capsys.readouterr().err
     assert everything(place) == before
-
-
-def test_all_files_or_none(place, monkeypatch):
-    (place / "old").write_bytes(b"old")
-    changes = [Alteration(place / "old", b"old", b"new"), Alteration(place / "made", None, b"x")]
-    write = alterations.write_bytes
-
-    def fail(path, content):
-        if path.name == "made":
-            raise OSError(28, "No space left on device", str(path))
-        write(path, content)
-
-    monkeypatch.setattr(alterations, "write_bytes", fail)
-    with pytest.raises(ResourceError, match="No space left on device; nothing was changed"):
-        write_all(changes)
-    assert everything(place) == {path.relative_to(place): b"old" for path in [place / "old"]}
-    with pytest.raises(ResourceError, match="was changed in the meantime"):
-        write_all([Alteration(place / "old", b"other", b"new")])
 
 
 def test_numbers_arrive_as_typed(place):

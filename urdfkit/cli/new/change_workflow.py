@@ -5,8 +5,8 @@ from __future__ import annotations
 import argparse
 import math
 import shlex
-import shutil
 import sys
+from contextlib import nullcontext
 from pathlib import Path
 
 from urdfkit.errors import ResourceError, UsageError, did_you_mean
@@ -58,6 +58,8 @@ def description(arguments: argparse.Namespace) -> tuple[ModelArgument, Robot, st
     from urdfkit.resources import find_model
 
     into = arguments.into
+    if not arguments.diff:
+        _revert_killed_changes(Path(into or ".").expanduser())
     if into is not None and not Path(into).expanduser().exists():
         siblings = sorted(path.name for path in Path.cwd().iterdir())
         completions = [name for name in siblings if name.startswith(into) and name.endswith("_description")]
@@ -66,6 +68,17 @@ def description(arguments: argparse.Namespace) -> tuple[ModelArgument, Robot, st
     model = find_model([*([into] if into is not None else []), *arguments.arg], package_path=arguments.package_path)
     robot = load(model.path, arguments=model.arguments, package_path=model.package_path)
     return model, robot, _generation(model.path, robot, arguments.sim)
+
+
+def _revert_killed_changes(into: Path) -> None:
+    """Revert the unfinished changes of killed programs, so that the same command starts from the same files."""
+    from urdfkit.atomic import clean_up
+
+    above = into.absolute().parent
+    for folder in sorted(
+        {path.parent for depth in ("", "*/", "*/*/", "*/*/*/") for path in above.glob(f"{depth}.urdfkit-*")}
+    ):
+        clean_up(folder)
 
 
 def _generation(path: Path, robot: Robot, sim: str | None) -> str:
@@ -105,8 +118,8 @@ def apply(
     Raises:
         ResourceError: the change adds findings, or cannot be written.
     """
-    from urdfkit.atomic import move_into_place
-    from urdfkit.scaffold.additions.file_changes import Alteration, write_all
+    from urdfkit.atomic import replace_and_move, staging
+    from urdfkit.scaffold.additions.file_changes import Alteration
 
     if new := _new_findings(alterations, model, staged):
         more = f" (and {len(new) - 1} more)" if len(new) > 1 else ""
@@ -118,13 +131,8 @@ def apply(
             for path in (each for each in sorted(staged.rglob("*")) if each.is_file() and each.name != "LICENSE"):
                 sys.stdout.write(Alteration(folder / path.relative_to(staged), None, path.read_bytes()).diff())
         return 0
-    moved = move_into_place(staged, folder) if staged is not None and folder is not None else []
-    try:
-        write_all(alterations)
-    except BaseException:
-        for path in moved:
-            shutil.rmtree(path, ignore_errors=True)
-        raise
+    with staging(model.path.parent) if staged is None else nullcontext(staged) as place:
+        moved = replace_and_move(alterations, place, folder or model.path.parent)
     for path in moved:
         print(f"{shown(path)}  new")
     for alteration in alterations:
