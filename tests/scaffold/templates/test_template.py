@@ -3,6 +3,7 @@ from pathlib import Path
 import pytest
 
 from urdfkit.errors import ResourceError, UsageError
+from urdfkit.resources import templates_dir
 from urdfkit.scaffold import create, load_template, template_names
 from urdfkit.scaffold.templates.template import fill
 
@@ -11,6 +12,14 @@ BUILT_IN = {"year": "2026", "into": "src"}
 
 def test_templates_we_ship_load():
     assert "robot" in template_names()
+
+
+def test_python_files_of_templates_compile():
+    """Some packagers compile all Python files of an installation, and fail if one is invalid."""
+    files = sorted(path for path in templates_dir().rglob("*.py"))
+    assert len(files) > 5
+    for path in files:
+        compile(path.read_text(), str(path), "exec")
 
 
 def test_answers_are_checked_and_completed(small_template):

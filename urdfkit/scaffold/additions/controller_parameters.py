@@ -36,7 +36,7 @@ def parameters(robot: Robot, controllers: list[ChosenController], *, generation:
         for each in controllers
     )
     managed = "".join(f"\n    {each.name}: {{type: {types[each.kind]}}}" for each in controllers)
-    spawned = "".join(f' "{each.name}",' for each in controllers).removesuffix(",")
+    spawned = "".join(f'", "{each.name}' for each in controllers)  # within a string: the template is valid Python
     return {"controllers": text.rstrip("\n"), "managed": managed, "spawned": spawned}
 
 

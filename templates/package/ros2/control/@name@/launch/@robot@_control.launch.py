@@ -3,7 +3,7 @@
 from launch import LaunchDescription
 from launch_ros.actions import Node
 
-CONTROLLERS = ("joint_state_broadcaster",@spawned@)
+CONTROLLERS = ["joint_state_broadcaster@spawned@"]
 
 
 def generate_launch_description():
