@@ -1,7 +1,9 @@
 """Real robots, and real robots with defects: does each simulate and show, and does the linter report each repair?
 
-Run it as ``python tests/bench/corpus_runs.py [TEXT …] [--variants …] [--seconds 5] [--jobs 2] [--json FILE]``; TEXT
-selects entries by a part of their path. It takes every entry of the corpus beside the checkout that expands to a robot,
+Run it as ``python tests/bench/corpus_runs.py [TEXT …] [--variants …] [--seconds 5] [--jobs 2] [--results FILE]``; TEXT
+selects entries by a part of their path. Each case is appended to FILE when it ends; cases in FILE are not run again.
+The order is at random with a fixed seed, and neighbouring cases have different variants, so that a part of a run is
+a sample of the whole. It takes every entry of the corpus beside the checkout that expands to a robot,
 in these variants:
 
 - ``as-is``: without its meshes, which the corpus does not contain;
@@ -23,6 +25,7 @@ import io
 import json
 import multiprocessing
 import os
+import random
 import resource
 import shutil
 import sys
@@ -230,15 +233,15 @@ def cases(options: argparse.Namespace) -> list[Case]:
     Simulator("simpleton", note=lambda _: None).run(0.01)  # The children share the loaded modules and kernels.
     lint("simpleton")
     fork = multiprocessing.get_context("fork")
-    results: list[Case] = []
+    results = saved(options.results)
     with tempfile.TemporaryDirectory() as whole, tempfile.TemporaryDirectory() as pointers:
         plain = copied(Path(whole), pointers=False)
         broken = copied(Path(pointers), pointers=True) if "meshes" in options.variants else plain
+        done = {(case["entry"], case["variant"]) for case in results}
         waiting = [
             (entry, variant, broken if variant == "meshes" else plain)
-            for entry in entries()
-            if not options.text or any(text in entry["entry"] for text in options.text)
-            for variant in options.variants
+            for entry, variant in in_order(options.text, options.variants)
+            if (entry["entry"], variant) not in done
         ]
         running: dict[Connection, tuple[Any, dict[str, Any], str]] = {}
         while waiting or running:
@@ -260,9 +263,28 @@ def cases(options: argparse.Namespace) -> list[Case]:
                 process.join()
                 results.append(case)
                 show(case)
-                if options.json is not None:
-                    options.json.write_text(json.dumps(results, indent=1))
+                if options.results is not None:
+                    with options.results.open("a") as file:
+                        file.write(json.dumps(case) + "\n")
     return results
+
+
+def saved(file: Path | None) -> list[Case]:
+    """Return the cases of a file of results."""
+    if file is None or not file.exists():
+        return []
+    return [json.loads(line) for line in file.read_text().splitlines()]
+
+
+def in_order(texts: list[str], variants: list[str]) -> list[tuple[dict[str, Any], str]]:
+    """Return the selected cases: all entries at random, each in the next variant, and again for the other variants."""
+    selected = [entry for entry in entries() if not texts or any(text in entry["entry"] for text in texts)]
+    random.Random(19).shuffle(selected)
+    return [
+        (entry, variants[(number + turn) % len(variants)])
+        for turn in range(len(variants))
+        for number, entry in enumerate(selected)
+    ]
 
 
 def show(case: Case) -> None:
@@ -302,8 +324,8 @@ def main() -> int:
     parser.add_argument("--seconds", type=float, default=5.0, help="simulated time [s] (default: 5)")
     parser.add_argument("--jobs", type=int, default=2, help="processes (default: 2)")
     parser.add_argument("--no-view", action="store_true", help="do not run `view --html`")
-    parser.add_argument("--notes", action="store_true", help="keep the warnings in the JSON file")
-    parser.add_argument("--json", type=Path, metavar="FILE", help="write the cases to a file")
+    parser.add_argument("--notes", action="store_true", help="keep the warnings in the results")
+    parser.add_argument("--results", type=Path, metavar="FILE", help="append each case to a file of JSON lines")
     options = parser.parse_args()
     results = cases(options)
     summary(results)
