@@ -73,7 +73,7 @@ def test_every_repair_has_a_finding_of_its_code_at_its_element(tmp_path: Path, b
         assert any(reports(finding, repair) for finding in findings), (str(repair), [str(each) for each in findings])
 
 
-def test_a_robot_without_any_mass_is_one_repair_and_one_finding_for_simulators(tmp_path: Path) -> None:
+def test_a_robot_without_any_mass_is_one_repair_and_one_finding(tmp_path: Path) -> None:
     path = tmp_path / "r.urdf"
     path.write_text(
         f'<robot name="r">\n<link name="base">{BOX}</link>\n<link name="a">{BOX}</link>\n<link name="b">{BOX}</link>\n'
@@ -84,7 +84,20 @@ def test_a_robot_without_any_mass_is_one_repair_and_one_finding_for_simulators(t
         (repair,) = repairs_of(path, floating=floating)
         assert (repair.link, repair.joint) == ("a", "j")
         assert ("`base` 6 kg, `a` 6 kg, `b` 6 kg" in repair.message) == floating
-        assert any(reports(finding, repair) for finding in lint(path, target="gz"))
+        assert [finding.severity for finding in lint(path) if reports(finding, repair)] == ["note"]
+        assert [finding.severity for finding in lint(path, target="gz") if reports(finding, repair)] == ["error"]
+
+
+def test_a_robot_without_masses_and_shapes_has_a_finding_for_simulators_only(tmp_path: Path) -> None:
+    path = tmp_path / "r.urdf"
+    path.write_text(
+        '<robot name="r">\n<link name="world"/>\n<link name="a"/>\n<link name="b"/>\n'
+        '<joint name="j" type="continuous"><parent link="world"/><child link="a"/><axis xyz="0 1 0"/></joint>\n'
+        '<joint name="k" type="continuous"><parent link="a"/><child link="b"/><axis xyz="0 1 0"/></joint></robot>'
+    )
+    (repair,) = repairs_of(path, floating=False)
+    assert any(reports(finding, repair) for finding in lint(path, target="gz"))
+    assert "I511" not in {finding.code for finding in lint(path)}
 
 
 def test_links_that_are_fixed_to_each_other_are_one_repair(tmp_path: Path) -> None:

@@ -16,8 +16,8 @@ class MovingLinkWithoutInertial(RobotRule):
     Checks for links that move, because a joint moves them or the robot has no root link ``world``, where neither the
     link nor any link fixed to it has a mass and a tensor. The finding is an error for simulators: with ``--target gz``,
     ``classic``, ``mujoco``, ``isaac`` or ``drake``, or if the robot contains Gazebo plugins. For other robots it is a
-    note. A robot without any ``<inertial>`` is reported once: with these targets if it has shapes, or if joints
-    move its shapes and it contains Gazebo plugins. Other robots describe kinematics only.
+    note. A robot without any ``<inertial>`` is reported once if joints move its shapes, and with these targets also if
+    it has joints that move or shapes. Other robots describe kinematics only.
 
     ## Why is this bad?
     Gazebo silently drops the link and all links attached to it; MuJoCo rejects the model. `urdfkit sim` estimates the
@@ -91,8 +91,8 @@ class MovingLinkWithoutInertial(RobotRule):
                 moved = {each.child: each for each in typeless}
                 shaped = [each for each in robot.links if each.name in moved and (each.visuals or each.collisions)]
                 link, joint = (shaped[0], moved[shaped[0].name]) if shaped else (link, joint)
-            is_shaped = link.visuals or link.collisions
-            if severity == "note" or not is_shaped or (joint is None and not is_simulator(model)):
+            is_shaped = bool(link.visuals or link.collisions)
+            if sum((is_shaped, joint is not None, is_simulator(model))) < 2:
                 return  # It describes kinematics only.
             effect = f"joints move `{link.name}` and other links" if joint is not None else "the robot is free to move"
             yield self.at(

@@ -18,12 +18,13 @@ class AxisMissing(RobotRule):
     ## Example
     ```xml
     <robot name="arm">
-      <link name="base"/>
+      <link name="world"/>
       <link name="arm">
+        <inertial><mass value="1"/><inertia ixx="0.01" ixy="0" ixz="0" iyy="0.01" iyz="0" izz="0.01"/></inertial>
         <visual><geometry><sphere radius="0.1"/></geometry></visual>
       </link>
       <joint name="elbow" type="continuous">
-        <parent link="base"/>
+        <parent link="world"/>
         <child link="arm"/>
       </joint>
     </robot>
@@ -32,12 +33,13 @@ class AxisMissing(RobotRule):
     ## Use instead
     ```xml
     <robot name="arm">
-      <link name="base"/>
+      <link name="world"/>
       <link name="arm">
+        <inertial><mass value="1"/><inertia ixx="0.01" ixy="0" ixz="0" iyy="0.01" iyz="0" izz="0.01"/></inertial>
         <visual><geometry><sphere radius="0.1"/></geometry></visual>
       </link>
       <joint name="elbow" type="continuous">
-        <parent link="base"/>
+        <parent link="world"/>
         <child link="arm"/>
         <axis xyz="1 0 0"/>
       </joint>
