@@ -3,6 +3,8 @@
 Exact: in closed form for boxes, spheres, cylinders and capsules; by all vertices for meshes.
 """
 
+from collections.abc import Container
+
 import numpy as np
 from numpy.typing import ArrayLike
 
@@ -12,13 +14,16 @@ from urdfkit.scene.pose_matrices import pose_matrices
 from urdfkit.scene.scene_table import Role, Scene, Shape
 
 
-def bounds(scene: Scene, poses: ArrayLike, *, role: Role | None = None) -> Array | None:
+def bounds(
+    scene: Scene, poses: ArrayLike, *, role: Role | None = None, of: Container[str] | None = None
+) -> Array | None:
     """Return the lowest and highest corner of the axis-aligned bounding box of the scene [m]; shape (2, 3).
 
     Args:
         scene: the shapes.
         poses: of the bodies, x y z [m] and quaternion x y z w, shape (len(scene.bodies), 7).
         role: only visuals or only collisions; both when None.
+        of: names of the bodies; all when None.
 
     Returns:
         None where there is no shape.
@@ -27,7 +32,7 @@ def bounds(scene: Scene, poses: ArrayLike, *, role: Role | None = None) -> Array
     found = [
         shape_bounds(shape, matrices[scene.body_index[shape.body]])
         for shape in scene.shapes
-        if role is None or shape.role == role
+        if (role is None or shape.role == role) and (of is None or shape.body in of)
     ]
     if not found:
         return None
@@ -35,14 +40,15 @@ def bounds(scene: Scene, poses: ArrayLike, *, role: Role | None = None) -> Array
     return np.array([corners[:, 0].min(axis=0), corners[:, 1].max(axis=0)])
 
 
-def lowest_point(scene: Scene, poses: ArrayLike) -> float | None:
+def lowest_point(scene: Scene, poses: ArrayLike, *, of: Container[str] | None = None) -> float | None:
     """Return the lowest z of all collision shapes [m]; None without collision shapes.
 
     Args:
         scene: the shapes.
         poses: of the bodies, shape (len(scene.bodies), 7).
+        of: names of the bodies; all when None.
     """
-    box = bounds(scene, poses, role="collision")
+    box = bounds(scene, poses, role="collision", of=of)
     return None if box is None else float(box[0, 2])
 
 

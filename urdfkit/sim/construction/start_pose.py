@@ -5,11 +5,15 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from urdfkit.description.urdf.queries import tree_order
 from urdfkit.errors import SimulationError
 from urdfkit.kinematics import Kinematics
+from urdfkit.kinematics.joint_variables import PARTS
 from urdfkit.linear_algebra import Array
 from urdfkit.scene import Scene, lowest_point
+from urdfkit.scene.pose_matrices import pose_matrices
 from urdfkit.sim.state.arguments import vector
+from urdfkit.sim.state.poses_and_energy import link_poses
 from urdfkit.sim.state.quaternion import from_rpy, rotate
 
 
@@ -66,12 +70,17 @@ class Spawn:
         upright = np.array([0.0, 0.0, 0.0, *quaternion])
         if kinematics.floating_base:
             return lowest_point(scene, kinematics.link_poses(kinematics.configuration(self.joints, base=upright)))
-        from urdfkit.sim.state.poses_and_energy import link_poses
-
         return lowest_point(scene, link_poses(kinematics, kinematics.configuration(self.joints), upright))
 
-    def configuration(self, kinematics: Kinematics, pose: Array) -> tuple[Array, Array]:
+    def configuration(
+        self, kinematics: Kinematics, pose: Array, raised: Mapping[str, float] | None = None
+    ) -> tuple[Array, Array]:
         """Return the initial q and v.
+
+        Args:
+            kinematics: model of the robot.
+            pose: pose of the root link, from `place`.
+            raised: positions of floating joints that the spawn does not set, see `raised_joints`.
 
         Raises:
             KinematicsError: a joint is unknown, or a value is not a finite number.
@@ -79,9 +88,42 @@ class Spawn:
             SimulationError: a robot with a fixed base has a twist.
         """
         floats = kinematics.floating_base
-        q = kinematics.configuration(self.joints, base=pose if floats else None, check_limits=bool(self.joints))
+        joints = {**(raised or {}), **self.joints}
+        q = kinematics.configuration(joints, base=pose if floats else None, check_limits=bool(self.joints))
         if not floats and any(self.twist):
             raise SimulationError("a robot with a fixed base cannot have an initial velocity of its root link")
         inverse = np.array([-pose[3], -pose[4], -pose[5], pose[6]])
         twist = np.array([*rotate(inverse, self.twist[:3]), *rotate(inverse, self.twist[3:])])
         return q, kinematics.velocity(self.velocities, base=twist if floats else None, q=q)
+
+
+def raised_joints(kinematics: Kinematics, scene: Scene, base: Array, ground: float | None) -> dict[str, float]:
+    """Return positions of floating joints that place on the ground what would start below it.
+
+    A description with the root link `world` and a floating joint usually has the robot's base at the height 0.
+
+    Args:
+        kinematics: model of a robot with a fixed base.
+        scene: shapes of the robot.
+        base: pose of the root link, x y z [m] and quaternion x y z w.
+        ground: height of the ground [m]; None without ground.
+    """
+    if ground is None or kinematics.floating_base:
+        return {}
+    carried: dict[str, set[str]] = {}
+    carrier: dict[str | None, str] = {}
+    for joint in tree_order(kinematics.robot):
+        name = carrier.get(joint.parent, joint.name if joint.type == "floating" else None)
+        if name is not None and joint.child is not None:
+            carrier[joint.child] = name
+            carried.setdefault(name, set()).add(joint.child)
+    poses = link_poses(kinematics, kinematics.configuration(), base)
+    raised: dict[str, float] = {}
+    for name, links in carried.items():
+        lowest = lowest_point(scene, poses, of=links)
+        if lowest is not None and lowest < ground:
+            # The joint's axes are those of its child in the initial configuration.
+            child = kinematics.link_names.index(kinematics.robot.joint_by_name[name].child or "")
+            up = pose_matrices(poses)[child, 2, :3] * (ground - lowest)
+            raised.update(zip([f"{name}/{part}" for part in PARTS["floating"][:3]], up.tolist(), strict=True))
+    return raised

@@ -332,8 +332,7 @@ class LiveWorld:
     def reset(self) -> None:
         """Put everything where it started, at t = 0, without pushes."""
         self._forces.acting = []
-        first = self.builder.robot_list[0]
-        self.builder.engine.reset(*first.spawn.configuration(first.kinematics, first.base))
+        self.builder.engine.reset(*self.builder.robot_list[0].start())
         for robot in self.builder.robot_list:
             robot.state.advance(-robot.state.step)
             robot.begin()

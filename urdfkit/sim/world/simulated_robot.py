@@ -6,13 +6,14 @@ from typing import Any
 
 from urdfkit.description import Robot
 from urdfkit.kinematics import Kinematics
+from urdfkit.linear_algebra import Array
 from urdfkit.scene import Scene
 from urdfkit.sim.construction.link_options import self_colliding, weightless_links
 from urdfkit.sim.construction.loading import require_masses
 from urdfkit.sim.construction.missing_meshes import warn_of_omitted_shapes
 from urdfkit.sim.construction.repairs.collector import Repairs
 from urdfkit.sim.construction.repairs.robot_repairs import repaired
-from urdfkit.sim.construction.start_pose import Spawn
+from urdfkit.sim.construction.start_pose import Spawn, raised_joints
 from urdfkit.sim.construction.surface_parameters import surfaces_of
 from urdfkit.sim.engine import Engine, Ground, Member, Surface
 from urdfkit.sim.engine.articulation import Articulation
@@ -102,7 +103,8 @@ class SimulatedRobot:
         warn_of_omitted_shapes(self.scene, note)
         self.spawn = spawn or Spawn(z=0.0 if on_world else None)
         self.base = self.spawn.place(self.kinematics, self.scene, ground)
-        require_masses(self.kinematics, self.spawn.configuration(self.kinematics, self.base)[0], note)
+        self._raised = raised_joints(self.kinematics, self.scene, self.base, ground) if spawn is None else {}
+        require_masses(self.kinematics, self.start()[0], note)
         self.surfaces = surfaces_of(robot) if surfaces is None else surfaces
         self.self_collide = self_colliding(robot) if self_collide is None else self_collide
         self.weightless = weightless_links(robot) if weightless is None else weightless
@@ -193,9 +195,13 @@ class SimulatedRobot:
     def _publishers(self) -> Sequence[Publisher]:
         return [*self._own_publishers, *self.controllers.publications]
 
+    def start(self) -> tuple[Array, Array]:
+        """Return the initial q and v."""
+        return self.spawn.configuration(self.kinematics, self.base, self._raised)
+
     def begin(self) -> None:
         """Set the initial pose and velocity, at the present step of the engine."""
-        self.articulation.put(*self.spawn.configuration(self.kinematics, self.base))
+        self.articulation.put(*self.start())
         self.state.advance(0)
         for controller in self.plugins.controllers:
             controller.begin(self.state)

@@ -238,7 +238,7 @@ class WorldBuilder:
             is_new = not hasattr(robot, "articulation")
             robot.attach(engine, articulation)
             if is_new:
-                articulation.put(*robot.spawn.configuration(robot.kinematics, robot.base))
+                articulation.put(*robot.start())
         if self.revision:
             transfer_state(self.engine, self._layout, engine, made)
         for robot in robots:
