@@ -25,6 +25,13 @@ from urdfkit.record import field, record
 _ENDINGS = ("_description", "_gazebo", "_control", "_bringup", "_moveit_config", "_robot")
 _MAX_PACKAGES = 200
 
+SIMULATED_INTERFACES = {
+    "EffortJointInterface": "effort",
+    "PositionJointInterface": "position",
+    "VelocityJointInterface": "velocity",
+}
+"""Hardware interfaces that gazebo_ros_control simulates (DefaultRobotHWSim)."""
+
 
 @record(eq=False)
 class Configuration:

@@ -12,6 +12,7 @@ from typing import Any
 import pytest
 
 from tests.sim import arm_package
+from urdfkit import lint
 from urdfkit.errors import SimulationError, UrdfkitError
 from urdfkit.messages import FLOAT, FLOATS, JOINT_CONTROLLER_STATE, JOINT_STATE, TRAJECTORY, from_fields
 from urdfkit.sim import Simulator, Spawn
@@ -592,6 +593,35 @@ def test_a_transmission_without_interface_is_refused_at_its_place(tmp_path: Path
     odd = arm_package.transmissions("Efort")
     with pytest.raises(SimulationError, match=r"no interface `hardware_interface/EfortJointInterface`; did you mean"):
         Simulator(arm_package.write_arm(tmp_path, odd), strict=True)
+
+
+FOREIGN = "<hardwareInterface>arm_hw/StateInterface</hardwareInterface>"
+
+
+@pytest.mark.parametrize(
+    ("joints", "problem"),
+    [
+        (f'<joint name="elbow">{FOREIGN}</joint><joint name="shoulder">{FOREIGN}</joint>', "has 2 joints"),
+        (f'<joint name="elbow">{FOREIGN}</joint>', "Gazebo has no interface `arm_hw/StateInterface`"),
+        ('<joint name="elbow"/>', "lacks <hardwareInterface> in its <joint>"),
+    ],
+)
+def test_a_transmission_that_gazebo_does_not_simulate_is_left_out_and_lint_reports_it(
+    tmp_path: Path, joints: str, problem: str
+) -> None:
+    odd = f'<transmission name="odd">\n<type>arm_hw/State</type>\n{joints}\n<actuator name="m"/></transmission>\n'
+    path = arm_package.write_arm(tmp_path, odd + arm_package.transmissions())
+    arm_package.write_control(tmp_path, POSITIONS)
+    simulator = Simulator(path, note=lambda _: None)
+    (repair,) = simulator.repairs
+    assert problem in repair.message
+    assert repair.message.endswith("transmission `odd` is left out")
+    assert repair.position is not None
+    found = {(finding.line, finding.code) for finding in lint(path)}
+    assert {(repair.position.line, "C702"), (repair.position.line, "C703")} & found
+    send(simulator, "/arm/a/command", 0.5)
+    simulator.run(3.0)
+    assert positions(simulator)[0] == pytest.approx(0.5, abs=0.05)
 
 
 @pytest.mark.parametrize("kind", ["imu_sensor_controller/ImuSensorController", "unitree_legged_control/UnitreeJoint"])

@@ -1,6 +1,14 @@
 """C703 hardware-interface-unknown."""
 
-from urdfkit.lint.facts.control.hardware_interfaces import INTERFACES, PACKAGE, written
+from urdfkit.description.urdf.robot import Transmission
+from urdfkit.description.xml.element import Element
+from urdfkit.lint.facts.control.hardware_interfaces import (
+    INTERFACES,
+    PACKAGE,
+    has_gazebo_ros_control,
+    is_old,
+    written,
+)
 from urdfkit.lint.fix_builders import nearest, new_text
 from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
 
@@ -10,10 +18,13 @@ class HardwareInterfaceUnknown(RobotRule):
 
     ## What it does
     Checks for ``<hardwareInterface>`` values that nearly match an interface of the hardware_interface package.
-    Interfaces of other packages are accepted.
+    Interfaces of other packages are accepted. If the robot uses gazebo_ros_control, a note reports each transmission
+    that its default hardware does not simulate: with several joints, or with an interface other than those of the
+    position, velocity and effort of a joint.
 
     ## Why is this bad?
-    Loading fails with "No suitable hardware interface", and controllers for the joint do not start.
+    Loading fails with "No suitable hardware interface", and controllers for the joint do not start. `urdfkit sim`
+    leaves the transmission out.
 
     ## Example
     ```xml
@@ -57,7 +68,8 @@ class HardwareInterfaceUnknown(RobotRule):
     not_for = NOT_GAZEBO
 
     def check(self, model: Model) -> Findings:
-        """Yield a finding for each misspelt interface."""
+        """Yield a finding for each misspelt interface, and for each transmission that Gazebo does not simulate."""
+        misspelt = set()
         for text, element, _ in written(model.robot):
             package, slash, name = text.rpartition("/")
             if name in INTERFACES and package in ("", PACKAGE):
@@ -66,9 +78,29 @@ class HardwareInterfaceUnknown(RobotRule):
             if match is None or (slash and package != PACKAGE and nearest(package, [PACKAGE], cutoff=0.7) is None):
                 continue
             qualified = f"{PACKAGE}/{match}"
+            misspelt.add(element)
             yield self.at(
                 model,
                 element,
                 f"unknown hardware interface `{text}`; did you mean `{qualified}`?",
                 fix=new_text(model, element, qualified, "safe", f"Replace with `{qualified}`"),
             )
+        for transmission in model.robot.transmissions if has_gazebo_ros_control(model.robot) else ():
+            yield from self._not_simulated(model, transmission, misspelt)
+
+    def _not_simulated(self, model: Model, transmission: Transmission, misspelt: set[Element]) -> Findings:
+        from urdfkit.description.control.ros1_controllers import SIMULATED_INTERFACES
+
+        if is_old(transmission):
+            return
+        effect = "the default hardware of gazebo_ros_control does not simulate it"
+        if len(transmission.joints) != 1:
+            message = f"transmission `{transmission.name}` has {len(transmission.joints)} joints; {effect}"
+            yield self.at(model, transmission.element, message, attribute="name", severity="note")
+            return
+        interface = transmission.joints[0].element.find("hardwareInterface")
+        if interface is None or interface in misspelt or not interface.text or "$" in interface.text:
+            return
+        if interface.text.removeprefix(f"{PACKAGE}/") not in SIMULATED_INTERFACES:
+            message = f"transmission `{transmission.name}` has the interface `{interface.text}`; {effect}"
+            yield self.at(model, interface, message, severity="note")

@@ -4,7 +4,7 @@ Source: gazebo_ros_pkgs noetic-devel, gazebo_ros_control/src/{gazebo_ros_control
 """
 
 from urdfkit.description.control import Configuration, Settings, find_configuration
-from urdfkit.description.control.ros1_controllers import controllers
+from urdfkit.description.control.ros1_controllers import SIMULATED_INTERFACES, controllers
 from urdfkit.description.urdf.robot import Transmission
 from urdfkit.errors import SimulationError, did_you_mean
 from urdfkit.messages import BOOL
@@ -20,13 +20,6 @@ from urdfkit.sim.plugins.setup import Setup
 from urdfkit.sim.plugins.topic_names import Topics
 from urdfkit.sim.state.pid import read_gains
 
-INTERFACES = {
-    "EffortJointInterface": "effort",
-    "PositionJointInterface": "position",
-    "VelocityJointInterface": "velocity",
-}
-"""Hardware interfaces that DefaultRobotHWSim offers."""
-
 
 class GazeboRosControl(ControlLoopPlugin):
     """Plugin that runs the controllers of the robot's namespace on the joints of its transmissions."""
@@ -37,7 +30,8 @@ class GazeboRosControl(ControlLoopPlugin):
         """Read the joints and the controllers; start the controllers that a launch file starts, otherwise all.
 
         Raises:
-            UrdfkitError: a transmission or a parameter of a controller is invalid, with its position.
+            UrdfkitError: a transmission or a parameter of a controller is invalid, and robots that need a repair are
+                refused; with its position.
         """
         read = Parameters(self.plugin, self.spec, setup.names)
         topics = Topics(self.plugin, self.spec, namespace=setup.model)
@@ -50,8 +44,13 @@ class GazeboRosControl(ControlLoopPlugin):
         of_hardware = self._hardware_settings(setup, read, found, settings)
         hardware = Hardware(setup, topics.resolve, 1, period, {}, (), lambda: loop.wake())
         for transmission in robot.transmissions:
-            output = _output(transmission, of_hardware, setup, period)
-            hardware.outputs.setdefault(output.claim, output)
+            try:
+                output = _output(transmission, of_hardware, setup, period)
+            except SimulationError as error:
+                effect = f"transmission `{transmission.name}` is left out"
+                setup.repairs.leave_out(error, effect, "hardware", position=transmission.element.origin.position)
+            else:
+                hardware.outputs.setdefault(output.claim, output)
         hardware.joints = tuple(dict.fromkeys(name for name, _ in hardware.outputs))
         if not hardware.outputs:
             setup.note(f"{self.plugin.element.origin.position}: no <transmission>: there is nothing to control")
@@ -113,18 +112,20 @@ def _output(transmission: Transmission, settings: Settings, setup: Setup, period
             )
         setup.note(f"{place}: transmission `{name}`: <hardwareInterface> belongs into <joint>, not <actuator>")
     kind = interfaces[0].strip().removeprefix("hardware_interface/")
-    if kind not in INTERFACES:
+    written = joint.element.find("hardwareInterface") or joint.element
+    if kind not in SIMULATED_INTERFACES:
         raise SimulationError(
-            f"transmission `{name}`: Gazebo has no interface `{interfaces[0]}`{did_you_mean(kind, INTERFACES)} "
-            f"(it has {', '.join(INTERFACES)})",
-            position=joint.element.origin.position,
+            f"transmission `{name}`: Gazebo has no interface `{interfaces[0]}`"
+            f"{did_you_mean(kind, SIMULATED_INTERFACES)} (it has {', '.join(SIMULATED_INTERFACES)})",
+            position=written.origin.position,
         )
     own = setup.joint(joint.name or "", joint.element.origin.position)
-    written = setup.kinematics.robot.joint_by_name[own]
-    handle, limits = JointHandle(setup.kinematics, written), read_limits(written, settings, setup.note)
+    controlled = setup.kinematics.robot.joint_by_name[own]
+    handle, limits = JointHandle(setup.kinematics, controlled), read_limits(controlled, settings, setup.note)
     handle.lower, handle.upper = limits.lower, limits.upper
     handle.limit, handle.fastest = limits.effort, limits.velocity
-    if INTERFACES[kind] == "effort":
+    kind = SIMULATED_INTERFACES[kind]
+    if kind == "effort":
         return EffortOutput(handle, period, limits)
     gains = read_gains(settings, f"gazebo_ros_control/pid_gains/{own}", setup.note)
-    return (PositionOutput if INTERFACES[kind] == "position" else VelocityOutput)(handle, period, gains, limits)
+    return (PositionOutput if kind == "position" else VelocityOutput)(handle, period, gains, limits)
