@@ -11,41 +11,27 @@ from types import SimpleNamespace
 
 from tests.bench import fuzz_lint
 from tests.bench.fuzz import mutations
+from tests.bench.fuzz.hostile_values import HOSTILE
+from tests.bench.fuzz.seed_files import files_read, seeds, text_of, with_changed
+from tests.bench.fuzz.xml_mutations import xml
 
-ROOT = Path(__file__).parents[3]
-FOLDERS = (ROOT / "robots", ROOT / "urdfkit", ROOT / "templates", ROOT / "tests", ROOT.parent / "shared" / "corpus")
-MAX_SEED_BYTES = 100_000
 LIMIT = 10.0
 """CPU time that lint, expand and lsp may take for a file [s]."""
 STEPS = 50
 """Steps of a simulation."""
 
 
-@cache
-def seeds(*suffixes: str) -> list[Path]:
-    """Return the files with one of these suffixes, the same for each process."""
-    return sorted(
-        path
-        for folder in FOLDERS
-        if folder.is_dir()
-        for path in folder.rglob("*")
-        if path.name.endswith(suffixes) and path.is_file() and 0 < path.stat().st_size < MAX_SEED_BYTES
-    )
-
-
-def _text(path: Path) -> str:
-    return path.read_text("utf-8", "replace")
-
-
-def _description(folder: Path, rng: random.Random) -> Path:
-    """Write a changed robot description."""
-    original = rng.choice(seeds(".urdf", ".xacro"))
-    path = folder / original.name
-    if rng.random() < 0.3:
-        path.write_bytes(fuzz_lint.mutated(original.read_bytes(), rng))
+def description(folder: Path, rng: random.Random, original: Path | None = None) -> Path:
+    """Write a robot description in a copy of its package, in which it or a file that it reads is changed."""
+    original = original or rng.choice(seeds(".urdf", ".xacro"))
+    changed = rng.choice(files_read(original)) if rng.random() < 0.3 else original
+    if rng.random() < 0.2:
+        content = fuzz_lint.mutated(changed.read_bytes(), rng)
+    elif changed.suffix in (".yaml", ".yml"):
+        content = mutations.yaml(text_of(changed), rng).encode("utf-8", "replace")
     else:
-        path.write_text(mutations.xml(_text(original), rng), "utf-8", "replace")
-    return path
+        content = xml(text_of(changed), rng).encode("utf-8", "replace")
+    return with_changed(folder, original, changed, content)
 
 
 def lint(folder: Path, rng: random.Random) -> str:
@@ -54,7 +40,7 @@ def lint(folder: Path, rng: random.Random) -> str:
     from urdfkit.lint.project.entry_files import Entry
     from urdfkit.lint.project.options import Options
 
-    run([Entry(_description(folder, rng))], Options(guess_target=True, time_limit=LIMIT))
+    run([Entry(description(folder, rng))], Options(guess_target=True, time_limit=LIMIT))
     return "linted"
 
 
@@ -64,7 +50,7 @@ def expand(folder: Path, rng: random.Random) -> str:
     from urdfkit.description.xml.cost_limit import CostLimit
 
     with CostLimit(LIMIT):
-        expanded(_description(folder, rng))
+        expanded(description(folder, rng))
     return "expanded"
 
 
@@ -77,9 +63,9 @@ def lsp(folder: Path, rng: random.Random) -> str:
     from urdfkit.lint.editor.open_files import Project
     from urdfkit.lint.project.options import Options
 
-    path = _description(folder, rng)
+    path = description(folder, rng)
     uri = path.as_uri()
-    text = _text(path)
+    text = text_of(path)
     document = SimpleNamespace(source=text, version=1)
     server = SimpleNamespace(workspace=SimpleNamespace(text_documents={uri: document}))
     project = Project(Options(guess_target=True, time_limit=LIMIT))
@@ -96,11 +82,11 @@ def lsp(folder: Path, rng: random.Random) -> str:
         session.actions(uri, types.Range(types.Position(0, 0), types.Position(len(lines), 0)))
         try:
             if session.renamable(uri, at) is not None:
-                session.rename(uri, at, rng.choice(mutations.HOSTILE))
+                session.rename(uri, at, rng.choice(HOSTILE))
         except JsonRpcInvalidParams:
             pass
         document.source = text = (
-            mutations.xml(text, rng) if rng.random() < 0.5 else text[: rng.randrange(len(text) + 1)]
+            xml(text, rng) if rng.random() < 0.5 else text[: rng.randrange(len(text) + 1)]
         )
         lines = text.split("\n")
     if failures := project.failures(path):
@@ -114,9 +100,11 @@ def sdf(folder: Path, rng: random.Random) -> str:
     from urdfkit.description.sdf.writer import to_sdf
 
     original = rng.choice(seeds(".sdf", ".world"))
-    path = folder / original.name
-    path.write_text(mutations.xml(_text(original), rng), "utf-8", "replace")
-    to_sdf(load_world(path, package_path=[original.parent]))
+    path = folder / f"changed_{original.name}"
+    path.write_text(xml(text_of(original), rng), "utf-8", "replace")
+    world = load_world(path, package_path=[original.parent])
+    path.write_text(to_sdf(world), "utf-8")
+    load_world(path, package_path=[original.parent])
     return "read"
 
 
@@ -159,7 +147,9 @@ def mesh(folder: Path, rng: random.Random) -> str:
     name = rng.choice(list(files))
     content = files[name]
     if name.endswith(".dae") and rng.random() < 0.7:
-        content = mutations.xml(content.decode(), rng).encode("utf-8", "replace")
+        content = xml(content.decode(), rng).encode("utf-8", "replace")
+    elif name.endswith(".glb") and rng.random() < 0.7:
+        content = mutations.glb(content, rng)
     elif name.startswith(("text", "plain.obj", "plain.ply", "a.")) and rng.random() < 0.7:
         content = mutations.words(content, rng)
     else:
@@ -192,8 +182,8 @@ def parameters(folder: Path, rng: random.Random) -> str:
 
     kind = rng.choice(((".yaml", ".yml"), (".yaml", ".yml"), (".launch", ".launch.xml"), (".launch.py",)))
     original = rng.choice(seeds(*kind))
-    text = _text(original)
-    change = {".launch": mutations.xml, ".launch.py": mutations.python}.get(kind[0], mutations.yaml)
+    text = text_of(original)
+    change = {".launch": xml, ".launch.py": mutations.python}.get(kind[0], mutations.yaml)
     path = folder / original.name
     path.write_text(change(text, rng), "utf-8", "replace")
     packages = Packages([original.parent], path)

@@ -1,4 +1,4 @@
-"""Mutations of input files that keep most of their structure."""
+"""Mutations of YAML, Python, JSON, text and binary files that keep most of their structure."""
 
 from __future__ import annotations
 
@@ -8,146 +8,34 @@ import re
 import struct
 from typing import Any
 
-HOSTILE = (
-    "",
-    " ",
-    "nan",
-    "-nan",
-    "inf",
-    "-inf",
-    "1e308",
-    "-1e308",
-    "1e999",
-    "5e-324",
-    "-1",
-    "0",
-    "-0",
-    "1e30",
-    "99999999999999999999",
-    "0x10",
-    "1,5",
-    "1_0",
-    "٣",
-    "0.1 m",
-    "90deg",
-    "1 2",
-    "1 2 3",
-    "nan nan nan",
-    "1e200 1e200 1e200",
-    "0 0 0 0 0 0",
-    "true",
-    "missing_name",
-    "world",
-    "__model__",
-    "a::b",
-    "::",
-    "model://missing",
-    "model://../../..",
-    "package://missing/a.stl",
-    "file:///dev/zero",
-    "http://example.com/a.dae",
-    "..",
-    "/",
-    "~",
-    "*",
-    "a\tb",
-    "é😀\u202e",
-    "\ufeff",
-    "$(find missing)",
-    "$(arg missing)",
-    "${1/0}",
-    "x" * 300,
-    "x" * 90_000,
-    "9" * 5000,
-    "1 " * 20_000,
-)
-"""Values for attributes and texts: not finite, huge, negative, of the wrong kind or with the name of nothing."""
+from tests.bench.fuzz.hostile_values import HOSTILE
 
-_ELEMENT = re.compile(r"<([\w:.-]+)(?:\s[^<>]*)?/>|<([\w:.-]+)(?:\s[^<>]*)?>.*?</\2\s*>", re.DOTALL)
-_OPEN = re.compile(r"<[\w:.-]+(?:\s[^<>]*?)?(?=/?>)")
-_ATTRIBUTE = re.compile(r"""\s[\w:.-]+\s*=\s*("[^"<]*"|'[^'<]*')""")
-_TEXT = re.compile(r">([^<>]*[^<>\s][^<>]*)<")
 _SCALAR = re.compile(r"(?:(?<=: )|(?<=- )|(?<=\[)|(?<=, ))[^\s\[\]{}#,:][^\n\[\]{}#,]*")
 _PYTHON = re.compile(r"'[^'\n]*'|\"[^\"\n]*\"|\b\d+(?:\.\d+)?\b|\b[a-z_]{3,}\b")
-
-
-def xml(text: str, rng: random.Random) -> str:
-    """Remove, duplicate, swap and replace elements, attributes and values."""
-    for _ in range(rng.choice((1, 1, 1, 2, 3, 8))):
-        text = rng.choice((_value, _value, _value, _element, _attribute, _nest))(text, rng)
-    return text if rng.random() < 0.95 else text[: rng.randrange(len(text) + 1)]
-
-
-def _escaped(value: str) -> str:
-    return value.replace("&", "&amp;").replace("<", "&lt;").replace('"', "&quot;")
 
 
 def _put(text: str, start: int, end: int, new: str) -> str:
     return text[:start] + new + text[end:]
 
 
-def _value(text: str, rng: random.Random) -> str:
-    """Replace one value, all values that are equal to it, or one number of a list of numbers."""
-    attributes, texts = list(_ATTRIBUTE.finditer(text)), list(_TEXT.finditer(text))
-    found = rng.choice([*attributes, *texts]) if attributes or texts else None
-    if found is None:
-        return text
-    quoted = found[1][0] in "\"'" and found[0][0] != ">"
-    old = found[1][1:-1] if quoted else found[1]
-    start, end = (found.start(1) + 1, found.end(1) - 1) if quoted else found.span(1)
-    parts = old.split()
-    new = rng.choice(HOSTILE)
-    if len(parts) > 1 and rng.random() < 0.5:
-        parts[rng.randrange(len(parts))] = rng.choice(HOSTILE)
-        new = " ".join(parts)
-    elif rng.random() < 0.2:
-        other = rng.choice([*attributes, *texts])[1]
-        new = other.strip("\"'")
-        return text.replace(old, new) if old.strip() and rng.random() < 0.3 else _put(text, start, end, new)
-    return _put(text, start, end, _escaped(new))
-
-
-def _element(text: str, rng: random.Random) -> str:
-    elements = list(_ELEMENT.finditer(text))
-    if not elements:
-        return text
-    found, other = rng.choice(elements), rng.choice(elements)
-    kind = rng.randrange(6)
-    if kind == 0:
-        return _put(text, *found.span(), "")
-    if kind == 1:
-        return _put(text, found.end(), found.end(), found[0] * rng.choice((1, 1, 2, 30)))
-    if kind == 2:
-        return _put(text, other.start(), other.start(), found[0])
-    if kind == 3:
-        return _put(text, *found.span(), other[0])
-    name, new = found[1] or found[2], other[1] or other[2]
-    return _put(text, *found.span(), re.sub(rf"(</?){re.escape(name)}\b", rf"\g<1>{new}", found[0]))
-
-
-def _attribute(text: str, rng: random.Random) -> str:
-    found = list(_ATTRIBUTE.finditer(text))
-    tags = list(_OPEN.finditer(text))
-    if not found or not tags:
-        return text
-    one = rng.choice(found)
-    if rng.random() < 0.5:
-        return _put(text, *one.span(), "")
-    place = rng.choice(tags).end()
-    return _put(text, place, place, one[0])
-
-
-def _nest(text: str, rng: random.Random) -> str:
-    elements = list(_ELEMENT.finditer(text))
-    if not elements:
-        return text
-    found = rng.choice(elements)
-    name = found[1] or found[2]
-    depth = rng.choice((1, 2, 10, 150, 1000))
-    return _put(text, *found.span(), f"<{name}>" * depth + found[0] + f"</{name}>" * depth)
-
-
 def yaml(text: str, rng: random.Random) -> str:
+    """Change values of the parsed file, or lines of its text."""
+    from yaml import YAMLError, dump, safe_load
+
+    if rng.random() < 0.5:
+        try:
+            parsed = safe_load(text)
+        except (YAMLError, ValueError):
+            parsed = None
+        if isinstance(parsed, dict | list):
+            for _ in range(rng.choice((1, 2, 4))):
+                changed = tree(parsed, rng)
+                parsed = changed if isinstance(changed, dict | list) else parsed
+            return str(dump(parsed, allow_unicode=True, sort_keys=False))
+    return lines_of_yaml(text, rng)
+
+
+def lines_of_yaml(text: str, rng: random.Random) -> str:
     """Remove, duplicate, move and indent lines; replace values; add anchors, aliases and merges."""
     for _ in range(rng.choice((1, 1, 2, 3, 8))):
         lines = text.split("\n")
@@ -221,7 +109,7 @@ def python(text: str, rng: random.Random) -> str:
             )
             text = _put(text, *one.span(), new)
         else:
-            text = yaml(text, rng)
+            text = lines_of_yaml(text, rng)
     return text
 
 
@@ -257,6 +145,16 @@ _NUMBERS = (
 )
 
 
+def glb(content: bytes, rng: random.Random) -> bytes:
+    """Change the JSON of a binary glTF file, and correct the lengths in its headers."""
+    size = struct.unpack_from("<I", content, 12)[0]
+    document = tree(json.loads(content[20 : 20 + size]), rng)
+    text = json.dumps(document).encode()
+    text += b" " * (-len(text) % 4)
+    rest = content[20 + size :]
+    return content[:8] + struct.pack("<III", 20 + len(text) + len(rest), len(text), 0x4E4F534A) + text + rest
+
+
 def words(content: bytes, rng: random.Random) -> bytes:
     """Change numbers and words of a text file such as OBJ."""
     text = content.decode("utf-8", "replace")
@@ -264,7 +162,13 @@ def words(content: bytes, rng: random.Random) -> bytes:
         found = list(re.finditer(r"[^\s/]+", text))
         if found:
             one = rng.choice(found)
-            text = _put(text, *one.span(), rng.choice((*HOSTILE, rng.choice(found)[0])))
+            new = rng.choice(HOSTILE) if rng.random() < 0.5 else rng.choice(found)[0]
+            text = _put(text, *one.span(), new)
+        if found and rng.random() < 0.3:
+            lines = text.split("\n")
+            at = rng.randrange(len(lines))
+            lines[at : at + rng.choice((0, 1, 1))] = [rng.choice(lines)] * rng.choice((0, 1, 2, 100))
+            text = "\n".join(lines)
     return text.encode("utf-8", "replace")
 
 

@@ -14,7 +14,8 @@ import warnings
 from collections import Counter
 from pathlib import Path
 
-from tests.bench.fuzz.families import FAMILIES, ROOT
+from tests.bench.fuzz.families import FAMILIES
+from tests.bench.fuzz.seed_files import ROOT
 from urdfkit.errors import UrdfkitError
 
 BUDGET = 12.0
