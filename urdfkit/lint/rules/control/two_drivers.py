@@ -1,17 +1,24 @@
 """C713 two-drivers-one-joint."""
 
+from __future__ import annotations
+
 from urdfkit.description.urdf.robot import Robot
 from urdfkit.lint.facts.control.hardware_interfaces import has_gazebo_ros_control
-from urdfkit.lint.facts.gazebo.plugins import plugins, spec_of
+from urdfkit.lint.facts.gazebo.plugins import generations, plugins, spec_of
 from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from urdfkit.description.plugins import Parameter, PluginSpec
 
 
 class TwoDrivers(RobotRule):
     """A joint is driven by a controller and by another Gazebo plugin.
 
     ## What it does
-    Checks for joints that have a transmission, in robots with gazebo_ros_control, and that another plugin also drives.
-    The same applies to joints with a command interface in ``<ros2_control>`` if its hardware runs in Gazebo.
+    Checks for joints that have a transmission, in robots with gazebo_ros_control, and that a drive or joint controller
+    of the same Gazebo also drives. The same applies to joints with a command interface in ``<ros2_control>`` if its
+    hardware runs in Gazebo. Sensors and publishers only read their joints.
 
     ## Why is this bad?
     Both set the joint in every step, so the joint jerks or follows the plugin that runs last.
@@ -90,38 +97,47 @@ class TwoDrivers(RobotRule):
         if not driven:
             return
         for plugin, _, _ in plugins(model.robot):
-            spec = spec_of(plugin, model.target)
-            if spec is None or spec.kind == "joint_state_publisher":
-                continue
+            spec, simulators = spec_of(plugin, model.target), generations(plugin)
             both = [
                 text
-                for parameter in spec.parameters
-                if parameter.names == "joint"
+                for parameter in _driven_by(spec)
                 for text, _ in values(plugin, parameter)
-                if text in driven
+                if text in driven and driven[text][1] in simulators
             ]
             if both:
                 yield self.at(
                     model,
                     plugin.element,
-                    f"`{', '.join(dict.fromkeys(both))}` is also driven by {driven[both[0]]}",
+                    f"`{', '.join(dict.fromkeys(both))}` is also driven by {driven[both[0]][0]}",
                     attribute="name",
                     joint=both[0],
                     help="remove one of the two drivers",
                 )
 
 
-def _controlled_joints(robot: Robot) -> dict[str, str]:
-    """Return the joints that controllers drive in Gazebo, each with the name of its driver."""
-    drivers: dict[str, str] = {}
+def _driven_by(spec: PluginSpec | None) -> tuple[Parameter, ...]:
+    """Return the parameters that name joints which the plugin drives; sensors and publishers only read their joints."""
+    from urdfkit.description.plugins.drives.table import DRIVES
+
+    if spec is None or not (spec in DRIVES or spec.kind in ("joint_controller", "joint_position_controller")):
+        return ()
+    read = ("left_joint", "right_joint") if spec.kind == "tricycle" else ()  # The wheels with encoders.
+    return tuple(each for each in spec.parameters if each.names == "joint" and each.meaning not in read)
+
+
+def _controlled_joints(robot: Robot) -> dict[str, tuple[str, str]]:
+    """Return the joints that controllers drive in Gazebo, each with its driver and the driver's generation."""
+    drivers: dict[str, tuple[str, str]] = {}
     if robot.transmissions and has_gazebo_ros_control(robot):
         for transmission in robot.transmissions:
-            drivers.update({part.name: "gazebo_ros_control" for part in transmission.joints if part.name})
+            drivers.update({part.name: ("gazebo_ros_control", "ros1") for part in transmission.joints if part.name})
     for block in robot.ros2_control:
         hardware = block.element.find("hardware")
         element = hardware.find("plugin") if hardware is not None else None
-        if element is not None and element.text.startswith(("gazebo_ros2", "gz_ros2", "ign_ros2")):
+        text = element.text if element is not None else ""
+        if text.startswith(("gazebo_ros2", "gz_ros2", "ign_ros2")):
+            generation = "ros2" if text.startswith("gazebo_ros2") else "gz"
             for joint in block.element.find_all("joint"):
                 if joint.find("command_interface") is not None:
-                    drivers[joint.get("name") or ""] = "ros2_control"
+                    drivers[joint.get("name") or ""] = ("ros2_control", generation)
     return drivers

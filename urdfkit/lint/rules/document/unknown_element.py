@@ -12,12 +12,20 @@ _CURRENT_NAMES = {"joint_properties": "dynamics"}
 """Obsolete names of URDF elements → current names."""
 
 
+_IN_GAZEBO = frozenset(("sensor", "plugin", "selfCollide", "mu1", "mu2", "kp", "kd", "gravity", "turnGravityOff"))
+"""Elements of ``<gazebo reference="…">`` that are written into links and joints by mistake."""
+
+
+_PLACES = ("link", "visual", "collision", "geometry", "inertial", "joint", "material")
+
+
 class UnknownElement(RobotRule):
     """An element is unknown in its parent.
 
     ## What it does
     Checks the children of ``<link>``, ``<joint>``, ``<inertial>``, ``<visual>``, ``<collision>`` and ``<geometry>``.
-    Elements with a prefix are accepted as extensions.
+    Elements with a prefix are accepted as extensions. An element that resembles no element of URDF or SDF is probably
+    read by another program and reported as a note.
 
     The root element must be ``<robot>``. It may contain extensions of any name, so its children are reported only if
     their name nearly matches ``link``, ``joint`` or another known element. The same applies to ``<transmission>`` and
@@ -78,13 +86,26 @@ class UnknownElement(RobotRule):
                 yield self.at(model, child, _message(robot, child), help=help, fix=fix, severity="error")
         yield from self._check_control(model)
         for link in model.robot.links:
-            for parent, child in _unknown(link.element):
-                hint, fix = _hint(parent, child), _renamed(model, parent, child)
-                yield self.at(model, child, _message(parent, child), link=link.name, help=hint, fix=fix)
+            yield from self._check_content(model, link.element, link=link.name)
         for joint in model.robot.joints:
-            for parent, child in _unknown(joint.element):
-                hint, fix = _hint(parent, child), _renamed(model, parent, child)
-                yield self.at(model, child, _message(parent, child), joint=joint.name, help=hint, fix=fix)
+            yield from self._check_content(model, joint.element, joint=joint.name)
+
+    def _check_content(
+        self, model: Model, element: Element, *, link: str | None = None, joint: str | None = None
+    ) -> Findings:
+        for parent, child in _unknown(element):
+            hint, fix, message = _hint(parent, child), _renamed(model, parent, child), _message(parent, child)
+            is_extension = hint is None and parent.tag not in ("inertial", "geometry")
+            yield self.at(
+                model,
+                child,
+                message,
+                link=link,
+                joint=joint,
+                help="readers of URDF ignore it" if is_extension else hint,
+                fix=fix,
+                severity="note" if is_extension else None,
+            )
 
     def _check_control(self, model: Model) -> Findings:
         robot = model.robot
@@ -112,12 +133,25 @@ def _message(parent: Element, child: Element) -> str:
 
 
 def _hint(parent: Element, child: Element) -> str | None:
+    """Return how to correct an unknown element; None if it resembles no element of URDF or SDF."""
     if child.tag in _CURRENT_NAMES:
         return f"rename it to <{_CURRENT_NAMES[child.tag]}>"
+    if child.tag in URDF_CHILDREN["robot"] - {"link", "joint", "material", "sensor"}:
+        is_block = child.tag == "gazebo" and parent.tag in ("link", "joint")
+        block = f', and write <gazebo reference="{parent.get("name") or ""}">' if is_block else ""
+        return f"move it out of the <{parent.tag}>, into <robot>{block}"
+    if child.tag in _IN_GAZEBO:
+        name = parent.get("name") if parent.tag in ("link", "joint") else None
+        return f'move it to <gazebo reference="{name or "…"}">'
+    if child.tag == "pose":
+        return "it is an element of SDF; URDF has <origin>"
+    places = [place for place in _PLACES if child.tag in URDF_CHILDREN[place]]
+    if places and child.tag != "type":
+        return f"move it to {' or '.join(f'<{place}>' for place in places)}"
     near = nearest(child.tag, URDF_CHILDREN[parent.tag], cutoff=0.7)
-    if near or not child.attributes:
-        return f"did you mean `{near}`?" if near else None
-    return "to call a macro, add the prefix `xacro:` and process the file with xacro"
+    if near is None and child.attributes and parent.tag == "inertial":
+        return "to call a macro, add the prefix `xacro:` and process the file with xacro"
+    return f"did you mean `{near}`?" if near else None
 
 
 def _renamed(model: Model, parent: Element, child: Element) -> Fix | None:

@@ -2,8 +2,9 @@
 
 import re
 
-from urdfkit.lint.model.tags import Document
-from urdfkit.lint.model.xacro_prefix import URDF_CHILDREN
+from urdfkit.description.packages.related_files import LAUNCH
+from urdfkit.lint.model.tags import Document, Tag
+from urdfkit.lint.model.xacro_prefix import URDF_ELEMENTS
 from urdfkit.lint.rule import Findings, Model, SourceRule
 
 
@@ -11,9 +12,10 @@ class XacroInPlainUrdf(SourceRule):
     """A ``.urdf`` file contains xacro.
 
     ## What it does
-    Checks files with the extension ``.urdf`` for elements with the ``xacro:`` prefix and for expressions. If the file
-    declares the prefix, unknown elements are reported as well, because they are probably macro calls without the
-    prefix. A declared but unused prefix is accepted, because xacro itself writes it.
+    Checks files with links and the extension ``.urdf`` for elements with the ``xacro:`` prefix and for expressions. If
+    the file declares the prefix, an unknown element with attributes in ``<inertial>`` is reported as well, because it
+    is probably a macro call without the prefix. A declared but unused prefix is accepted, because xacro itself writes
+    it, and so is a file on which a launch file of these packages runs xacro.
 
     ## Why is this bad?
     The extension indicates plain URDF. RViz, MoveIt and viewers read the file without expanding it, so macros are
@@ -45,17 +47,15 @@ class XacroInPlainUrdf(SourceRule):
         if not source.file.endswith(".urdf") or ("xacro" not in text and "${" not in text) or not document.roots:
             return
         root = document.roots[0]
+        if not any(child.name == "link" for child in root.children) or _is_run_through_xacro(source.file, model):
+            return
         declares_prefix = "xmlns:xacro" in root.attributes
         for tag in document.walk():
             start_tag = text[tag.start : tag.end]
-            allowed = URDF_CHILDREN.get(tag.parent.name) if tag.parent is not None and tag.parent is not root else None
-            is_unprefixed_call = (
-                declares_prefix and allowed is not None and tag.name not in allowed and ":" not in tag.name
-            )
             if (
                 tag.name.startswith("xacro:")
                 or ("${" in start_tag and re.search(r"\$\{[^{}]*\}", start_tag))
-                or (is_unprefixed_call and tag.attributes)
+                or (declares_prefix and _is_unprefixed_call(tag))
             ):
                 yield self.at(
                     model,
@@ -65,3 +65,16 @@ class XacroInPlainUrdf(SourceRule):
                     help=f"rename the file to {source.file.rpartition('/')[2]}.xacro",
                 )
                 return
+
+
+def _is_unprefixed_call(tag: Tag) -> bool:
+    """Return whether an element of ``<inertial>`` is a macro call without prefix: ``<box_inertia m="1" …/>``."""
+    inside = tag.parent is not None and tag.parent.name == "inertial"
+    return inside and bool(tag.attributes) and tag.name not in URDF_ELEMENTS and ":" not in tag.name
+
+
+def _is_run_through_xacro(file: str, model: Model) -> bool:
+    """Return whether a launch file of these packages runs xacro and names the file."""
+    name = file.rpartition("/")[2]
+    launch_files = (other.text for other in model.related_files.values() if other.file.endswith(LAUNCH))
+    return any("xacro" in text and name in text for text in launch_files)

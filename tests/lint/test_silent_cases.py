@@ -1,0 +1,56 @@
+"""Correct files that resemble a defect: no finding; and the defect next to each: a finding."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from urdfkit.lint import lint
+
+LINKS = '<link name="base"/><link name="tip"/>'
+JOINT = '<joint name="j" type="fixed"><parent link="base"/><child link="tip"/>{}</joint>'
+PREFIX = ' xmlns:xacro="http://www.ros.org/wiki/xacro"'
+TENSOR = '<mass value="1"/><inertia ixx="0.1" ixy="0" ixz="0" iyy="0.1" iyz="0" izz="0.1"/>'
+
+
+def robot(content: str, attributes: str = "") -> str:
+    return f'<robot name="arm"{attributes}>{content}</robot>'
+
+
+def codes(folder: Path, files: dict[str, str], **options: object) -> list[str]:
+    """Write the files of a package and return severity and code of each finding in the first one."""
+    for name, text in files.items():
+        (folder / name).parent.mkdir(parents=True, exist_ok=True)
+        (folder / name).write_text(text)
+    return [f"{found.severity} {found.code}" for found in lint(folder / next(iter(files)), **options)]
+
+
+def launch(command: str) -> str:
+    return f'<launch><param name="robot_description" command="{command} $(find arm)/arm.urdf"/></launch>'
+
+
+@pytest.mark.parametrize(
+    ("content", "attributes", "is_reported"),
+    [
+        (LINKS + JOINT.format('<controller_gains kp="3"/>'), PREFIX, False),
+        ('<link name="base"><traits a="1"/></link>', PREFIX, False),
+        ('<link name="base"><visual><geometry><torus r="1"/></geometry></visual></link>', PREFIX, False),
+        (f'<link name="base"><inertial>{TENSOR}<visual/></link>', PREFIX, False),  # a deleted end tag
+        (f'<link name="base"><inertial>{TENSOR}<disc m="1"/></inertial></link>', PREFIX, True),
+        (f'<link name="base"><inertial>{TENSOR}<disc m="1"/></inertial></link>', "", False),
+        ('<material name="a"><color rgba="${1} 0 0 1"/></material>', PREFIX, False),  # a file to be included
+        ('<link name="base"/><material name="a"><color rgba="${1} 0 0 1"/></material>', PREFIX, True),
+    ],
+)
+def test_plain_urdf_without_xacro(content: str, attributes: str, is_reported: bool, tmp_path: Path) -> None:
+    found = codes(tmp_path, {"arm.urdf": robot(content, attributes)})
+    assert ("warning X123" in found) is is_reported
+
+
+@pytest.mark.parametrize(("command", "is_reported"), [("xacro", False), ("cat", True)])
+def test_urdf_on_which_a_launch_file_runs_xacro(command: str, is_reported: bool, tmp_path: Path) -> None:
+    text = robot('<xacro:property name="a" value="1"/><link name="base"/>', PREFIX)
+    package = "<package><name>arm</name></package>"
+    found = codes(tmp_path, {"arm.urdf": text, "package.xml": package, "launch/arm.launch": launch(command)})
+    assert ("warning X123" in found) is is_reported
