@@ -54,3 +54,19 @@ def test_urdf_on_which_a_launch_file_runs_xacro(command: str, is_reported: bool,
     package = "<package><name>arm</name></package>"
     found = codes(tmp_path, {"arm.urdf": text, "package.xml": package, "launch/arm.launch": launch(command)})
     assert ("warning X123" in found) is is_reported
+
+
+@pytest.mark.parametrize(
+    ("include", "is_reported"),
+    [
+        ('<!-- <xacro:include filename="tool.xacro"/> -->', False),
+        ("", True),
+    ],
+)
+def test_fragment_whose_only_include_is_commented_out(include: str, is_reported: bool, tmp_path: Path) -> None:
+    (tmp_path / "arm.xacro").write_text(robot(f'<link name="base"/>{include}', PREFIX))
+    visual = '<visual><geometry><sphere radius="1"/></geometry><material name="red"/></visual>'
+    tool = f'<link name="tip">{visual}</link>{JOINT.format("")}'
+    (tmp_path / "tool.xacro").write_text(robot(tool, PREFIX))
+    found = {finding.code for finding in lint(tmp_path)}
+    assert found == ({"T201", "G612"} if is_reported else set())

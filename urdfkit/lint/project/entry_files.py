@@ -38,7 +38,8 @@ class Entry:
     Attributes:
         path: the file.
         only: report findings in these files only; in all files if empty.
-        is_library: the file only defines macros; including files may define the names it lacks.
+        is_library: the file only defines macros, or it is a fragment whose include is commented out; including files
+            may define the names it lacks.
     """
 
     path: Path
@@ -124,7 +125,9 @@ def _robots_in(folder: Path) -> list[Entry]:
     alone = [path for path in robots if path not in included]
     if candidates := _to_merge(alone):
         alone = [path for path in alone if not any(_matches(text, path) for text in candidates.values())] or alone
-    found = [Entry(path, (), _is_robot(robots[path]) and _is_library(robots[path])) for path in alone]
+    unused = {path for path in alone if _is_fragment(robots[path])}
+    unused &= _included({path: _written(path) for path in robots}) if unused else unused
+    found = [Entry(path, (), path in unused or (_is_robot(text := robots[path]) and _is_library(text))) for path in alone]
     return [*found, *(Entry(path, (), is_library=True) for path in _unreached(included, robots))]
 
 
@@ -287,6 +290,17 @@ def _is_library(text: str) -> bool:
     return not re.search(_CONTENT, re.sub(_MACRO, "", text))
 
 
+def _is_fragment(text: str) -> bool:
+    """Return whether the text uses links or materials outside of macros that it does not define."""
+    content = re.sub(_MACRO, "", text)
+    links = set(re.findall(r"<(?:parent|child)\s+link\s*=\s*[\"']([^\"'$]*)[\"']", content))
+    materials = re.findall(r"<material\s+name\s*=\s*[\"']([^\"'$]*)[\"']\s*(/?)", content)
+    colours = {name for name, is_empty in materials if not is_empty}
+    return not links <= set(re.findall(r"<link\s+name\s*=\s*[\"']([^\"']*)", content)) or any(
+        is_empty and name not in colours for name, is_empty in materials
+    )
+
+
 def _walk(folder: Path, depth: int) -> Iterator[Path]:
     try:
         with os.scandir(folder) as scan:
@@ -305,14 +319,19 @@ def _walk(folder: Path, depth: int) -> Iterator[Path]:
 
 
 def _text(path: Path) -> str:
+    """Return the text of a file without comments."""
+    text = _written(path)
+    return re.sub(_COMMENT, "", text) if "<!--" in text else text
+
+
+def _written(path: Path) -> str:
     from urdfkit.description.xml.source import Source
 
     try:
-        text = Source.read(path).text
+        return Source.read(path).text
     except ResourceError as error:
         from urdfkit.description.packages.resolver import OUTSIDE
 
         if getattr(error.__cause__, "strerror", None) != OUTSIDE:
             raise
         return ""  # a link that leads out, which `Confinement` reports
-    return re.sub(_COMMENT, "", text) if "<!--" in text else text
