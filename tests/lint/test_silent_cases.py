@@ -70,3 +70,43 @@ def test_fragment_whose_only_include_is_commented_out(include: str, is_reported:
     (tmp_path / "tool.xacro").write_text(robot(tool, PREFIX))
     found = {finding.code for finding in lint(tmp_path)}
     assert found == ({"T201", "G612"} if is_reported else set())
+
+
+@pytest.mark.parametrize(
+    ("declaration", "launch_arguments", "expected"),
+    [
+        ("", None, "error X106"),
+        ("", "", "error X106"),
+        ("", " prefix:=a_", "note X106"),
+        ('<xacro:arg name="prefix"/>', None, "note X106"),
+        ('<xacro:arg name="prefix"/>', "", "error X106"),
+        ('<xacro:arg name="prefx" default=""/>', None, "error X106"),
+        ('<xacro:arg name="prefix" default=""/>', None, None),
+    ],
+)
+def test_arguments_that_users_pass(
+    declaration: str, launch_arguments: str | None, expected: str | None, tmp_path: Path
+) -> None:
+    text = robot(f'{declaration}<link name="$(arg prefix)base"/>', PREFIX)
+    files = {"arm.urdf.xacro": text, "package.xml": "<package><name>arm</name><depend>xacro</depend></package>"}
+    if launch_arguments is not None:
+        command = f"xacro $(find arm)/arm.urdf.xacro{launch_arguments}"
+        files["launch/arm.launch"] = f'<launch><param name="robot_description" command="{command}"/></launch>'
+    found = [each for each in codes(tmp_path, files) if each.endswith("X106")]
+    assert found == ([expected] if expected else [])
+
+
+@pytest.mark.parametrize(("default", "expected"), [("small", []), ("nothing", ["note X125"])])
+def test_default_of_an_argument_that_selects_no_file(default: str, expected: list[str], tmp_path: Path) -> None:
+    argument = f'<xacro:arg name="size" default="{default}"/><xacro:property name="s" value="$(arg size)"/>'
+    content = '<xacro:property name="c" value="${xacro.load_yaml(\'config/\' + s + \'/c.yaml\')}"/><link name="base"/>'
+    text = robot(f'{argument}{content}<material name="${{c[\'a\']}}"><color rgba="1 1 1 1"/></material>', PREFIX)
+    found = codes(tmp_path, {"arm.urdf.xacro": text, "config/small/c.yaml": "a: red"})
+    assert [each for each in found if each.endswith("X125")] == expected
+
+
+@pytest.mark.parametrize(("dependency", "expected"), [("<depend>lidar</depend>", "warning X113"), ("", "error X113")])
+def test_packages_that_are_not_installed(dependency: str, expected: str, tmp_path: Path) -> None:
+    text = robot('<xacro:include filename="$(find lidar)/lidar.xacro"/><link name="base"/>', PREFIX)
+    manifest = f"<package><name>arm</name>{dependency}<depend>xacro</depend></package>"
+    assert expected in codes(tmp_path, {"arm.urdf.xacro": text, "package.xml": manifest})

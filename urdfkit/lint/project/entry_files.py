@@ -127,7 +127,9 @@ def _robots_in(folder: Path) -> list[Entry]:
         alone = [path for path in alone if not any(_matches(text, path) for text in candidates.values())] or alone
     unused = {path for path in alone if _is_fragment(robots[path])}
     unused &= _included({path: _written(path) for path in robots}) if unused else unused
-    found = [Entry(path, (), path in unused or (_is_robot(text := robots[path]) and _is_library(text))) for path in alone]
+    found = [
+        Entry(path, (), path in unused or (_is_robot(text := robots[path]) and _is_library(text))) for path in alone
+    ]
     return [*found, *(Entry(path, (), is_library=True) for path in _unreached(included, robots))]
 
 

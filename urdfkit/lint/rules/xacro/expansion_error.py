@@ -1,6 +1,13 @@
 """X125 expansion-error."""
 
-from urdfkit.lint.rule import FaultRule
+from __future__ import annotations
+
+from urdfkit.description.xacro.faults import Fault
+from urdfkit.lint.rule import FaultRule, Findings, Model
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from urdfkit.lint.finding import Severity
 
 
 class ExpansionError(FaultRule):
@@ -8,7 +15,8 @@ class ExpansionError(FaultRule):
 
     ## What it does
     Reports the xacro errors that no other rule covers, such as a missing attribute of a directive, an unknown
-    directive, or invalid YAML.
+    directive, or invalid YAML. A file that does not exist because of the default of an argument is a note: the robot
+    requires another value.
 
     ## Why is this bad?
     xacro aborts with an error.
@@ -33,3 +41,16 @@ class ExpansionError(FaultRule):
     code = "X125"
     name = "expansion-error"
     kinds = ("other",)
+
+    def check(self, fault: Fault, model: Model) -> Findings:
+        """Yield the finding; a note if the default of an argument selects no file."""
+        path = str(fault.details.get("path", ""))
+        if not path:
+            yield from super().check(fault, model)
+            return
+        from urdfkit.lint.facts.required_inputs import argument_in_path
+
+        name = argument_in_path(model, path)
+        help = f"pass {name}:=value: its default selects no file" if name else None
+        severity: Severity | None = "note" if name else None
+        yield self.at(model, fault, fault.message, attribute=fault.attribute, help=help, severity=severity)

@@ -1,5 +1,7 @@
 """X113 include-not-found."""
 
+from __future__ import annotations
+
 from pathlib import Path
 
 from urdfkit.description.xacro.faults import Fault
@@ -7,13 +9,19 @@ from urdfkit.lint.finding import Edit, Fix
 from urdfkit.lint.fix_builders import nearest
 from urdfkit.lint.rule import FaultRule, Findings, Model
 
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from urdfkit.lint.finding import Severity
+
 
 class IncludeNotFound(FaultRule):
     """An included file or its package does not exist.
 
     ## What it does
     Checks for ``<xacro:include>`` with a file that does not exist, and for ``$(find …)`` with a package that is neither
-    in the workspace nor in the environment. The rest of the description is still checked.
+    in the workspace nor in the environment. The rest of the description is still checked. A package that package.xml
+    depends on is a warning: it has to be installed on this machine. A file that does not exist because of the default
+    of an argument is a note.
 
     ## Why is this bad?
     xacro aborts with an error. Everything that the file defines is undefined.
@@ -45,7 +53,17 @@ class IncludeNotFound(FaultRule):
 
     def check(self, fault: Fault, model: Model) -> Findings:
         """Yield the finding, with a fix if a file with a similar name exists."""
-        yield self.at(model, fault, fault.message, attribute=fault.attribute, fix=_nearest_file(fault, model))
+        from urdfkit.lint.facts.required_inputs import argument_in_path, is_declared_dependency
+
+        severity: Severity | None = None
+        help, message = None, fault.message
+        if fault.kind == "package-not-found" and is_declared_dependency(model, fault.name or ""):
+            severity, message = "warning", f"package `{fault.name}` is not installed on this machine"
+            help = "install it, since package.xml depends on it, or add its folder with --package-path"
+        elif fault.kind == "include-not-found" and (name := argument_in_path(model, fault.details.get("path", ""))):
+            severity, help = "note", f"pass {name}:=value: its default selects no file"
+        fix = _nearest_file(fault, model)
+        yield self.at(model, fault, message, attribute=fault.attribute, help=help, fix=fix, severity=severity)
 
 
 def _nearest_file(fault: Fault, model: Model) -> Fix | None:

@@ -1,14 +1,16 @@
 """X106 undefined-arg."""
 
-from urdfkit.lint.rule import FaultRule
+from urdfkit.description.xacro.faults import Fault
+from urdfkit.lint.rule import FaultRule, Findings, Model
 
 
 class UndefinedArgument(FaultRule):
     """``$(arg …)`` uses an argument without a value.
 
     ## What it does
-    Checks for arguments that have neither a default in ``<xacro:arg>`` nor a value passed as ``name:=value``. If an
-    included file that may declare the argument is missing, this is a note.
+    Checks for arguments that have neither a default in ``<xacro:arg>`` nor a value passed as ``name:=value``. This is a
+    note if ``<xacro:arg>`` declares the argument without default, if a launch file of these packages passes it, or if
+    an included file that may declare it is missing.
 
     ## Why is this bad?
     xacro aborts unless every caller passes the argument.
@@ -33,3 +35,15 @@ class UndefinedArgument(FaultRule):
     name = "undefined-arg"
     kinds = ("undefined-arg",)
     may_be_elsewhere = True
+
+    def check(self, fault: Fault, model: Model) -> Findings:
+        """Yield the finding; a note for an argument that users of the robot pass."""
+        from urdfkit.lint.facts.required_inputs import is_required_argument
+
+        name = fault.name or ""
+        if model.missing_file or "did you mean" in fault.message or not is_required_argument(model, name):
+            yield from super().check(fault, model)
+        else:
+            message = f"argument `{name}` has no value, which the robot requires"
+            help = f"pass {name}:=value to lint the robot with it"
+            yield self.at(model, fault, message, attribute=fault.attribute, help=help, severity="note")
