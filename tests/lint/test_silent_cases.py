@@ -110,3 +110,71 @@ def test_packages_that_are_not_installed(dependency: str, expected: str, tmp_pat
     text = robot('<xacro:include filename="$(find lidar)/lidar.xacro"/><link name="base"/>', PREFIX)
     manifest = f"<package><name>arm</name>{dependency}<depend>xacro</depend></package>"
     assert expected in codes(tmp_path, {"arm.urdf.xacro": text, "package.xml": manifest})
+
+
+YAML = """controller_manager:
+  ros__parameters:
+    arm_controller:
+      type: {kind}
+arm_controller:
+  ros__parameters:
+    joints: [{joints}]
+"""
+TRAJECTORY = "joint_trajectory_controller/JointTrajectoryController"
+ELBOW = robot(LINKS + '<joint name="elbow" type="fixed"><parent link="base"/><child link="tip"/></joint>')
+
+
+def near(folder: Path, files: dict[str, str]) -> list[str]:
+    """Return the codes of the findings in a package `arm` with these files, in a workspace with `lib`."""
+    manifests = {name: f"<package><name>{name}</name></package>" for name in ("arm", "lib")}
+    written = {"arm/arm.urdf": ELBOW, **{f"{name}/package.xml": text for name, text in manifests.items()}, **files}
+    return sorted({each.partition(" ")[2] for each in codes(folder, written) if " K9" in each})
+
+
+@pytest.mark.parametrize(
+    ("joints", "is_reported"),
+    [
+        ("elbow", False),
+        ("elbo", True),
+        ("finger_1, finger_2", False),  # another robot
+        ("elbow, finger_1", True),
+    ],
+)
+def test_controller_joints_of_another_robot(joints: str, is_reported: bool, tmp_path: Path) -> None:
+    yaml = YAML.format(kind=TRAJECTORY, joints=joints)
+    assert near(tmp_path, {"arm/config/a.yaml": yaml}) == (["K959"] if is_reported else [])
+
+
+def test_controller_joints_that_a_missing_package_may_define(tmp_path: Path) -> None:
+    hand = robot('<xacro:include filename="$(find hand)/hand.xacro"/><link name="base"/>', PREFIX)
+    files = {"arm/config/a.yaml": YAML.format(kind=TRAJECTORY, joints="elbow, finger_1"), "arm/with_hand.xacro": hand}
+    assert near(tmp_path, files) == []
+
+
+@pytest.mark.parametrize(
+    ("source", "is_reported"),
+    [
+        ("PLUGINLIB_EXPORT_CLASS(joint_trajectory_controllers::JointTrajectoryController, X)", False),
+        ("PLUGINLIB_EXPORT_CLASS(other::JointTrajectoryController, X)", True),
+    ],
+)
+def test_controller_types_that_a_package_exports(source: str, is_reported: bool, tmp_path: Path) -> None:
+    yaml = YAML.format(kind="joint_trajectory_controllers/JointTrajectoryController", joints="elbow")
+    found = near(tmp_path, {"arm/config/a.yaml": yaml, "lib/src/controller.cpp": source})
+    assert found == (["K962"] if is_reported else [])
+
+
+@pytest.mark.parametrize(
+    ("path", "is_reported"),
+    [
+        ("maps/office.yaml", False),
+        ("data/run.bag", False),
+        ("secret/calibration.yaml", False),  # ignored by git
+        ("config/pid.yaml", True),
+        ("config/rvizz.rviz", True),
+    ],
+)
+def test_files_that_are_created_at_run_time(path: str, is_reported: bool, tmp_path: Path) -> None:
+    text = f'<launch><arg name="file" default="$(find arm)/{path}"/></launch>'
+    files = {"arm/launch/a.launch": text, "arm/config/rviz.rviz": "", "arm/.gitignore": "secret/\n"}
+    assert near(tmp_path, files) == (["K958"] if is_reported else [])

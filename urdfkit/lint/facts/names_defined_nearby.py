@@ -3,6 +3,7 @@
 import re
 from pathlib import Path
 
+from urdfkit.errors import ResourceError
 from urdfkit.lint.model.model import Model
 
 
@@ -13,16 +14,7 @@ def neighbouring_names(model: Model, tag: str) -> list[str]:
         model: the linted model.
         tag: ``link`` or ``joint``.
     """
-    from urdfkit.description.packages.related_files import dependencies_in, manifest, neighbours, package_of
-    from urdfkit.lint.project.entry_files import descriptions
-
-    near = neighbours(model.package) if model.package is not None else {}
-    folders: set[Path] = set()
-    for file in model.related_files:
-        package = package_of(Path(file))
-        if package is not None:
-            folders |= {package, *(near[name] for name in dependencies_in(manifest(package)) if name in near)}
-    texts = {str(path.absolute()): text for folder in sorted(folders) for path, text in descriptions(folder)}
+    texts = _descriptions(model)
     own = {str(Path(file).absolute()): written.text for file, written in model.expanded.sources.items()}
     is_fixed = not any(re.search(r"<(?:xacro:)?(?:if|unless|arg)\b", text) for text in own.values())
     texts = {path: text for path, text in texts.items() if path not in own} if is_fixed else {**own, **texts}
@@ -32,6 +24,31 @@ def neighbouring_names(model: Model, tag: str) -> list[str]:
     names = [name for found in tags for name in re.findall(r"\bname\s*=\s*[\"']([^\"']*)", found)[:1]]
     calls = "\n".join((*re.findall(_CALL, every), *re.findall(_DEFAULTS, every)))
     return [_pattern(name, calls, every) for name in dict.fromkeys(names)]
+
+
+def unresolved_package(model: Model) -> str:
+    """Return a package that descriptions in neighbouring packages include files from and that is not found here."""
+    texts = "\n".join(_descriptions(model).values())
+    for name in dict.fromkeys(re.findall(r"<xacro:include\b[^<>]*\$\(find\s+([\w-]+)\)", texts)):
+        try:
+            model.expanded.packages.find(str(name))
+        except ResourceError:
+            return str(name)
+    return ""
+
+
+def _descriptions(model: Model) -> dict[str, str]:
+    """Return the texts of the descriptions in the packages of related files and in their dependencies."""
+    from urdfkit.description.packages.related_files import dependencies_in, manifest, neighbours, package_of
+    from urdfkit.lint.project.entry_files import descriptions
+
+    near = neighbours(model.package) if model.package is not None else {}
+    folders: set[Path] = set()
+    for file in model.related_files:
+        package = package_of(Path(file))
+        if package is not None:
+            folders |= {package, *(near[name] for name in dependencies_in(manifest(package)) if name in near)}
+    return {str(path.absolute()): text for folder in sorted(folders) for path, text in descriptions(folder)}
 
 
 def is_conditional(text: str, pattern: str) -> bool:

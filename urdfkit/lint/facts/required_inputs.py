@@ -28,7 +28,7 @@ def is_required_argument(model: Model, name: str) -> bool:
 
 
 def argument_in_path(model: Model, path: str) -> str:
-    """Return the argument whose default is the first missing folder or file of a path; empty if there is none.
+    """Return the argument whose default is the first missing folder or file of a path, or an empty text.
 
     Such a default (``ur_type`` of ``ur5x``) selects nothing: users pass the argument.
 

@@ -1,5 +1,6 @@
 """C709 ros2-control-plugin-vs-distro."""
 
+from urdfkit.lint.facts.control.exported_plugins import is_exported_plugin
 from urdfkit.lint.facts.gazebo.plugins import plugins, simulated_hardware
 from urdfkit.lint.fix_builders import nearest, new_text
 from urdfkit.lint.project.target_platform import WITHOUT_CLASSIC
@@ -93,7 +94,7 @@ class HardwareMismatch(RobotRule):
                 message = f"hardware `{text}` does not belong to {next(iter(hosts))}"
             else:
                 suggestion = HARDWARE.get(package) or nearest(text, (*HARDWARE.values(), *MOCKS), cutoff=0.9)
-                if suggestion is None:
+                if suggestion is None or is_exported_plugin(model, text):
                     continue
                 expected, message = suggestion, f"unknown hardware `{text}`"
             yield self.at(

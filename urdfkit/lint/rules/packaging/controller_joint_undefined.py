@@ -2,9 +2,9 @@
 
 import re
 
-from urdfkit.lint.facts.names_defined_nearby import neighbouring_names
+from urdfkit.lint.facts.names_defined_nearby import neighbouring_names, unresolved_package
 from urdfkit.lint.finding import Finding
-from urdfkit.lint.model.masked_names import unless_masked
+from urdfkit.lint.model.masked_names import is_typo, unless_masked
 from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
 
 
@@ -14,7 +14,8 @@ class ControllerJointUndefined(RobotRule):
     ## What it does
     Compares the joints of controllers in the YAML files of the robot's package and of neighbouring packages that depend
     on it with the joints of the robot. Nothing is reported if the joint may be defined by another description in these
-    packages, or under other arguments or conditions.
+    packages, or under other arguments or conditions. A file most of whose joints the robot lacks belongs to another
+    robot; its joints are reported only if they are misspelt.
 
     ## Why is this bad?
     The controller does not start, because it cannot claim the joint.
@@ -59,16 +60,20 @@ class ControllerJointUndefined(RobotRule):
         for source in model.related_files.values():
             if not source.file.endswith((".yaml", ".yml")):
                 continue
-            for reference in joints(source):
-                # A chained controller writes the name of the other controller before that of the joint.
-                if reference.name.rpartition("/")[2] in joints_by_name:
-                    continue
+            references = list(joints(source))
+            # A chained controller writes the name of the other controller before that of the joint.
+            undefined = [each for each in references if each.name.rpartition("/")[2] not in joints_by_name]
+            is_of_another_robot = 4 * len(undefined) > 3 * len(references)
+            for reference in undefined:
                 defined_elsewhere = (
                     neighbouring_names(model, "joint") if defined_elsewhere is None else defined_elsewhere
                 )
                 if any(re.fullmatch(pattern, reference.name) for pattern in defined_elsewhere):
                     continue
                 suggestion = nearest(reference.name, joints_by_name)
+                is_misspelt = suggestion is not None and is_typo(reference.name, suggestion)
+                if not is_misspelt and (is_of_another_robot or unresolved_package(model)):
+                    continue
                 finding = Finding(
                     self.code,
                     self.name,

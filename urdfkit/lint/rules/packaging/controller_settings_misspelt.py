@@ -21,7 +21,8 @@ class ControllerSettingsMisspelt(RobotRule):
     ## What it does
     Checks the controller parameters in the YAML files of the robot's package and of neighbouring packages that depend
     on it for misspelt controller types of ros_controllers and ros2_controllers, misspelt names of controller sections,
-    misspelt ``ros__parameters`` keys (with two underscores), misspelt parameters, and tabs.
+    misspelt ``ros__parameters`` keys (with two underscores), misspelt parameters, and tabs. Types that a package of
+    the workspace exports are accepted.
 
     ## Why is this bad?
     Loading fails with "Loader for controller not found", or the controller starts without its joints, because unknown
@@ -58,6 +59,7 @@ class ControllerSettingsMisspelt(RobotRule):
     def check(self, model: Model) -> Findings:
         """Yield a finding for each misspelt name, and for the first tab of a file."""
         from urdfkit.lint.facts.control.controller_joints import typed
+        from urdfkit.lint.facts.control.exported_plugins import is_exported_plugin
         from urdfkit.lint.facts.control.launch_package_paths import uncommented
 
         for source in model.related_files.values():
@@ -69,7 +71,7 @@ class ControllerSettingsMisspelt(RobotRule):
                 continue
             for reference in types:
                 suggestion = _suggested_type(reference.name)
-                if suggestion is not None:
+                if suggestion is not None and not is_exported_plugin(model, reference.name):
                     message = f"unknown controller type `{reference.name}`; did you mean `{suggestion}`?"
                     yield self._at(source, reference.start, reference.name, message)
             yield from self._keys(source, text)

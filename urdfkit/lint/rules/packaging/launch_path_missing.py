@@ -1,6 +1,7 @@
 """K958 launch-path-missing."""
 
 import re
+from fnmatch import fnmatchcase
 from pathlib import Path
 
 from urdfkit.lint.finding import Finding
@@ -14,7 +15,8 @@ class LaunchPathMissing(RobotRule):
     Checks the launch files of the robot's package and of neighbouring packages that depend on it. The rule resolves
     paths after ``$(find …)``, ``get_package_share_directory`` and ``FindPackageShare`` in these packages. Python launch
     files are parsed, not executed, so computed paths are not checked, nor are paths that are only tested for existence.
-    Files that CMakeLists.txt or setup.py mentions, or that exist elsewhere in the package, are accepted.
+    Files that CMakeLists.txt or setup.py mentions, or that exist elsewhere in the package, are accepted. So are maps,
+    recordings and files that git ignores, which users and programs create, unless a file with a similar name exists.
 
     ## Why is this bad?
     The launch fails, or starts without the robot, the world or the parameters.
@@ -55,12 +57,14 @@ class LaunchPathMissing(RobotRule):
                 package = neighbouring.get(reference.package)
                 if package is None or _exists(package, reference.path, model):
                     continue
+                hint = near_path(package / reference.path)
+                if not hint and _is_created_at_run_time(package, reference.path):
+                    continue
                 yield Finding(
                     self.code,
                     self.name,
                     self.severity,
-                    f"`{reference.path}` does not exist in package `{reference.package}`"
-                    f"{near_path(package / reference.path)}",
+                    f"`{reference.path}` does not exist in package `{reference.package}`{hint}",
                     source.span(reference.start, reference.end),
                 )
 
@@ -77,6 +81,27 @@ def _exists(package: Path, path: str, model: Model) -> bool:
     texts = [re.sub(_OWN_NAME, "", file.read_text("utf-8", "replace")) for file in build_files]
     return any(re.search(stem, text) for text in texts)
 
+
+def _is_created_at_run_time(package: Path, path: str) -> bool:
+    """Return whether a user or a program creates the file: maps, recordings and results, or what git ignores."""
+    file = Path(path)
+    if file.suffix in _RECORDINGS or not _RUN_TIME_FOLDERS.isdisjoint(part.lower() for part in file.parts[:-1]):
+        return True
+    ignored: list[str] = []
+    for folder in (package, *list(package.parents)[:3]):
+        try:
+            ignored += (folder / ".gitignore").read_text("utf-8", "replace").split()
+        except OSError:
+            continue
+    patterns = [pattern.strip("/") for pattern in ignored if not pattern.startswith(("#", "!"))]
+    places = [path, file.name, *file.parts[:-1], f"{package.name}/{path}"]
+    return any(fnmatchcase(place, pattern) for place in places for pattern in patterns)
+
+
+_RECORDINGS = frozenset((".bag", ".db3", ".mcap", ".log", ".csv", ".pcd", ".pgm", ".pbstream", ".posegraph", ".pickle"))
+_RUN_TIME_FOLDERS = frozenset(
+    ("bag", "bags", "rosbag", "rosbags", "log", "logs", "map", "maps", "output", "results", "recordings", "tmp")
+)
 
 _OWN_NAME = r"(?m)^\s*(?:project\s*\([^)]*\)|(?:package_)?name\s*=.*)"
 """Matches the name of the package in build files, which is often also the name of the robot."""

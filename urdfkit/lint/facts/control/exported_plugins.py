@@ -1,0 +1,48 @@
+"""Plugins that packages of the workspace export: in C++, or in a plugin description."""
+
+import os
+import re
+from pathlib import Path
+
+from urdfkit.lint.model.model import Model
+
+_SUFFIXES = (".cpp", ".cc", ".cxx", ".hpp", ".h", ".xml")
+_MAX_FILES = 400
+_MAX_BYTES = 500_000
+
+
+def is_exported_plugin(model: Model, kind: str) -> bool:
+    """Return whether a package next to the robot's package exports a plugin of that type.
+
+    Args:
+        model: the linted model.
+        kind: lookup name of the plugin: ``package/Class``.
+    """
+    from urdfkit.description.packages.related_files import neighbours
+
+    if model.package is None:
+        return False
+    package, _, name = kind.partition("/")
+    export = re.compile(
+        rf"PLUGINLIB_EXPORT_CLASS\s*\(\s*(?:::)?{re.escape(package)}::(?:\w+::)*{re.escape(name)}\b"
+        rf"|<class\b[^<>]*(?:name\s*=\s*[\"']{re.escape(kind)}[\"']|{re.escape(package)}::(?:\w+::)*{re.escape(name)}[\"'])"
+    )
+    near = neighbours(model.package)
+    folders = [near[package]] if package in near else list(near.values())
+    return any(export.search(text) for folder in folders for text in _sources(folder))
+
+
+def _sources(folder: Path) -> list[str]:
+    """Return the texts of the C++ files and plugin descriptions in a folder."""
+    texts: list[str] = []
+    for place, folders, files in os.walk(folder):
+        folders[:] = sorted(name for name in folders if not name.startswith("."))
+        for name in sorted(files):
+            path = Path(place, name)
+            if not name.endswith(_SUFFIXES) or name == "package.xml" or path.is_symlink():
+                continue
+            if path.stat().st_size <= _MAX_BYTES:
+                texts.append(path.read_text("utf-8", "replace"))
+                if len(texts) >= _MAX_FILES:
+                    return texts
+    return texts
