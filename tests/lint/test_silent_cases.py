@@ -63,7 +63,7 @@ def test_urdf_on_which_a_launch_file_runs_xacro(command: str, is_reported: bool,
         ("", True),
     ],
 )
-def test_fragment_whose_only_include_is_commented_out(include: str, is_reported: bool, tmp_path: Path) -> None:
+def test_fragment_with_a_commented_include(include: str, is_reported: bool, tmp_path: Path) -> None:
     (tmp_path / "arm.xacro").write_text(robot(f'<link name="base"/>{include}', PREFIX))
     visual = '<visual><geometry><sphere radius="1"/></geometry><material name="red"/></visual>'
     tool = f'<link name="tip">{visual}</link>{JOINT.format("")}'
@@ -178,3 +178,37 @@ def test_files_that_are_created_at_run_time(path: str, is_reported: bool, tmp_pa
     text = f'<launch><arg name="file" default="$(find arm)/{path}"/></launch>'
     files = {"arm/launch/a.launch": text, "arm/config/rviz.rviz": "", "arm/.gitignore": "secret/\n"}
     assert near(tmp_path, files) == (["K958"] if is_reported else [])
+
+
+def shape(kind: str, geometry: str) -> str:
+    return f"<{kind}><geometry>{geometry}</geometry></{kind}>"
+
+
+BOX, SPHERE = '<box size="0.1 0.1 0.1"/>', '<sphere radius="{}"/>'
+SMALL = '<mass value="1"/><inertia ixx="0.002" ixy="0" ixz="0" iyy="0.002" iyz="0" izz="0.002"/>'
+
+
+@pytest.mark.parametrize(
+    ("visual", "collision", "is_reported"),
+    [
+        (BOX, SPHERE.format(1.5), False),
+        (BOX, SPHERE.format(50), True),  # millimetres
+        (BOX, '<box size="3 3 3"/>', True),
+        (SPHERE.format(0.05), SPHERE.format(1.5), True),
+    ],
+)
+def test_collision_spheres_around_a_link(visual: str, collision: str, is_reported: bool, tmp_path: Path) -> None:
+    content = f"<inertial>{SMALL}</inertial>{shape('visual', visual)}{shape('collision', collision)}"
+    found = codes(tmp_path, {"arm.urdf": robot(f'<link name="base">{content}</link>')})
+    assert ("warning G617" in found) is is_reported
+
+
+@pytest.mark.parametrize(("products", "is_reported"), [(("0.0001", "-0.0001"), False), (("0", "0"), True)])
+def test_tensors_of_mirrored_parts(products: tuple[str, str], is_reported: bool, tmp_path: Path) -> None:
+    rest = 'ixz="0" iyy="0.05" iyz="0" izz="0.0052"/></inertial>' + shape("visual", '<box size="0.32 0.31 0.3"/>')
+    links = "".join(
+        f'<link name="{name}"><inertial><mass value="3"/><inertia ixx="0.05" ixy="{product}" {rest}</link>'
+        for name, product in zip(("base", "tip"), products, strict=True)
+    )
+    found = codes(tmp_path, {"arm.urdf": robot(links + JOINT.format(""))})
+    assert ("warning I506" in found) is is_reported

@@ -2,11 +2,14 @@
 
 from math import dist
 
-from urdfkit.description.urdf.robot import Mesh, Visual
+from urdfkit.description.urdf.robot import Collision, Link, Mesh, Sphere, Visual
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
 _MIN_ALPHA = 0.5
 """Visuals with a smaller alpha are translucent."""
+
+_MAX_HULL = 100.0
+"""Ratio to the reach of the other shapes from which a sphere is a wrong unit, not a safety hull."""
 
 
 class ShapesApart(RobotRule):
@@ -15,7 +18,8 @@ class ShapesApart(RobotRule):
     ## What it does
     Checks for shapes that extend ten times farther from the centre of mass than the other shapes of their link, and so
     far that the inertia contradicts them (by the criterion of I508). Meshes that are too large are reported by G604.
-    Visuals that are more than half transparent are not checked, because they often show the view of a sensor.
+    Visuals that are more than half transparent are not checked, because they often show the view of a sensor, nor are
+    collision spheres around the whole link, which keep others at a distance, up to a hundred times its size.
 
     ## Why is this bad?
     The robot collides where nothing is visible, or passes through visible parts. The usual
@@ -76,6 +80,8 @@ class ShapesApart(RobotRule):
                 box = model.box_of(shape.geometry) if isinstance(shape.geometry, Mesh) else None
                 if box is not None and dist(box[1], (0.0, 0.0, 0.0)) > TIMES * near:
                     continue  # Reported by G604.
+                if far < _MAX_HULL * near and _is_safety_hull(link, shape, far):
+                    continue
                 origin = shape.element.find("origin")
                 is_moved = any(shape.origin.xyz) and dist(shape.origin.xyz, (0.0, 0.0, 0.0)) > far / 2.0
                 yield self.at(
@@ -87,6 +93,15 @@ class ShapesApart(RobotRule):
                     link=link.name,
                     help="check the decimal points and units of the shape",
                 )
+
+
+def _is_safety_hull(link: Link, shape: Visual | Collision, far: float) -> bool:
+    """Return whether a collision shape is a sphere around the whole link that repeats no visual sphere."""
+    if not isinstance(shape, Collision) or not isinstance(shape.geometry, Sphere):
+        return False
+    radius = shape.geometry.radius or 0.0
+    is_centred = dist(shape.origin.xyz, (0.0, 0.0, 0.0)) < radius and far < 2.0 * radius
+    return is_centred and not any(isinstance(visual.geometry, Sphere) for visual in link.visuals)
 
 
 def _is_translucent(model: Model, visual: Visual) -> bool:

@@ -1,6 +1,7 @@
 """I506 inertia-decimal-slip."""
 
-from urdfkit.lint.facts.inertia.inertia_from_shapes import tensor_of
+from urdfkit.description.urdf.robot import Link
+from urdfkit.lint.facts.inertia.inertia_from_shapes import COMPONENTS, tensor_of
 from urdfkit.lint.fix_builders import new_value
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
@@ -11,12 +12,17 @@ SCALED_AGREEMENT = 1.5
 """Factor within which a moment agrees after scaling by a power of ten."""
 
 
+_MIRRORED = 0.02
+"""Largest difference of the tensors of mirrored parts, relative to the largest entry."""
+
+
 class InertiaDecimalSlip(RobotRule):
     """One moment of inertia is off by a power of ten.
 
     ## What it does
     Compares the diagonal of the tensor with that of the link's shapes at uniform density. If two moments agree and the
-    third is off by a factor of 10, 100 or 1000, its decimal point is wrong.
+    third is off by a factor of 10, 100 or 1000, its decimal point is wrong. A tensor with products of inertia that
+    another link repeats, except for signs, is accepted: a CAD program computed it for mirrored parts.
 
     ## Why is this bad?
     The link rotates about one axis as if it were much lighter or heavier than it is.
@@ -55,7 +61,6 @@ class InertiaDecimalSlip(RobotRule):
     name = "inertia-decimal-slip"
     severity = "warning"
     fix = "unsafe"
-    checks_each_alone = True
 
     def check(self, model: Model) -> Findings:
         """Yield a finding for each moment that is off by a power of ten."""
@@ -66,7 +71,7 @@ class InertiaDecimalSlip(RobotRule):
             inertia = inertial.inertia
             written = {"ixx": inertia.ixx, "iyy": inertia.iyy, "izz": inertia.izz}
             extent = model.extents.get(link.name)
-            if extent is None or min(written.values()) <= 0.0:
+            if extent is None or min(written.values()) <= 0.0 or _has_mirrored_part(model, link):
                 continue
             values = tensor_of(link, extent, inertial.mass)
             if values is None or min(values[0], values[3], values[5]) <= 0.0:
@@ -92,3 +97,22 @@ class InertiaDecimalSlip(RobotRule):
                     help=f"shape and mass give {written[name] / ratios[name]:.3g} kg·m²; did you mean {corrected}?",
                     fix=new_value(model, inertia.element, name, corrected, "unsafe", f"Replace with {corrected}"),
                 )
+
+
+def _has_mirrored_part(model: Model, link: Link) -> bool:
+    """Return whether another link has the same tensor except for signs: a program computed both from the geometry."""
+    own = _entries(link)
+    if own is None or not any((own[1], own[2], own[4])):
+        return False
+    others = (other for other in model.robot.links if other is not link)
+    return any((entries := _entries(other)) is not None and _is_close(entries, own) for other in others)
+
+
+def _entries(link: Link) -> tuple[float, ...] | None:
+    inertia = link.inertial.inertia if link.inertial is not None else None
+    return tuple(abs(getattr(inertia, name)) for name in COMPONENTS) if inertia is not None else None
+
+
+def _is_close(entries: tuple[float, ...], others: tuple[float, ...]) -> bool:
+    largest = max(others)
+    return all(abs(entry - other) <= _MIRRORED * largest for entry, other in zip(entries, others, strict=True))
