@@ -25,9 +25,9 @@ from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).parents[1]))
+sys.path.insert(0, str(Path(__file__).parents[3]))
 
-from package_mutants import (  # noqa: F401 (modules that register kinds)
+from tests.bench.package_mutants import (  # noqa: F401 (modules that register kinds)
     bases,
     configuration,
     launching,
@@ -38,8 +38,8 @@ from package_mutants import (  # noqa: F401 (modules that register kinds)
     packaging,
     srdf,
 )
-from package_mutants.judging import Verdict, judge, lint
-from package_mutants.mutant import KINDS, Mutant, Workspace
+from tests.bench.package_mutants.judging import Verdict, judge, lint
+from tests.bench.package_mutants.mutant import KINDS, Mutant, Workspace
 
 SHARES = {"model": 200, "YAML": 130, "launch": 120, "package": 80, "SRDF": 70}
 TARGETS = {"model": 0.97, "YAML": 0.92, "launch": 0.85, "package": 0.85, "SRDF": 0.95}

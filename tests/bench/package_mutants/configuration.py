@@ -7,7 +7,7 @@ import random
 import re
 from collections.abc import Iterator
 
-from package_mutants.mutant import Mutant, Workspace, kind, match, typo
+from tests.bench.package_mutants.mutant import Mutant, Workspace, kind, match, typo
 
 _YAML = kind("YAML")
 _FILES = r"/config/[\w.]+\.yaml$"

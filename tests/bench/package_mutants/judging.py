@@ -13,7 +13,7 @@ from xml.etree import ElementTree
 
 import yaml
 
-from package_mutants.mutant import Mutant
+from tests.bench.package_mutants.mutant import Mutant
 from urdfkit import expand
 from urdfkit.errors import UrdfkitError
 from urdfkit.lint.engine.run import run
@@ -124,7 +124,7 @@ def judge(mutant: Mutant, base: Path) -> Verdict:
             return Verdict(mutant, effective=False)
         reports = lint(folder)
         found, others, at_line = [], [], False
-        places = _Places(mutant, base, folder)
+        places = Places(mutant, base, folder)
         for report in reports:
             exact = places.at_line(report)
             if exact or places.names_it(report):
@@ -136,7 +136,7 @@ def judge(mutant: Mutant, base: Path) -> Verdict:
     return Verdict(mutant, True, tuple(found), at_line, tuple(others), places.first, places.before)
 
 
-class _Places:
+class Places:
     """The lines that a finding may name."""
 
     def __init__(self, mutant: Mutant, base: Path, folder: Path) -> None:

@@ -7,8 +7,8 @@ import random
 import re
 from collections.abc import Iterator
 
-from package_mutants.launching import PYTHON, call_at, edited, python
-from package_mutants.mutant import Mutant, Workspace, kind, match, typo
+from tests.bench.package_mutants.launching import PYTHON, call_at, edited, python
+from tests.bench.package_mutants.mutant import Mutant, Workspace, kind, match, typo
 
 _LAUNCH = kind("launch")
 Mutants = Iterator[Mutant]

@@ -6,7 +6,7 @@ import random
 import re
 from collections.abc import Iterator
 
-from package_mutants.mutant import (
+from tests.bench.package_mutants.mutant import (
     Mutant,
     Workspace,
     attribute,

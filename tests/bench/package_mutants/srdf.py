@@ -5,7 +5,7 @@ from __future__ import annotations
 import random
 from collections.abc import Iterator
 
-from package_mutants.mutant import (
+from tests.bench.package_mutants.mutant import (
     Mutant,
     Workspace,
     attribute,
