@@ -38,7 +38,7 @@ from tests.bench.package_mutants import (  # noqa: F401 (modules that register k
     packaging,
     srdf,
 )
-from tests.bench.package_mutants.judging import Verdict, judge, lint
+from tests.bench.package_mutants.judging import Report, Verdict, judge, lint
 from tests.bench.package_mutants.mutant import KINDS, Mutant, Workspace
 
 SHARES = {"model": 200, "YAML": 130, "launch": 120, "package": 80, "SRDF": 70}
@@ -65,32 +65,45 @@ def candidates(workspaces: list[Workspace], area: str, name: str, seed: int) -> 
 def verdicts(workspaces: list[Workspace], options: argparse.Namespace) -> Iterator[Verdict]:
     """Yield the judgement of each mutant: the kinds of an area in turn."""
     folders = {workspace.base: workspace.folder for workspace in workspaces}
-    context = multiprocessing.get_context("fork")
-    with context.Pool(1, maxtasksperchild=1) as pool:
-        for area, share in SHARES.items():
-            if options.area not in ("", area):
-                continue
-            count = round(share * options.count / sum(SHARES.values()))
-            kinds = [name for name in KINDS[area] if options.kind in ("", name)]
-            drawn = {name: candidates(workspaces, area, name, options.seed) for name in kinds}
-            while count and drawn:
-                for name in list(drawn):
-                    verdict = _next(pool, drawn[name], folders)
-                    if verdict is None:
-                        del drawn[name]
-                    elif count:
-                        count -= 1
-                        yield verdict
-                    if not count:
-                        break
+    for area, share in SHARES.items():
+        if options.area not in ("", area):
+            continue
+        count = round(share * options.count / sum(SHARES.values()))
+        kinds = [name for name in KINDS[area] if options.kind in ("", name)]
+        drawn = {name: candidates(workspaces, area, name, options.seed) for name in kinds}
+        while count and drawn:
+            for name in list(drawn):
+                verdict = _next(drawn[name], folders)
+                if verdict is None:
+                    del drawn[name]
+                elif count:
+                    count -= 1
+                    yield verdict
+                if not count:
+                    break
 
 
-def _next(pool: object, mutants: Iterator[Mutant], folders: dict[str, Path]) -> Verdict | None:
+def _next(mutants: Iterator[Mutant], folders: dict[str, Path]) -> Verdict | None:
     for mutant in mutants:
-        verdict: Verdict = pool.apply(judge, (mutant, folders[mutant.base]))  # type: ignore[attr-defined]
+        verdict = _judge(mutant, folders[mutant.base])
         if verdict.effective:
             return verdict
     return None
+
+
+def _judge(mutant: Mutant, folder: Path) -> Verdict:
+    """Judge a mutant in a process of its own, so that no mutant sees what the linter remembers of another one."""
+    context = multiprocessing.get_context("fork")
+    receiver, sender = context.Pipe(duplex=False)
+    process = context.Process(target=lambda: sender.send(judge(mutant, folder)))
+    process.start()
+    sender.close()
+    try:
+        verdict: Verdict = receiver.recv()
+    except EOFError:
+        verdict = Verdict(mutant, others=(Report("crash", "error", "the linter raised an exception"),))
+    process.join()
+    return verdict
 
 
 def _miss(verdict: Verdict) -> str:
