@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from dataclasses import replace
+from pathlib import Path
 
 import pytest
 
@@ -24,7 +25,7 @@ def workspaces(tmp_path_factory):
 
 @pytest.fixture(autouse=True)
 def _here():
-    folder = os.getcwd()
+    folder = Path.cwd()
     yield
     os.chdir(folder)
 
@@ -48,7 +49,9 @@ def test_a_mutant_counts_at_its_line_and_nowhere_else(workspaces):
     workspace = next(each for each in workspaces if each.base == "ros1_arm")
     mutant = next(command.candidates([workspace], "model", "limits-swapped", 1))
     verdict = judging.judge(mutant, workspace.folder)
-    assert verdict.found and verdict.at_line and not verdict.others
+    assert verdict.found
+    assert verdict.at_line
+    assert not verdict.others
     end = len(workspace.files[mutant.file])
     elsewhere = replace(mutant, also=(end, end), around=(end, end))
     places = judging.Places(elsewhere, workspace.folder, workspace.folder)

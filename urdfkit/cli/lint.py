@@ -345,7 +345,7 @@ class _Run:
         if refused and not whole.files and arguments.format == "text":
             return 2  # nothing was linted
         if not refused or outcome.findings or arguments.format != "text":  # "All checks passed" would not be true
-            show(outcome, form=arguments.format, statistics=arguments.statistics, color=arguments.color)
+            show(outcome, arguments.format, self.paths, statistics=arguments.statistics, color=arguments.color)
         if refused:
             return 2
         return 1 if any(finding.severity != "note" for finding in outcome.findings) else 0

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import shlex
 import sys
 
 TYPE_CHECKING = False
@@ -12,21 +13,27 @@ if TYPE_CHECKING:
     from urdfkit.lint.engine.run import Outcome
     from urdfkit.lint.finding import Finding
 
+_MANY = 10
+"""Number of findings from which on commands that fix or hide most of them are shown."""
+
 FORMATS = ("text", "json", "sarif", "github", "junit")
 
 
-def show(outcome: Outcome, *, form: str, statistics: bool, color: str) -> None:
+def show(outcome: Outcome, form: str, paths: Sequence[str], *, statistics: bool, color: str) -> None:
     """Print the findings.
 
     Args:
         outcome: the result of the run.
         form: one of `FORMATS`.
+        paths: the linted paths, as on the command line.
         statistics: print the number of findings per rule, as text or JSON.
         color: ``auto``, ``always`` or ``never``.
     """
-    findings = outcome.findings
+    from urdfkit.lint.report.groups import grouped
+
+    findings = grouped(outcome.findings)
     if statistics:
-        _count(findings, as_json=form == "json")
+        _count(outcome.findings, as_json=form == "json")
     elif form == "json":
         from urdfkit.lint.report.json import as_json
 
@@ -38,17 +45,18 @@ def show(outcome: Outcome, *, form: str, statistics: bool, color: str) -> None:
     elif form == "junit":
         from urdfkit.lint.report.junit import as_junit
 
-        print(as_junit(findings, outcome.files))
+        print(as_junit(outcome.findings, outcome.files))
     elif form == "github":
         from urdfkit.lint.report.github import as_github
 
         if findings:
             print(as_github(findings))
     else:
-        _text(outcome, color)
+        _text(outcome, findings, color, paths)
 
 
-def _text(outcome: Outcome, color: str) -> None:
+def _text(outcome: Outcome, findings: list[Finding], color: str, paths: Sequence[str]) -> None:
+    from urdfkit.lint.report.groups import commands, worst_first
     from urdfkit.lint.report.text import TextReport, summary
 
     width = None
@@ -57,9 +65,12 @@ def _text(outcome: Outcome, color: str) -> None:
 
         width = columns()
     report = TextReport(outcome.sources, colour=_colour(color), width=width)
-    for finding in outcome.findings:
+    for finding in worst_first(findings):
         print(report.finding(finding), end="\n\n")
-    print(summary(outcome.findings))
+    print(summary(findings))
+    if len(findings) >= _MANY:
+        for line in commands(findings, shlex.join(paths)):
+            print(f"  {line}")
 
 
 def _count(findings: Sequence[Finding], *, as_json: bool) -> None:

@@ -8,7 +8,7 @@ import sys
 from itertools import takewhile
 
 from urdfkit.cli.fast_lint_arguments import TIME_LIMIT
-from urdfkit.errors import UsageError, nearest, suggestion
+from urdfkit.errors import UsageError, nearest, similar, suggestion
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -153,7 +153,9 @@ class Parser(argparse.ArgumentParser):
             return
         listed = f"{', '.join(choices[:-1])} or {choices[-1]}"
         if action is not self._commands:
-            raise argparse.ArgumentError(action, f"`{value}` is not available; use {listed}")
+            near = next(iter(similar(str(value), choices, cutoff=0.7)), None)  # `tcsh` is no misspelt `zsh`
+            hint = suggestion(near) or f"; use {listed}"
+            raise argparse.ArgumentError(action, f"`{value}` is not available{hint}")
         self._refuse_misspelt_option()
         if (option := f"--{value}") in self._option_string_actions:
             self._refuse(f"no {str(action.metavar).lower()} `{value}`; did you mean `{option}`?")

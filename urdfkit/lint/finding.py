@@ -70,6 +70,8 @@ class Finding:
         help: how to correct the defect.
         fix: the edits of `urdfkit lint --fix`; None if there is no automatic fix.
         chains: chains of macro calls, innermost call first, one for each expansion; empty outside of macros.
+        cause: words that findings of one rule share if they have one cause; empty if the message is the same.
+        related: the findings of other places with the same cause, where findings are grouped.
     """
 
     code: str
@@ -82,6 +84,8 @@ class Finding:
     help: str | None = None
     fix: Fix | None = None
     chains: tuple[tuple[Expansion, ...], ...] = ()
+    cause: str = ""
+    related: tuple[Finding, ...] = ()
 
     def __repr__(self) -> str:
         """Return code, position and message."""
@@ -125,6 +129,7 @@ class Finding:
             "expansions": [_call(call) for call in self.expansions],
             "chains": [[_call(call) for call in chain] for chain in self.chains],
             "fix": self.fix.to_json() if self.fix is not None else None,
+            "related": [_related(finding) for finding in self.related],
         }
 
 
@@ -147,6 +152,21 @@ class EntryResult:
     used: tuple[tuple[str, str], ...] = ()
     refused: str = ""
     unused: tuple[tuple[str, tuple[str, ...]], ...] = ()
+
+
+def _related(finding: Finding) -> dict[str, Any]:
+    span = finding.span
+    return {
+        "message": finding.message,
+        "file": span.file,
+        "line": span.line,
+        "column": span.column,
+        "end_line": span.end_line,
+        "end_column": span.end_column,
+        "link": finding.link,
+        "joint": finding.joint,
+        "fix": finding.fix.to_json() if finding.fix is not None else None,
+    }
 
 
 def _call(call: Expansion) -> dict[str, Any]:

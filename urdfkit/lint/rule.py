@@ -69,6 +69,7 @@ class Rule:
         help: str | None = None,
         fix: Fix | None = None,
         severity: Severity | None = None,
+        cause: str = "",
     ) -> Finding:
         """Create a finding.
 
@@ -82,6 +83,7 @@ class Rule:
             help: how to correct the defect.
             fix: edits that correct the defect.
             severity: overrides the rule's severity.
+            cause: see `Finding.cause`.
         """
         message = message if len(message) <= _MAX_MESSAGE else f"{message[: _MAX_MESSAGE - 100]} … {message[-90:]}"
         place: Any = where if isinstance(where, Position) else getattr(where, "origin", where)
@@ -97,6 +99,7 @@ class Rule:
             help,
             fix,
             (chain,) if chain else (),
+            cause,
         )
 
 

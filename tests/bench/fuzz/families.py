@@ -85,9 +85,7 @@ def lsp(folder: Path, rng: random.Random) -> str:
                 session.rename(uri, at, rng.choice(HOSTILE))
         except JsonRpcInvalidParams:
             pass
-        document.source = text = (
-            xml(text, rng) if rng.random() < 0.5 else text[: rng.randrange(len(text) + 1)]
-        )
+        document.source = text = xml(text, rng) if rng.random() < 0.5 else text[: rng.randrange(len(text) + 1)]
         lines = text.split("\n")
     if failures := project.failures(path):
         raise AssertionError(failures[0])

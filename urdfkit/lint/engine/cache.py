@@ -248,7 +248,15 @@ def _row(finding: Finding) -> list[Any]:
     edits = fix and [[*_values(edit.span), edit.text] for edit in fix.edits]
     chains = [[[call.macro, *_values(call.position)] for call in chain] for chain in finding.chains]
     head = [finding.code, finding.name, finding.severity, finding.message, *_values(finding.span)]
-    return [*head, finding.link, finding.joint, finding.help, fix and [fix.safety, fix.title, edits], chains]
+    return [
+        *head,
+        finding.link,
+        finding.joint,
+        finding.help,
+        fix and [fix.safety, fix.title, edits],
+        chains,
+        finding.cause,
+    ]
 
 
 def _values(item: Any) -> tuple[Any, ...]:
@@ -259,7 +267,7 @@ def _finding(row: list[Any]) -> Finding:
     from urdfkit.description.xml.source import Expansion, Position, Span
 
     code, name, severity, message = row[:4]
-    link, joint, help, fix, chains = row[9:]
+    link, joint, help, fix, chains, cause = row[9:]
     return Finding(
         code,
         name,
@@ -271,4 +279,5 @@ def _finding(row: list[Any]) -> Finding:
         help,
         fix and Fix(fix[0], fix[1], tuple(Edit(Span(*edit[:5]), edit[5]) for edit in fix[2])),
         tuple(tuple(Expansion(call[0], Position(*call[1:])) for call in chain) for chain in chains),
+        cause,
     )

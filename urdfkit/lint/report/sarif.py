@@ -78,13 +78,16 @@ def _result(finding: Finding, order: Mapping[str, int]) -> dict[str, Any]:
     logical = [{"name": name, "kind": kind} for name, kind in named if name]
     if logical:
         result["locations"][0]["logicalLocations"] = logical
-    if finding.expansions:
-        result["relatedLocations"] = [
-            {"message": {"text": f"call of macro {call.macro}"}, "physicalLocation": _at(call.position)}
-            for call in finding.expansions
-        ]
-    if finding.fix is not None:
-        result["fixes"] = [_fix(finding.fix)]
+    calls = [
+        {"message": {"text": f"call of macro {call.macro}"}, "physicalLocation": _at(call.position)}
+        for call in finding.expansions
+    ]
+    related = [{"message": {"text": one.message}, "physicalLocation": _place(one.span)} for one in finding.related]
+    if calls or related:
+        result["relatedLocations"] = [*calls, *related]
+    fixes = [one.fix for one in (finding, *finding.related) if one.fix is not None]
+    if fixes:
+        result["fixes"] = [_fix(fix) for fix in fixes]
     return result
 
 

@@ -23,6 +23,8 @@ _TAB = "    "
 _CONTROL = r"[\x00-\x1f\x7f-\x9f]"
 """Control characters, which a terminal may interpret."""
 _LISTED_CALLS = 4
+_LISTED_PLACES = 9
+"""Places listed after the first one of a group."""
 _LONG = 400
 """Maximum width of a source line if the output is not a terminal [columns]."""
 
@@ -54,7 +56,18 @@ class TextReport:
         if notes:
             margin = " " * (len(str(finding.line)) if excerpt else 2)
             lines += [f"{margin} {self._styled('=', 'dim')} {note}" for note in notes]
-        return "\n".join(lines)
+        return "\n".join((*lines, *self._related(finding)))
+
+    def _related(self, finding: Finding) -> list[str]:
+        """Return the places of a group, with the messages where they differ."""
+        if not finding.related:
+            return []
+        shown = finding.related[:_LISTED_PLACES]
+        same = all(one.message == finding.message for one in finding.related)
+        left = len(finding.related) - len(shown)
+        lines = [f"  {len(finding.related)} more places:"]
+        lines += [f"    {one.file}:{one.line}:{one.column}{'' if same else f': {one.message}'}" for one in shown]
+        return [*lines, f"    and {left} more"] if left else lines
 
     def _notes(self, finding: Finding) -> list[str]:
         notes = [_expansions(finding.chains)] if finding.chains else []
@@ -97,8 +110,11 @@ def summary(findings: Sequence[Finding]) -> str:
     counts = [(sum(f.severity == severity for f in findings), severity) for severity in ("error", "warning", "note")]
     words = {"error": ("error", "errors"), "warning": ("warning", "warnings"), "note": ("note", "notes")}
     found = ", ".join(f"{count} {words[severity][count != 1]}" for count, severity in counts if count)
-    safe = sum(f.fix is not None and f.fix.safety == "safe" for f in findings)
-    unsafe = sum(f.fix is not None for f in findings) - safe
+    places = sum(1 + len(finding.related) for finding in findings)
+    found += f" in {places} places" if places > len(findings) else ""
+    fixes = [one.fix for finding in findings for one in (finding, *finding.related) if one.fix is not None]
+    safe = sum(fix.safety == "safe" for fix in fixes)
+    unsafe = len(fixes) - safe
     ways = [f"{safe} fixable with --fix"] if safe else []
     ways += [f"{unsafe} with --fix --unsafe-fixes"] if unsafe else []
     fixable = f" ({', '.join(ways)})" if ways else ""

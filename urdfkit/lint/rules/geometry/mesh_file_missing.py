@@ -71,4 +71,5 @@ class MeshFileMissing(RobotRule):
                 fix=new_value(model, element, "filename", uri, "unsafe", f"Replace with `{uri}`")
                 if has_same_suffix
                 else None,
+                cause="" if near else f"folder of {mesh.uri.strip().rpartition('/')[0]}",
             )

@@ -1,0 +1,70 @@
+"""Findings with one cause are shown as one, with every place."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from urdfkit.lint import lint
+from urdfkit.lint.report.groups import SMALLEST, SMALLEST_ALIKE, grouped
+
+LINK = '<link name="l{n}"><visual><geometry><mesh filename="{mesh}"/></geometry></visual>{more}</link>'
+JOINT = '<joint name="j{n}" type="fixed"><parent link="l0"/><child link="l{n}"/></joint>'
+
+UNIT = '<inertial><mass value="1" unit="kg"/><inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial>'
+
+
+def robot(path: Path, meshes: list[str], more: str = "") -> Path:
+    links = [LINK.format(n=n, mesh=mesh, more=more) for n, mesh in enumerate(meshes)]
+    joints = [JOINT.format(n=n) for n in range(1, len(meshes))]
+    path.write_text("\n".join(['<robot name="r">', *links, *joints, "</robot>"]))
+    return path
+
+
+def lint_json(path: Path, *options: str) -> list[dict]:
+    command = [sys.executable, "-m", "urdfkit", "lint", "--no-cache", "--format", "json", str(path), *options]
+    return json.loads(subprocess.run(command, capture_output=True, text=True, check=False).stdout)
+
+
+@pytest.mark.parametrize("count", [SMALLEST - 1, SMALLEST, 40])
+def test_missing_files_of_one_folder_are_one_finding_from_four_on(count: int, tmp_path: Path) -> None:
+    path = robot(tmp_path / "r.urdf", [f"meshes/part_{n}.stl" for n in range(count)])
+    found = lint_json(path, "--select", "G601")
+    if count < SMALLEST:
+        assert [(one["line"], one["related"]) for one in found] == [(n + 2, []) for n in range(count)]
+        return
+    assert len(found) == 1
+    assert found[0]["message"] == "mesh `meshes/part_0.stl` not found"
+    places = [(one["line"], one["link"], one["message"]) for one in found[0]["related"]]
+    assert places == [(n + 2, f"l{n}", f"mesh `meshes/part_{n}.stl` not found") for n in range(1, count)]
+
+
+def test_errors_with_other_causes_and_other_severities_stay_apart(tmp_path: Path) -> None:
+    path = robot(
+        tmp_path / "r.urdf", [f"{folder}/{n}.stl" for folder in ("a", "b") for n in range(SMALLEST_ALIKE)], UNIT
+    )
+    findings = lint(path)
+    left = SMALLEST_ALIKE - 1
+    groups = [one for one in grouped(findings) if one.code == "G601"]
+    assert [(one.link, len(one.related)) for one in groups] == [("l0", left), (f"l{left + 1}", left)]
+    notes = [one for one in grouped(findings) if one.code == "E009"]
+    assert [(one.severity, len(one.related)) for one in notes] == [("note", 2 * SMALLEST_ALIKE - 1)]
+    assert sum(1 + len(one.related) for one in grouped(findings)) == len(findings)
+
+
+def test_text_lists_ten_places_errors_first_and_ends_with_commands(tmp_path: Path) -> None:
+    more = '<collision><origin rpy="1.57 0 0"/><geometry><box size="1 1 1" kind="x"/></geometry></collision>'
+    path = robot(tmp_path / "r.urdf", [f"meshes/part_{n}.stl" for n in range(30)], more)
+    command = [sys.executable, "-m", "urdfkit", "lint", "--no-cache", path.name]
+    output = subprocess.run(command, capture_output=True, text=True, check=False, cwd=tmp_path).stdout
+    assert output.index(" G601 ") < output.index(" note: ")
+    assert output.count("not found") == 10
+    assert "29 more places:\n    r.urdf:3:" in output
+    assert "    and 20 more\n" in output
+    *_, last = output.split("Found ")
+    assert "in " in last.splitlines()[0]
+    assert all("`urdfkit lint r.urdf --" in line for line in last.splitlines()[1:])
