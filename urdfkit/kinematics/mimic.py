@@ -53,8 +53,7 @@ def without_impossible_mimics(robot: Robot) -> Robot:
             joints[joint.name] = replace(joint, mimic=None)
             origin = joint.mimic.element.origin
             message = with_effect(error.message, f"joint `{joint.name}` moves by itself")
-            code = "J416" if joint.mimic.joint == joint.name else None
-            repairs.append(Repair("structure", code, message, origin.position, joint=joint.name))
+            repairs.append(Repair("structure", "J416", message, origin.position, joint=joint.name))
     if not repairs:
         return robot
     kept = tuple([joints[joint.name] for joint in robot.joints])

@@ -9,7 +9,7 @@ TYPE_CHECKING = False
 if TYPE_CHECKING:
     from typing import Any, Literal
 
-    RepairKind = Literal["structure", "inertia", "mass", "shape", "mesh", "plugin", "hardware", "controller"]
+    RepairKind = Literal["structure", "inertia", "mass", "shape", "mesh", "joint", "plugin", "hardware", "controller"]
 
 
 @record

@@ -53,7 +53,8 @@ def problems(robot: Robot) -> Iterator[Problem]:
         for collision in link.collisions:
             yield from invalid_sizes(link, collision)
     for joint in robot.joints:
-        yield from _joint(joint)
+        for _, message, element in invalid_values(joint):
+            yield message, element
 
 
 def _masses(link: Link) -> Iterator[Problem]:
@@ -106,7 +107,8 @@ def invalid_sizes(link: Link, collision: Collision) -> Iterator[Problem]:
                 yield f"the {kind} of link `{link.name}` has a {name} of {length:g} m; it must be positive", written
 
 
-def _joint(joint: Joint) -> Iterator[Problem]:
+def invalid_values(joint: Joint) -> Iterator[tuple[str, str, Element]]:
+    """Yield the attribute, a message and the element for each limit and each coefficient that no joint can have."""
     if not joint.is_movable:
         return
     unit, force = ("m", "N") if joint.type == "prismatic" else ("rad", "N·m")
@@ -115,15 +117,18 @@ def _joint(joint: Joint) -> Iterator[Problem]:
         lower, upper = limit.lower or 0.0, limit.upper or 0.0
         if lower > upper:
             yield (
+                "lower",
                 f"joint `{joint.name}`: its lower limit {lower:g} {unit} is above its upper limit {upper:g} {unit}",
                 limit.element,
             )
     if limit is not None:
         for name, value, its in (("effort", limit.effort, force), ("velocity", limit.velocity, f"{unit}/s")):
             if value is not None and value < 0.0:
-                yield f"joint `{joint.name}`: {name} limit {value:g} {its}; it must not be negative", limit.element
+                message = f"joint `{joint.name}`: {name} limit {value:g} {its}; it must not be negative"
+                yield name, message, limit.element
     if dynamics is not None:
         damping = ("damping", dynamics.damping, f"{force}·s/{unit}")
         for name, value, its in (damping, ("friction", dynamics.friction, force)):
             if not (isfinite(value) and value >= 0.0):
-                yield f"joint `{joint.name}`: {name} {value:g} {its}; it must not be negative", dynamics.element
+                message = f"joint `{joint.name}`: {name} {value:g} {its}; it must not be negative"
+                yield name, message, dynamics.element

@@ -6,10 +6,12 @@ from pathlib import Path
 
 import pytest
 
+from urdfkit import Simulator
 from urdfkit.description import load
 from urdfkit.description.urdf.repair_record import Repair
 from urdfkit.description.xml.source import Source
 from urdfkit.description.xml.start_tag import start_tag
+from urdfkit.errors import SimulationError
 from urdfkit.lint import Finding, lint
 from urdfkit.sim.construction.repairs.collector import Repairs
 from urdfkit.sim.construction.repairs.robot_repairs import repaired
@@ -98,6 +100,59 @@ def test_a_robot_without_masses_and_shapes_has_a_finding_for_simulators_only(tmp
     (repair,) = repairs_of(path, floating=False)
     assert any(reports(finding, repair) for finding in lint(path, target="gz"))
     assert "I511" not in {finding.code for finding in lint(path)}
+
+
+JOINTS = {
+    "reversed limits": ('<limit lower="1" upper="-2" effort="5" velocity="6"/>', "J405", (-2.0, 1.0, 5.0, 6.0), 0.0),
+    "effort": ('<limit lower="-1" upper="1" effort="-1" velocity="6"/>', "J410", (-1.0, 1.0, None, 6.0), 0.0),
+    "velocity": ('<limit lower="-1" upper="1" effort="5" velocity="-6"/>', "J410", (-1.0, 1.0, 5.0, None), 0.0),
+    "damping": (
+        '<limit lower="-1" upper="1" effort="5" velocity="6"/>\n<dynamics damping="-1" friction="2"/>',
+        "J419",
+        (-1.0, 1.0, 5.0, 6.0),
+        2.0,
+    ),
+}
+
+
+@pytest.mark.parametrize("case", JOINTS)
+def test_impossible_values_of_joints_are_repaired_and_reported(tmp_path: Path, case: str) -> None:
+    text, code, limits, friction = JOINTS[case]
+    path = tmp_path / "r.urdf"
+    path.write_text(
+        f'<robot name="r"><link name="world"/><link name="arm">{GOOD}</link>\n<joint name="j" type="revolute">\n'
+        f'<parent link="world"/><child link="arm"/><axis xyz="0 1 0"/>\n{text}\n</joint></robot>'
+    )
+    found = Repairs(lambda _: None)
+    robot, _ = repaired(load(path), None, found, floating=False)
+    (repair,) = found.found
+    assert (repair.kind, repair.code, repair.joint) == ("joint", code, "j")
+    assert any(reports(finding, repair) for finding in lint(path))
+    limit, dynamics = robot.joint_by_name["j"].limit, robot.joint_by_name["j"].dynamics
+    assert limit is not None
+    assert (limit.lower, limit.upper, limit.effort, limit.velocity) == limits
+    assert dynamics is None or (dynamics.damping, dynamics.friction) == (0.0, friction)
+    Simulator(path, note=lambda _: None).run(0.01)
+    with pytest.raises(SimulationError, match=r"r\.urdf:"):
+        Simulator(path, strict=True)
+
+
+@pytest.mark.parametrize("type", ["cycle", "floating"])
+def test_an_impossible_mimic_is_repaired_and_reported(tmp_path: Path, type: str) -> None:
+    first = "floating" if type == "floating" else "continuous"
+    mimic = '<mimic joint="j"/>' if type == "cycle" else ""
+    path = tmp_path / "r.urdf"
+    path.write_text(
+        f'<robot name="r"><link name="world"/><link name="a">{GOOD}</link><link name="b">{GOOD}</link>\n'
+        f'<joint name="i" type="{first}"><parent link="world"/><child link="a"/><axis xyz="0 1 0"/>\n{mimic}</joint>\n'
+        '<joint name="j" type="continuous"><parent link="a"/><child link="b"/><axis xyz="0 1 0"/>\n<mimic joint="i"/>'
+        "</joint></robot>"
+    )
+    repairs = repairs_of(path, floating=False)
+    assert {repair.code for repair in repairs} == {"J416"}
+    findings = lint(path)
+    for repair in repairs:
+        assert any(reports(finding, repair) for finding in findings), str(repair)
 
 
 def test_links_that_are_fixed_to_each_other_are_one_repair(tmp_path: Path) -> None:

@@ -1,15 +1,17 @@
 """J416 mimic-joint-undefined."""
 
+from urdfkit.description.urdf.robot import Joint
 from urdfkit.lint.fix_builders import meant, new_value
 from urdfkit.lint.model.masked_names import unless_masked
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
 
 class MimicJointUndefined(RobotRule):
-    """A joint mimics an undefined joint, a fixed joint or itself.
+    """A joint mimics an undefined joint, an unsuitable joint or itself.
 
     ## What it does
-    Checks for ``<mimic joint="…"/>`` that names an undefined joint, a fixed joint, or the joint that contains it.
+    Checks for ``<mimic joint="…"/>`` that names an undefined joint, a fixed, planar or floating joint, the joint that
+    contains it, or a joint that in turn mimics this joint. Planar and floating joints cannot mimic others either.
 
     ## Why is this bad?
     Parsers do not report the error. The joint never moves, or robot_state_publisher does not publish its frame.
@@ -74,14 +76,14 @@ class MimicJointUndefined(RobotRule):
                 continue
             others = [name for name in model.robot.joint_by_name if name != joint.name]
             if mimic.joint in others:
-                if model.robot.joint_by_name[mimic.joint].type == "fixed":
+                if message := _unsuitable(model, joint, mimic.joint):
                     yield self.at(
                         model,
                         mimic.element,
-                        f"joint `{joint.name}` mimics the fixed joint `{mimic.joint}`",
+                        message,
                         attribute="joint",
                         joint=joint.name,
-                        help="name a movable joint, or remove <mimic>",
+                        help="name a revolute, continuous or prismatic joint, or remove <mimic>",
                         severity="warning",
                     )
                 continue
@@ -102,3 +104,23 @@ class MimicJointUndefined(RobotRule):
                 else None,
             )
             yield from unless_masked(model, mimic.joint, suggestion, finding)
+
+
+def _unsuitable(model: Model, joint: Joint, master: str) -> str:
+    """Return why a joint cannot mimic another one; empty if it can."""
+    joints = model.robot.joint_by_name
+    for each in (joint, joints[master]):
+        if each.type in ("planar", "floating"):
+            return f"joint `{joint.name}` mimics joint `{master}`, but `{each.name}` is {each.type}"
+    if joints[master].type == "fixed":
+        return f"joint `{joint.name}` mimics the fixed joint `{master}`"
+    passed = [joint.name]
+    while master in joints and master not in passed:
+        passed.append(master)
+        mimic = joints[master].mimic
+        if mimic is None:
+            return ""
+        master = mimic.joint
+    if master != joint.name:
+        return ""  # Another joint of the chain is reported.
+    return f"mimic joints form a cycle: {' → '.join(f'`{name}`' for name in [*passed, master])}"

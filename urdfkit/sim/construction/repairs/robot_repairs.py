@@ -14,6 +14,7 @@ from urdfkit.sim.construction.repairs.collector import Repairs
 from urdfkit.sim.construction.repairs.collision_shapes import with_substitutes, without_empty_shapes
 from urdfkit.sim.construction.repairs.estimated_masses import with_estimates
 from urdfkit.sim.construction.repairs.inertia_tensors import possible, repair_at
+from urdfkit.sim.construction.repairs.joint_values import with_possible_values
 from urdfkit.sim.construction.repairs.least_masses import with_least_masses
 
 _SHOWN = 6
@@ -47,6 +48,10 @@ def repaired(robot: Robot, scene: Scene | None, repairs: Repairs, *, floating: b
     found += missing + [repair for _, repair in pairs if repair is not None]
     if any(repair is not None for _, repair in pairs):
         robot = replace(robot, links=tuple([link for link, _ in pairs]))
+    joints = [with_possible_values(joint) for joint in robot.joints]
+    if changed := [repair for _, repairs_of_joint in joints for repair in repairs_of_joint]:
+        found += changed
+        robot = replace(robot, joints=tuple([joint for joint, _ in joints]))
     robot, estimated = with_estimates(robot, scene, floating=floating, density=repairs.density)
     robot, least = with_least_masses(robot, floating=floating)
     masses = _of_whole_robot(written, robot, [*estimated, *least], repairs.density, floating=floating)

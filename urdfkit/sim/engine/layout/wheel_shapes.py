@@ -45,6 +45,8 @@ def _round(touch: Touching, axis: Array) -> Touching:
     out = points - height[:, None] * axis
     distance = np.linalg.norm(out, axis=1)
     radius = float(distance.max())
+    if radius == 0.0:
+        return touch
     rim = distance > TREAD * radius
     first = out[int(distance.argmax())] / radius
     angles = np.sort(np.arctan2(matmul(out[rim], np.cross(axis, first)), matmul(out[rim], first)))
