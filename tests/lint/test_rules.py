@@ -128,7 +128,7 @@ def test_the_examples_of_a_page_are_true(rule: type[Rule], tmp_path, monkeypatch
         assert example, f"the section {heading} of {rule.code} is one block of XML, or of YAML"
         is_xacro = "xacro" in example[1] and any((HERE / rule.name).glob("*.xacro"))
         file = tmp_path / ("example.urdf.xacro" if is_xacro else "example.urdf")
-        beside = [path for path in (HERE / rule.name).glob("bad.*") if path.suffix in (".launch", ".yaml")]
+        beside = [path for path in (HERE / rule.name).glob("bad.*") if path.suffix in (".launch", ".yaml", ".srdf")]
         if beside:  # A rule on what lies around the description.
             file = tmp_path / f"example{beside[0].suffix}"
         file.write_text(example[1])

@@ -2,7 +2,8 @@
 
 A small model needs a third of the rules; the other rules are not imported. The first column lists words; a rule runs if
 at least one of them is present, or always if the column is empty. For a `SourceRule`, a word is text in any file or,
-after a star, a file name suffix; for a `RobotRule`, a feature of the robot (`features.features_of`).
+after a star, a file name suffix; for a `RobotRule`, a feature of the robot (`features.features_of`), or for files next
+to the robot a file name suffix.
 """
 
 Row = tuple[str, str, str]
@@ -169,22 +170,33 @@ ROBOT: tuple[Row, ...] = (
     ("command_interface", "control.interface_limits", "InterfaceLimits"),
 )
 
+_LAUNCH = ".launch .launch.xml .launch.py .launch.yaml"
+_YAML = ".yaml .yml"
+_SRDF = ".srdf .srdf.xacro"
+
 RELATED_FILES: tuple[Row, ...] = (
-    ("", "packaging.launch_path_missing", "LaunchPathMissing"),
-    ("", "packaging.controller_joint_undefined", "ControllerJointUndefined"),
-    ("", "packaging.frame_undefined", "FrameUndefined"),
-    ("", "packaging.spawned_controller_undefined", "SpawnedControllerUndefined"),
-    ("", "packaging.controller_settings_misspelt", "ControllerSettingsMisspelt"),
-    ("", "packaging.launch_not_well_formed", "LaunchNotWellFormed"),
-    ("", "packaging.controller_interface_missing", "ControllerInterfaceMissing"),
-    ("", "packaging.hardware_interface_lacking", "HardwareInterfaceLacking"),
-    ("", "packaging.yaml_not_well_formed", "YamlNotWellFormed"),
-    ("", "packaging.controller_of_other_ros", "ControllerOfOtherRos"),
-    ("", "packaging.spawn_argument_misspelt", "SpawnArgumentMisspelt"),
-    ("", "packaging.bridge_misspelt", "BridgeMisspelt"),
-    ("", "packaging.controller_contradicts_wheels", "ControllerContradictsWheels"),
+    (_LAUNCH, "packaging.launch_path_missing", "LaunchPathMissing"),
+    (_YAML, "packaging.controller_joint_undefined", "ControllerJointUndefined"),
+    (_YAML, "packaging.frame_undefined", "FrameUndefined"),
+    (_LAUNCH, "packaging.spawned_controller_undefined", "SpawnedControllerUndefined"),
+    (_YAML, "packaging.controller_settings_misspelt", "ControllerSettingsMisspelt"),
+    (f"{_LAUNCH} package.xml", "packaging.launch_not_well_formed", "LaunchNotWellFormed"),
+    (_YAML, "packaging.controller_interface_missing", "ControllerInterfaceMissing"),
+    (_YAML, "packaging.hardware_interface_lacking", "HardwareInterfaceLacking"),
+    (_YAML, "packaging.yaml_not_well_formed", "YamlNotWellFormed"),
+    (_YAML, "packaging.controller_of_other_ros", "ControllerOfOtherRos"),
+    (_LAUNCH, "packaging.spawn_argument_misspelt", "SpawnArgumentMisspelt"),
+    (f"{_LAUNCH} {_YAML}", "packaging.bridge_misspelt", "BridgeMisspelt"),
+    (_YAML, "packaging.controller_contradicts_wheels", "ControllerContradictsWheels"),
+    (_SRDF, "moveit.srdf_not_well_formed", "SrdfNotWellFormed"),
+    (_SRDF, "moveit.srdf_element_unknown", "SrdfElementUnknown"),
+    (_SRDF, "moveit.srdf_of_other_robot", "SrdfOfOtherRobot"),
+    (_SRDF, "moveit.srdf_name_undefined", "SrdfNameUndefined"),
+    (_SRDF, "moveit.srdf_group_inconsistent", "SrdfGroupInconsistent"),
+    (_SRDF, "moveit.srdf_duplicate", "SrdfDuplicate"),
+    (_SRDF, "moveit.srdf_state_invalid", "SrdfStateInvalid"),
 )
-"""Robot rules that run if the package has launch or YAML files."""
+"""Robot rules that run if the package has files with one of the suffixes."""
 
 TARGETED: tuple[Row, ...] = (
     ("version!", "document.urdf_version_unsupported", "UrdfVersionUnsupported"),

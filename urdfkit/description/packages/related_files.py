@@ -1,4 +1,4 @@
-"""Files related to a description: launch files and YAML of its package and of the packages that depend on it."""
+"""Files related to a description: launch files, YAML and SRDF of its package and of the packages that depend on it."""
 
 import os
 import re
@@ -9,6 +9,9 @@ LAUNCH = (".launch", ".launch.xml", ".launch.py", ".launch.yaml")
 """Suffixes of launch files."""
 
 YAML = (".yaml", ".yml")
+SRDF = (".srdf", ".srdf.xacro")
+BUILD = ("package.xml", "CMakeLists.txt", "setup.py", "setup.cfg")
+"""Files in the folder of a package that describe its build."""
 
 _SKIPPED = frozenset(("build", "install", "devel", "log", "node_modules", "__pycache__", "test", "tests"))
 _MAX_DEPTH = 4
@@ -17,6 +20,8 @@ _MAX_FILES = 200
 
 _MAX_NEIGHBOURS = 100
 _MAX_BYTES = 100_000
+_MAX_SRDF_BYTES = 1_000_000
+"""A robot of 100 links can have thousands of disabled pairs of links."""
 
 
 def package_of(path: Path) -> Path | None:
@@ -63,11 +68,17 @@ def neighbours(package: Path) -> dict[str, Path]:
 
 
 def around(package: Path) -> list[Path]:
-    """Return the launch files and YAML of a package, and of neighbouring packages that depend on it."""
+    """Return the launch files, YAML, SRDF and build files of a package, and of neighbours that depend on it.
+
+    Of a folder without a package.xml, only the SRDF files in it.
+    """
+    if not (package / "package.xml").is_file():
+        return sorted(file for end in SRDF for file in package.glob(f"*{end}") if file.is_file())[:_MAX_FILES]
     name = name_in(manifest(package), package.name)
     near = neighbours(package)
     own = [other for key, other in near.items() if other == package or name in dependencies_in(manifest(near[key]))]
-    return [file for folder in own for file in list(_files(folder, 0))[:_MAX_FILES]]
+    files = [file for folder in own for file in list(_files(folder, 0))[:_MAX_FILES]]
+    return [*files, *(file for folder in own for name in BUILD if (file := folder / name).is_file())]
 
 
 def _files(folder: Path, depth: int) -> Iterator[Path]:
@@ -81,5 +92,8 @@ def _files(folder: Path, depth: int) -> Iterator[Path]:
             inner = child.name in _SKIPPED or child.name.startswith(".")
             if depth < _MAX_DEPTH and not inner and not os.path.isfile(f"{child.path}/package.xml"):  # noqa: PTH113
                 yield from _files(folder / child.name, depth + 1)
-        elif child.name.endswith((*LAUNCH, *YAML)) and child.stat().st_size <= _MAX_BYTES:
+        elif child.name.endswith((*LAUNCH, *YAML)):
+            if child.stat().st_size <= _MAX_BYTES:
+                yield folder / child.name
+        elif child.name.endswith(SRDF) and child.stat().st_size <= _MAX_SRDF_BYTES:
             yield folder / child.name

@@ -185,7 +185,7 @@ class Checker:
         findings += self._run_fault_rules(model, entry)
         if model.expanded.root is not None and not entry.is_library:
             foreign = [rule for rule in self.foreign if issubclass(rule, RobotRule)]
-            outside = related_file_rules() if model.related_files else ()
+            outside = related_file_rules(model.related_files)
             if self.clean is not None:
                 self.clean.begin(model)
             features = self.clean.features if self.clean is not None else None

@@ -8,7 +8,6 @@ from functools import cached_property
 from urdfkit.description.urdf.robot import Robot
 from urdfkit.description.xml.element import Element
 from urdfkit.description.xml.source import Position, Source, Span
-from urdfkit.errors import ResourceError
 from urdfkit.lint.model.mesh_boxes import MeshBoxes
 from urdfkit.lint.model.repeated_elements import content_key
 from urdfkit.lint.model.tags import Document
@@ -161,43 +160,22 @@ class Model:
 
     @cached_property
     def related_files(self) -> dict[str, Source]:
-        """Shown name → launch and YAML files of the package and of related packages.
+        """Shown name → launch, YAML, SRDF and package files of the package and of related packages.
 
-        Related packages depend on the package, or have settings that a plugin of the robot reads. A package.xml that is
-        not well-formed is included.
+        Without a package, the SRDF files in the folder of the description.
         """
-        from urdfkit.description.xml.reader import read_source, shown_path
+        return self._related[0]
 
-        found: dict[str, Source] = {}
-        packages = self.expanded.packages
-        files = packages.around(self.package) if self.package is not None else []
-        for package in self._configured() if self.package is not None else ():
-            files = [*files, *(file for file in packages.around(package) if file not in files)]
-        if self.package is not None and _is_broken(self.package / "package.xml", self.texts):
-            files = [*files, self.package / "package.xml"]
-        for file in files:
-            try:
-                found[shown_path(file)] = read_source(file, shown_as=shown_path(file), texts=self.texts)
-            except ResourceError:
-                continue
-        return found
+    @cached_property
+    def semantic_roots(self) -> dict[str, Element]:
+        """Shown name → root element of each well-formed SRDF among the related files, after expansion."""
+        return self._related[1]
 
-    def _configured(self) -> list[Path]:
-        """Return the neighbouring packages whose settings a plugin of the robot reads."""
-        from pathlib import Path
+    @cached_property
+    def _related(self) -> tuple[dict[str, Source], dict[str, Element]]:
+        from urdfkit.lint.model.related import related_files
 
-        from urdfkit.description.packages.related_files import package_of
-
-        found: dict[Path, None] = {}
-        for block in self.robot.gazebo:
-            for plugin in block.plugins:
-                for child in plugin.element.find_all("parameters"):
-                    file = Path(child.text) if child.text.startswith("/") and "$" not in child.text else None
-                    package = package_of(file) if file is not None and file.is_file() else None
-                    if package is not None and self.package is not None and package.parent == self.package.parent:
-                        found[package] = None
-        found.pop(self.package, None)  # type: ignore[arg-type]
-        return list(found)
+        return related_files(self.expanded, self.robot, self.package, self.texts)
 
     @cached_property
     def neighbouring_macros(self) -> dict[str, list[Path]]:
@@ -345,7 +323,8 @@ class Model:
         """Return the source tags of one file."""
         self.documents_read.append(file)
         if file not in self._documents:
-            self._documents[file] = Document(self.expanded.sources.get(file) or Source(file, ""))
+            source = self.expanded.sources.get(file) or self.related_files.get(file) or Source(file, "")
+            self._documents[file] = Document(source)
         return self._documents[file]
 
     def tag(self, position: Position) -> Tag | None:
@@ -380,17 +359,3 @@ class Model:
     def shown(self, position: Position) -> str:
         """Format a position as ``file:line``."""
         return f"{position.file}:{position.line}"
-
-
-def _is_broken(manifest: Path, texts: Mapping[str, str]) -> bool:
-    """Return whether an existing package.xml is not well-formed."""
-    from xml.parsers import expat
-
-    text = texts.get(str(manifest))
-    try:
-        expat.ParserCreate().Parse(manifest.read_bytes() if text is None else text.encode(), True)
-    except OSError:
-        return False
-    except expat.ExpatError:
-        return True
-    return False

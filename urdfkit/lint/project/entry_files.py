@@ -7,7 +7,16 @@ import re
 from collections.abc import Iterable, Iterator
 from pathlib import Path
 
-from urdfkit.description.packages.related_files import LAUNCH, YAML, dependencies_in, manifest, neighbours, package_of
+from urdfkit.description.packages.related_files import (
+    BUILD,
+    LAUNCH,
+    SRDF,
+    YAML,
+    dependencies_in,
+    manifest,
+    neighbours,
+    package_of,
+)
 from urdfkit.errors import ResourceError
 from urdfkit.record import record
 
@@ -150,8 +159,9 @@ def _to_merge(paths: Iterable[Path]) -> dict[Path, str]:
 
 def _of_file(path: Path) -> list[Entry]:
     """Return the file itself; for a fragment, the models that include it."""
-    if path.name.endswith((*LAUNCH, *YAML)):
-        return _related_robots(path)
+    if path.name.endswith((*LAUNCH, *YAML, *SRDF)) or path.name in BUILD:
+        own = [Entry(path)] if path.suffix == ".xacro" else []
+        return [*own, *_related_robots(path)]
     text = _text(path)
     if _begins_with_robot(text) and not _may_be_library(text):
         return [Entry(path)]
@@ -198,15 +208,23 @@ def _begins_with_robot(text: str) -> bool:
 
 
 def _related_robots(path: Path) -> list[Entry]:
-    """Return the robots that a launch or YAML file belongs to: of its package, else of neighbouring dependencies."""
+    """Return the robots that a launch, YAML, SRDF or build file belongs to.
+
+    These are the robots of its package, else of neighbouring dependencies; without a package, those in its folder.
+    """
     package = package_of(path)
+    if package is None and path.name.endswith(SRDF):
+        robots = [entry for entry in _robots_in(path.absolute().parent) if not entry.path.name.endswith(SRDF)]
+        if found := [entry for entry in robots if not entry.is_library]:
+            return [Entry(_relative(entry.path), (path,)) for entry in found]
+        raise ResourceError(f"{path}: no robot description in its folder, and not in a package")
     if package is None:
         raise ResourceError(f"{path}: not in a package, so no robot belongs to it")
     needed = dependencies_in(manifest(package))
     folders = [package, *(folder for name, folder in neighbours(package).items() if name in needed)]
     for folder in folders:
-        found = [entry for entry in _robots_in(folder) if not entry.is_library]
-        if found:
+        robots = [entry for entry in _robots_in(folder) if not entry.path.name.endswith(SRDF)]
+        if found := [entry for entry in robots if not entry.is_library]:
             return [Entry(_relative(entry.path), (path,)) for entry in found]
     raise ResourceError(f"{path}: no robot description in its package or in a neighbouring package that it depends on")
 

@@ -50,9 +50,14 @@ def fault_rules() -> tuple[type[FaultRule], ...]:
     return tuple(_rules(FAULTS))
 
 
-def related_file_rules() -> tuple[type[RobotRule], ...]:
-    """Return the rules for launch and YAML files of the package."""
-    return tuple(_rules(RELATED_FILES))
+def related_file_rules(files: Iterable[str]) -> tuple[type[RobotRule], ...]:
+    """Return the rules for the launch, YAML, SRDF and build files of the package.
+
+    Args:
+        files: names of the related files; skip the rules that cannot apply to them.
+    """
+    names = tuple(files)
+    return tuple(_rules(row for row in RELATED_FILES if any(name.endswith(tuple(row[0].split())) for name in names)))
 
 
 def robot_rules(

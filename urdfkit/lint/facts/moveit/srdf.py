@@ -1,0 +1,174 @@
+"""SRDF of the robot: the names that it uses, and the joints of its groups.
+
+Sources: srdfdom, src/model.cpp (elements); moveit_core, robot_model/src/robot_model.cpp (groups, states).
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+
+from urdfkit.lint.model.model import Model
+from urdfkit.record import record
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from collections.abc import Collection
+
+    from urdfkit.description.urdf.robot import Joint, Robot
+    from urdfkit.description.xml.element import Element
+    from urdfkit.lint.finding import Severity
+
+ELEMENTS: dict[str, dict[str, str]] = {
+    "group": {"name": ""},
+    "group/link": {"name": "link"},
+    "group/joint": {"name": "joint"},
+    "group/chain": {"base_link": "link", "tip_link": "link"},
+    "group/group": {"name": "group"},
+    "group_state": {"name": "", "group": "group"},
+    "group_state/joint": {"name": "joint", "value": ""},
+    "end_effector": {"name": "", "parent_link": "link", "group": "group", "parent_group": "group"},
+    "virtual_joint": {"name": "", "type": "", "parent_frame": "", "child_link": "link"},
+    "passive_joint": {"name": "joint"},
+    "disable_collisions": {"link1": "link", "link2": "link", "reason": ""},
+    "enable_collisions": {"link1": "link", "link2": "link", "reason": ""},
+    "disable_default_collisions": {"link": "link"},
+    "link_sphere_approximation": {"link": "link"},
+    "link_sphere_approximation/sphere": {"center": "", "radius": ""},
+    "joint_property": {"joint_name": "joint", "property_name": "", "value": ""},
+}
+"""Element, after its parent unless that is the root → attribute → kind of the name in it."""
+
+OPTIONAL = frozenset(("parent_group", "reason"))
+
+_LOWEST_SHARE = 0.5
+"""Smallest proportion of existing links and joints in the references of a robot's SRDF."""
+
+
+@record(eq=False)
+class NameUse:
+    """A name in an SRDF.
+
+    Attributes:
+        element: the element.
+        attribute: the attribute that contains the name.
+        kind: ``link``, ``joint`` or ``group``.
+        name: the name.
+    """
+
+    element: Element
+    attribute: str
+    kind: str
+    name: str
+
+
+def elements(root: Element) -> Iterator[tuple[str, Element]]:
+    """Yield the elements of an SRDF with their keys in `ELEMENTS`."""
+    for element in root.children:
+        yield element.tag, element
+        yield from ((f"{element.tag}/{child.tag}", child) for child in element.children)
+
+
+def references(root: Element) -> Iterator[NameUse]:
+    """Yield the names of links, joints and groups that an SRDF uses."""
+    for key, element in elements(root):
+        for attribute, kind in ELEMENTS.get(key, {}).items():
+            if kind and (name := element.get(attribute)):
+                yield NameUse(element, attribute, kind, name)
+
+
+def semantics_of(model: Model) -> Iterator[Element]:
+    """Yield the root elements of the SRDF files that describe this robot."""
+    robot = model.robot
+    if robot.links:
+        yield from (root for root in model.semantic_roots.values() if root.get("name") == robot.name)
+
+
+def severity_for(root: Element, model: Model, severity: Severity | None = None) -> Severity | None:
+    """Return the severity of a defect that breaks MoveIt: a note if other programs read the SRDF (Pinocchio, HPP).
+
+    MoveIt reads it if it is in a folder ``config``, or if a package.xml or YAML file of these packages names MoveIt.
+    """
+    from urdfkit.lint.facts.control.launch_package_paths import uncommented
+
+    folder = root.origin.position.file.rpartition("/")[0]
+    manifests = (source for name, source in model.related_files.items() if name.endswith("package.xml"))
+    is_for_moveit = (
+        folder.rpartition("/")[2] == "config"
+        or any(name.endswith("kinematics.yaml") for name in model.related_files)
+        or any("moveit" in uncommented(source) for source in manifests)
+    )
+    return severity if is_for_moveit else "note"
+
+
+def fits(root: Element, robot: Robot, share: float = _LOWEST_SHARE) -> bool:
+    """Return whether most links and joints that an SRDF uses exist in a robot."""
+    existing: dict[str, Collection[str]] = {"link": robot.link_by_name, "joint": robot.joint_by_name}
+    names = [(each.kind, each.name) for each in references(root) if each.kind in existing]
+    return bool(names) and sum(name in existing[kind] for kind, name in names) >= share * len(names)
+
+
+def virtual_joints(root: Element) -> dict[str, Element]:
+    """Return the virtual joints of an SRDF by name."""
+    return {element.get("name") or "": element for element in root.find_all("virtual_joint")}
+
+
+def groups(root: Element) -> dict[str, Element]:
+    """Return the groups of an SRDF by name; the first of several."""
+    return {element.get("name") or "": element for element in reversed(root.find_all("group"))}
+
+
+def path_between(base: str, tip: str, robot: Robot) -> list[Joint] | None:
+    """Return the joints between a link and a link below it; None if it is not below."""
+    path: list[Joint] = []
+    while tip != base:
+        joint = next(iter(robot.parents_of.get(tip, ())), None)
+        if joint is None or joint.parent is None or joint in path:
+            return None
+        path.append(joint)
+        tip = joint.parent
+    return path
+
+
+def joints_of(group: str, root: Element, robot: Robot) -> set[str] | None:
+    """Return the joints of a group, those of its subgroups included; None if a name in it is unknown."""
+    by_name, found, pending, seen = groups(root), set[str](), [group], set[str]()
+    while pending:
+        name = pending.pop()
+        if name in seen:
+            continue
+        seen.add(name)
+        if name not in by_name:
+            return None
+        for child in by_name[name].children:
+            wanted = child.get("name") or ""
+            if child.tag == "group":
+                pending.append(wanted)
+            elif child.tag == "joint" and (wanted in robot.joint_by_name or wanted in virtual_joints(root)):
+                found.add(wanted)
+            elif child.tag == "link" and wanted in robot.link_by_name:
+                found.update(joint.name for joint in robot.parents_of.get(wanted, ()))
+            elif child.tag == "chain":
+                path = path_between(child.get("base_link") or "", child.get("tip_link") or "", robot)
+                if path is None:
+                    return None
+                found.update(joint.name for joint in path)
+            else:
+                return None
+    return found
+
+
+def robot_names(model: Model) -> list[str]:
+    """Return patterns of the names of all robots in the packages of the related files."""
+    from pathlib import Path
+
+    from urdfkit.description.packages.related_files import package_of
+    from urdfkit.lint.project.entry_files import descriptions
+
+    folders = {package_of(Path(file)) for file in (*model.related_files, *model.expanded.sources)}
+    found = [re.escape(model.robot.name or "")]
+    for folder in sorted(folder for folder in folders if folder is not None):
+        for _, text in descriptions(folder):
+            for name in re.findall(r"<robot\b[^>]*?(?<![\w:])name\s*=\s*[\"']([^\"']*)", text):
+                found.append(re.sub(r"\\\$\\[({].*?\\[)}]", ".*", re.escape(name)))
+    return found

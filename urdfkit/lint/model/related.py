@@ -1,0 +1,84 @@
+"""Files related to a robot: launch files, YAML, SRDF and package files, with the text of each."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from urdfkit.description.packages.related_files import SRDF, package_of
+from urdfkit.description.xml.reader import document_of, read_source, shown_path
+from urdfkit.errors import ResourceError, UrdfkitError, XmlError
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from urdfkit.description.packages.resolver import Packages
+    from urdfkit.description.urdf.robot import Robot
+    from urdfkit.description.xacro.expanded import Expanded
+    from urdfkit.description.xml.element import Element
+    from urdfkit.description.xml.source import Source
+
+
+def related_files(
+    expanded: Expanded, robot: Robot, package: Path | None, texts: Mapping[str, str]
+) -> tuple[dict[str, Source], dict[str, Element]]:
+    """Return the related files of a robot, and the root elements of the SRDF files.
+
+    Args:
+        expanded: the expanded description.
+        robot: the parsed robot.
+        package: the package of the description.
+        texts: absolute path → content that replaces the file on disk.
+
+    Returns:
+        Shown name → file; shown name → root element of each well-formed SRDF, expanded if it is a xacro file.
+    """
+    packages = expanded.packages
+    files = dict.fromkeys(packages.around(package or expanded.path.absolute().parent))
+    for other in _configured(robot, package) if package is not None else ():
+        files.update(dict.fromkeys(packages.around(other)))
+    found: dict[str, Source] = {}
+    roots: dict[str, Element] = {}
+    for file in files:
+        try:
+            source = found[shown_path(file)] = read_source(file, shown_as=shown_path(file), texts=texts)
+            if file.name.endswith(SRDF) and "<group" in source.text:
+                root, sources = _semantic_description(file, source, packages, texts)
+                found.update(sources)
+                if root is not None:
+                    roots[source.file] = root
+        except ResourceError:
+            continue
+    return found, roots
+
+
+def _semantic_description(
+    file: Path, source: Source, packages: Packages, texts: Mapping[str, str]
+) -> tuple[Element | None, dict[str, Source]]:
+    """Return the root element of an SRDF, and the files that its expansion read; None after an error."""
+    if file.suffix != ".xacro":
+        try:
+            return document_of(source), {}
+        except XmlError:
+            return None, {}
+    from urdfkit.description.xacro.expand import expand_leniently
+
+    try:
+        expanded: Expanded = expand_leniently(file, packages=packages, texts=texts)
+    except UrdfkitError:
+        return None, {}
+    return (None if expanded.faults else expanded.root), expanded.sources
+
+
+def _configured(robot: Robot, own: Path) -> list[Path]:
+    """Return the neighbouring packages whose settings a plugin of the robot reads."""
+    found: dict[Path, None] = {}
+    for block in robot.gazebo:
+        for plugin in block.plugins:
+            for child in plugin.element.find_all("parameters"):
+                file = Path(child.text) if child.text.startswith("/") and "$" not in child.text else None
+                package = package_of(file) if file is not None and file.is_file() else None
+                if package is not None and package.parent == own.parent:
+                    found[package] = None
+    found.pop(own, None)
+    return list(found)

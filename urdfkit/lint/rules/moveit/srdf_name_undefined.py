@@ -1,0 +1,97 @@
+"""M104 srdf-name-undefined."""
+
+from __future__ import annotations
+
+import re
+
+from urdfkit.lint.facts.names_defined_nearby import neighbouring_names
+from urdfkit.lint.model.masked_names import unless_masked
+from urdfkit.lint.rule import Findings, Model, RobotRule
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from urdfkit.description.xml.element import Element
+    from urdfkit.lint.facts.moveit.srdf import NameUse
+    from urdfkit.lint.finding import Finding
+
+
+class SrdfNameUndefined(RobotRule):
+    """An SRDF names a link, joint or group that does not exist.
+
+    ## What it does
+    Compares the names in groups, chains, states, end effectors, virtual and passive joints and disabled collisions with
+    the links and joints of the robot and the groups of the SRDF. A link or joint is accepted if another description in
+    these packages, or an argument, may define it.
+
+    ## Why is this bad?
+    MoveIt ignores the group, state or end effector, and planning for it fails. Unknown links in
+    ``<disable_collisions>`` leave the collision check on: the robot collides with itself in every state.
+
+    ## Example
+    ```xml
+    <robot name="arm">
+      <group name="arm">
+        <chain base_link="base" tip_link="hnad"/>
+      </group>
+    </robot>
+    ```
+
+    ## Use instead
+    ```xml
+    <robot name="arm">
+      <group name="arm">
+        <chain base_link="base" tip_link="hand"/>
+      </group>
+    </robot>
+    ```
+    """
+
+    code = "M104"
+    name = "srdf-name-undefined"
+
+    def check(self, model: Model) -> Findings:
+        """Yield a finding for each undefined name."""
+        from urdfkit.lint.facts.moveit.srdf import fits, groups, references, semantics_of, severity_for, virtual_joints
+        from urdfkit.lint.fix_builders import meant
+
+        robot = model.robot
+        elsewhere: dict[str, list[str]] = {}
+        for root in semantics_of(model):
+            if not fits(root, robot):
+                continue
+            joints = (*robot.joint_by_name, *virtual_joints(root), "root_joint")  # the free joint of Pinocchio
+            existing = {"link": tuple(robot.link_by_name), "joint": joints, "group": tuple(groups(root))}
+            uses: dict[tuple[str, str], list[NameUse]] = {}
+            for reference in references(root):
+                uses.setdefault((reference.kind, reference.name), []).append(reference)
+            for (kind, name), places in uses.items():
+                if name in existing[kind]:
+                    continue
+                suggestion, hint = meant(name, existing[kind])
+                if kind == "group" and suggestion is not None and len(places) > 1 and (kind, suggestion) not in uses:
+                    message = f"group `{suggestion}` is not used; did you mean `{name}`, which is used but undefined?"
+                    group, severity = groups(root)[suggestion], severity_for(root, model)
+                    yield self.at(model, group, message, attribute="name", severity=severity)
+                    continue
+                if kind not in elsewhere:
+                    elsewhere[kind] = neighbouring_names(model, kind) if kind != "group" else []
+                if any(re.fullmatch(pattern, name) for pattern in elsewhere[kind]):
+                    continue
+                finding = self._undefined(places[0], root, model, hint, len(places))
+                yield from (finding,) if kind == "group" else unless_masked(model, name, suggestion, finding)
+
+    def _undefined(self, reference: NameUse, root: Element, model: Model, hint: str, count: int) -> Finding:
+        from urdfkit.lint.facts.moveit.srdf import severity_for
+
+        kind, name, tag = reference.kind, reference.name, reference.element.tag
+        owner = f"robot `{model.robot.name}`" if kind != "group" else "this SRDF"
+        others = f" (used {count} times)" if count > 1 else ""
+        return self.at(
+            model,
+            reference.element,
+            f"{kind} `{name}` of <{tag}> does not exist in {owner}{others}{hint}",
+            attribute=reference.attribute,
+            link=name if kind == "link" else None,
+            joint=name if kind == "joint" else None,
+            severity=severity_for(root, model, "warning" if tag.endswith("_collisions") else self.severity),
+        )

@@ -1,0 +1,126 @@
+"""M107 srdf-state-invalid."""
+
+from __future__ import annotations
+
+import math
+
+from urdfkit.description.xml.element import Element
+from urdfkit.lint.rule import Findings, Model, RobotRule
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from urdfkit.lint.finding import Severity
+
+_TOLERANCE = 0.005
+"""Accepted excess over a limit [rad or m]; angles in SRDF are often rounded to two decimals."""
+
+_MAX_FOREIGN = 3
+"""Number of joints of other groups in a state above which they have one finding."""
+
+_COUNT = {"revolute": 1, "continuous": 1, "prismatic": 1, "planar": 3, "floating": 7}
+"""Joint type → number of values in a state (moveit_core, JointModel::getVariableCount)."""
+
+
+class SrdfStateInvalid(RobotRule):
+    """A state of a group has a value beyond the joint's limits, or the wrong joints.
+
+    ## What it does
+    Compares the values of each ``<group_state>`` with the limits and types of the joints, and its joints with the
+    active joints of its group.
+
+    ## Why is this bad?
+    MoveIt refuses a goal beyond the limits, and ignores values for joints of other groups.
+
+    ## Example
+    ```xml
+    <robot name="arm">
+      <group name="arm">
+        <joint name="elbow"/>
+      </group>
+      <group_state name="folded" group="arm">
+        <joint name="elbow" value="90"/>
+      </group_state>
+    </robot>
+    ```
+
+    ## Use instead
+    ```xml
+    <robot name="arm">
+      <group name="arm">
+        <joint name="elbow"/>
+      </group>
+      <group_state name="folded" group="arm">
+        <joint name="elbow" value="1.5708"/>
+      </group_state>
+    </robot>
+    ```
+    """
+
+    code = "M107"
+    name = "srdf-state-invalid"
+    severity = "warning"
+
+    def check(self, model: Model) -> Findings:
+        """Yield a finding for each invalid value, and for joints that are missing in a state or in its group."""
+        from urdfkit.lint.facts.moveit.srdf import fits, joints_of, semantics_of, severity_for
+
+        robot = model.robot
+        if model.is_incomplete:
+            return
+        for root in semantics_of(model):
+            severity = severity_for(root, model)
+            passive = {element.get("name") for element in root.find_all("passive_joint")}
+            for state in root.find_all("group_state"):
+                group, values = state.get("group") or "", state.find_all("joint")
+                members = (joints_of(group, root, robot) if fits(root, robot) else None) or set()
+                for value in values:
+                    yield from self._value(value, model, severity)
+                foreign = [
+                    value for value in values if members and value.get("name") in robot.joint_by_name.keys() - members
+                ]
+                if len(foreign) > _MAX_FOREIGN:
+                    message = f"{len(foreign)} joints of state `{state.get('name')}` are not in group `{group}`"
+                    yield self.at(model, state, message, severity=severity)
+                for value in foreign if len(foreign) <= _MAX_FOREIGN else ():
+                    message = f"joint `{value.get('name')}` is not in group `{group}`"
+                    yield self.at(model, value, message, attribute="name", joint=value.get("name"), severity=severity)
+                valued = {value.get("name") for value in values}
+                missing = [
+                    joint.name
+                    for joint in robot.joints
+                    if joint.name in members and joint.type in _COUNT and joint.mimic is None
+                    if joint.name not in valued and joint.name not in passive
+                ]
+                if missing:
+                    names = ", ".join(f"`{name}`" for name in missing[:4]) + (" …" if len(missing) > 4 else "")
+                    message = f"state `{state.get('name')}` has no value for {names} of group `{group}`"
+                    yield self.at(model, state, message, joint=missing[0], severity=severity)
+
+    def _value(self, value: Element, model: Model, severity: Severity | None) -> Findings:
+        name, text = value.get("name") or "", value.get("value")
+        joint = model.robot.joint_by_name.get(name)
+        if joint is None or text is None:
+            return
+
+        def found(message: str, help: str | None = None) -> Findings:
+            yield self.at(model, value, message, attribute="value", joint=name, help=help, severity=severity)
+
+        try:
+            numbers = [float(word) for word in text.split()]
+        except ValueError:
+            yield from found(f"value `{text}` of joint `{name}` is not a number")
+            return
+        count = _COUNT.get(joint.type or "")
+        if joint.type == "fixed":
+            yield from found(f"joint `{name}` is fixed and has no value")
+        elif count is not None and len(numbers) != count:
+            yield from found(f"joint `{name}` has {len(numbers)} values; a {joint.type} joint has {count}")
+        elif joint.type in ("revolute", "prismatic") and joint.limit is not None:
+            lower, upper = joint.limit.lower or 0.0, joint.limit.upper or 0.0
+            if lower < upper and not lower - _TOLERANCE <= numbers[0] <= upper + _TOLERANCE:
+                unit = "rad" if joint.type == "revolute" else "m"
+                radians = math.radians(numbers[0])
+                in_degrees = unit == "rad" and abs(numbers[0]) > math.tau and lower <= radians <= upper
+                limits = f"{lower:g} … {upper:g} {unit}"
+                message = f"value {numbers[0]:g} {unit} of joint `{name}` is beyond its limits {limits}"
+                yield from found(message, f"write {radians:.5g} if the value is in degrees" if in_degrees else None)
