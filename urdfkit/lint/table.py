@@ -195,6 +195,8 @@ RELATED_FILES: tuple[Row, ...] = (
     (_SRDF, "moveit.srdf_group_inconsistent", "SrdfGroupInconsistent"),
     (_SRDF, "moveit.srdf_duplicate", "SrdfDuplicate"),
     (_SRDF, "moveit.srdf_state_invalid", "SrdfStateInvalid"),
+    (_SRDF, "moveit.moveit_name_undefined", "MoveitNameUndefined"),
+    (_SRDF, "moveit.moveit_setting_invalid", "MoveitSettingInvalid"),
 )
 """Robot rules that run if the package has files with one of the suffixes."""
 

@@ -1,0 +1,109 @@
+"""M108 moveit-name-undefined."""
+
+from __future__ import annotations
+
+import re
+
+from urdfkit.lint.facts.names_defined_nearby import neighbouring_names
+from urdfkit.lint.finding import Finding
+from urdfkit.lint.model.masked_names import unless_masked
+from urdfkit.lint.rule import Findings, Model, RobotRule
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from urdfkit.description.xml.source import Source
+    from urdfkit.lint.facts.control.yaml_tree import Node
+
+
+class MoveitNameUndefined(RobotRule):
+    """MoveIt's settings in YAML name a group, joint or controller that does not exist.
+
+    ## What it does
+    Checks YAML files in packages with an SRDF of the robot: groups with a kinematics solver against the groups of the
+    SRDF, the joints in ``joint_limits`` and of controllers against the robot, ``controller_names`` against the sections
+    of the controllers, and misspelt controllers against the controllers in the YAML files of these packages.
+
+    ## Why is this bad?
+    MoveIt ignores settings of unknown groups and joints: "No kinematics plugins defined". It refuses to execute a
+    trajectory for joints without a controller.
+
+    ## Example
+    ```yaml
+    amr:
+      kinematics_solver: kdl_kinematics_plugin/KDLKinematicsPlugin
+    ```
+
+    ## Use instead
+    ```yaml
+    arm:
+      kinematics_solver: kdl_kinematics_plugin/KDLKinematicsPlugin
+    ```
+    """
+
+    code = "M108"
+    name = "moveit-name-undefined"
+    severity = "warning"
+
+    def check(self, model: Model) -> Findings:
+        """Yield a finding for each undefined name."""
+        from urdfkit.lint.facts.control.controller_joints import controllers
+        from urdfkit.lint.facts.control.yaml_tree import yamls
+        from urdfkit.lint.facts.moveit.settings import controller_names, entries, moveit_yamls
+        from urdfkit.lint.facts.moveit.srdf import groups, virtual_joints
+
+        started: list[str] | None = None
+        for source, root in moveit_yamls(model):
+            for entry in entries(source):
+                if entry.kind == "group" and (name := entry.name.text) not in (defined := groups(root)):
+                    yield self._at(source, entry.name, f"group `{name}` does not exist in the SRDF", defined)
+                elif entry.kind == "joint":
+                    yield from self._joint(source, entry.name, model, virtual_joints(root))
+                elif entry.kind == "controller":
+                    joints = entry.settings.find("joints")
+                    # In a file with controllers of ros_control, controller-joint-undefined reports joints.
+                    for joint in joints.items if joints is not None and not controllers(source) else ():
+                        yield from self._joint(source, joint, model, {})
+                    if started is None:
+                        started = [name for other in yamls(model) for name in controllers(other)]
+                    name = entry.name.text.strip("/").rpartition("/")[2]
+                    if name not in started:
+                        yield from self._near(source, entry.name, f"unknown controller `{name}`", name, started)
+            for names, sections in controller_names(source):
+                defined_names = [node.text for node in sections]
+                for node in names:
+                    if node.text not in defined_names:
+                        yield self._at(source, node, f"controller `{node.text}` has no section", defined_names)
+                unlisted = [node for node in sections if node.text not in [name.text for name in names]]
+                if len(names) == len(sections) and len(unlisted) == 1:
+                    continue
+                for node in unlisted:
+                    message = f"controller `{node.text}` is not in `controller_names`; MoveIt does not use it"
+                    yield self._at(source, node, message, ())
+
+    def _joint(self, source: Source, node: Node, model: Model, others: object) -> Findings:
+        from urdfkit.lint.fix_builders import meant
+
+        name, robot = node.text, model.robot
+        if not name or name in robot.joint_by_name or name in others:  # type: ignore[operator]
+            return
+        if any(re.fullmatch(pattern, name) for pattern in neighbouring_names(model, "joint")):
+            return
+        finding = self._at(source, node, f"joint `{name}` does not exist in robot `{robot.name}`", robot.joint_by_name)
+        suggestion, _ = meant(name, robot.joint_by_name)
+        yield from unless_masked(model, name, suggestion, Finding(**{**finding.__dict__, "joint": name}))
+
+    def _near(self, source: Source, node: Node, message: str, name: str, defined: list[str]) -> Findings:
+        """Yield a finding if the name is a misspelling of a defined name."""
+        from urdfkit.lint.fix_builders import nearest
+        from urdfkit.lint.model.masked_names import is_typo
+
+        near = nearest(name, defined, cutoff=0.8)
+        if near is not None and is_typo(name, near):
+            yield self._at(source, node, message, [near])
+
+    def _at(self, source: Source, node: Node, message: str, names: object) -> Finding:
+        from urdfkit.lint.facts.control.yaml_tree import span_of
+        from urdfkit.lint.fix_builders import meant
+
+        hint = meant(node.text.rpartition("/")[2], names)[1]  # type: ignore[arg-type]
+        return Finding(self.code, self.name, self.severity, f"{message}{hint}", span_of(source, node))

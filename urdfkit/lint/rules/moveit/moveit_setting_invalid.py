@@ -1,0 +1,136 @@
+"""M109 moveit-setting-invalid."""
+
+from __future__ import annotations
+
+from urdfkit.lint.finding import Finding
+from urdfkit.lint.rule import Findings, Model, RobotRule
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from urdfkit.lint.facts.control.yaml_tree import Node
+    from urdfkit.lint.facts.moveit.settings import MoveitEntry
+
+_FLAGS = ("true", "false", "yes", "no", "on", "off")
+
+
+class MoveitSettingInvalid(RobotRule):
+    """A solver, joint limit or controller of MoveIt has a misspelt name or an impossible value.
+
+    ## What it does
+    Checks YAML files in packages with an SRDF of the robot for misspelt parameters, solvers and controller types, for
+    limits that are negative or zero while ``has_…_limits`` is true, for ``has_…_limits`` without a limit or that is not
+    a boolean, and for solver timeouts that are not positive.
+
+    ## Why is this bad?
+    MoveIt ignores misspelt parameters. With a limit of zero, time parameterisation of trajectories fails.
+
+    ## Example
+    ```yaml
+    joint_limits:
+      elbow:
+        has_velocity_limits: true
+        max_velocity: -1.5
+    ```
+
+    ## Use instead
+    ```yaml
+    joint_limits:
+      elbow:
+        has_velocity_limits: true
+        max_velocity: 1.5
+    ```
+    """
+
+    code = "M109"
+    name = "moveit-setting-invalid"
+    severity = "warning"
+
+    def check(self, model: Model) -> Findings:
+        """Yield a finding for each invalid parameter."""
+        from urdfkit.lint.facts.control.yaml_tree import span_of
+        from urdfkit.lint.facts.moveit.settings import entries, moveit_yamls
+
+        for source, _ in moveit_yamls(model):
+            for entry in entries(source):
+                for node, message in _DEFECTS[entry.kind](entry):
+                    yield Finding(self.code, self.name, self.severity, message, span_of(source, node))
+
+
+def _misspelt(entry: MoveitEntry, names: tuple[str, ...]) -> Iterator[tuple[Node, str]]:
+    """Yield the misspelt parameters with their messages."""
+    from urdfkit.lint.fix_builders import nearest
+
+    written = {key.text for key, _ in entry.settings.entries}
+    for key, _ in entry.settings.entries:
+        near = nearest(key.text, [name for name in names if name not in written], cutoff=0.85)
+        if key.text not in names and near is not None:
+            yield key, f"unknown parameter `{key.text}` of {entry.kind} `{entry.name.text}`; did you mean `{near}`?"
+
+
+def _number(node: Node | None) -> float | None:
+    try:
+        return float(node.text) if node is not None else None
+    except ValueError:
+        return None
+
+
+def _group(entry: MoveitEntry) -> Iterator[tuple[Node, str]]:
+    from urdfkit.lint.facts.moveit.settings import SOLVER_KEYS, SOLVERS
+    from urdfkit.lint.fix_builders import nearest
+
+    yield from _misspelt(entry, SOLVER_KEYS)
+    solver = entry.settings.find("kinematics_solver")
+    near = nearest(solver.text, SOLVERS, cutoff=0.85) if solver is not None else None
+    if solver is not None and near is not None and solver.text not in SOLVERS:
+        yield solver, f"unknown kinematics solver `{solver.text}`; did you mean `{near}`?"
+    for name in ("kinematics_solver_timeout", "kinematics_solver_search_resolution"):
+        node = entry.settings.find(name)
+        value = _number(node)
+        if node is not None and value is not None and value <= 0.0:
+            yield node, f"`{name}` of group `{entry.name.text}` is {value:g}; it must be positive"
+
+
+def _joint(entry: MoveitEntry) -> Iterator[tuple[Node, str]]:
+    from urdfkit.lint.facts.moveit.settings import LIMIT_KEYS
+
+    settings, joint = entry.settings, entry.name.text
+    yield from _misspelt(entry, LIMIT_KEYS)
+    for key, node in settings.entries:
+        quantity, _, kind = key.text.removeprefix("has_").rpartition("_")
+        is_flag = key.text.startswith("has_") and kind == "limits"
+        if is_flag and node.text.lower() not in _FLAGS:
+            yield node, f"`{key.text}` of joint `{joint}` is `{node.text}`; write true or false"
+        elif is_flag and node.text.lower() in ("true", "yes", "on"):
+            limit = settings.find(f"max_{quantity}")
+            value = _number(limit)
+            if limit is None and key.text in LIMIT_KEYS:
+                yield key, f"`{key.text}` of joint `{joint}` is true, but `max_{quantity}` is missing"
+            elif limit is not None and value is None:
+                yield limit, f"`max_{quantity}` of joint `{joint}` is `{limit.text}`, which is not a number"
+            elif limit is not None and value is not None and value <= 0.0 and quantity != "position":
+                yield limit, f"`max_{quantity}` of joint `{joint}` is {value:g}; it must be positive"
+        elif key.text.startswith("max_") and settings.find(f"has_{key.text[4:]}_limits") is None:
+            value = _number(node)
+            if value is not None and value < 0.0 and key.text != "max_position" and key.text in LIMIT_KEYS:
+                yield node, f"`{key.text}` of joint `{joint}` is {value:g}; it must be positive"
+    lower, upper = settings.find("min_position"), settings.find("max_position")
+    values = _number(lower), _number(upper)
+    if lower is not None and values[0] is not None and values[1] is not None and values[0] >= values[1]:
+        yield lower, f"`min_position` of joint `{joint}` is {values[0]:g}, not less than `max_position` {values[1]:g}"
+
+
+def _controller(entry: MoveitEntry) -> Iterator[tuple[Node, str]]:
+    from urdfkit.lint.facts.moveit.settings import CONTROLLER_KEYS, CONTROLLER_TYPES, OTHER_CONTROLLER_TYPES
+    from urdfkit.lint.fix_builders import nearest
+
+    yield from _misspelt(entry, CONTROLLER_KEYS)
+    kind = entry.settings.find("type")
+    if kind is not None and kind.text not in (*CONTROLLER_TYPES, *OTHER_CONTROLLER_TYPES):
+        near = nearest(kind.text, CONTROLLER_TYPES, cutoff=0.75)
+        if near is not None:
+            yield kind, f"unknown type `{kind.text}` of controller `{entry.name.text}`; did you mean `{near}`?"
+
+
+_DEFECTS = {"group": _group, "joint": _joint, "controller": _controller}
