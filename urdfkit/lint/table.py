@@ -170,7 +170,7 @@ ROBOT: tuple[Row, ...] = (
     ("command_interface", "control.interface_limits", "InterfaceLimits"),
 )
 
-_LAUNCH = ".launch .launch.xml .launch.py .launch.yaml"
+_LAUNCH = ".launch .launch.xml .launch.py .launch.yaml _launch.xml _launch.py _launch.yaml"
 _YAML = ".yaml .yml"
 _SRDF = ".srdf .srdf.xacro"
 
@@ -188,6 +188,9 @@ RELATED_FILES: tuple[Row, ...] = (
     (_LAUNCH, "packaging.spawn_argument_misspelt", "SpawnArgumentMisspelt"),
     (f"{_LAUNCH} {_YAML}", "packaging.bridge_misspelt", "BridgeMisspelt"),
     (_YAML, "packaging.controller_contradicts_wheels", "ControllerContradictsWheels"),
+    (_LAUNCH, "launch.launch_argument_undeclared", "LaunchArgumentUndeclared"),
+    (_LAUNCH, "launch.launch_argument_unknown", "LaunchArgumentUnknown"),
+    (_LAUNCH, "launch.executable_unknown", "ExecutableUnknown"),
     (_SRDF, "moveit.srdf_not_well_formed", "SrdfNotWellFormed"),
     (_SRDF, "moveit.srdf_element_unknown", "SrdfElementUnknown"),
     (_SRDF, "moveit.srdf_of_other_robot", "SrdfOfOtherRobot"),

@@ -88,6 +88,17 @@ class LaunchReader:
             if head is None or tail is None or (isinstance(node.op, ast.Add) and not tail.startswith("/")):
                 return None
             return head[0], f"{head[1]}/{tail.strip('/')}"
+        if isinstance(node, (ast.List, ast.Tuple, ast.JoinedStr)):  # joined without a separator
+            pieces = [
+                each.value if isinstance(each, ast.FormattedValue) else each
+                for each in (node.values if isinstance(node, ast.JoinedStr) else node.elts)
+            ]
+            head = self.path(pieces[0], depth + 1) if pieces else None
+            texts = [self.text(each) for each in pieces[1:]]
+            if head is None or None in texts:
+                return None
+            tail = "".join(text for text in texts if text is not None)
+            return (head[0], f"{head[1]}{tail}") if not tail or tail.startswith("/") else None
         if isinstance(node, ast.Call) and name_of(node.func) in (*JOINS, "Path", "str"):
             parts = node.args
             if len(parts) == 1 and isinstance(parts[0], (ast.List, ast.Tuple)):

@@ -5,7 +5,7 @@ import re
 from collections.abc import Iterator
 from pathlib import Path
 
-LAUNCH = (".launch", ".launch.xml", ".launch.py", ".launch.yaml")
+LAUNCH = (".launch", ".launch.xml", ".launch.py", ".launch.yaml", "_launch.xml", "_launch.py", "_launch.yaml")
 """Suffixes of launch files."""
 
 YAML = (".yaml", ".yml")

@@ -203,7 +203,10 @@ def is_typo(name: str, near: str) -> bool:
     from difflib import SequenceMatcher
 
     pairs = [(a, b) for a, b in zip(words, others, strict=True) if a != b]
-    return len(pairs) < 2 and all(SequenceMatcher(None, a, b).ratio() >= _CUTOFF for a, b in pairs)
+    return len(pairs) < 2 and all(
+        (len(a) > 2 and a.isalpha() and sorted(a) == sorted(b)) or SequenceMatcher(None, a, b).ratio() >= _CUTOFF
+        for a, b in pairs
+    )
 
 
 def _pattern(name: str, values: Mapping[str, str]) -> str:

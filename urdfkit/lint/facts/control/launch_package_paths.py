@@ -104,7 +104,7 @@ def _in_python(source: Source) -> Iterator[PackagePath]:
             inner.update(ast.walk(node))
     for node in nodes:
         is_join = isinstance(node, ast.Call) and name_of(node.func) in JOINS
-        if node in inner or not (is_join or isinstance(node, ast.BinOp)):
+        if node in inner or not (is_join or isinstance(node, (ast.BinOp, ast.List, ast.JoinedStr))):
             continue
         assert isinstance(node, ast.expr)
         found = reader.path(node)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
+from urdfkit.description.packages.related_files import LAUNCH
 from urdfkit.description.xml.source import Source
 from urdfkit.lint.facts.control.controller_joints import Named
 from urdfkit.lint.model.model import Model
@@ -31,8 +32,7 @@ class Started:
 
 def launches(model: Model) -> Iterator[Source]:
     """Yield the launch files of the model's package and of related packages."""
-    endings = (".launch", ".launch.xml", ".launch.py", ".launch.yaml")
-    yield from (source for name, source in model.related_files.items() if name.endswith(endings))
+    yield from (source for name, source in model.related_files.items() if name.endswith(LAUNCH))
 
 
 def started(source: Source) -> Iterator[Started]:

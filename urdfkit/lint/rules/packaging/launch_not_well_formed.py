@@ -38,9 +38,9 @@ class LaunchNotWellFormed(RobotRule):
         """Yield a finding at the first syntax error of each launch file and package.xml."""
         for source in model.related_files.values():
             error = None
-            if source.file.endswith((".launch", ".launch.xml", "package.xml")):
+            if source.file.endswith((".launch", "launch.xml", "package.xml")):
                 error = _in_xml(source)
-            elif source.file.endswith(".launch.py"):
+            elif source.file.endswith("launch.py"):
                 error = _in_python(source)
             if error is not None:
                 line, column, message = error

@@ -1,0 +1,133 @@
+"""Actions of a launch file: declared and used arguments, includes, xacro commands and nodes, with their positions."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from functools import lru_cache
+
+from urdfkit.description.packages.related_files import LAUNCH
+from urdfkit.description.xml.source import Source
+from urdfkit.lint.facts.control.controller_joints import Named
+from urdfkit.lint.facts.control.launch_package_paths import uncommented
+from urdfkit.lint.facts.control.yaml_tree import Node, documents, start_of
+from urdfkit.lint.facts.launch.records import Call, Declared, Executable, LaunchActions
+from urdfkit.lint.model.model import Model
+from urdfkit.lint.model.tags import Document, Tag
+from urdfkit.record import record
+
+_FIND = r"\$\(find(?:-pkg-share)?\s+([^\s()]+)\s*\)"
+_USED = r"\$\((?:arg|var)\s+([\w.-]+)\s*\)|\$\(eval\b[^()]*\barg\(\s*['\"]([\w.-]+)['\"]\s*\)"
+_XACRO = r"(?<![\w.])xacro(?:\.py)?['\"]?(?![\w/])(.*)"
+_PASSED = r"([\w.-]+):="
+
+
+@record(eq=False)
+class Action:
+    """An element of a launch file in XML, or the same action in YAML."""
+
+    tag: str
+    start: int
+    end: int
+    attributes: dict[str, Named]
+    children: tuple[Action, ...]
+
+
+def launch_files(model: Model) -> Iterator[LaunchActions]:
+    """Yield the launch files of the robot's package and of related packages."""
+    for name, source in model.related_files.items():
+        if name.endswith(LAUNCH):
+            yield actions_of(source)
+
+
+@lru_cache(maxsize=400)
+def actions_of(source: Source) -> LaunchActions:
+    """Return the actions of a launch file; empty if it cannot be parsed."""
+    if source.file.endswith(".py"):
+        from urdfkit.lint.facts.launch.python_actions import read_python
+
+        return read_python(source)
+    text = uncommented(source)
+    is_yaml = source.file.endswith((".yaml", ".yml"))
+    is_ros1 = source.file.endswith(".launch") and not re.search(r"\$\(var |find-pkg-share|\bexec\s*=", text)
+    found = LaunchActions(source, is_ros1)
+    roots = tuple(_from_yaml(source)) if is_yaml else tuple(_from_tag(tag) for tag in Document(source).roots)
+    for use in re.finditer(_USED, text):
+        group = 1 if use[1] is not None else 2
+        found.used.append((Named(use[group], use.start(group)), False))
+    for root in roots:
+        _read(root, found)
+    return found
+
+
+def share_of(text: str) -> tuple[str, str]:
+    """Return package and path of a text like ``$(find package)/launch/x.launch``; empty if they are computed."""
+    match = re.fullmatch(rf"\s*['\"]?{_FIND}/([^$\"']+?)['\"]?\s*", text)
+    return (match[1], match[2]) if match else ("", "")
+
+
+def _read(action: Action, found: LaunchActions) -> None:
+    at, tag = action.attributes, action.tag
+    name = at.get("name")
+    if tag == "arg" and name is not None:
+        is_fixed = "value" in at
+        declared = Declared(name, not is_fixed and "default" not in at, is_fixed)
+        found.declared.setdefault(name.name, declared)
+    elif tag in ("let", "set_launch_configuration", "set_var") and name is not None:
+        found.assigned.add(name.name)
+    elif tag == "include":
+        package, path = share_of(at["file"].name if "file" in at else "")
+        passed = [child.attributes["name"] for child in action.children if _passes(child)]
+        is_all = "pass_all_args" in at
+        found.includes.append(Call(package, path, action.start, action.end, tuple(passed), is_all))
+        return
+    elif tag in ("node", "composable_node", "node_container") and "pkg" in at:
+        program = at.get("type") or at.get("exec")
+        literal = [one if one is not None and "$" not in one.name else None for one in (at["pkg"], program)]
+        found.nodes.append(Executable(*literal))
+    for one in at.values():
+        if "xacro" in one.name and (command := re.search(_XACRO, one.name, re.DOTALL)) is not None:
+            package, path = next((share_of(word) for word in _words(command[1]) if ":=" not in word), ("", ""))
+            start = one.start + command.start(1)
+            passed = [Named(word[1], start + word.start(1)) for word in re.finditer(_PASSED, command[1])]
+            found.xacro.append(Call(package, path, start, start + len(command[1]), tuple(passed)))
+    for child in action.children:
+        _read(child, found)
+
+
+def _passes(child: Action) -> bool:
+    return child.tag in ("arg", "let") and "name" in child.attributes
+
+
+def _words(text: str) -> list[str]:
+    """Return the words of a command; substitutions may contain blanks."""
+    return re.findall(r"(?:\$\([^()]*\)|[^\s$]|\$)+", text)
+
+
+def _from_tag(tag: Tag) -> Action:
+    attributes = {name: Named(each.value, each.value_start) for name, each in tag.attributes.items()}
+    return Action(tag.name, tag.start, tag.end, attributes, tuple(_from_tag(child) for child in tag.children))
+
+
+def _from_yaml(source: Source) -> Iterator[Action]:
+    for document in documents(source)[0]:
+        launch = document.find("launch")
+        if launch is not None:
+            for item in launch.items:
+                yield from (_from_node(source, key, value) for key, value in item.entries)
+
+
+def _from_node(source: Source, key: Node, value: Node) -> Action:
+    start = start_of(source, key)
+    attributes: dict[str, Named] = {}
+    children: list[Action] = []
+    for name, each in value.entries:
+        if each.kind == "text":
+            attributes[name.text] = Named(each.text, start_of(source, each))
+        else:
+            for item in each.items if each.kind == "list" else (each,):
+                children.append(_from_node(source, name, item))
+    if value.kind == "list":  # a group
+        for item in value.items:
+            children += [_from_node(source, inner, each) for inner, each in item.entries]
+    return Action(key.text, start, start + len(key.text), attributes, tuple(children))

@@ -1,0 +1,107 @@
+"""Executables of packages: of those next to the robot's package from their build files, and of released ones."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+from urdfkit.description.packages.related_files import manifest
+from urdfkit.record import record
+
+_RELEASED = """
+robot_state_publisher: robot_state_publisher state_publisher; joint_state_publisher: joint_state_publisher;
+joint_state_publisher_gui: joint_state_publisher_gui; rviz: rviz; rviz2: rviz2; rqt_gui: rqt_gui; rqt_graph:
+rqt_graph; controller_manager: spawner spawner.py unspawner unspawner.py hardware_spawner hardware_spawner.py
+ros2_control_node controller_manager controller_group; gazebo_ros: gazebo gzserver gzclient spawn_model
+spawn_entity.py debug perf gdbrun urdf2gazebo libcommon.sh; ros_gz_sim: create remove gzserver set_entity_pose
+delete_entity spawn_entity gz_simulation_interfaces; ros_ign_gazebo: create; ros_gz_bridge: parameter_bridge
+static_bridge bridge_node ros_gz_bridge; ros_ign_bridge: parameter_bridge static_bridge; ros_gz_image: image_bridge;
+ros_ign_image: image_bridge; tf: static_transform_publisher tf_echo tf_monitor view_frames tf_change_notifier
+tf_empty_listener transform_listener; tf2_ros: static_transform_publisher buffer_server tf2_echo tf2_monitor tf2_py;
+xacro: xacro xacro.py; moveit_ros_move_group: move_group list_move_group_capabilities; moveit_servo: servo_node
+servo_node_main servo_server pose_tracking_example demo_pose demo_twist demo_joint_jog; moveit_ros_warehouse:
+moveit_warehouse_services moveit_init_demo_warehouse moveit_save_to_warehouse mongo_wrapper_ros.py; joy: joy_node
+game_controller_node joy_enumerate_devices; teleop_twist_joy: teleop_node; teleop_twist_keyboard:
+teleop_twist_keyboard teleop_twist_keyboard.py; key_teleop: key_teleop.py key_teleop; twist_mux: twist_mux
+twist_marker joystick_relay.py joystick_relay; twist_stamper: twist_stamper; robot_localization: ekf_node ukf_node
+navsat_transform_node robot_localization_listener_node ekf_localization_node ukf_localization_node; slam_toolbox:
+async_slam_toolbox_node sync_slam_toolbox_node lifelong_slam_toolbox_node localization_slam_toolbox_node
+map_and_localization_slam_toolbox_node merge_maps_kinematic decentralized_multirobot_slam_toolbox_node; nav2_amcl:
+amcl; nav2_map_server: map_server map_saver_cli map_saver_server costmap_filter_info_server; nav2_planner:
+planner_server; nav2_controller: controller_server; nav2_bt_navigator: bt_navigator; nav2_behaviors: behavior_server;
+nav2_recoveries: recoveries_server; nav2_smoother: smoother_server; nav2_lifecycle_manager: lifecycle_manager;
+nav2_waypoint_follower: waypoint_follower; nav2_velocity_smoother: velocity_smoother; nav2_collision_monitor:
+collision_monitor collision_detector; nav2_costmap_2d: nav2_costmap_2d nav2_costmap_2d_markers nav2_costmap_2d_cloud;
+cartographer_ros: cartographer_node cartographer_occupancy_grid_node occupancy_grid_node cartographer_offline_node
+cartographer_assets_writer cartographer_pbstream_map_publisher cartographer_rosbag_validate; map_server: map_server
+map_saver crop_map; amcl: amcl; move_base: move_base; gmapping: slam_gmapping; hector_mapping: hector_mapping;
+topic_tools: relay mux throttle drop transform relay_field switch_mux mux_add mux_delete mux_list mux_select demux
+delay; rosbag: record play rosbag; image_transport: republish list_transports; image_view: image_view image_saver
+stereo_view video_recorder extract_images disparity_view; usb_cam: usb_cam_node usb_cam_node_exe; v4l2_camera:
+v4l2_camera_node; depthimage_to_laserscan: depthimage_to_laserscan depthimage_to_laserscan_node;
+pointcloud_to_laserscan: pointcloud_to_laserscan_node laserscan_to_pointcloud_node;
+"""
+"""Package: executables; of Noetic, Humble, Jazzy and Rolling (their CMakeLists.txt and setup.py)."""
+
+_LITERAL = r"\b(?:add_executable|ament_auto_add_executable|catkin_add_executable)\s*\(\s*([^\s()]+)"
+_ENTRY_POINT = r"(?m)[\"']?\b([\w.-]+)\s*=\s*[\w.]+:\w+"
+_MAX_FILES = 3_000
+
+
+@record(eq=False)
+class Executables:
+    """The executables of a package.
+
+    Attributes:
+        names: names from its build files, or of a released package.
+        words: further words in its build files, and names of its files, that may be executables.
+        is_complete: whether no other executable can exist.
+    """
+
+    names: tuple[str, ...]
+    words: frozenset[str]
+    is_complete: bool
+
+
+def released() -> dict[str, Executables]:
+    """Return package → the executables of common released packages; others may exist in other releases."""
+    pairs = (entry.partition(":") for entry in _RELEASED.strip(";\n").split(";"))
+    return {name.strip(): Executables(tuple(names.split()), frozenset(), False) for name, _, names in pairs}
+
+
+def executables_of(package: Path, name: str) -> Executables | None:
+    """Return the executables of a package in source form; None if it has no build files."""
+    texts = []
+    for file in ("CMakeLists.txt", "setup.py", "setup.cfg"):
+        try:
+            texts.append(re.sub(r"#.*", "", (package / file).read_text("utf-8", "replace")))
+        except OSError:
+            continue
+    if not texts:
+        return None
+    text = re.sub(r"\$\{(?:PROJECT_NAME|CMAKE_PROJECT_NAME)\}", name, "\n".join(texts))
+    targets = re.findall(_LITERAL, text)
+    scripts = [word.rpartition("/")[2] for word in re.findall(r"[\w./-]+\.(?:py|sh|bash)\b", text)]
+    files = frozenset(_files(package, text))
+    is_complete = not any("$" in target for target in targets) and "foreach" not in text and "GLOB" not in text
+    scripts += [file for file in sorted(files) if file.endswith(".py")]
+    names = (*(target for target in targets if "$" not in target), *re.findall(_ENTRY_POINT, text), *scripts)
+    words = frozenset(re.findall(r"[\w.-]+", text)) - {"python", "setup", name} | files
+    words |= {word.rpartition("/")[2] for word in re.findall(r"[\w./-]+/[\w.-]+", text)}
+    if name in targets or any(name == one for one in names):
+        words |= {name}
+    return Executables(tuple(dict.fromkeys(names)), words, is_complete)
+
+
+def _files(package: Path, text: str) -> list[str]:
+    """Return the names of files that can be executables: for catkin all, else those in installed folders."""
+    is_catkin = ">catkin<" in re.sub(r"\s", "", manifest(package))
+    folders = re.findall(r"install\s*\(\s*DIRECTORY\s+([^()]*?)\s+DESTINATION\s+[^()]*(?:lib|BIN)", text)
+    places = [package] if is_catkin else [package / word for found in folders for word in found.split()]
+    found: list[str] = []
+    for place in places:
+        for path in place.rglob("*") if place.is_dir() else ():
+            if len(found) > _MAX_FILES:
+                break
+            found.append(path.name)
+    return found

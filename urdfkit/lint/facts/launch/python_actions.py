@@ -1,0 +1,141 @@
+"""Actions of launch files in Python, from their syntax tree; computed values are unknown."""
+
+from __future__ import annotations
+
+import ast
+import re
+
+from urdfkit.description.launch.python_constants import LaunchReader, name_of, parsed
+from urdfkit.description.xml.source import Source
+from urdfkit.lint.facts.control.controller_joints import Named
+from urdfkit.lint.facts.control.launch_package_paths import place
+from urdfkit.lint.facts.launch.records import COMPUTED, Call, Declared, Executable, LaunchActions
+
+_NODES = ("Node", "LifecycleNode", "ComposableNodeContainer")
+
+
+def read_python(source: Source) -> LaunchActions:
+    """Return the actions of a launch file in Python; empty if it cannot be parsed."""
+    found = LaunchActions(source)
+    if (tree := parsed(source)) is not None:
+        _Reader(source, tree, found).read()
+    return found
+
+
+class _Reader:
+    def __init__(self, source: Source, tree: ast.Module, found: LaunchActions) -> None:
+        self._source, self._tree, self._found, self._constants = source, tree, found, LaunchReader(tree)
+
+    def read(self) -> None:
+        for node in ast.walk(self._tree):
+            if isinstance(node, ast.Call):
+                self._call(node)
+            elif isinstance(node, ast.Subscript) and name_of(node.value) == "launch_configurations":
+                name = self._named(node.slice)
+                if name is not None and isinstance(node.ctx, ast.Load):
+                    self._found.used.append((name, False))
+                elif name is not None:
+                    self._found.assigned.add(name.name)
+
+    def _call(self, node: ast.Call) -> None:
+        found, kind = self._found, name_of(node.func)
+        keywords = {word.arg: word.value for word in node.keywords if word.arg is not None}
+        first = node.args[0] if node.args else None
+        if kind in ("DeclareLaunchArgument", "LaunchConfiguration", "SetLaunchConfiguration"):
+            written = first or keywords.get("name") or keywords.get("variable_name")
+            name = self._named(written) if written is not None else None
+            if kind == "DeclareLaunchArgument":
+                if name is None:
+                    found.assigned.add(COMPUTED)
+                else:
+                    has_default = "default_value" in keywords or len(node.args) > 1
+                    found.declared.setdefault(name.name, Declared(name, not has_default))
+            elif name is not None and kind == "LaunchConfiguration":
+                found.used.append((name, "default" in keywords or len(node.args) > 1))
+            elif name is not None:
+                found.assigned.add(name.name)
+        elif kind == "IncludeLaunchDescription":
+            file = first or keywords.get("launch_description_source")
+            passed, is_all = self._pairs(keywords.get("launch_arguments"))
+            self._add(found.includes, self._file(file), node, passed, is_all)
+        elif kind in ("process_file", "process"):
+            passed, is_all = self._pairs(keywords.get("mappings"))
+            self._add(found.xacro, self._path(first), node, passed, is_all)
+        elif kind == "Command" and first is not None:
+            self._command(first, node)
+        elif kind in _NODES:
+            names = [self._named(keywords[key]) if key in keywords else None for key in ("package", "executable")]
+            found.nodes.append(Executable(*names))
+
+    def _add(
+        self, calls: list[Call], file: tuple[str, str], node: ast.expr, passed: list[Named], passes_all: bool
+    ) -> None:
+        start, end = place(self._source, node)
+        first_line = self._source.text.find("\n", start)
+        calls.append(Call(*file, start, min(end, first_line if first_line > 0 else end), tuple(passed), passes_all))
+
+    def _named(self, node: ast.expr) -> Named | None:
+        """Return a literal text with the offset of its first character."""
+        if isinstance(node, ast.Name) and (value := self._constants.assigned.get(node.id)) is not None:
+            node = value
+        if not isinstance(node, ast.Constant) or not isinstance(node.value, str):
+            return None
+        start, end = place(self._source, node)
+        offset = self._source.text[start:end].find(node.value)
+        return Named(node.value, start + offset) if offset >= 0 else None
+
+    def _file(self, node: ast.expr | None) -> tuple[str, str]:
+        """Return package and path of a launch description source."""
+        for _ in range(4):
+            if isinstance(node, ast.Name):
+                node = self._constants.assigned.get(node.id)
+            elif isinstance(node, ast.Call) and name_of(node.func).endswith("LaunchDescriptionSource") and node.args:
+                node = node.args[0]
+        return self._path(node)
+
+    def _path(self, node: ast.expr | None) -> tuple[str, str]:
+        found = self._constants.path(node) if node is not None else None
+        return (found[0], found[1].strip("/")) if found is not None else ("", "")
+
+    def _pairs(self, node: ast.expr | None) -> tuple[list[Named], bool]:
+        """Return the literal keys of a dictionary, its items or a list of pairs, and whether it may have more."""
+        if node is None:
+            return [], False
+        if isinstance(node, ast.Call) and name_of(node.func) in ("items", "list") and not node.args:
+            node = node.func.value if isinstance(node.func, ast.Attribute) else node
+        if isinstance(node, ast.Name):
+            return self._pairs(self._constants.assigned.get(node.id)) if self._is_final(node) else ([], True)
+        if isinstance(node, ast.Call) and name_of(node.func) == "dict" and not node.args:
+            return [], True
+        keys: list[ast.expr | None]
+        if isinstance(node, ast.Dict):
+            keys = list(node.keys)
+        elif isinstance(node, (ast.List, ast.Tuple)):
+            keys = [item.elts[0] if isinstance(item, ast.Tuple) and item.elts else None for item in node.elts]
+        else:
+            return [], True
+        names = [self._named(key) if key is not None else None for key in keys]
+        return [name for name in names if name is not None], None in names
+
+    def _is_final(self, name: ast.Name) -> bool:
+        """Return whether a dictionary is assigned once and not changed by a subscript or ``update``."""
+        changed = rf"\b{re.escape(name.id)}\s*(?:\[[^\]]*\]\s*=(?!=)|\.update\b|\.append\b|\.extend\b|\s*\+=)"
+        return name.id in self._constants.assigned and re.search(changed, self._source.text) is None
+
+    def _command(self, first: ast.expr, node: ast.Call) -> None:
+        """Read ``Command(["xacro ", path, " name:=", value])``."""
+        if isinstance(first, ast.Name):
+            first = self._constants.assigned.get(first.id) or first
+        parts = first.elts if isinstance(first, (ast.List, ast.Tuple)) else [first]
+        texts = [self._named(part) for part in parts]
+        if not any("xacro" in text.name for text in texts if text is not None) and "xacro" not in ast.unparse(first):
+            return
+        passed = [
+            Named(word[1], text.start + word.start(1))
+            for text in texts
+            if text is not None
+            for word in re.finditer(r"([\w.-]+):=", text.name)
+        ]
+        paths = [found for part in parts if (found := self._path(part))[0]]
+        is_computed = any(isinstance(part, (ast.Starred, ast.BinOp, ast.JoinedStr)) for part in parts)
+        self._add(self._found.xacro, paths[0] if paths else ("", ""), node, passed, is_computed)

@@ -1,0 +1,69 @@
+"""Launch files and descriptions that receive arguments: the names that they accept."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+
+from urdfkit.description.packages.related_files import neighbours
+from urdfkit.description.xml.reader import read_source, shown_path
+from urdfkit.errors import ResourceError
+from urdfkit.lint.facts.launch.actions import actions_of
+from urdfkit.lint.facts.launch.records import Call, LaunchActions
+from urdfkit.lint.model.model import Model
+
+_GZ = "gz_args gz_version ign_args ign_version debugger on_exit_shutdown"
+_EMPTY_WORLD = (
+    "paused use_sim_time gui headless world_name debug verbose physics respawn_gazebo recording use_clock_frequency"
+    " pub_clock_frequency enable_ros_network server_required gui_required extra_gazebo_args command_arg1 command_arg2"
+    " command_arg3 script_type"
+)
+_CLASSIC = (
+    "world gui server verbose pause record record_path physics init factory force_system gdb valgrind extra_gazebo_args"
+    " params_file server_required gui_required version lockstep profile initial_sim_time recording use_sim_time debug"
+    " worldfile iters minimal_comms seed play ros_network lite log output"
+)
+OUTSIDE = {
+    ("gazebo_ros", "empty_world.launch"): _EMPTY_WORLD,
+    ("gazebo_ros", "gazebo.launch.py"): _CLASSIC,
+    ("ros_gz_sim", "gz_sim.launch.py"): _GZ,
+    ("ros_gz_sim", "ros_gz_sim.launch.py"): _GZ,
+    ("ros_ign_gazebo", "ign_gazebo.launch.py"): _GZ,
+}
+"""Package and file of launch files from outside → their arguments (gazebo_ros Noetic and Humble, ros_gz Jazzy)."""
+
+_MAX_FILES = 50
+
+
+def receiver(call: Call, model: Model) -> Path | None:
+    """Return the file of a call in the packages next to the robot's; None if it is elsewhere."""
+    package = neighbours(model.package).get(call.package) if model.package is not None and call.package else None
+    file = package / call.path if package is not None else None
+    return file if file is not None and file.is_file() else None
+
+
+def actions_at(path: Path, model: Model) -> LaunchActions | None:
+    """Return the actions of an included launch file; None if it cannot be read."""
+    name = shown_path(path)
+    try:
+        return actions_of(model.related_files.get(name) or read_source(path, shown_as=name, texts=model.texts))
+    except ResourceError:
+        return None
+
+
+def included_files(first: LaunchActions, model: Model) -> Iterator[LaunchActions | None]:
+    """Yield a launch file and the files that it includes, directly or indirectly; None for each that is not found."""
+    pending, seen = [first], set[str]()
+    while pending and len(seen) < _MAX_FILES:
+        file = pending.pop()
+        if file.source.file in seen:
+            continue
+        seen.add(file.source.file)
+        yield file
+        for call in file.includes:
+            path = receiver(call, model)
+            actions = actions_at(path, model) if path is not None else None
+            if actions is None:
+                yield None
+            else:
+                pending.append(actions)

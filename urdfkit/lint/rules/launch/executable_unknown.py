@@ -1,0 +1,71 @@
+"""L103 executable-unknown."""
+
+from __future__ import annotations
+
+from urdfkit.lint.finding import Finding
+from urdfkit.lint.rule import Findings, Model, RobotRule
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from urdfkit.lint.facts.launch.executables import Executables
+
+
+class ExecutableUnknown(RobotRule):
+    """A launch file starts an executable that its package does not have.
+
+    ## What it does
+    Compares the ``exec``, ``type`` or ``executable`` of nodes with the executables that CMakeLists.txt, setup.py or
+    setup.cfg of a package next to the robot's package define, and for catkin also with the files of the package. For
+    about fifty common released packages, the rule reports misspelt executables.
+
+    ## Why is this bad?
+    The launch fails with "executable not found on the libexec directory" or "Cannot locate node of type".
+
+    ## Example
+    ```xml
+    <launch>
+      <node name="state" pkg="robot_state_publisher" type="robot_state_publish"/>
+    </launch>
+    ```
+
+    ## Use instead
+    ```xml
+    <launch>
+      <node name="state" pkg="robot_state_publisher" type="robot_state_publisher"/>
+    </launch>
+    ```
+    """
+
+    code = "L103"
+    name = "executable-unknown"
+
+    def check(self, model: Model) -> Findings:
+        """Yield a finding for each unknown executable."""
+        from urdfkit.description.packages.related_files import neighbours
+        from urdfkit.lint.facts.launch.actions import launch_files
+        from urdfkit.lint.facts.launch.executables import executables_of, released
+        from urdfkit.lint.fix_builders import nearest
+
+        if model.package is None:
+            return
+        near = neighbours(model.package)
+        by_package: dict[str, Executables | None] = {**released()}
+        for package in near:
+            by_package.pop(package, None)
+        for file in launch_files(model):
+            for node in file.nodes:
+                if node.package is None or node.program is None:
+                    continue
+                package, program = node.package.name, node.program.name
+                if package not in by_package:
+                    by_package[package] = executables_of(near[package], package) if package in near else None
+                found = by_package[package]
+                if found is None or program in found.names or program in found.words:
+                    continue
+                suggestion = nearest(program, found.names, cutoff=0.7)
+                if suggestion is None and not found.is_complete:
+                    continue
+                hint = f"; did you mean `{suggestion}`?" if suggestion is not None else ""
+                message = f"package `{package}` has no executable `{program}`{hint}"
+                span = file.source.span(node.program.start, node.program.start + len(program))
+                yield Finding(self.code, self.name, self.severity, message, span)

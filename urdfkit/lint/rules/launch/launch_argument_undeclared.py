@@ -1,0 +1,99 @@
+"""L101 launch-argument-undeclared."""
+
+from __future__ import annotations
+
+import re
+
+from urdfkit.lint.finding import Finding
+from urdfkit.lint.rule import Findings, Model, RobotRule
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from urdfkit.lint.facts.control.controller_joints import Named
+    from urdfkit.lint.facts.launch.records import LaunchActions
+
+
+class LaunchArgumentUndeclared(RobotRule):
+    """A launch file uses an argument that it does not declare.
+
+    ## What it does
+    Compares the names in ``$(arg …)``, ``$(var …)`` and ``LaunchConfiguration(…)`` with the declared arguments. In ROS
+    2, arguments of other launch files are visible too: the rule then reports a name that no launch file of these
+    packages declares, and only if it is a misspelling or if no file from outside can declare it.
+
+    ## Why is this bad?
+    The launch fails with "requires the 'model' arg to be set" or "launch configuration 'model' does not exist". With a
+    default in ``LaunchConfiguration``, the argument has no effect.
+
+    ## Example
+    ```xml
+    <launch>
+      <arg name="model" default="cart"/>
+      <param name="robot_name" value="$(arg modle)"/>
+    </launch>
+    ```
+
+    ## Use instead
+    ```xml
+    <launch>
+      <arg name="model" default="cart"/>
+      <param name="robot_name" value="$(arg model)"/>
+    </launch>
+    ```
+    """
+
+    code = "L101"
+    name = "launch-argument-undeclared"
+
+    def check(self, model: Model) -> Findings:
+        """Yield a finding for each undeclared name."""
+        from urdfkit.lint.facts.launch.actions import launch_files
+
+        files = list(launch_files(model))
+        elsewhere = {name for file in files if not file.is_ros1 for name in (*file.declared, *file.assigned)}
+        elsewhere |= {word.name for file in files if not file.is_ros1 for call in file.includes for word in call.passed}
+        included = {call.path.rpartition("/")[2] for file in files for call in file.includes}
+        for file in files:
+            reported: set[str] = set()
+            for use, has_default in file.used:
+                if use.name in file.declared or use.name in file.assigned or use.name in reported:
+                    continue
+                reported.add(use.name)
+                if not file.is_ros1 and (use.name in elsewhere or file.is_computed):
+                    continue
+                yield from self._undeclared(file, use, has_default, included)
+
+    def _undeclared(self, file: LaunchActions, use: Named, has_default: bool, included: set[str]) -> Findings:
+        from urdfkit.lint.fix_builders import nearest
+        from urdfkit.lint.model.masked_names import is_typo
+
+        near = nearest(use.name, file.declared, cutoff=0.75)
+        if near is not None and not is_typo(use.name, near):
+            near = None
+        is_alone = not file.includes and file.source.file.rpartition("/")[2] not in included and not has_default
+        if near is None and not file.is_ros1 and not (is_alone and file.declared):
+            return
+        used = {name.name for name, _ in file.used}
+        if near is not None and near not in used and _is_rarer(near, use.name, file):
+            place = file.declared[near].name
+            message = f"launch argument `{near}` is declared but not used; did you mean `{use.name}`?"
+        else:
+            place = use
+            hint = f"; did you mean `{near}`?" if near is not None else ""
+            message = f"launch argument `{use.name}` is not declared{hint}"
+        span = file.source.span(place.start, place.start + len(place.name))
+        severity = "warning" if has_default else self.severity
+        yield Finding(self.code, self.name, severity, message, span)
+
+
+def _is_rarer(name: str, other: str, file: LaunchActions) -> bool:
+    """Return whether a name occurs less often in a launch file than another, or as often but is no common argument."""
+    counts = [len(re.findall(rf"(?<!\w){re.escape(word)}(?!\w)", file.source.text)) for word in (name, other)]
+    return counts[0] < counts[1] or (counts[0] == counts[1] and other in _COMMON.split())
+
+
+_COMMON = (
+    "use_sim_time world world_name model gui rviz headless paused namespace robot_name prefix roll pitch yaw debug"
+    " verbose rvizconfig rviz_config params_file map autostart use_rviz robot_description urdf_file output"
+)
+"""Common names of launch arguments."""

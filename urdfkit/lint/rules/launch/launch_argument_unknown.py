@@ -1,0 +1,130 @@
+"""L102 launch-argument-unknown."""
+
+from __future__ import annotations
+
+from urdfkit.lint.finding import Finding
+from urdfkit.lint.rule import Findings, Model, RobotRule
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    from urdfkit.lint.facts.control.controller_joints import Named
+    from urdfkit.lint.facts.launch.records import Call, LaunchActions
+    from urdfkit.lint.finding import Severity
+
+
+class LaunchArgumentUnknown(RobotRule):
+    """A launch file passes an argument that the included launch file or the xacro file does not have.
+
+    ## What it does
+    Compares the arguments of includes with the arguments of launch files in these packages and of common launch files
+    of Gazebo, and those of xacro commands with the ``<xacro:arg>`` elements of the description. Also reports required
+    arguments that are not passed.
+
+    ## Why is this bad?
+    roslaunch fails with "unused args". ROS 2 and xacro ignore the argument, and the default applies.
+
+    ## Example
+    ```xml
+    <launch>
+      <param name="robot_description" command="xacro $(find cart_description)/urdf/cart.urdf.xacro lenght:=2"/>
+    </launch>
+    ```
+
+    ## Use instead
+    ```xml
+    <launch>
+      <param name="robot_description" command="xacro $(find cart_description)/urdf/cart.urdf.xacro length:=2"/>
+    </launch>
+    ```
+
+    ## References
+    In the package of this example, cart.urdf.xacro has ``<xacro:arg name="length" default="1"/>``.
+    """
+
+    code = "L102"
+    name = "launch-argument-unknown"
+    severity = "warning"
+
+    def check(self, model: Model) -> Findings:
+        """Yield a finding for each unknown or missing argument."""
+        from urdfkit.lint.facts.launch.actions import launch_files
+        from urdfkit.lint.facts.launch.receivers import OUTSIDE, actions_at, receiver
+
+        for file in launch_files(model):
+            for call in file.includes:
+                path = receiver(call, model)
+                actions = actions_at(path, model) if path is not None else None
+                outside = OUTSIDE.get((call.package, call.path.rpartition("/")[2]))
+                if actions is not None:
+                    yield from self._include(file, call, actions, model)
+                elif outside is not None:
+                    yield from self._unknown(file, call.passed, outside.split(), call.path, True, self.severity)
+            for call in file.xacro:
+                yield from self._xacro(file, call, model)
+
+    def _include(self, file: LaunchActions, call: Call, actions: LaunchActions, model: Model) -> Findings:
+        from urdfkit.lint.facts.launch.receivers import included_files
+
+        names, target = set(actions.declared), call.path.rpartition("/")[2]
+        only_misspelt = actions.is_computed or (not actions.declared and not file.is_ros1)
+        if not actions.is_ros1:
+            for other in included_files(actions, model):
+                if other is None:
+                    only_misspelt = True
+                else:
+                    names |= {*other.declared, *other.assigned, *(use.name for use, _ in other.used)}
+        severity: Severity = "error" if file.is_ros1 else self.severity
+        yield from self._unknown(file, call.passed, names, target, only_misspelt, severity)
+        passed = {name.name for name in call.passed}
+        for name in call.passed:
+            if name.name in actions.declared and actions.declared[name.name].is_fixed and actions.is_ros1:
+                message = f"argument `{name.name}` of {target} has a fixed value and cannot be set"
+                yield self._at(file, name, message, severity)
+        outer = () if file.is_ros1 else (*file.declared, *file.assigned)
+        missing = [
+            name
+            for name, declared in actions.declared.items()
+            if declared.is_required and name not in passed and name not in outer
+        ]
+        # A misspelt name has its own finding.
+        if missing and not call.passes_all and file.is_ros1 == actions.is_ros1 and passed <= names:
+            message = f"the include does not pass the required argument `{missing[0]}` of {target}"
+            span = file.source.span(call.start, call.end)
+            yield Finding(self.code, self.name, severity, message, span)
+
+    def _xacro(self, file: LaunchActions, call: Call, model: Model) -> Findings:
+        from urdfkit.description.xacro.declared_arguments import declared_arguments
+        from urdfkit.lint.facts.launch.receivers import receiver
+
+        path = receiver(call, model)
+        if path is None or not call.passed or path.resolve() != model.expanded.path.resolve():
+            return
+        names = declared_arguments(model.expanded.sources.values())
+        yield from self._unknown(
+            file, call.passed, names, path.name, bool(model.missing_file) or not names, self.severity
+        )
+
+    def _unknown(
+        self,
+        file: LaunchActions,
+        passed: tuple[Named, ...],
+        names: Iterable[str],
+        target: str,
+        only_misspelt: bool,
+        severity: Severity,
+    ) -> Findings:
+        from urdfkit.lint.fix_builders import meant
+
+        names = list(names)
+        for name in passed:
+            if name.name in names:
+                continue
+            near, hint = meant(name.name, [other for other in names if other not in {one.name for one in passed}])
+            if near is not None or not only_misspelt:
+                yield self._at(file, name, f"{target} has no argument `{name.name}`{hint}", severity)
+
+    def _at(self, file: LaunchActions, name: Named, message: str, severity: Severity) -> Finding:
+        span = file.source.span(name.start, name.start + len(name.name))
+        return Finding(self.code, self.name, severity, message, span)
