@@ -23,14 +23,14 @@ _PASSED = r"([\w.-]+):="
 
 
 @record(eq=False)
-class Action:
+class LaunchAction:
     """An element of a launch file in XML, or the same action in YAML."""
 
     tag: str
     start: int
     end: int
     attributes: dict[str, Named]
-    children: tuple[Action, ...]
+    children: tuple[LaunchAction, ...]
 
 
 def launch_files(model: Model) -> Iterator[LaunchActions]:
@@ -66,7 +66,7 @@ def share_of(text: str) -> tuple[str, str]:
     return (match[1], match[2]) if match else ("", "")
 
 
-def _read(action: Action, found: LaunchActions) -> None:
+def _read(action: LaunchAction, found: LaunchActions) -> None:
     at, tag = action.attributes, action.tag
     name = at.get("name")
     if tag == "arg" and name is not None:
@@ -95,7 +95,7 @@ def _read(action: Action, found: LaunchActions) -> None:
         _read(child, found)
 
 
-def _passes(child: Action) -> bool:
+def _passes(child: LaunchAction) -> bool:
     return child.tag in ("arg", "let") and "name" in child.attributes
 
 
@@ -104,12 +104,12 @@ def _words(text: str) -> list[str]:
     return re.findall(r"(?:\$\([^()]*\)|[^\s$]|\$)+", text)
 
 
-def _from_tag(tag: Tag) -> Action:
+def _from_tag(tag: Tag) -> LaunchAction:
     attributes = {name: Named(each.value, each.value_start) for name, each in tag.attributes.items()}
-    return Action(tag.name, tag.start, tag.end, attributes, tuple(_from_tag(child) for child in tag.children))
+    return LaunchAction(tag.name, tag.start, tag.end, attributes, tuple(_from_tag(child) for child in tag.children))
 
 
-def _from_yaml(source: Source) -> Iterator[Action]:
+def _from_yaml(source: Source) -> Iterator[LaunchAction]:
     for document in documents(source)[0]:
         launch = document.find("launch")
         if launch is not None:
@@ -117,10 +117,10 @@ def _from_yaml(source: Source) -> Iterator[Action]:
                 yield from (_from_node(source, key, value) for key, value in item.entries)
 
 
-def _from_node(source: Source, key: Node, value: Node) -> Action:
+def _from_node(source: Source, key: Node, value: Node) -> LaunchAction:
     start = start_of(source, key)
     attributes: dict[str, Named] = {}
-    children: list[Action] = []
+    children: list[LaunchAction] = []
     for name, each in value.entries:
         if each.kind == "text":
             attributes[name.text] = Named(each.text, start_of(source, each))
@@ -130,4 +130,4 @@ def _from_node(source: Source, key: Node, value: Node) -> Action:
     if value.kind == "list":  # a group
         for item in value.items:
             children += [_from_node(source, inner, each) for inner, each in item.entries]
-    return Action(key.text, start, start + len(key.text), attributes, tuple(children))
+    return LaunchAction(key.text, start, start + len(key.text), attributes, tuple(children))

@@ -18,11 +18,11 @@ def read_python(source: Source) -> LaunchActions:
     """Return the actions of a launch file in Python; empty if it cannot be parsed."""
     found = LaunchActions(source)
     if (tree := parsed(source)) is not None:
-        _Reader(source, tree, found).read()
+        _PythonActions(source, tree, found).read()
     return found
 
 
-class _Reader:
+class _PythonActions:
     def __init__(self, source: Source, tree: ast.Module, found: LaunchActions) -> None:
         self._source, self._tree, self._found, self._constants = source, tree, found, LaunchReader(tree)
 
