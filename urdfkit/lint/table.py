@@ -92,6 +92,7 @@ ROBOT: tuple[Row, ...] = (
     ("limit!", "joints.continuous_with_position_limits", "ContinuousWithPositionLimits"),
     ("mimic", "joints.mimic_joint_undefined", "MimicJointUndefined"),
     ("type=fixed", "joints.axis_or_limit_on_fixed", "AxisOrLimitOnFixed"),
+    ("distant!", "joints.origin_too_far", "OriginTooFar"),
     ("dynamics", "joints.dynamics_empty_or_negative", "DynamicsEmptyOrNegative"),
     ("safety_controller", "joints.safety_controller_inconsistent", "SafetyControllerInconsistent"),
     ("mass!", "inertial.mass_nonpositive", "MassNonpositive"),

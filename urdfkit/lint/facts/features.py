@@ -28,6 +28,8 @@ from urdfkit.description.xml.numbers import numbers
 _TENSOR = frozenset(("ixx", "ixy", "ixz", "iyy", "iyz", "izz"))
 _FAR = 2.0 * pi
 """[rad]: larger limits and angles are suspicious."""
+_DISTANT = 5.0
+"""[m]: larger offsets of joints are suspicious."""
 
 
 def features_of(
@@ -187,6 +189,8 @@ def _of_joint(joint: Joint, found: set[str]) -> None:
     axis = joint.element.find("axis")
     if axis is not None and not abs(sum(part * part for part in joint.axis) - 1.0) < 1e-4:
         found.add("axis!")
+    if max(map(abs, joint.origin.xyz)) > _DISTANT:
+        found.add("distant!")
     if joint.is_movable:
         found.add("movable!")
         if axis is None:
