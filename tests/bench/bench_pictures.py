@@ -27,7 +27,7 @@ from urdfkit.scene.camera_model import Lens
 from urdfkit.scene.gl.driver_probe import probe
 from urdfkit.scene.lights import lighting_of
 from urdfkit.scene.pose_matrices import pose_matrices, pose_matrix
-from urdfkit.scene.ray_images import Painter
+from urdfkit.scene.ray_renderer import RayRenderer
 from urdfkit.scene.rays import RayTable, warmup
 from urdfkit.sim.scene_view import world_scene
 
@@ -46,17 +46,17 @@ def ours(scene: Scene, poses: np.ndarray, renderer: str, *, shadows: bool, sampl
     lighting.lights[:, 11] = float(shadows)
     lighting.lights[:, 1:4] = -SUN / np.linalg.norm(SUN)
     if renderer == "gl":
-        from urdfkit.scene.gl.gl_renderer import GlPainter
+        from urdfkit.scene.gl.gl_renderer import GlRenderer
 
-        painter: Any = GlPainter(table, lighting, probe().backend)
+        renderer: Any = GlRenderer(table, lighting, probe().backend)
     else:
-        painter = Painter(table, lighting)
+        renderer = RayRenderer(table, lighting)
     frame, row, here = pose_matrix(EYE), scene.bodies.index(MOVES), poses.copy()
 
     def take() -> np.ndarray:
         here[row, 0] += 1e-4
         table.place(here)
-        return painter.take(LENS, frame, near=0.05, far=100.0, samples=samples, deep=deep).rgb
+        return renderer.take(LENS, frame, near=0.05, far=100.0, samples=samples, deep=deep).rgb
 
     return take
 

@@ -23,7 +23,7 @@ from urdfkit.scene import Scene, Shape
 from urdfkit.scene.camera_model import Lens
 from urdfkit.scene.lights import lighting_of
 from urdfkit.scene.pose_matrices import pose_matrices, pose_matrix
-from urdfkit.scene.ray_images import Painter
+from urdfkit.scene.ray_renderer import RayRenderer
 from urdfkit.scene.rays import RayTable, warmup
 from urdfkit.sim.scene_view import world_scene
 
@@ -190,13 +190,13 @@ def pictures(scene: Scene, poses: np.ndarray, seconds: float, *, shadows: bool) 
     lighting = lighting_of(load_world("house"))
     if not shadows:
         lighting.lights[:, 11] = 0.0
-    painter, lens = Painter(table, lighting), Lens(640, 480, 1.2)
+    renderer, lens = RayRenderer(table, lighting), Lens(640, 480, 1.2)
     frame = pose_matrix(Pose((-4.5, -3.5, 1.7), (0.0, 0.35, 0.7)))
     lens.order, lens.directions  # noqa: B018 - made once
     count, start = 0, time.process_time()
     while (spent := time.process_time() - start) < seconds:
         table.place(poses)
-        painter.take(lens, frame, near=0.05, far=100.0)
+        renderer.take(lens, frame, near=0.05, far=100.0)
         count += 1
     return count / spent
 

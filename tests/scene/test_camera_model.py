@@ -6,7 +6,7 @@ import cv2
 import numpy as np
 import pytest
 
-from tests.scene.test_ray_images import lit, painter
+from tests.scene.test_ray_renderer import lit, rendering
 from urdfkit.description.urdf.robot import Mesh, Pose
 from urdfkit.scene import Shape, TriMesh
 from urdfkit.scene.camera_model import Distortion, Lens
@@ -79,7 +79,7 @@ def views(lens: Lens) -> list[np.ndarray]:
 @pytest.mark.slow
 @pytest.mark.parametrize("lens", LENSES)
 def test_opencv_calibrates_a_camera_to_what_it_was_given(lens: Lens) -> None:
-    shot = painter(board(), lighting=lit(ambient=(1.0, 1.0, 1.0)))
+    shot = rendering(board(), lighting=lit(ambient=(1.0, 1.0, 1.0)))
     column, row = np.meshgrid(np.arange(COLUMNS), np.arange(ROWS))
     grid = np.column_stack([column.ravel(), row.ravel(), np.zeros(column.size)]).astype(np.float32) * SQUARE
     objects, images = [], []

@@ -9,14 +9,14 @@ import pytest
 import trimesh
 from PIL import Image
 
-from tests.scene.test_ray_images import DOWN, FLOOR, lit, painter, visual
+from tests.scene.test_ray_renderer import DOWN, FLOOR, lit, rendering, visual
 from urdfkit.description.sdf import Light
 from urdfkit.description.urdf.robot import Box, Mesh, Pose, Sphere
 from urdfkit.scene import MeshLoader, Shape, TriMesh
 from urdfkit.scene.camera_model import Lens, spread
 from urdfkit.scene.meshes.textures import Texture
 from urdfkit.scene.pose_matrices import pose_matrix
-from urdfkit.scene.ray_images import Picture
+from urdfkit.scene.ray_renderer import Picture
 
 AIR = lit(ambient=(1.0, 1.0, 1.0))
 ABOVE = pose_matrix(DOWN)
@@ -40,7 +40,7 @@ def wrapped(texture: Texture, uv: np.ndarray = UV) -> TriMesh:
 
 
 def seen(*shapes: Shape, lens: Lens | None = None, lighting=AIR, samples: int = 1) -> Picture:
-    return painter(*shapes, lighting=lighting).take(lens or Lens(101, 101, 0.5), ABOVE, samples=samples)
+    return rendering(*shapes, lighting=lighting).take(lens or Lens(101, 101, 0.5), ABOVE, samples=samples)
 
 
 def places(lens: Lens) -> tuple[np.ndarray, np.ndarray]:

@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from tests.scene.test_ray_images import DOWN, FLOOR, lit, painter, visual
+from tests.scene.test_ray_renderer import DOWN, FLOOR, lit, rendering, visual
 from urdfkit.description import load
 from urdfkit.description.sdf import Light, load_world
 from urdfkit.description.urdf.robot import Pose, Sphere
@@ -96,7 +96,7 @@ def test_an_obj_files_materials_are_as_glossy_as_they_say(tmp_path: Path) -> Non
 def test_a_black_ball_shines_back_as_blinns_formula_says(light: Light, exponent: float) -> None:
     gloss = (0.9, 0.8, 0.7, exponent)
     lens, lighting = Lens(64, 64, 0.5), lit(light)
-    picture = painter(visual(Sphere(1.0), "ball", rgba=BLACK, gloss=gloss), lighting=lighting).take(
+    picture = rendering(visual(Sphere(1.0), "ball", rgba=BLACK, gloss=gloss), lighting=lighting).take(
         lens, pose_matrix(DOWN)
     )
     eye = np.array(DOWN.xyz)
@@ -131,8 +131,8 @@ def test_in_a_shadow_nothing_shines_back() -> None:
     floor = visual(FLOOR.geometry, "floor", rgba=BLACK, gloss=(1.0, 1.0, 1.0, 5.0))
     lid = visual(Sphere(0.5), "lid", (0, 0, 8.0), rgba=BLACK)  # above the camera
     lens = Lens(33, 33, 0.6)
-    shaded = painter(floor, lid, lighting=lit(sun)).take(lens, pose_matrix(DOWN)).rgb
-    bare = painter(floor, lighting=lit(sun)).take(lens, pose_matrix(DOWN)).rgb
+    shaded = rendering(floor, lid, lighting=lit(sun)).take(lens, pose_matrix(DOWN)).rgb
+    bare = rendering(floor, lighting=lit(sun)).take(lens, pose_matrix(DOWN)).rgb
     assert bare[16, 16, 0] > 250
     assert shaded[16, 16].max() == 0
     assert np.array_equal(shaded[0, 0], bare[0, 0])

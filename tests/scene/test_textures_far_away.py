@@ -7,12 +7,12 @@ import pytest
 
 from tests.scene.gl.test_same_picture import agree, both, table_of
 from tests.scene.test_paint import mesh_of, opaque
-from tests.scene.test_ray_images import lit
+from tests.scene.test_ray_renderer import lit
 from urdfkit.description.urdf.robot import Pose
 from urdfkit.scene import TriMesh
 from urdfkit.scene.camera_model import Lens
 from urdfkit.scene.pose_matrices import pose_matrix
-from urdfkit.scene.ray_images import Painter
+from urdfkit.scene.ray_renderer import RayRenderer
 from urdfkit.scene.rays.shading.materials import mip_levels
 
 LENS = Lens(80, 60, 1.0)
@@ -37,10 +37,10 @@ def checkers() -> np.ndarray:
 
 
 def test_a_chequered_floor_at_a_grazing_angle_looks_like_many_samples_per_pixel() -> None:
-    painter = Painter(table_of(mesh_of(floor(checkers(), 60.0))), lit(ambient=(1.0, 1.0, 1.0)))
-    once = painter.take(LENS, EYE).rgb[..., 0].astype(float)
+    renderer = RayRenderer(table_of(mesh_of(floor(checkers(), 60.0))), lit(ambient=(1.0, 1.0, 1.0)))
+    once = renderer.take(LENS, EYE).rgb[..., 0].astype(float)
     large = Lens(8 * LENS.width, 8 * LENS.height, LENS.field_of_view)
-    fine = painter.take(large, EYE)
+    fine = renderer.take(large, EYE)
     many = fine.rgb[..., 0].astype(float).reshape(LENS.height, 8, LENS.width, 8).mean(axis=(1, 3))
     seen = (fine.shapes >= 0).reshape(LENS.height, 8, LENS.width, 8).all(axis=(1, 3))
     off = np.abs(once - many)[seen]

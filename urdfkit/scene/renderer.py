@@ -10,23 +10,23 @@ from urdfkit.errors import SimulationError, did_you_mean
 from urdfkit.scene.camera_model import Lens
 from urdfkit.scene.gl.driver_probe import SECONDS, Found, on_processor, probe, probe_again
 from urdfkit.scene.lights import Lighting
-from urdfkit.scene.ray_images import Painter, Picture
+from urdfkit.scene.ray_renderer import Picture, RayRenderer
 from urdfkit.scene.rays.ray_scene import RayTable
 
-Renderer = Literal["auto", "ray", "gl"]
-RENDERERS: tuple[str, ...] = get_args(Renderer)
-"""The faster working renderer, see `painter_of`; ray casting; OpenGL."""
+RendererName = Literal["auto", "ray", "gl"]
+RENDERERS: tuple[str, ...] = get_args(RendererName)
+"""The faster working renderer, see `renderer_of`; ray casting; OpenGL."""
 
 
-class TakesPictures(Protocol):
-    """Interface of a renderer, as `Painter`."""
+class ImageRenderer(Protocol):
+    """Interface of a renderer, as `RayRenderer`."""
 
     table: RayTable
 
     def take(
         self, lens: Lens, frame: ArrayLike, *, near: float = 0.0, far: float = ..., samples: int = 1, deep: bool = True
     ) -> Picture:
-        """Render an image, see `Painter.take`."""
+        """Render an image, see `RayRenderer.take`."""
         ...
 
 
@@ -55,13 +55,13 @@ def check(
         raise SimulationError(f"renderer `gl` does not work here: {found.name}; use `ray`")
 
 
-def painter_of(
+def renderer_of(
     table: RayTable,
     lighting: Lighting,
     renderer: str,
     note: Callable[[str], None],
     device: Callable[[], Found] = probe,
-) -> TakesPictures:
+) -> ImageRenderer:
     """Return a renderer for the shapes of a table.
 
     With ``auto`` it is OpenGL on a graphics card, or if no light casts shadows; otherwise ray casting, which with
@@ -75,21 +75,21 @@ def painter_of(
         device: function that tests OpenGL.
     """
     if renderer == "ray":
-        return Painter(table, lighting)
+        return RayRenderer(table, lighting)
     found = _tried(device, note)
     if not found.works:
         if "not installed" not in found.name:
             note(f"OpenGL does not work here ({found.name}); images are rendered by ray casting")
-        return Painter(table, lighting)
+        return RayRenderer(table, lighting)
     if renderer == "auto" and on_processor(found.name) and lighting.has_shadows:
-        return Painter(table, lighting)
-    from urdfkit.scene.gl.gl_renderer import GlPainter
+        return RayRenderer(table, lighting)
+    from urdfkit.scene.gl.gl_renderer import GlRenderer
 
     try:
-        return GlPainter(table, lighting, found.backend, note)
+        return GlRenderer(table, lighting, found.backend, note)
     except Exception as error:  # any error of the driver
         note(f"OpenGL does not work here ({_first_line(error)}); images are rendered by ray casting")
-        return Painter(table, lighting)
+        return RayRenderer(table, lighting)
 
 
 def _tried(device: Callable[[], Found], note: Callable[[str], None]) -> Found:

@@ -15,7 +15,7 @@ from urdfkit.scene import MeshLoader, Role, Scene, Shape
 from urdfkit.scene.lights import lighting_of
 from urdfkit.scene.pose_matrices import pose_matrices, pose_matrix
 from urdfkit.scene.rays import RayTable, announcement, warmup
-from urdfkit.scene.renderer import TakesPictures, check, painter_of
+from urdfkit.scene.renderer import ImageRenderer, check, renderer_of
 from urdfkit.scene.segmentation_labels import label_of
 from urdfkit.scene.world_shapes import shapes_of_link
 from urdfkit.sim.construction.rigid_bodies import parts_of
@@ -161,7 +161,7 @@ class View:
         self._note = note
         self._tables: dict[Role, RayTable] = {}
         self._renderer = renderer
-        self._painter: TakesPictures | None = None
+        self._image_renderer: ImageRenderer | None = None
 
     def poses(self, layout: Layout) -> Array:
         """Return the poses of all bodies; shape (len(scene.bodies), 7)."""
@@ -178,18 +178,18 @@ class View:
         table.place(self.poses(layout))
         return table
 
-    def painter(self, layout: Layout) -> TakesPictures:
+    def renderer(self, layout: Layout) -> ImageRenderer:
         """Return the renderer of the visuals, at their poses in a layout, with the lights of the world."""
         table = self.table("visual", layout)
-        if self._painter is None:
+        if self._image_renderer is None:
             for shape in self.scene.with_role("visual"):
                 for name in shape.mesh.missing if shape.mesh is not None and not shape.has_color else ():
                     place = f"{shape.position}: " if shape.position else ""
                     broken = shape.mesh is not None and name in shape.mesh.broken
                     why = "is not a readable picture" if broken else "does not exist"
                     self._note(f"{place}`{shape.name}` is shown without its texture: `{name}` {why}")
-            self._painter = painter_of(table, self._lighting, self._renderer, self._note)
-        return self._painter
+            self._image_renderer = renderer_of(table, self._lighting, self._renderer, self._note)
+        return self._image_renderer
 
 
 class Surroundings:

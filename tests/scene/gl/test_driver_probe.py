@@ -9,7 +9,7 @@ from threading import Event
 import pytest
 
 from tests.scene.gl.test_same_picture import table_of, zoo
-from tests.scene.test_ray_images import lit
+from tests.scene.test_ray_renderer import lit
 from tests.time_limit import PATIENCE
 from urdfkit.description.sdf import Light
 from urdfkit.errors import SimulationError
@@ -17,8 +17,8 @@ from urdfkit.scene import renderer as renderer_module
 from urdfkit.scene.gl import driver_probe as probing
 from urdfkit.scene.gl import hanging_drivers
 from urdfkit.scene.gl.driver_probe import Found, on_processor, run_probe
-from urdfkit.scene.ray_images import Painter
-from urdfkit.scene.renderer import check, painter_of
+from urdfkit.scene.ray_renderer import RayRenderer
+from urdfkit.scene.renderer import check, renderer_of
 
 
 @pytest.mark.parametrize(
@@ -97,7 +97,7 @@ def test_a_driver_that_takes_long_is_spoken_of(monkeypatch: pytest.MonkeyPatch) 
         assert told.wait(PATIENCE)
         return Found(True, "no such backend", "llvmpipe")
 
-    assert isinstance(painter_of(table_of(*zoo()), lit(SUN), "auto", note, slow), Painter)
+    assert isinstance(renderer_of(table_of(*zoo()), lit(SUN), "auto", note, slow), RayRenderer)
     assert notes == ["waiting for the graphics driver, at most 10 s"]
 
 
@@ -115,8 +115,8 @@ MISSING = Found(False, "", "moderngl is not installed: pip install 'urdfkit[gl]'
 )
 def test_rays_take_pictures_where_opengl_does_not(found: Found, notes: list[str]) -> None:
     said: list[str] = []
-    painter = painter_of(table_of(*zoo()), lit(), "auto", said.append, lambda: found)
-    assert isinstance(painter, Painter)
+    chosen = renderer_of(table_of(*zoo()), lit(), "auto", said.append, lambda: found)
+    assert isinstance(chosen, RayRenderer)
     assert len(said) == len(notes)
     assert all(line.startswith(note) for line, note in zip(said, notes, strict=True))
 
@@ -136,7 +136,7 @@ SUN = Light("sun", "directional", cast_shadows=True)
 def test_the_quicker_one_takes_pictures(renderer: str, name: str, lights, rays: bool) -> None:
     said: list[str] = []
     nowhere = Found(True, "no such backend", name)  # whoever asks for a context is told so, and then casts rays
-    painter_of(table_of(*zoo()), lit(*lights), renderer, said.append, lambda: nowhere)
+    renderer_of(table_of(*zoo()), lit(*lights), renderer, said.append, lambda: nowhere)
     assert (not said) == rays
 
 

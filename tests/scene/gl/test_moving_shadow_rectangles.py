@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from tests.scene.gl.test_same_picture import EYE, LENS, SUN, agree, both, table_of, zoo
-from tests.scene.test_ray_images import lit
+from tests.scene.test_ray_renderer import lit
 from urdfkit.description.urdf.robot import Pose
 from urdfkit.scene.camera_model import Lens
 from urdfkit.scene.gl.moving_shadow_rectangles import shaded, union
@@ -58,13 +58,13 @@ def test_only_that_part_of_the_picture_is_drawn_twice_and_it_is_the_same(monkeyp
     table = table_of(*zoo())
     gl, rays = both(table, lit(SUN, ambient=(0.3, 0.3, 0.3)))
     again = []
-    inner = gl_renderer.GlPainter._cast_shadows
+    inner = gl_renderer.GlRenderer._cast_shadows
 
     def noted(self, *arguments):
         again.append(inner(self, *arguments))
         return again[-1]
 
-    monkeypatch.setattr(gl_renderer.GlPainter, "_cast_shadows", noted)
+    monkeypatch.setattr(gl_renderer.GlRenderer, "_cast_shadows", noted)
     poses = np.tile([0, 0, 0, 0, 0, 0, 1.0], (10, 1))
     for lift in (0.0, 0.2, 0.5):
         poses[3, 2] = lift  # the cylinder

@@ -10,7 +10,7 @@ import pytest
 import trimesh
 
 from tests.scene.test_paint import QUARTERS, mesh_of, opaque, wrapped
-from tests.scene.test_ray_images import lit, visual
+from tests.scene.test_ray_renderer import lit, visual
 from urdfkit.description.sdf import Cone, Ellipsoid, Light, Plane, load_world
 from urdfkit.description.urdf.robot import Box, Capsule, Cylinder, Pose, Sphere
 from urdfkit.scene import Scene, Shape, TriMesh
@@ -20,7 +20,7 @@ from urdfkit.scene.gl.driver_probe import probe
 from urdfkit.scene.gl.shaders import ALL, COLOR, DEEP
 from urdfkit.scene.lights import Lighting, lighting_of
 from urdfkit.scene.pose_matrices import pose_matrix
-from urdfkit.scene.ray_images import Painter, Picture
+from urdfkit.scene.ray_renderer import Picture, RayRenderer
 from urdfkit.scene.rays import RayTable
 from urdfkit.sim.scene_view import world_scene
 
@@ -35,9 +35,9 @@ LENS = Lens(320, 240, 1.1)
 
 
 def both(table: RayTable, lighting: Lighting):
-    from urdfkit.scene.gl.gl_renderer import GlPainter
+    from urdfkit.scene.gl.gl_renderer import GlRenderer
 
-    return GlPainter(table, lighting, DEVICE.backend), Painter(table, lighting)
+    return GlRenderer(table, lighting, DEVICE.backend), RayRenderer(table, lighting)
 
 
 def table_of(*shapes: Shape) -> RayTable:
@@ -214,18 +214,18 @@ def test_several_threads_may_take_pictures() -> None:
 def test_a_driver_that_fails_later_is_replaced_by_rays(monkeypatch) -> None:
     import moderngl
 
-    from urdfkit.scene.gl.gl_renderer import GlPainter
+    from urdfkit.scene.gl.gl_renderer import GlRenderer
 
     notes: list[str] = []
     table, lighting = table_of(*zoo()), lit(SUN)
-    gl = GlPainter(table, lighting, DEVICE.backend, notes.append)
+    gl = GlRenderer(table, lighting, DEVICE.backend, notes.append)
 
     def lost(*_: object) -> Picture:
         raise moderngl.Error("the device is lost")
 
-    monkeypatch.setattr(GlPainter, "_take", lost)
+    monkeypatch.setattr(GlRenderer, "_take", lost)
     for _ in range(2):
-        assert np.array_equal(gl.take(LENS, EYE).rgb, Painter(table, lighting).take(LENS, EYE).rgb)
+        assert np.array_equal(gl.take(LENS, EYE).rgb, RayRenderer(table, lighting).take(LENS, EYE).rgb)
     assert notes == ["OpenGL has failed (the device is lost); images are now rendered by ray casting"]
 
 

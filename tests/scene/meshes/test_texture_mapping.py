@@ -10,13 +10,13 @@ from PIL import Image
 
 from tests.scene.gl.test_same_picture import DEVICE, agree
 from tests.scene.test_paint import QUARTERS
-from tests.scene.test_ray_images import lit
+from tests.scene.test_ray_renderer import lit
 from urdfkit.description.urdf.robot import Box, Capsule, Cylinder, Pose, Sphere
 from urdfkit.scene import scene_of
 from urdfkit.scene.camera_model import Lens
 from urdfkit.scene.meshes.texture_mapping import solid
 from urdfkit.scene.pose_matrices import pose_matrix
-from urdfkit.scene.ray_images import Painter
+from urdfkit.scene.ray_renderer import RayRenderer
 from urdfkit.scene.rays import RayTable
 
 AIR = lit(ambient=(1.0, 1.0, 1.0))
@@ -45,7 +45,7 @@ def look(table: RayTable, pitch: float, yaw: float, away: float = 5.0) -> np.nda
     turn = pose_matrix(Pose((0, 0, 0), (0.0, pitch, yaw)))
     frame = turn.copy()
     frame[:3, 3] = -away * turn[:3, 0]
-    return Painter(table, AIR).take(LENS, frame).rgb
+    return RayRenderer(table, AIR).take(LENS, frame).rgb
 
 
 def visual(geometry: str, material: str = MATERIAL.format(PICTURE)) -> str:
@@ -132,10 +132,10 @@ def test_solids_are_closed_and_face_outwards(geometry) -> None:
 
 @pytest.mark.opengl
 def test_opengl_sees_the_same(robot_of, quarters: Path) -> None:
-    from urdfkit.scene.gl.gl_renderer import GlPainter
+    from urdfkit.scene.gl.gl_renderer import GlRenderer
 
     frame = pose_matrix(Pose((-3.0, 0.5, 2.0), (0.0, 0.5, -0.1)))
     for shape in ('<box size="1 1 1"/>', '<cylinder radius="0.5" length="1"/>', '<sphere radius="0.5"/>'):
         table = table_of(robot_of(visual(shape)))
-        gl, rays = GlPainter(table, AIR, DEVICE.backend), Painter(table, AIR)
+        gl, rays = GlRenderer(table, AIR, DEVICE.backend), RayRenderer(table, AIR)
         agree(gl.take(LENS, frame), rays.take(LENS, frame))

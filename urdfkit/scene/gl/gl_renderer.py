@@ -1,4 +1,4 @@
-"""GlPainter: renders images with OpenGL."""
+"""GlRenderer: renders images with OpenGL."""
 
 from __future__ import annotations
 
@@ -19,13 +19,13 @@ from urdfkit.scene.gl.moving_shadow_rectangles import LARGE, Rectangle, shaded, 
 from urdfkit.scene.gl.shaders import ALL, BOTH, COLOR, DEEP, STILL
 from urdfkit.scene.gl.shadow_maps import EDGES, FINER, Rest, Shadows
 from urdfkit.scene.lights import Lighting
-from urdfkit.scene.ray_images import Painter, Picture
+from urdfkit.scene.ray_renderer import Picture, RayRenderer
 from urdfkit.scene.rays.ray_scene import RayTable
 from urdfkit.scene.rays.shading.direct_lighting import DIRECTIONAL, SPOT
 
 
-class GlPainter:
-    """Renders images of the shapes of a table with OpenGL; the counterpart of `Painter`.
+class GlRenderer:
+    """Renders images of the shapes of a table with OpenGL; the counterpart of `RayRenderer`.
 
     Args:
         table: the shapes; the caller places them.
@@ -45,7 +45,7 @@ class GlPainter:
 
         self.table = table
         self._error: type[Exception] = moderngl.Error
-        self._rays = Painter(table, lighting)
+        self._rays = RayRenderer(table, lighting)
         self._note = note
         self._works = True
         self._lock = Lock()

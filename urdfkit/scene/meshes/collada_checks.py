@@ -21,7 +21,7 @@ def metres_per_unit(content: bytes) -> float:
     return factor if 0.0 < factor < float("inf") else 1.0
 
 
-def harm(content: bytes) -> str | None:
+def rejection_reason(content: bytes) -> str | None:
     """Return the reason to reject a file; None if it is safe.
 
     Entities can unfold into gigabytes, and so can nodes that contain two instances of a node that contains two

@@ -19,7 +19,7 @@ from urdfkit.description.packages.resolver import near_path
 from urdfkit.description.urdf.robot import Vector
 from urdfkit.errors import MissingDependencyError, ResourceError, did_you_mean
 from urdfkit.linear_algebra import matmul
-from urdfkit.scene.meshes.collada_checks import harm, metres_per_unit
+from urdfkit.scene.meshes.collada_checks import metres_per_unit, rejection_reason
 from urdfkit.scene.meshes.mesh_appearance import colors_in, gloss_in, normals_in, places_in, texture_in
 from urdfkit.scene.meshes.stl import corners_of
 from urdfkit.scene.meshes.textures import Beside, Texture, is_as_read
@@ -135,7 +135,7 @@ def _read(path: Path) -> bytes:
         raise ResourceError(f"cannot read mesh {path}: {error.strerror or error}") from error
     if content.startswith(_LFS):
         raise ResourceError(f"mesh {path.name} is a Git LFS pointer; run `git lfs pull`")
-    if path.suffix.lower() == ".dae" and (reason := harm(content)) is not None:
+    if path.suffix.lower() == ".dae" and (reason := rejection_reason(content)) is not None:
         raise ResourceError(f"mesh {path.name} is rejected: {reason}")
     if path.suffix.lower() == ".stl" and b"facet" not in content:  # binary: 80 bytes, a count, 50 bytes a triangle
         count = int.from_bytes(content[80:84], "little")

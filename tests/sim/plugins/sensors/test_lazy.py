@@ -8,14 +8,14 @@ import pytest
 
 from tests.sim.plugins.sensors.cameras.test_cameras import eye, ros1
 from tests.sim.plugins.sensors.conftest import LASER, sensor
-from urdfkit.scene.ray_images import Painter
+from urdfkit.scene.ray_renderer import RayRenderer
 from urdfkit.scene.rays.ray_scene import RayTable
 
 
 @pytest.mark.parametrize(
     ("made", "topic", "owner", "method"),
     [
-        (eye(ros1()), "/cam/image_raw", Painter, "take"),
+        (eye(ros1()), "/cam/image_raw", RayRenderer, "take"),
         (sensor(LASER), "/post/scan", RayTable, "cast"),
     ],
     ids=["camera", "lidar"],

@@ -60,8 +60,8 @@ def push_all(w: KernelWorld, rows: int, rest: Any) -> None:
 
 
 @inlined
-def turn(w: KernelWorld, k: int) -> float:
-    """Turn friction against the slip; return the velocity by which that, or the normal, is not where it should be."""
+def update_friction_direction(w: KernelWorld, k: int) -> float:
+    """Set friction opposite to the slip; return the residual of normal velocity and friction, as a velocity."""
     stiffness, velocity, near = w.g, w.y, w.near_x
     normal, first, second = velocity[k], velocity[k + 1], velocity[k + 2]
     a, b = near[k + 1], near[k + 2]
@@ -105,7 +105,7 @@ def correct(w: KernelWorld, root: int, rows: int, n: int, sliding: int, tiny: fl
         if sliding > 0:
             for k in range(rows):
                 if w.state[k] == SLIDES and w.mu[k] > 0.0:
-                    worst = max(worst, turn(w, k))
+                    worst = max(worst, update_friction_direction(w, k))
         if worst <= tiny:
             return MET
         if moved <= tiny:
@@ -114,11 +114,11 @@ def correct(w: KernelWorld, root: int, rows: int, n: int, sliding: int, tiny: fl
 
 
 @inlined
-def ease(w: KernelWorld, rows: int, tiny: float) -> bool:
-    """Let rows that hold take back less of what they are off, or close less of a gap, so that none contradicts another.
+def relax_rows(w: KernelWorld, rows: int, tiny: float) -> bool:
+    """Relax the targets of active rows that contradict each other: they correct less of an error or gap.
 
     Returns:
-        Whether that is enough. It is not where motors or friction are among them: these have to give in instead.
+        Whether the rows agree then. False if motors or friction are among them: their state has to change instead.
     """
     off = w.y
     for k in range(rows):
@@ -151,7 +151,7 @@ def try_states(w: KernelWorld, root: int, rows: int, n: int, tiny: float, most: 
         if there == CONTRADICT:
             # For example a table on four feet: meet the rows as nearly as possible, so that no impulses grow.
             there = NOT_MET
-            if ease(w, rows, tiny):
+            if relax_rows(w, rows, tiny):
                 start_over(w, rows, n)
                 there = correct(w, root, rows, n, sliding, tiny)
         if there == NOT_MET:

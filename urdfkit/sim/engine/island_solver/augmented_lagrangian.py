@@ -12,7 +12,7 @@ import math
 
 from urdfkit.sim.engine.compilation import compiled
 from urdfkit.sim.engine.island_solver.active_set import try_states
-from urdfkit.sim.engine.island_solver.convex_newton import descend, leave_wedged, set_out, take_over
+from urdfkit.sim.engine.island_solver.convex_newton import descend, limit_corrections, prepare_round, update_multipliers
 from urdfkit.sim.engine.island_solver.coulomb_direction import slide, stiffen
 from urdfkit.sim.engine.island_solver.jacobian_products import row_speed
 from urdfkit.sim.engine.kernel_world import KernelWorld
@@ -87,13 +87,13 @@ def go_round(w: KernelWorld, root: int, rows: int, n: int, tiny: float, most: fl
         if done == TRIED_AFTER and try_from_here(w, root, rows, n, tiny, most):
             return done
         row = min(done, len(HARDNESS) - 1)
-        set_out(w, rows, HARDNESS[row], done > 0)
+        prepare_round(w, rows, HARDNESS[row], done > 0)
         descend(w, root, rows, n, BALANCE[row])
         was = off
-        off = take_over(w, rows)
+        off = update_multipliers(w, rows)
         if off <= max(tiny, SOLVED) or GAIN * was < off <= NEAR:
             return done + 1
-        leave_wedged(w, rows)
+        limit_corrections(w, rows)
         if done + 1 < len(HARDNESS):
             least = off
             continue

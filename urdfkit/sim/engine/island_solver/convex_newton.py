@@ -176,8 +176,8 @@ def descend(w: KernelWorld, root: int, rows: int, n: int, balance: float) -> int
 
 
 @inlined
-def take_over(w: KernelWorld, rows: int) -> float:
-    """Make the impulses of a round those so far; return by how much velocities, or the correction, are off."""
+def update_multipliers(w: KernelWorld, rows: int) -> float:
+    """Set the multipliers to the impulses of this round; return the residual of velocities and friction."""
     x, speeds, stiffness, s = w.x, w.y, w.g, w.before
     off = 0.0
     k = 0
@@ -200,8 +200,8 @@ def take_over(w: KernelWorld, rows: int) -> float:
 
 
 @inlined
-def set_out(w: KernelWorld, rows: int, hardness: float, corrected: bool) -> None:
-    """Give rows one stiffness for each contact, and their velocities at the velocities of now, corrected or not."""
+def prepare_round(w: KernelWorld, rows: int, hardness: float, corrected: bool) -> None:
+    """Set one penalty stiffness per contact, and the row velocities, corrected for slip after the first round."""
     speeds, s, stiffness, speed = w.y, w.before, w.g, w.block_v
     row_speeds(w, rows, speed, speeds, 0)
     for k in range(rows):
@@ -226,7 +226,7 @@ def set_out(w: KernelWorld, rows: int, hardness: float, corrected: bool) -> None
 
 
 @compiled
-def leave_wedged(w: KernelWorld, rows: int) -> None:
+def limit_corrections(w: KernelWorld, rows: int) -> None:
     """Limit the corrections of penetrations and joint errors by the current velocities."""
     bias, speed = w.row_bias, w.block_v
     for k in range(rows):

@@ -17,8 +17,8 @@ from urdfkit.description.xml.element import Element
 from urdfkit.linear_algebra import Array, matmul
 from urdfkit.scene import Shape
 from urdfkit.scene.camera_model import Distortion
-from urdfkit.scene.ray_images import Picture
-from urdfkit.scene.renderer import TakesPictures
+from urdfkit.scene.ray_renderer import Picture
+from urdfkit.scene.renderer import ImageRenderer
 from urdfkit.sim.plugins.parameters import Parameters
 from urdfkit.sim.plugins.sensors.cameras.camera_optics import (
     CAMERA_INFO,
@@ -88,7 +88,7 @@ class Imager:
         """Return the CameraInfo; renders nothing."""
         return camera_info(t, frame, self.optics.lens, focal=self.focal, cx=self.cx, cy=self.cy, baseline=self.baseline)
 
-    def look(self, t: float, view: TakesPictures, frame: Array, random: np.random.Generator, *, deep: bool) -> Sight:
+    def look(self, t: float, view: ImageRenderer, frame: Array, random: np.random.Generator, *, deep: bool) -> Sight:
         """Return the capture with the sensor at `frame`; `deep` adds depths and shape indices."""
         optics, placed = self.optics, matmul(frame, self.pose)
         picture = view.take(optics.lens, placed, near=optics.near, far=optics.far, samples=optics.samples, deep=deep)
@@ -146,8 +146,8 @@ class Camera(SceneSensor):
         """Read the parameters of this plugin and fill `topics`."""
 
     def _look(self, t: float, layout: Layout, frame: Array, random: np.random.Generator) -> Any:
-        painter = self._surroundings.view(layout).painter(layout)
-        return self.imagers[0].look(t, painter, frame, random, deep=self.deep)
+        renderer = self._surroundings.view(layout).renderer(layout)
+        return self.imagers[0].look(t, renderer, frame, random, deep=self.deep)
 
     def _image(self, sight: Sight) -> Any:
         return image(sight.t, self.frame, sight.picture.rgb, self.optics.encoding)

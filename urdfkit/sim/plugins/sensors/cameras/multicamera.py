@@ -60,8 +60,8 @@ class MultiCamera(Camera):
         def look(number: int) -> Sight:
             # Each camera has its own random stream: subscribers of other cameras do not change its noise.
             own = np.random.Generator(random.bit_generator.jumped(number))  # type: ignore[attr-defined]
-            painter = self._surroundings.view(layout).painter(layout)
-            return self.imagers[number].look(t, painter, frame, own, deep=False)
+            renderer = self._surroundings.view(layout).renderer(layout)
+            return self.imagers[number].look(t, renderer, frame, own, deep=False)
 
         return look
 

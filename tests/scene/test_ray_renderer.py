@@ -11,7 +11,7 @@ from urdfkit.scene import Scene, Shape, TriMesh
 from urdfkit.scene.camera_model import Distortion, Lens
 from urdfkit.scene.lights import Lighting, lighting_of
 from urdfkit.scene.pose_matrices import pose_matrix
-from urdfkit.scene.ray_images import Painter
+from urdfkit.scene.ray_renderer import RayRenderer
 from urdfkit.scene.rays import RayTable
 
 DOWN = Pose((0.0, 0.0, 5.0), (0.0, np.pi / 2, 0.0))
@@ -24,10 +24,10 @@ def visual(geometry, name, xyz=(0.0, 0.0, 0.0), rgba=(1.0, 1.0, 1.0, 1.0), **mor
     return Shape(name, name, "visual", geometry, pose_matrix(Pose(xyz)), rgba, True, **more)
 
 
-def painter(*shapes: Shape, lighting: Lighting) -> Painter:
+def rendering(*shapes: Shape, lighting: Lighting) -> RayRenderer:
     table = RayTable(Scene(tuple(s.body for s in shapes), shapes), shapes)
     table.place(np.tile([0, 0, 0, 0, 0, 0, 1.0], (len(shapes), 1)))
-    return Painter(table, lighting)
+    return RayRenderer(table, lighting)
 
 
 def world(*lights: Light, kept=()) -> World:
@@ -44,7 +44,7 @@ FLOOR = visual(Plane((0.0, 0.0, 1.0), (100.0, 100.0)), "floor", rgba=(1.0, 0.5, 
 def test_pixels_are_where_geometry_has_them() -> None:
     lens = Lens(64, 48, 1.0)
     ball = visual(Sphere(0.5), "ball", (0.6, -0.4, 2.0))
-    picture = painter(FLOOR, ball, lighting=lit(ambient=(1, 1, 1))).take(lens, pose_matrix(DOWN))
+    picture = rendering(FLOOR, ball, lighting=lit(ambient=(1, 1, 1))).take(lens, pose_matrix(DOWN))
     f = lens.focal_length
     row, column = np.mgrid[:48, :64]
     # In the picture, up is +x of the world and right is -y.
@@ -61,7 +61,7 @@ def test_pixels_are_where_geometry_has_them() -> None:
 
 def test_light_falls_as_the_cosine_and_colours_multiply() -> None:
     slanted = Light("sun", "directional", direction=(0.0, 1.0, -1.0), diffuse=(0.8, 0.8, 0.4, 1.0))
-    picture = painter(FLOOR, lighting=lit(slanted, ambient=(0.1, 0.1, 0.1))).take(Lens(8, 8, 1.0), pose_matrix(DOWN))
+    picture = rendering(FLOOR, lighting=lit(slanted, ambient=(0.1, 0.1, 0.1))).take(Lens(8, 8, 1.0), pose_matrix(DOWN))
     light = np.array([0.8, 0.8, 0.4]) * np.sqrt(0.5) + 0.1
     assert np.abs(picture.rgb[4, 4] - 255 * light * (1.0, 0.5, 0.25)).max() <= 0.51
 
@@ -71,7 +71,7 @@ def test_shadows_lie_where_something_stands_between(casts: bool) -> None:
     sun = Light("sun", "directional", direction=(0.0, 1.0, -1.0), cast_shadows=casts)
     box = visual(Box((1.0, 1.0, 0.1)), "box", (0.0, 0.0, 1.0))
     lens = Lens(200, 200, 1.2)
-    picture = painter(FLOOR, box, lighting=lit(sun)).take(lens, pose_matrix(DOWN))
+    picture = rendering(FLOOR, box, lighting=lit(sun)).take(lens, pose_matrix(DOWN))
     row, column = np.mgrid[:200, :200]
     x, y = 5 * (99.5 - row) / lens.focal_length, 5 * (99.5 - column) / lens.focal_length
     floor = picture.shapes == 0
@@ -86,7 +86,7 @@ def test_shadows_lie_where_something_stands_between(casts: bool) -> None:
 def test_lamps_fade_and_spots_have_an_edge() -> None:
     def brightness(light: Light) -> np.ndarray:
         lens = Lens(101, 101, 1.2)
-        return painter(FLOOR, lighting=lit(light)).take(lens, pose_matrix(DOWN)).rgb[50, :, 0] / 255
+        return rendering(FLOOR, lighting=lit(light)).take(lens, pose_matrix(DOWN)).rgb[50, :, 0] / 255
 
     at = Pose((0.0, 0.0, 2.0))
     point = brightness(Light("p", "point", at, diffuse=(1, 1, 1, 1), attenuation=(20.0, 0.5, 0.25, 0.125)))
@@ -104,7 +104,7 @@ def test_lamps_fade_and_spots_have_an_edge() -> None:
 
 
 def test_nothing_is_the_background_and_clipped() -> None:
-    shot = painter(FLOOR, lighting=NO_AIR)
+    shot = rendering(FLOOR, lighting=NO_AIR)
     up = pose_matrix(Pose((0.0, 0.0, 5.0), (0.0, -np.pi / 2, 0.0)))
     picture = shot.take(Lens(4, 4, 1.0), up)
     assert (picture.rgb == (0, 0, 255)).all()
@@ -122,7 +122,7 @@ def test_a_mesh_shows_the_colours_of_its_vertices_where_nobody_says_another() ->
     own = Shape("m", "m", "visual", Mesh("m.stl"), np.eye(4), mesh=mesh)
     said = Shape("m", "m", "visual", Mesh("m.stl"), np.eye(4), (1.0, 0.0, 0.0, 1.0), True, mesh)
     for shape, color in ((own, (0, 0, 255)), (said, (255, 0, 0))):
-        picture = painter(shape, lighting=light).take(Lens(3, 3, 0.2), pose_matrix(Pose((1.0, 1.0, 5.0), DOWN.rpy)))
+        picture = rendering(shape, lighting=light).take(Lens(3, 3, 0.2), pose_matrix(Pose((1.0, 1.0, 5.0), DOWN.rpy)))
         assert tuple(picture.rgb[1, 1]) == color
 
 

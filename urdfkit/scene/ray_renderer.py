@@ -1,4 +1,4 @@
-"""Painter: images of a scene with colour, depth and shape of each pixel, by ray casting."""
+"""RayRenderer: images of a scene with colour, depth and shape of each pixel, by ray casting."""
 
 from dataclasses import dataclass
 
@@ -37,7 +37,7 @@ class Picture:
     shapes: NDArray[np.int64]
 
 
-class Painter:
+class RayRenderer:
     """Renders images of the shapes of a table by ray casting.
 
     Args:
