@@ -15,7 +15,7 @@ from urdfkit.description.sdf import Light
 from urdfkit.errors import SimulationError
 from urdfkit.scene import renderer as renderer_module
 from urdfkit.scene.gl import driver_probe as probing
-from urdfkit.scene.gl import hanging_drivers
+from urdfkit.scene.gl import hanging_driver_record
 from urdfkit.scene.gl.driver_probe import Found, on_processor, run_probe
 from urdfkit.scene.ray_renderer import RayRenderer
 from urdfkit.scene.renderer import check, renderer_of
@@ -51,7 +51,7 @@ def test_a_program_that_is_not_there() -> None:
 def test_a_driver_that_hangs_is_not_tried_again_while_nothing_changes(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(hanging_drivers, "folder", lambda: tmp_path)
+    monkeypatch.setattr(hanging_driver_record, "folder", lambda: tmp_path)
     asked: list[int] = []
     found = Found(False, "", "the driver did not draw a triangle in 10 s")
 
@@ -69,20 +69,20 @@ def test_a_driver_that_hangs_is_not_tried_again_while_nothing_changes(
     monkeypatch.setenv("LIBGL_ALWAYS_SOFTWARE", "true-enough")
     assert plainly() == found
     assert len(asked) == 2
-    monkeypatch.setattr(hanging_drivers, "BELIEVED", 0.0)
+    monkeypatch.setattr(hanging_driver_record, "BELIEVED", 0.0)
     assert plainly() == found
     monkeypatch.undo()
-    monkeypatch.setattr(hanging_drivers, "folder", lambda: tmp_path)
+    monkeypatch.setattr(hanging_driver_record, "folder", lambda: tmp_path)
     monkeypatch.setattr(probing, "find_spec", lambda name: object())
     monkeypatch.setattr(probing, "run_probe", lambda command: Found(True, "egl", "a card"))
     assert anew().works
-    assert hanging_drivers.recall() is None
+    assert hanging_driver_record.recall() is None
 
 
 def test_nobody_remembers_where_nothing_can_be_kept(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(hanging_drivers, "folder", lambda: Path("/dev/null/x"))
-    hanging_drivers.remember("it hung")
-    assert hanging_drivers.recall() is None
+    monkeypatch.setattr(hanging_driver_record, "folder", lambda: Path("/dev/null/x"))
+    hanging_driver_record.remember("it hung")
+    assert hanging_driver_record.recall() is None
 
 
 def test_a_driver_that_takes_long_is_spoken_of(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -11,7 +11,7 @@ from functools import lru_cache
 from importlib.util import find_spec
 from typing import Any
 
-from urdfkit.scene.gl import hanging_drivers
+from urdfkit.scene.gl import hanging_driver_record
 
 SECONDS = 10.0
 """Time limit for a driver to draw a triangle [s]."""
@@ -46,7 +46,7 @@ class Found:
 @lru_cache(maxsize=1)
 def probe() -> Found:
     """Test OpenGL once per process; skip the test if the driver hung the last time."""
-    if (hung := hanging_drivers.recall()) is not None:
+    if (hung := hanging_driver_record.recall()) is not None:
         return Found(False, "", f"{hung} in the last test; --renderer gl repeats the test")
     return probe_again()
 
@@ -57,7 +57,7 @@ def probe_again() -> Found:
     if find_spec("moderngl") is None:
         return Found(False, "", "moderngl is not installed: pip install 'urdfkit[gl]'")
     found = run_probe([sys.executable, "-m", "urdfkit.scene.gl.driver_probe"])
-    hanging_drivers.remember(found.name if HUNG in found.name else None)
+    hanging_driver_record.remember(found.name if HUNG in found.name else None)
     return found
 
 

@@ -18,7 +18,7 @@ KERNEL_MODULES = (
     "constraints/limit_crossings",
     "constraints/joint_servos",
     "contacts/midstep_contact_points",
-    "contacts/friction_directions",
+    "contacts/anisotropic_friction",
     "contacts/ground_contacts",
     "dynamics/integration",
     "dynamics/mass_matrix",

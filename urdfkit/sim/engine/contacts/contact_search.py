@@ -1,8 +1,8 @@
 """Contact search: broad phase, then narrow phase for the trees that may touch."""
 
 from urdfkit.sim.engine.compilation import compiled
+from urdfkit.sim.engine.contacts.anisotropic_friction import orient_friction
 from urdfkit.sim.engine.contacts.broadphase import find_pairs, update_bounds
-from urdfkit.sim.engine.contacts.friction_directions import orient_friction
 from urdfkit.sim.engine.contacts.ground_contacts import collide_with_plane, near_plane
 from urdfkit.sim.engine.contacts.narrowphase import collide_pairs, match_contacts
 from urdfkit.sim.engine.kernel_world import KernelWorld

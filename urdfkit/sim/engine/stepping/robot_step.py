@@ -11,7 +11,7 @@ from urdfkit.sim.engine.constraints.constraint_rows import joint_rows
 from urdfkit.sim.engine.constraints.contact_rows import contact_rows
 from urdfkit.sim.engine.constraints.joint_servos import SERVO_ATTEMPTS, account, limited, overloaded, smooth_motion
 from urdfkit.sim.engine.constraints.limit_crossings import passes_limits, whirls
-from urdfkit.sim.engine.contacts.friction_directions import orient_friction
+from urdfkit.sim.engine.contacts.anisotropic_friction import orient_friction
 from urdfkit.sim.engine.contacts.ground_contacts import collide_with_plane, near_plane
 from urdfkit.sim.engine.dynamics.integration import move
 from urdfkit.sim.engine.dynamics.mass_matrix import place, solve_forward, terms
