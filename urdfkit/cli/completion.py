@@ -17,7 +17,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
         "  urdfkit completion fish > ~/.config/fish/completions/urdfkit.fish\n"
         "zsh: put the script into a file `_urdfkit` of a folder in $fpath"
     )
-    parser.add_argument("shell", choices=SHELLS, metavar="{bash,zsh,fish}", help="the shell")
+    parser.add_argument("shell", choices=SHELLS, metavar="{bash,zsh,fish}", help="shell to print the script for")
 
 
 def run(arguments: argparse.Namespace) -> int:

@@ -46,8 +46,14 @@ def configure(parser: argparse.ArgumentParser) -> None:
     add("--fix", action="store_true", help="apply safe fixes")
     add("--unsafe-fixes", action="store_true", help="with --fix or --diff: apply unsafe fixes too")
     add("--diff", action="store_true", help="print the changes of --fix without writing them")
-    add("--select", action="append", default=[], metavar="CODES", help="only these rules: I503,J or I,X1")
-    add("--ignore", action="append", default=[], metavar="CODES", help="skip these rules")
+    add(
+        "--select",
+        action="append",
+        default=[],
+        metavar="CODES",
+        help="report only these rules or groups of rules, such as I503,J",
+    )
+    add("--ignore", action="append", default=[], metavar="CODES", help="do not report these rules or groups of rules")
     add(
         "--target",
         metavar="NAME",
@@ -57,9 +63,9 @@ def configure(parser: argparse.ArgumentParser) -> None:
     add("--format", choices=FORMATS, default="text", help="text (default), json, sarif, github or junit")
     add("--statistics", action="store_true", help="print the number of findings per rule")
     add("--watch", action="store_true", help="lint again whenever a file changes")
-    add("--baseline", type=Path, metavar="FILE", help="report only findings that are not in this baseline")
+    add("--baseline", type=Path, metavar="FILE", help="report only findings that are not in the baseline FILE")
     add("--write-baseline", type=Path, metavar="FILE", help="write the current findings to FILE as a baseline")
-    add("--config", type=Path, metavar="FILE", help="read the settings from this file")
+    add("--config", type=Path, metavar="FILE", help="read the settings from FILE")
     add("--no-config", action="store_true", help="ignore settings files")
     add(
         "--package-path",

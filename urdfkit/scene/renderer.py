@@ -49,7 +49,7 @@ def check(
     """
     if renderer not in RENDERERS:
         raise SimulationError(
-            f"unknown renderer `{renderer}`{did_you_mean(renderer, RENDERERS)} (known: {', '.join(RENDERERS)})"
+            f"unknown renderer `{renderer}`{did_you_mean(renderer, RENDERERS)} (available: {', '.join(RENDERERS)})"
         )
     if renderer == "gl" and not (found := _tried(device, note)).works:
         raise SimulationError(f"renderer `gl` does not work here: {found.name}; use `ray`")

@@ -181,7 +181,7 @@ class Simulator:
             SimulationError: the simulation diverged, or `seconds` is negative or not finite.
         """
         if not 0 <= number(seconds, "the time to run for", "s") < 1e9:
-            raise SimulationError(f"cannot run for {seconds:g} s; it must be a number of seconds, zero or more")
+            raise SimulationError(f"the duration is {seconds:g} s; it must be zero or more, and less than 1e9 s")
         if not self.paused:
             self.step(round(seconds / self.dt))
 
@@ -239,7 +239,7 @@ class Simulator:
 
     def _schedule(self, t: float, period: float, call: Callable[[], None]) -> None:
         if not isfinite(number(t, "the time of a call", "s")):
-            raise SimulationError(f"nothing can be called at {t:g} s; it must be a finite number")
+            raise SimulationError(f"the time of a call is {t:g} s; it must be finite")
         self._scheduler.schedule(max(self.state.step, int(np.ceil(t / self.dt - 1e-6))), period, call)
 
     # Commands, topics and state

@@ -97,7 +97,7 @@ def test_a_joint_that_follows_another(tmp_path: Path) -> None:
             "follows `jj`, which is not a moving joint of the same tree; did you mean `j`?",
         ),
         (mimic("k", "fix") + joint("fix", "world", "a", kind="fixed"), "`k` of model `m` follows `fix`, which is no"),
-        (mimic("k", "l") + mimic("l", "k"), "joint `k` of model `m` follows itself, by `k`, `l`"),
+        (mimic("k", "l") + mimic("l", "k"), "joint `k` of model `m` follows itself through `k`, `l`"),
     ],
 )
 def test_a_joint_that_follows_what_cannot_be(tmp_path: Path, inside: str, says: str) -> None:

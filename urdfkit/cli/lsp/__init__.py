@@ -22,7 +22,11 @@ if TYPE_CHECKING:
 def configure(parser: argparse.ArgumentParser) -> None:
     """Add the arguments."""
     parser.epilog = "examples:\n  urdfkit lsp\n  urdfkit lsp --target ros2"
-    parser.add_argument("--target", metavar="NAME", help="as for urdfkit lint (default: guessed from package.xml)")
+    parser.add_argument(
+        "--target",
+        metavar="NAME",
+        help="consumer of the robot, as for `urdfkit lint` (default: guessed from package.xml)",
+    )
     parser.add_argument(
         "--package-path",
         action="append",

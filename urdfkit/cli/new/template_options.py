@@ -110,7 +110,10 @@ def _fill(kind: argparse.ArgumentParser, template: Template) -> None:
         _add(kind, question)
     kind.add_argument("--into", metavar="DIR", default=".", help="folder to write to (default: the working directory)")
     kind.add_argument(
-        "--from", dest="recipe", metavar="FILE", help="read answers from this urdfkit-new.toml; options override them"
+        "--from",
+        dest="recipe",
+        metavar="FILE",
+        help="read answers from the urdfkit-new.toml FILE; options override them",
     )
     kind.add_argument("--template", metavar="DIR", help="folder of your own template, used instead of the bundled one")
     kind.add_argument("-y", "--yes", action="store_true", help="skip the questions; use defaults for missing options")
@@ -125,7 +128,7 @@ def _fill(kind: argparse.ArgumentParser, template: Template) -> None:
     kind.add_argument("--diff", action="store_true", help="with --update: print the changes without writing them")
     if template.teleop:
         kind.add_argument(
-            "--teleop", action="store_true", help="then drive the robot in the browser, as `urdfkit sim teleop`"
+            "--teleop", action="store_true", help="then drive the robot in the browser, as `urdfkit sim teleop` does"
         )
 
 

@@ -17,7 +17,7 @@ def add_repair_options(parser: argparse.ArgumentParser) -> None:
         type=option_values.positive,
         default=1000.0,
         metavar="KG/M3",
-        help="density from which to estimate the mass of moving links that have none [kg/m³] (default: 1000)",
+        help="density to estimate the mass of moving links without one [kg/m³] (default: 1000)",
     )
 
 

@@ -253,7 +253,7 @@ class _Builder:
             met.append(leader)
             leader = leader[: len(leader) - len(found.name)] + found.axes[0].mimic.joint
         else:
-            raise self._cannot(joint, f"follows itself, by {', '.join(f'`{name}`' for name in met)}")
+            raise self._cannot(joint, f"follows itself through {', '.join(f'`{name}`' for name in met)}")
         name, own = prefix + axis.mimic.joint, axis.mimic
         name = name.removeprefix(self._prefix)
         return Mimic(name, own.multiplier, own.offset - own.multiplier * own.reference, element)

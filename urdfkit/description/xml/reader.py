@@ -216,7 +216,7 @@ def refuse_entity(source: Source, parser: Any, name: str) -> NoReturn:
         XmlError: always.
     """
     raise XmlError(
-        f"declares the entity `{name}`: entity declarations are refused: they can grow without bound or read files",
+        f"declares the entity `{name}`: entity declarations are refused, as they can grow without bound or read files",
         position=_here(source, parser),
     )
 

@@ -41,7 +41,7 @@ class Distro:
         if name is not None and self.name not in (*ROS_1, *ROS_2):
             names = (*ROS_1, *ROS_2)
             raise UsageError(
-                f"unknown ROS distribution `{name}`{did_you_mean(self.name, names)} (known: {', '.join(names)})"
+                f"unknown ROS distribution `{name}`{did_you_mean(self.name, names)} (available: {', '.join(names)})"
             )
 
     def before(self, other: str) -> bool:

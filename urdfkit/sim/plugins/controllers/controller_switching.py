@@ -112,4 +112,4 @@ class Controllers:
         names = [status.name for status in self.list()]
         if not names:
             raise SimulationError(f"no controller `{name}`: this robot has none")
-        raise SimulationError(f"no controller `{name}`{did_you_mean(name, names)} (known: {', '.join(names)})")
+        raise SimulationError(f"no controller `{name}`{did_you_mean(name, names)} (available: {', '.join(names)})")

@@ -117,7 +117,7 @@ class Ros2Control(ControlLoopPlugin):
             if kind not in INTERFACES:
                 raise SimulationError(
                     f"unknown command interface `{kind}`{did_you_mean(kind, INTERFACES)} "
-                    f"(known: {', '.join(INTERFACES)})",
+                    f"(available: {', '.join(INTERFACES)})",
                     position=interface.origin.position,
                 )
             if joint in setup.kinematics.mimic_names:

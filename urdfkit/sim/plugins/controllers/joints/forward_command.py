@@ -80,7 +80,7 @@ class ForwardGroup(Forward):
         if interface not in INTERFACES:
             raise DescriptionError(
                 f"unknown interface `{interface}`{did_you_mean(interface, INTERFACES)} "
-                f"(known: {', '.join(INTERFACES)})",
+                f"(available: {', '.join(INTERFACES)})",
                 position=self.settings.group("interface_name").position,
             )
         joints = self.settings.texts("joints")
