@@ -62,4 +62,6 @@ def test_each_shell_gets_a_script_that_it_can_read(shell, capsys):
 
 def test_an_unknown_shell_is_one_line(capsys):
     assert main(["completion", "bsh"]) == 2
+    assert capsys.readouterr().err.endswith("did you mean `bash`?\n")
+    assert main(["completion", "powershell"]) == 2
     assert capsys.readouterr().err.endswith("use bash, zsh or fish\n")

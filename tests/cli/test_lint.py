@@ -191,6 +191,17 @@ def test_rule_pages_and_catalogue(capsys):
     assert "did you mean `I503`" in capsys.readouterr().err
 
 
+def test_rules_are_found_by_words_of_their_pages(capsys):
+    assert main(["rule", "--search", "MESH", "unit"]) == 0
+    lines = capsys.readouterr().out.splitlines()
+    assert [line.split()[0] for line in lines[:-2]] == ["G608", "G617"]
+    assert main(["rule", "--search", "quaternions", "bananas"]) == 2
+    assert "no page of a rule contains `quaternions` and `bananas`" in capsys.readouterr().err
+    assert main(["rule", "mesh"]) == 2
+    assert "`urdfkit rule --search mesh`" in capsys.readouterr().err
+    assert main(["rule", "I503", "--search", "mesh"]) == 2
+
+
 def test_of_several_files_the_broken_ones_do_not_hide_the_others(package, capsys):
     Path("world.urdf").write_text("<sdf/>")
     Path("cut.urdf").write_text('<robot name="x"><link')

@@ -14,17 +14,24 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "code", nargs="?", metavar="CODE", help="code (I503) or name of a rule (default: list all rules)"
     )
-    parser.epilog = "examples:\n  urdfkit rule\n  urdfkit rule I503"
+    parser.add_argument("--search", metavar="WORD", nargs="+", help="list the rules whose pages contain all words")
+    parser.epilog = "examples:\n  urdfkit rule\n  urdfkit rule I503\n  urdfkit rule --search mesh collision"
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Print the page of the rule, or the list.
+    """Print the page of the rule, or a list.
 
     Raises:
-        UsageError: unknown rule.
+        UsageError: unknown rule, or no page contains the words.
     """
+    from urdfkit.errors import UsageError, did_you_mean
     from urdfkit.lint.catalogue import page, rules
 
+    if arguments.search:
+        if arguments.code is not None:
+            raise UsageError("pass either CODE or --search")
+        print(_catalogue(_search(arguments.search)))
+        return 0
     if arguments.code is None:
         print(_catalogue(rules()))
         return 0
@@ -33,10 +40,19 @@ def run(arguments: argparse.Namespace) -> int:
         if wanted.upper() == rule.code or wanted.lower() == rule.name:
             print(page(rule))
             return 0
-    from urdfkit.errors import UsageError, did_you_mean
-
     names = [word for rule in rules() for word in (rule.code, rule.name)]
-    raise UsageError(f"unknown rule `{wanted}`{did_you_mean(wanted, names) or '; `urdfkit rule` lists the rules'}")
+    hint = did_you_mean(wanted, names) or f"; try `urdfkit rule --search {wanted}`"
+    raise UsageError(f"unknown rule `{wanted}`{hint}")
+
+
+def _search(words: list[str]) -> tuple[type[Rule], ...]:
+    from urdfkit.errors import UsageError
+    from urdfkit.lint.catalogue import page, rules
+
+    found = tuple(rule for rule in rules() if all(word.lower() in page(rule).lower() for word in words))
+    if not found:
+        raise UsageError(f"no page of a rule contains {' and '.join(f'`{word}`' for word in words)}")
+    return found
 
 
 def _catalogue(rules: tuple[type[Rule], ...]) -> str:

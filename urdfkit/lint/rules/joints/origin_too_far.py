@@ -15,8 +15,8 @@ class OriginTooFar(RobotRule):
     """A joint is far from its parent link, compared with the size of all links.
 
     ## What it does
-    Checks for joints that are at least 10 m from the frame of their parent link, and 20 times as far as the largest link
-    extends. Joints of a root link without shapes are not checked, because they place the robot in the world.
+    Checks for joints that are at least 10 m from the frame of their parent link, and 20 times as far as the
+    largest link extends. Joints of a root link without shapes are not checked, because they place the robot in the world.
 
     ## Why is this bad?
     The child link floats far from the robot. The usual cause is an offset in millimetres, copied from a CAD program.
@@ -77,7 +77,8 @@ class OriginTooFar(RobotRule):
             yield self.at(
                 model,
                 origin,
-                f"joint `{joint.name}` is {distance:.4g} m from `{joint.parent}`; the largest link extends {size:.3g} m",
+                f"joint `{joint.name}` is {distance:.4g} m from `{joint.parent}`; "
+                f"the largest link extends {size:.3g} m",
                 attribute="xyz",
                 joint=joint.name,
                 help="write offsets in metres",

@@ -21,7 +21,7 @@ _EFFECTS = {
 
 
 def with_possible_values(joint: Joint) -> tuple[Joint, list[Repair]]:
-    """Return a joint with possible limits and coefficients, and a repair for each one that is replaced."""
+    """Return a joint with possible limits and coefficients, and a repair for each replaced value."""
     repairs = []
     limit, dynamics = joint.limit, joint.dynamics
     for name, message, element in invalid_values(joint):
