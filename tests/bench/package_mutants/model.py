@@ -6,6 +6,7 @@ import math
 import random
 import re
 from collections.abc import Iterator
+from dataclasses import replace
 
 from tests.bench.package_mutants.mutant import (
     Mutant,
@@ -196,11 +197,13 @@ def unknown_joint_type(ws: Workspace, lot: random.Random) -> Mutants:
 
 @_MODEL
 def commanded_joint_is_fixed(ws: Workspace, lot: random.Random) -> Mutants:
-    """A controller commands a joint that cannot move."""
+    """A controller commands a joint that cannot move; its axis and its limit contradict the type."""
     for file, tag in ws.model_tags("joint"):
-        name = literal(tag, "name")
-        if literal(tag, "type") in ("revolute", "prismatic", "continuous") and ws.uses(name, outside=file):
-            yield value(file, tag, "type", "fixed", names=(name,), uses=True)
+        names = ws.expanded_names(file, tag)
+        used = any(ws.uses(name, outside=file) for name in names)
+        if literal(tag, "type") in ("revolute", "prismatic", "continuous") and used:
+            whole = (tag.start, tag.close_end)
+            yield replace(value(file, tag, "type", "fixed", names=names, uses=True), also=whole)
 
 
 @_MODEL
@@ -298,14 +301,13 @@ def no_xml(ws: Workspace, lot: random.Random) -> Mutants:
 
 @_MODEL
 def mass_zero_or_negative(ws: Workspace, lot: random.Random) -> Mutants:
-    """A moving link without mass: engines refuse it or it explodes."""
-    for file, tag in ws.model_tags("mass"):
-        if "value" in tag.attributes:
-            yield value(file, tag, "value", lot.choice(["0", "0.0", "-1", "-0.5"]))
+    """A moving link without mass: engines refuse it or it explodes. A fixed link without mass is harmless."""
     for file, tag in ws.model_tags():
-        for name in ("mass", "m"):
-            if tag.name.startswith("xacro:") and literal(tag, name):
-                yield value(file, tag, name, lot.choice(["0", "-1"]))
+        link = next((above for above in tag.ancestors() if above.name == "link"), None)
+        for name in ("value",) if tag.name == "mass" else ("mass", "m") if tag.name.startswith("xacro:") else ():
+            if name in tag.attributes and link is not None:
+                moves = all(ws.movable_links & {each} for each in ws.expanded_names(file, link))
+                yield value(file, tag, name, lot.choice(["0", "0.0", "-1"] if moves else ["-1", "-0.5"]))
 
 
 @_MODEL
@@ -336,12 +338,11 @@ def placeholder_tensor(ws: Workspace, lot: random.Random) -> Mutants:
 
 @_MODEL
 def inertial_missing(ws: Workspace, lot: random.Random) -> Mutants:
-    """Gazebo drops a moving link without inertial."""
-    for file, tag in ws.model_tags("inertial", parent="link"):
-        yield element(file, tag)
+    """Gazebo drops a moving link without inertial; any line of the link is right."""
     for file, tag in ws.model_tags():
-        if tag.name.startswith("xacro:") and tag.name.endswith(("_inertial", "_inertia")):
-            yield element(file, tag)
+        calls = tag.name.startswith("xacro:") and tag.name.endswith(("_inertial", "_inertia"))
+        if (calls or tag.name == "inertial") and tag.parent is not None and tag.parent.name == "link":
+            yield replace(element(file, tag), also=(tag.parent.start, tag.parent.close_end))
 
 
 @_MODEL

@@ -164,7 +164,7 @@ def control_joint_missing(ws: Workspace, lot: random.Random) -> Mutants:
         name = literal(tag, "name")
         inside = tag.parent is not None and tag.parent.name == "ros2_control"
         if inside and name in ws.joints and "right_finger" not in name:
-            yield element(file, tag, names=(name,), uses=True)
+            yield element(file, tag, names=(name, "command_interfaces"), uses=True)
 
 
 @_MODEL
@@ -178,11 +178,13 @@ def control_interface_misspelt(ws: Workspace, lot: random.Random) -> Mutants:
 
 @_MODEL
 def control_interface_missing(ws: Workspace, lot: random.Random) -> Mutants:
-    """The controller does not find the command interface that it needs."""
+    """The controller does not find the command interface that it needs; its own list of interfaces is right too."""
     for file, tag in ws.model_tags("command_interface"):
         above = tag.parent
-        name = literal(above, "name") if above is not None else ""
-        yield element(file, tag, names=(name,) if name else (), uses=bool(name))
+        names = tuple(
+            name for name in (literal(tag, "name"), literal(above, "name") if above is not None else "") if name
+        )
+        yield element(file, tag, names=names, uses=True)
 
 
 @_MODEL

@@ -134,6 +134,23 @@ class Workspace:
                         found.add((str(path.relative_to(self.folder)), position.line))
         return found
 
+    def expanded_names(self, file: str, tag: Tag) -> tuple[str, ...]:
+        """Return the names of the links and joints of the robots that a tag creates."""
+        line = self.files[file].count("\n", 0, tag.start) + 1
+        found = []
+        for model in self.models:
+            for part in (*model.robot.links, *model.robot.joints):  # type: ignore[attr-defined]
+                position = part.element.origin.position
+                if position.line == line and Path.cwd() / position.file == self.folder / file:
+                    found.append(part.name)
+        return tuple(dict.fromkeys(found))
+
+    @cached_property
+    def movable_links(self) -> set[str]:
+        """The children of movable joints."""
+        joints = [joint for model in self.models for joint in model.robot.joints]  # type: ignore[attr-defined]
+        return {joint.child for joint in joints if joint.type != "fixed"}
+
     def uses(self, word: str, *, outside: str = "") -> int:
         """Return how many files hold a word."""
         return sum(

@@ -227,16 +227,6 @@ def package_call_missing(ws: Workspace, lot: random.Random) -> Mutants:
 
 
 @_PACKAGE
-def install_after_ament_package(ws: Workspace, lot: random.Random) -> Mutants:
-    """ament_package has to be the last call."""
-    for file, text in ws.of(_CMAKE):
-        install = re.search(r"(?ms)^install\(.*?\)\n", text)
-        if install is not None and text.rstrip().endswith("ament_package()"):
-            moved = text[: install.start()] + text[install.end() :] + "\n" + install[0]
-            yield Mutant(file, 0, len(text), moved, names=("ament_package",), anywhere=True)
-
-
-@_PACKAGE
 def find_package_misspelt(ws: Workspace, lot: random.Random) -> Mutants:
     """CMake stops: the package is not found."""
     for file, text in ws.of(_CMAKE):
