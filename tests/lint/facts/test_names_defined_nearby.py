@@ -301,7 +301,8 @@ HARDWARE = """<robot name='arm' xmlns:xacro='http://www.ros.org/wiki/xacro'>
     ("interfaces", "other", "is_found"),
     [
         ("<command_interface name='position'/>", "", True),
-        ("<xacro:if value='true'><command_interface name='position'/></xacro:if>", "", False),
+        ("<xacro:if value='true'><command_interface name='position'/></xacro:if>", "", True),
+        ("<xacro:if value='false'><command_interface name='velocity'/></xacro:if>", "", False),
         ("<command_interface name='position'/>", HARDWARE.format("<command_interface name='velocity'/>"), False),
         ("<command_interface name='velocity'/>", "", False),
     ],

@@ -134,12 +134,26 @@ def _robots_in(folder: Path) -> list[Entry]:
     alone = [path for path in robots if path not in included]
     if candidates := _to_merge(alone):
         alone = [path for path in alone if not any(_matches(text, path) for text in candidates.values())] or alone
+    alone = _without_misnamed(alone, texts)
     unused = {path for path in alone if _is_fragment(robots[path])}
     unused &= _included({path: _written(path) for path in robots}) if unused else unused
     found = [
         Entry(path, (), path in unused or (_is_robot(text := robots[path]) and _is_library(text))) for path in alone
     ]
     return [*found, *(Entry(path, (), is_library=True) for path in _unreached(included, robots))]
+
+
+def _without_misnamed(paths: list[Path], texts: dict[Path, str]) -> list[Path]:
+    """Leave out fragments that a misspelt include means; the include has a finding, and they depend on its robot."""
+    from difflib import get_close_matches
+
+    roots = {path: re.search(_ROOT, texts[path]) for path in paths}
+    unnamed = [path for path, root in roots.items() if root is not None and not re.search(_NAMED, root[2] or "")]
+    if not unnamed or len(unnamed) == len(paths):
+        return paths
+    includes = (found for text in texts.values() for found in re.findall(_INCLUDE, text))
+    missing = {(double or single).rpartition("/")[2] for double, single in includes} - {path.name for path in texts}
+    return [path for path in paths if path not in unnamed or not get_close_matches(path.name, missing, 1, 0.85)]
 
 
 def _unreached(included: set[Path], robots: dict[Path, str]) -> list[Path]:

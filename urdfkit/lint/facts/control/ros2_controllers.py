@@ -153,7 +153,8 @@ def offered(model: Model) -> dict[str, dict[bool, list[str]]] | None:
     if any("$" in name for name in found):
         return None
     own = {str(Path(name).absolute()): source.text for name, source in model.expanded.sources.items()}
-    if any(is_conditional(text, _PARTS) for text in own.values() if "_interface" in text):
+    conditional = [name for name, text in own.items() if "_interface" in text and is_conditional(text, _PARTS)]
+    if conditional and any(_has_skipped_parts(model, name) for name in conditional):
         return None
     packages = {package_of(Path(file)) for file in model.related_files}
     for folder in sorted({model.package, *(package for package in packages if package is not None)}):
@@ -161,6 +162,24 @@ def offered(model: Model) -> dict[str, dict[bool, list[str]]] | None:
             if str(path.absolute()) not in own and ("<ros2_control" in text or "_interface" in text):
                 return None
     return found
+
+
+def _has_skipped_parts(model: Model, path: str) -> bool:
+    """Return whether a file has a condition with interfaces or macro calls that adds nothing to the expanded robot."""
+    shown = next(name for name in model.expanded.sources if str(Path(name).absolute()) == path)
+    root = model.expanded.root
+    lines = set()
+    for element in root.walk() if root is not None else ():
+        for position in (element.origin.position, *(call.position for call in element.origin.expansions)):
+            if position.file == shown:
+                lines.add(position.line)
+    source = model.document(shown).source
+    for tag in model.document(shown).walk():
+        if tag.name in ("xacro:if", "xacro:unless") and re.search(_PARTS, source.text[tag.end : tag.close_end]):
+            first, last = (source.position(at).line for at in (tag.start, tag.close_end))
+            if lines.isdisjoint(range(first, last + 1)):
+                return True
+    return False
 
 
 _PARTS = r"_interface|<xacro:(?!if|unless|property|arg)\w"

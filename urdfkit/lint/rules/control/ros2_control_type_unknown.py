@@ -8,13 +8,15 @@ _TYPES = ("system", "sensor", "actuator")
 
 
 class Ros2ControlTypeUnknown(RobotRule):
-    """A ``<ros2_control>`` block has an unknown type.
+    """A ``<ros2_control>`` block has an unknown type, or none.
 
     ## What it does
-    Checks for ``<ros2_control type="…">`` values other than ``system``, ``sensor`` and ``actuator``.
+    Checks for ``<ros2_control type="…">`` values other than ``system``, ``sensor`` and ``actuator``, and for blocks
+    without ``type``.
 
     ## Why is this bad?
-    The resource manager skips the whole block, so no controller finds its interfaces.
+    The resource manager skips a block of unknown type, so no controller finds its interfaces. It refuses a robot with a
+    block without a type.
 
     ## Example
     ```xml
@@ -49,7 +51,15 @@ class Ros2ControlTypeUnknown(RobotRule):
         """Yield a finding for each block of an unknown type."""
         for block in model.robot.ros2_control:
             value = block.element.get("type")
-            if value is None or value in _TYPES or "$" in value:
+            if value is None:
+                yield self.at(
+                    model,
+                    block.element,
+                    "<ros2_control> has no `type`",
+                    help=f"add the attribute type with one of {', '.join(_TYPES)}",
+                )
+                continue
+            if value in _TYPES or "$" in value:
                 continue
             near, hint = meant(value, _TYPES)
             hint = hint or f"; use one of {', '.join(_TYPES)}"

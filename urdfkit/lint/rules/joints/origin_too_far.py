@@ -15,8 +15,8 @@ class OriginTooFar(RobotRule):
     """A joint is far from its parent link, compared with the size of all links.
 
     ## What it does
-    Checks for joints that are at least 10 m from the frame of their parent link, and 20 times as far as the
-    largest link extends. Joints of a root link without shapes are not checked, because they place the robot in the world.
+    Checks for joints that are at least 10 m from the frame of their parent link, and 20 times as far as the largest
+    link extends. Joints of a root link without shapes are not checked, because they place the robot in the world.
 
     ## Why is this bad?
     The child link floats far from the robot. The usual cause is an offset in millimetres, copied from a CAD program.
