@@ -92,7 +92,7 @@ def _next(mutants: Iterator[Mutant], folders: dict[str, Path]) -> Verdict | None
 
 
 def _judge(mutant: Mutant, folder: Path) -> Verdict:
-    """Judge a mutant in a process of its own, so that no mutant sees what the linter remembers of another one."""
+    """Judge a mutant in a process of its own, so that the caches of the linter are those of the clean workspace."""
     context = multiprocessing.get_context("fork")
     receiver, sender = context.Pipe(duplex=False)
     process = context.Process(target=lambda: sender.send(judge(mutant, folder)))

@@ -168,16 +168,17 @@ def _has_skipped_parts(model: Model, path: str) -> bool:
     """Return whether a file has a condition with interfaces or macro calls that adds nothing to the expanded robot."""
     shown = next(name for name in model.expanded.sources if str(Path(name).absolute()) == path)
     root = model.expanded.root
-    lines = set()
+    places = set()
     for element in root.walk() if root is not None else ():
         for position in (element.origin.position, *(call.position for call in element.origin.expansions)):
             if position.file == shown:
-                lines.add(position.line)
+                places.add((position.line, position.column))
     source = model.document(shown).source
     for tag in model.document(shown).walk():
         if tag.name in ("xacro:if", "xacro:unless") and re.search(_PARTS, source.text[tag.end : tag.close_end]):
-            first, last = (source.position(at).line for at in (tag.start, tag.close_end))
-            if lines.isdisjoint(range(first, last + 1)):
+            start, end = source.position(tag.end), source.position(tag.close_end)
+            first, last = (start.line, start.column), (end.line, end.column)
+            if not any(first <= place < last for place in places):
                 return True
     return False
 
