@@ -141,6 +141,7 @@ def _extent(robot: Robot, mass: float) -> dict[str, Any]:
 
     kinematics = Kinematics(robot)
     poses = kinematics.link_poses(kinematics.neutral())
+    pose_of = dict(zip(kinematics.link_names, poses, strict=True))
     placements = dict(zip(kinematics.link_names, pose_matrices(poses), strict=True))
     moments = [0.0, 0.0, 0.0]
     for link in robot.links:
@@ -148,7 +149,7 @@ def _extent(robot: Robot, mass: float) -> dict[str, Any]:
             center = placements[link.name] @ [*link.inertial.origin.xyz, 1.0]
             moments = [moment + link.inertial.mass * float(x) for moment, x in zip(moments, center, strict=False)]
     scene = scene_of(robot, strict=False)
-    box = bounds(scene, [poses[kinematics.link_names.index(body)] for body in scene.bodies])
+    box = bounds(scene, [pose_of[body] for body in scene.bodies])
     return {
         "center_of_mass": [moment / mass for moment in moments] if mass > 0.0 else None,
         "bounding_box": {"min": box[0].tolist(), "max": box[1].tolist()} if box is not None else None,

@@ -104,8 +104,7 @@ def run(arguments: argparse.Namespace) -> int:
         values = asdict(transform) | _repairs(tree)
         _write(json.dumps(values) + "\n" if arguments.json else _echo(transform))
     else:
-        q = tree.kinematics.configuration(positions)
-        transforms = [tree.transform(tree.root, frame, q) for frame in tree.frames]
+        transforms = tree.transforms(tree.kinematics.configuration(positions))
         as_json = json.dumps([asdict(transform) for transform in transforms])
         _write(as_json + "\n" if arguments.json else _table(tree.root, transforms))
     return 0

@@ -7,7 +7,7 @@ planar or floating joint one number per variable, named as MoveIt names them (``
 ``joint/rot_w``, ...).
 """
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from functools import cached_property
 from pathlib import Path
 from typing import Any
@@ -17,11 +17,17 @@ from numpy.typing import NDArray
 
 from urdfkit.description import Robot, load
 from urdfkit.errors import KinematicsError, did_you_mean
+from urdfkit.kinematics.forward_kinematics import ForwardKinematics
 from urdfkit.kinematics.joint_limits import JointLimitError, position_limits
 from urdfkit.kinematics.joint_variables import PARTS, finite, index_variables, rates, unit_pose
 from urdfkit.kinematics.mimic import Coupling, couplings
 from urdfkit.kinematics.pinocchio_model import build_model, pin
 from urdfkit.linear_algebra import Array, matmul
+
+SMALL = 100
+"""Degrees of freedom up to which poses are computed with ``pin.Data``, which takes 40 MB for so many."""
+LARGE = 500
+"""Degrees of freedom up to which ``pin.Data`` is created, which takes 4 GB for so many."""
 
 
 class Kinematics:
@@ -38,7 +44,6 @@ class Kinematics:
     Attributes:
         robot: the robot as written.
         model: ``pin.Model``.
-        data: ``pin.Data``, overwritten by every query.
         root: name of the root link.
         floating_base: whether q starts with the pose of the root link.
         couplings: mimic joint → its `Coupling`.
@@ -54,7 +59,7 @@ class Kinematics:
         self.floating_base = floating_base
         self.couplings: dict[str, Coupling] = couplings(robot)
         self.model: Any = build_model(robot, floating_base=floating_base)
-        self.data: Any = self.model.createData()
+        self._large: ForwardKinematics | None = ForwardKinematics(self.model) if self.model.nv > SMALL else None
         self.root: str = robot.roots()[0].name
         self.link_names: tuple[str, ...] = tuple(link.name for link in robot.link_by_name_in_order())
         first = 2 if floating_base else 1  # after the universe and the free-flyer
@@ -71,6 +76,20 @@ class Kinematics:
         """Return the name of the robot and the sizes of the model."""
         nq, nv = self.model.nq, self.model.nv
         return f"<Kinematics of {self.robot.name}: {len(self.link_names)} links, nq = {nq}, nv = {nv}>"
+
+    @cached_property
+    def data(self) -> Any:
+        """``pin.Data``, overwritten by every query.
+
+        Raises:
+            KinematicsError: the robot has more than `LARGE` degrees of freedom.
+        """
+        if self.model.nv > LARGE:
+            raise KinematicsError(
+                f"robot `{self.robot.name}` has {self.model.nv} degrees of freedom; dynamics are computed for at most "
+                f"{LARGE}, because the memory of Pinocchio grows with the third power of their number"
+            )
+        return self.model.createData()
 
     # Configurations and velocities by name
 
@@ -247,12 +266,19 @@ class Kinematics:
 
     def link_poses(self, q: Array) -> Array:
         """Return x y z [m] and quaternion x y z w of all links in the world, as `link_names` has them; shape (n, 7)."""
-        pin.framesForwardKinematics(self.model, self.data, q)
-        oMf = self.data.oMf
+        placements = self.placements(q)
         poses = np.empty((len(self._frames), 7))
         for row, frame in enumerate(self._frames.values()):
-            poses[row] = pin.SE3ToXYZQUAT(oMf[frame])
+            poses[row] = pin.SE3ToXYZQUAT(placements[frame])
         return poses
+
+    def placements(self, q: Array) -> Sequence[Any]:
+        """Return the ``pin.SE3`` of every frame of the model in the world; valid until the next query."""
+        if self._large is not None:
+            return self._large.placements(q)
+        pin.framesForwardKinematics(self.model, self.data, q)
+        placements: Sequence[Any] = self.data.oMf
+        return placements
 
     # Errors for unknown names
 

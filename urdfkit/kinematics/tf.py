@@ -96,8 +96,8 @@ class TransformTree:
         here, there = kinematics.frame(frame), kinematics.frame(relative_to or self.root)
         if q is None or isinstance(q, Mapping):
             q = kinematics.configuration(q)
-        pin.framesForwardKinematics(kinematics.model, kinematics.data, q)
-        return kinematics.data.oMf[there].actInv(kinematics.data.oMf[here])
+        placements = kinematics.placements(q)
+        return placements[there].actInv(placements[here])
 
     def transform(self, parent: str | None, child: str, q: Array | Mapping[str, float] | None = None) -> Transform:
         """Return `placement` of `child` in `parent` in plain numbers.
@@ -105,16 +105,27 @@ class TransformTree:
         Raises:
             KinematicsError: an unknown frame or joint.
         """
-        placement = self.placement(child, parent, q)
-        quaternion = pin.SE3ToXYZQUAT(placement)[3:]
-        return Transform(
-            parent=parent or self.root,
-            child=child,
-            translation=_plain(placement.translation),
-            quaternion=_plain(-quaternion if quaternion[3] < 0.0 else quaternion),
-            rpy=_plain(pin.rpy.matrixToRpy(placement.rotation)),
-            matrix=[_plain(row) for row in placement.homogeneous],
-        )
+        return _transform(parent or self.root, child, self.placement(child, parent, q))
+
+    def transforms(self, q: Array) -> list[Transform]:
+        """Return the transform of every frame in the root frame; shape of q (nq,)."""
+        placements = self.kinematics.placements(q)
+        here = placements[self.kinematics.frame(self.root)]
+        return [
+            _transform(self.root, frame, here.actInv(placements[self.kinematics.frame(frame)])) for frame in self.frames
+        ]
+
+
+def _transform(parent: str, child: str, placement: Any) -> Transform:
+    quaternion = pin.SE3ToXYZQUAT(placement)[3:]
+    return Transform(
+        parent=parent,
+        child=child,
+        translation=_plain(placement.translation),
+        quaternion=_plain(-quaternion if quaternion[3] < 0.0 else quaternion),
+        rpy=_plain(pin.rpy.matrixToRpy(placement.rotation)),
+        matrix=[_plain(row) for row in placement.homogeneous],
+    )
 
 
 def _plain(numbers: Any) -> list[float]:
