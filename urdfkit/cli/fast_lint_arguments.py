@@ -5,13 +5,13 @@ Most runs are such, and loading and configuring argparse takes as long as lintin
 
 from __future__ import annotations
 
+from urdfkit.lint.project.options import TIME_LIMIT
+
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     import argparse
     from collections.abc import Sequence
 
-TIME_LIMIT = 10.0
-"""Seconds of CPU that lint, expand and lsp take for a file by default."""
 _SWITCHES = (
     "fix",
     "unsafe_fixes",

@@ -30,13 +30,15 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     """Print the properties of the robot."""
+    from urdfkit.description.xml.cost_limit import loading_limit
     from urdfkit.resources import find_model
 
     model = find_model(arguments.model, package_path=arguments.package_path)
-    robot = load_robot(model, arguments)
-    note_unused(model.arguments, robot.files, quiet=arguments.quiet)
-    print_repairs(robot, quiet=arguments.quiet)
-    facts = facts_of(robot)
+    with loading_limit():
+        robot = load_robot(model, arguments)
+        note_unused(model.arguments, robot.files, quiet=arguments.quiet)
+        print_repairs(robot, quiet=arguments.quiet)
+        facts = facts_of(robot)
     if facts["note"] and not arguments.quiet:
         print(f"urdfkit: note: {facts['note']}", file=sys.stderr)
     print(json.dumps(facts) if arguments.json else _table(facts))

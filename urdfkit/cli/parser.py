@@ -7,7 +7,6 @@ import os
 import sys
 from itertools import takewhile
 
-from urdfkit.cli.fast_lint_arguments import TIME_LIMIT
 from urdfkit.errors import UsageError, nearest, similar, suggestion
 
 TYPE_CHECKING = False
@@ -239,6 +238,8 @@ def add_common(parser: argparse.ArgumentParser, *, nested: bool = False) -> None
 
 def add_time_limit(parser: argparse.ArgumentParser) -> None:
     """Add --time-limit."""
+    from urdfkit.lint.project.options import TIME_LIMIT
+
     parser.add_argument(
         "--time-limit",
         type=_seconds,

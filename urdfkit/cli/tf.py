@@ -81,6 +81,7 @@ def run(arguments: argparse.Namespace) -> int:
             raise UsageError(f"tf: -o {arguments.output}: unsupported file type; use {', '.join(_DRAWINGS)}{hint}")
     positions = _positions(arguments.joint)
 
+    from urdfkit.description.xml.cost_limit import loading_limit
     from urdfkit.kinematics.pinocchio_requirement import require_pinocchio
 
     require_pinocchio("tf")
@@ -88,10 +89,11 @@ def run(arguments: argparse.Namespace) -> int:
     from urdfkit.resources import find_model
 
     found = with_macro(find_model(model, package_path=arguments.package_path), arguments)
-    robot = load_robot(found, arguments)
-    note_unused(xacro_arguments(found), robot.files, quiet=arguments.quiet)
-    print_repairs(robot, quiet=arguments.quiet)
-    tree = TransformTree(robot)
+    with loading_limit():
+        robot = load_robot(found, arguments)
+        note_unused(xacro_arguments(found), robot.files, quiet=arguments.quiet)
+        print_repairs(robot, quiet=arguments.quiet)
+        tree = TransformTree(robot)
     _warn_of_limits(tree, positions)
     if arguments.tree:
         if frames:

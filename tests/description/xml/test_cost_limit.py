@@ -72,6 +72,24 @@ def test_expand_is_one_line(tmp_path, monkeypatch, capsys) -> None:
     assert error.count("\n") == 1
 
 
+@pytest.mark.parametrize("command", [["tf"], ["info"], ["view", "--html", "r.html"]])
+def test_loading_a_robot_is_limited(command, file, monkeypatch, capsys) -> None:
+    from urdfkit.description.xml import cost_limit
+    from urdfkit.kinematics import mimic
+
+    def follow(joints, joint):
+        while True:
+            pass
+
+    monkeypatch.setattr(cost_limit, "LOADING", 0.5)
+    monkeypatch.setattr(mimic, "_follow", follow)
+    file.write_text(ROBOT.replace("fixd", "continuous").replace("</joint>", '<mimic joint="j"/></joint>'))
+    name, *options = command
+    assert main([name, "r.urdf", *options]) == 2
+    error = capsys.readouterr().err
+    assert error == ("urdfkit: r.urdf:2:3: more than 0.5 s of CPU while building the kinematic model\n")
+
+
 def test_memory_is_limited() -> None:
     kept: list[bytes] = []
 

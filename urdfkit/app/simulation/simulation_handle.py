@@ -121,7 +121,7 @@ def driving(
     from urdfkit.app.simulation.loop import DriveLoop
     from urdfkit.app.simulation.placeholder import Placeholder
     from urdfkit.app.simulation.progress import compile_kernel, compile_rays, progress
-    from urdfkit.description.xml.cost_limit import LOADING, LOADING_MEMORY, CostLimit
+    from urdfkit.description.xml.cost_limit import loading_limit
     from urdfkit.sim import Simulator
     from urdfkit.view.server.running_simulations import registered
 
@@ -135,10 +135,7 @@ def driving(
                 placeholder.show(server)
                 server.publish_latched("progress", label="preparing the engine …")
                 compile_kernel(server)
-                with (
-                    progress(server, "loading meshes, building the world …"),
-                    CostLimit(LOADING, memory=LOADING_MEMORY, option=""),
-                ):
+                with progress(server, "loading meshes, building the world …"), loading_limit():
                     simulator = Simulator(
                         robot,
                         world=world,

@@ -119,7 +119,7 @@ class FindingsPanel:
 
     def _options(self, settings: LintSettings) -> Options:
         """Return the options of ``urdfkit lint`` for this model, with its xacro arguments."""
-        from urdfkit.lint.project.options import Options
+        from urdfkit.lint.project.options import TIME_LIMIT, Options
 
         target, folders = settings.target, tuple(Path(folder) for folder in self.model.package_path)
         return Options(
@@ -130,6 +130,7 @@ class FindingsPanel:
             (*folders, *settings.package_path),
             self._texts(),
             guess_target=target is None,
+            time_limit=TIME_LIMIT,
         )
 
     def _texts(self) -> dict[str, str]:

@@ -60,6 +60,7 @@ class ShownRobot:
             UrdfkitError: there is no robot in the file, or it needs a repair (`strict`).
         """
         from urdfkit.description.loading import load_repaired, load_valid
+        from urdfkit.description.xml.cost_limit import loading_limit
         from urdfkit.kinematics import Kinematics
         from urdfkit.kinematics.mimic import without_impossible_mimics
         from urdfkit.scene import MeshLoader, scene_of
@@ -67,13 +68,14 @@ class ShownRobot:
 
         loader = loader or MeshLoader()
         replaced: list[Repair] = []
-        robot = load_valid(model) if strict else without_impossible_mimics(load_repaired(model))
-        scene = scene_of(robot, strict=strict, meshes=loader)
-        if not strict:
-            scene, replaced = with_placeholders(robot, scene)
-        found, missing = mesh_files(robot)
-        files = robot.files or (model.path,)
-        return cls(Kinematics(robot), scene, files, found, missing, (*robot.repairs, *replaced), loader)
+        with loading_limit():
+            robot = load_valid(model) if strict else without_impossible_mimics(load_repaired(model))
+            scene = scene_of(robot, strict=strict, meshes=loader)
+            if not strict:
+                scene, replaced = with_placeholders(robot, scene)
+            found, missing = mesh_files(robot)
+            files = robot.files or (model.path,)
+            return cls(Kinematics(robot), scene, files, found, missing, (*robot.repairs, *replaced), loader)
 
 
 def mesh_files(robot: Robot) -> tuple[tuple[Path, ...], tuple[str, ...]]:

@@ -182,11 +182,11 @@ def load(arguments: argparse.Namespace) -> Simulator:
     """
     from urdfkit.app.simulation.kernel_compilation import prepare_kernel
     from urdfkit.description.sdf import load_world
-    from urdfkit.description.xml.cost_limit import LOADING, LOADING_MEMORY, CostLimit
+    from urdfkit.description.xml.cost_limit import loading_limit
     from urdfkit.resources import find_model
     from urdfkit.sim import Simulator, Spawn
 
-    limit = CostLimit(LOADING, memory=LOADING_MEMORY, option="")
+    limit = loading_limit()
     with limit:
         named = with_macro(find_model(arguments.model, package_path=arguments.package_path), arguments)
         model = with_launch_arguments(named, arguments)

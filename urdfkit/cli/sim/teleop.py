@@ -54,12 +54,12 @@ def run(arguments: argparse.Namespace) -> int:
     require_page("sim teleop", "sim", modules=("numba", "rosbags"))
     from urdfkit.app.simulation.simulation_handle import driving
     from urdfkit.description.sdf import load_world
-    from urdfkit.description.xml.cost_limit import LOADING, LOADING_MEMORY, CostLimit
+    from urdfkit.description.xml.cost_limit import loading_limit
     from urdfkit.resources import find_model
 
     check_record(arguments.record)
     with until_interrupted():
-        with CostLimit(LOADING, memory=LOADING_MEMORY, option=""):
+        with loading_limit():
             named = with_macro(find_model(arguments.model, package_path=arguments.package_path), arguments)
             model = with_launch_arguments(named, arguments)
             robot = load_robot(model, arguments)

@@ -16,11 +16,11 @@ if TYPE_CHECKING:
     from typing import Any
 
 LOADING = 60.0
-"""Seconds of CPU for loading a simulation, without compiling the engine."""
+"""Seconds of CPU for loading a robot with its meshes, or a simulation without compiling the engine."""
 MEMORY = 10**9
 """Bytes of memory of a process that reads descriptions."""
 LOADING_MEMORY = 8 * 10**9
-"""Bytes of memory of a process that loads a simulation, with the libraries of the engine and the meshes."""
+"""Bytes of memory of a process that loads a robot or a simulation, with the libraries and the meshes."""
 _PERIOD = 0.1
 """Seconds of CPU between two checks."""
 _PHASES = {
@@ -28,6 +28,7 @@ _PHASES = {
     "urdfkit.description": "reading the description",
     "urdfkit.lint": "linting",
     "urdfkit.scene": "loading meshes",
+    "urdfkit.kinematics": "building the kinematic model",
     "urdfkit.sim": "building the simulation",
 }
 """Prefix of a module → the phase it belongs to; the first match counts."""
@@ -120,6 +121,11 @@ class CostLimit:
         raise _ExceededError
 
 
+def loading_limit() -> CostLimit:
+    """Return the limit of loading a robot with its meshes, or a simulation."""
+    return CostLimit(LOADING, memory=LOADING_MEMORY, option="")
+
+
 def _peak() -> int:
     import resource
 
@@ -143,9 +149,11 @@ def _position(frame: FrameType | None) -> Position | None:
     """Return the position of the element that the innermost function with an element works on."""
     while frame is not None:
         for value in reversed(list(frame.f_locals.values())):
-            if isinstance(value, Element):
-                return value.origin.position
-            if type(value).__module__.startswith("urdfkit."):
+            is_own = type(value).__module__.startswith("urdfkit.")
+            element = getattr(value, "element", None) if is_own and not isinstance(value, Element) else value
+            if isinstance(element, Element):
+                return element.origin.position
+            if is_own:
                 found = getattr(value, "position", None)
                 if isinstance(found, Position):
                     return found

@@ -11,6 +11,9 @@ TYPE_CHECKING = False
 if TYPE_CHECKING:
     from urdfkit.lint.project.confinement import Confinement
 
+TIME_LIMIT = 10.0
+"""Seconds of CPU that a file may take in commands and on the page of the viewer."""
+
 
 @record
 class Options:
