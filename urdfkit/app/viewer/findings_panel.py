@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -189,14 +190,25 @@ def _difference(fix: Fix, outcome: Outcome) -> list[str]:
     lines: list[str] = []
     for file in dict.fromkeys(edit.span.file for edit in fix.edits):
         source = outcome.sources[file]
-        text = source.text
-        for edit in sorted((e for e in fix.edits if e.span.file == file), key=lambda e: e.span, reverse=True):
-            start = source.offset(edit.span.line, edit.span.column)
-            end = source.offset(edit.span.end_line, edit.span.end_column)
-            text = text[:start] + edit.text + text[end:]
-        changed = unified_diff(source.text.splitlines(), text.splitlines(), lineterm="", n=0)
-        lines += [line for line in changed if not line.startswith(("---", "+++"))]
+        edits = sorted((e for e in fix.edits if e.span.file == file), key=lambda e: e.span, reverse=True)
+        # Only the lines from the first to the last edit are compared: a file may have a fix in every line.
+        first, last = edits[-1].span.line, max(edit.span.end_line for edit in edits)
+        start = source.offset(first, 1)
+        text = before = source.text[start : source.offset(last + 1, 1)]
+        for edit in edits:
+            at = source.offset(edit.span.line, edit.span.column) - start
+            end = source.offset(edit.span.end_line, edit.span.end_column) - start
+            text = text[:at] + edit.text + text[end:]
+        changed = unified_diff(before.splitlines(), text.splitlines(), lineterm="", n=0)
+        lines += [_moved(line, first - 1) for line in changed if not line.startswith(("---", "+++"))]
     return lines
+
+
+def _moved(line: str, by: int) -> str:
+    """Return a line of a diff, with the line numbers of a heading increased."""
+    if not line.startswith("@@"):
+        return line
+    return re.sub(r"([-+])(\d+)", lambda number: f"{number[1]}{int(number[2]) + by}", line)
 
 
 def _pages(codes: set[str]) -> dict[str, str]:
