@@ -44,6 +44,10 @@ class UrdfkitError(Exception):
         self.position = position
         super().__init__(f"{position}: {message}" if position is not None else message)
 
+    def __str__(self) -> str:
+        """Return the message with its position, in one line."""
+        return one_line(Exception.__str__(self))
+
 
 class UsageError(UrdfkitError):
     """An argument or option makes no sense."""
@@ -101,13 +105,19 @@ class SimulationError(UrdfkitError):
 class UnknownNameError(SimulationError, KeyError):
     """Unknown name in a simulation; also a KeyError, as users of mappings expect."""
 
-    def __str__(self) -> str:
-        """Return the message: a KeyError alone would put it in quotes."""
-        return Exception.__str__(self)
-
 
 class MissingDependencyError(UrdfkitError):
     """An optional dependency is not installed."""
+
+
+def one_line(text: str) -> str:
+    """Return a text with characters that control a terminal as escape sequences.
+
+    Names of files, links and joints come from others: line ends would forge messages, and escape sequences would run.
+    """
+    if text.isprintable():
+        return text
+    return "".join(letter if letter.isprintable() else repr(letter)[1:-1] for letter in text)
 
 
 def bug(error: BaseException, package: str = "urdfkit") -> str:

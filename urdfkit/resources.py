@@ -32,6 +32,7 @@ _ROOT = re.compile(r"""<robot\b((?:"[^"]*"|'[^']*'|[^>"'])*)>""")
 _NAME = re.compile(r"""(?<![\w:])name\s*=\s*(?:"([^"]*)"|'([^']*)')""")
 # A file of colours or properties is not a robot, whatever its name: a robot has a link, or an element that may add one.
 _SUBSTANCE = re.compile(r"<link\b|<xacro:(?!macro\b|property\b|arg\b)")
+_URI = re.compile(r"([a-z][a-z0-9+.-]*)://")
 _DESCRIPTION = re.compile(r"[a-z]\w*_description")
 _INCLUDED = re.compile(r"""<xacro:include\b[^>]*?filename\s*=\s*["'][^"']*?([^/"'\\]+)["']""")
 
@@ -165,6 +166,8 @@ def _existing_folder(folder: str | Path) -> Path:
 
 
 def _find(word: str) -> Path:
+    if reason := no_path(word):
+        raise ResourceError(reason)
     path = Path(word).expanduser()
     if path.is_file():
         if path.suffix.lower() in _WORLD_SUFFIXES:
@@ -190,6 +193,19 @@ def _find(word: str) -> Path:
             f"and `python -m robot_descriptions pull {word}`"
         )
     raise ResourceError(f"no robot, file or folder `{word}`{hint or '; bundled robots: ' + ', '.join(names)}")
+
+
+def no_path(word: str) -> str | None:
+    """Return why a word names no file or folder; None if it may name one."""
+    if not word:
+        return "the name of the robot is empty; name a file, a package folder or a robot"
+    if (uri := _URI.match(word)) is not None:
+        advice = "download it, and name the file" if uri[1].startswith("http") else "name the file by its path"
+        return f"{word} is a URI, not a path; {advice}"
+    path = Path(word).expanduser()
+    if path.is_symlink() and not path.exists():
+        return f"{word} is a symbolic link to {path.readlink()}, which does not exist or leads back to the link"
+    return None
 
 
 def _looks_like_a_path(word: str) -> bool:

@@ -15,7 +15,7 @@ from importlib import import_module
 from io import TextIOWrapper
 from keyword import iskeyword
 
-from urdfkit.errors import UrdfkitError
+from urdfkit.errors import UrdfkitError, one_line
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -77,7 +77,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     except OSError as error:
         _discard_output()
         place = f" {error.filename}:" if error.filename else ""
-        print(f"urdfkit:{place} {error.strerror or error}", file=sys.stderr)
+        print(f"urdfkit:{one_line(place)} {error.strerror or error}", file=sys.stderr)
         return 2
     except Exception as error:
         if {"-v", "--verbose"} & set(arguments):
@@ -118,6 +118,10 @@ def _discard_output() -> None:
 
 
 def _run(arguments: list[str]) -> int:
+    if "--" in arguments:  # argparse passes the words after it to the parser of the command, without it
+        start = arguments.index("--")
+        files = [f"./{word}" if word.startswith("-") and os.path.lexists(word) else word for word in arguments[start:]]
+        arguments = [*arguments[:start], *files]
     if arguments[:1] == ["lint"]:
         from urdfkit.cli.fast_lint_arguments import parse_simple
 

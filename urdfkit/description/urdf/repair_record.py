@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from urdfkit.errors import one_line
 from urdfkit.position import Position
 from urdfkit.record import record
 
@@ -36,7 +37,7 @@ class Repair:
 
     def __str__(self) -> str:
         """Return the message with its position."""
-        return self.message if self.position is None else f"{self.position}: {self.message}"
+        return one_line(self.message if self.position is None else f"{self.position}: {self.message}")
 
     def as_json(self) -> dict[str, Any]:
         """Return the repair as JSON values."""

@@ -141,6 +141,8 @@ def _explain(text: str, source: Source, position: Position, opened: list[tuple[s
     if text == "mismatched tag" and tag:
         found = re.match(_TAG_NAME, source.text[max(source.text.rfind("<", 0, offset + 1), 0) :])
         return f"mismatched tag: {unclosed} before `</{found[1] if found else ''}>`"
+    if source.text.startswith("version https://git-lfs"):
+        return "this is a pointer of Git LFS, not the file itself: run `git lfs pull`"
     if text == "no element found":
         return f"the file ends too early: {unclosed}" if tag else "this is not XML: there is no element"
     if text == "unclosed token":

@@ -28,6 +28,19 @@ def content_of(path: Path, most: int = -1) -> bytes:
     return content
 
 
+_WIDE = {
+    b"\xff\xfe\0\0": "utf-32",
+    b"\0\0\xfe\xff": "utf-32",
+    b"<\0\0\0": "utf-32-le",
+    b"\0\0\0<": "utf-32-be",
+    b"\xff\xfe": "utf-16",
+    b"\xfe\xff": "utf-16",
+    b"<\0": "utf-16-le",
+    b"\0<": "utf-16-be",
+}
+"""First bytes of an XML file in UTF-32 or UTF-16 → its encoding."""
+
+
 @record(order=True)
 class Span:
     """A range of one file, from `line`:`column` to `end_line`:`end_column` (exclusive)."""
@@ -85,8 +98,13 @@ class Source:
     flaw: tuple[int, str] | None = None
 
     @classmethod
-    def read(cls, path: Path, *, shown_as: str | None = None) -> Source:
+    def read(cls, path: Path, *, shown_as: str | None = None, most: int = -1) -> Source:
         """Read a file; see `decode`.
+
+        Args:
+            path: the file.
+            shown_as: its name in messages and findings.
+            most: maximum number of bytes to read; no limit when negative.
 
         Raises:
             ResourceError: the file cannot be read.
@@ -94,16 +112,18 @@ class Source:
         from urdfkit.errors import ResourceError
 
         try:
-            content = content_of(path)
+            content = content_of(path, most)
         except OSError as error:
             raise ResourceError(f"cannot read {shown_as or path}: {error.strerror or error}") from error
         return cls.decode(shown_as or str(path), content)
 
     @classmethod
     def decode(cls, file: str, content: bytes) -> Source:
-        """Decode UTF-8 (with or without byte order mark) or UTF-16 (with one); undecodable bytes become U+FFFD."""
-        if content[:2] in (b"\xff\xfe", b"\xfe\xff"):
-            return cls(file, content.decode("utf-16", errors="replace"), (0, "UTF-16"))
+        """Decode UTF-8, UTF-16 or UTF-32, with or without byte order mark; undecodable bytes become U+FFFD."""
+        if b"\0" in content[:4] or content[:2] in (b"\xff\xfe", b"\xfe\xff"):
+            for start, codec in _WIDE.items():
+                if content.startswith(start):
+                    return cls(file, content.decode(codec, errors="replace"), (0, codec[:6].upper()))
         content = content.removeprefix(b"\xef\xbb\xbf")
         try:
             return cls(file, content.decode())

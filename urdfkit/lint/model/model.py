@@ -114,9 +114,10 @@ class Model:
                 f"{what} is not UTF-8",
                 "xacro rejects" if is_xacro else "programs that read it as text reject",
             )
-            if what == "UTF-16":
-                message, rejects = "the file is in UTF-16", "xacro rejects" if is_xacro else "urdfdom rejects"
-            fatal = is_xacro or what == "UTF-16"
+            is_wide = what.startswith("UTF-")
+            if is_wide:
+                message, rejects = f"the file is in {what}", "xacro rejects" if is_xacro else "urdfdom rejects"
+            fatal = is_xacro or is_wide
             facts = {"severity": "error" if fatal else "warning"}
             found.append(Fault("encoding", f"{message}: {rejects} the file", source.position(at), details=facts))
         return tuple(found)

@@ -28,6 +28,8 @@ _IGNORE_MARKS = frozenset(("CATKIN_IGNORE", "COLCON_IGNORE", "AMENT_IGNORE"))
 _MAX_DEPTH = 12
 _MAX_FILES = 200
 """Maximum number of files to search outside of a package."""
+_MAX_BYTES = 10**7
+"""Number of bytes in which the root element and the includes of a file are searched."""
 
 # Compiled on first use; linting one named file needs none of the last four.
 _COMMENT = r"(?s)<!--.*?(?:-->|\Z)"  # an unclosed comment is scanned once
@@ -68,12 +70,14 @@ def find_entries(paths: Iterable[str | Path]) -> list[Entry]:
     found: dict[Entry, None] = {}
     for path in paths:
         named = Path(path)
-        if named.is_file():
+        if not named.exists() or not str(path):
+            found.update(dict.fromkeys(_of_name(str(path))))
+        elif named.is_file():
             found.update(dict.fromkeys(_of_file(named)))
         elif named.is_dir():
             found.update(dict.fromkeys(_of_folder(named)))
         else:
-            found.update(dict.fromkeys(_of_name(str(path))))
+            raise ResourceError(f"{path} is neither a file nor a folder")
     return list(found)
 
 
@@ -362,7 +366,7 @@ def _written(path: Path) -> str:
     from urdfkit.description.xml.source import Source
 
     try:
-        return Source.read(path).text
+        return Source.read(path, most=_MAX_BYTES).text
     except ResourceError as error:
         from urdfkit.description.packages.resolver import OUTSIDE
 

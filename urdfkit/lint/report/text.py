@@ -20,7 +20,7 @@ from urdfkit.lint.finding import Finding
 _RESET = "\x1b[0m"
 _STYLES = {"error": "\x1b[1;31m", "warning": "\x1b[1;33m", "note": "\x1b[1;36m", "bold": "\x1b[1m", "dim": "\x1b[34m"}
 _TAB = "    "
-_CONTROL = r"[\x00-\x1f\x7f-\x9f]"
+_CONTROL = r"[\x00-\x1f\x7f-\x9f\u200e\u200f\u202a-\u202e\u2066-\u2069]"
 """Control characters, which a terminal may interpret."""
 _LISTED_CALLS = 4
 _LISTED_PLACES = 9
