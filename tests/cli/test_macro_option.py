@@ -93,3 +93,18 @@ def test_sim_of_a_macro_loads_it(macros: str, capsys: pytest.CaptureFixture[str]
     words = ["sim", "run", macros, "prefix:=a_", "--macro", "tool", "--for", "0", "--world", "missing.sdf"]
     assert main(words) == 2
     assert "missing.sdf" in capsys.readouterr().err  # the world is read after the robot
+
+
+def test_info_and_expand_of_a_macro(macros: str, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["info", macros, "--macro", "arm", "prefix:=a_", "--json"]) == 0
+    assert json.loads(capsys.readouterr().out)["links"] == ["mount", "a_arm"]
+    assert main(["expand", macros, "--macro", "arm", "prefix:=a_"]) == 0
+    out, err = capsys.readouterr()
+    assert '<link name="a_arm">' in out
+    assert err == ""
+
+
+def test_expand_compares_no_macro(macros: str, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["expand", macros, "--macro", "tool", "prefix:=a_", "--compare"]) == 2
+    message = "expand: --macro cannot be combined with --compare; xacro has no such option"
+    assert capsys.readouterr().err == f"urdfkit: {message}\n"

@@ -7,6 +7,7 @@ import sys
 from pathlib import Path
 
 from urdfkit.cli.parser import add_model, add_time_limit
+from urdfkit.cli.robot_arguments.macro_option import add_macro, with_macro, xacro_arguments
 from urdfkit.description.xacro.declared_arguments import unused_arguments
 from urdfkit.errors import ModelError, ResourceError, UrdfkitError, UsageError, XacroError
 
@@ -26,6 +27,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
         "exit status of --compare: 0 equal, 1 different, 2 not compared"
     )
     add_model(parser)
+    add_macro(parser)
     add_time_limit(parser)
     output = parser.add_mutually_exclusive_group()
     output.add_argument("-o", "--output", type=Path, metavar="FILE", help="write to FILE, atomically")
@@ -47,16 +49,23 @@ def _run(arguments: argparse.Namespace) -> int:
     from urdfkit.description.xacro.expand import expand
     from urdfkit.resources import find_model
 
-    model = find_model(arguments.model, package_path=arguments.package_path)
+    model = with_macro(find_model(arguments.model, package_path=arguments.package_path), arguments)
     # A path is passed as typed, because the banner shows it, as in stock xacro.
     typed = next((word for word in arguments.model if ":=" not in word and Path(word).is_file()), str(model.path))
     packages = Packages(model.package_path, model.path)
+    texts = None
+    if model.macro is not None:
+        from urdfkit.description.xacro.macro_call import text_with_call
+
+        if arguments.compare:
+            raise UsageError("expand: --macro cannot be combined with --compare; xacro has no such option")
+        texts = text_with_call(model.path, model.macro, model.arguments, packages)
     if arguments.compare:
         return _compare(typed, model.arguments, packages)
-    expanded = expand(typed, arguments=model.arguments, packages=packages, run_xacro=True)
+    expanded = expand(typed, arguments=model.arguments, packages=packages, run_xacro=True, texts=texts)
     _refuse_sdf(expanded, typed)
     if not arguments.quiet:
-        _show_notes(expanded, model.arguments)
+        _show_notes(expanded, xacro_arguments(model))
     if arguments.output is None:
         sys.stdout.write(expanded.xml)
     else:

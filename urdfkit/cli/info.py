@@ -9,6 +9,7 @@ from collections import Counter
 from typing import TYPE_CHECKING, Any
 
 from urdfkit.cli.parser import add_model
+from urdfkit.cli.robot_arguments.macro_option import add_macro, with_macro, xacro_arguments
 from urdfkit.cli.robot_arguments.robot_loading import add_strict, load_robot, print_repairs
 from urdfkit.cli.unused_arguments import note_unused
 from urdfkit.description.urdf.version import RATES
@@ -24,6 +25,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     """Add the arguments of ``urdfkit info``."""
     parser.epilog = "examples:\n  urdfkit info simpleton\n  urdfkit info urdf/arm.urdf.xacro --json"
     add_model(parser)
+    add_macro(parser)
     add_strict(parser, "a second root link")
     parser.add_argument("--json", action="store_true", help="print one JSON value")
 
@@ -33,10 +35,10 @@ def run(arguments: argparse.Namespace) -> int:
     from urdfkit.description.xml.cost_limit import loading_limit
     from urdfkit.resources import find_model
 
-    model = find_model(arguments.model, package_path=arguments.package_path)
+    model = with_macro(find_model(arguments.model, package_path=arguments.package_path), arguments)
     with loading_limit():
         robot = load_robot(model, arguments)
-        note_unused(model.arguments, robot.files, quiet=arguments.quiet)
+        note_unused(xacro_arguments(model), robot.files, quiet=arguments.quiet)
         print_repairs(robot, quiet=arguments.quiet)
         facts = facts_of(robot)
     if facts["note"] and not arguments.quiet:
