@@ -99,3 +99,22 @@ def test_a_required_argument_that_no_launch_file_passes_is_listed(
     first, second = capsys.readouterr().err.splitlines()
     assert first == ("urdfkit: required argument `mass`: Mass of the base [kg]; no launch file passes a constant value")
     assert "argument `mass` has no value" in second
+
+
+def test_a_run_simulates_the_robot_of_the_launch_file(robot: str, capsys: pytest.CaptureFixture[str]) -> None:
+    write("sim.launch.xml", "2.5")
+    assert main(["sim", "run", robot, "--for", "0.1"]) == 0
+    out, err = capsys.readouterr()
+    assert "base base_on: x 0.0000 y 0.0000 z " in out
+    assert "xacro arguments of launch/sim.launch.xml: mass:=2.5 camera:=on" in err
+
+
+def test_a_run_with_contradicting_launch_files_needs_one_argument(
+    robot: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    write("a.launch.xml", "2.5")
+    write("b.launch.xml", "3")
+    assert main(["sim", "run", robot, "--for", "0.1"]) == 2
+    assert "choose one, such as mass:=2.5" in capsys.readouterr().err
+    assert main(["sim", "run", robot, "mass:=3", "--for", "0.1"]) == 0
+    assert "base base_on: x 0.0000 y 0.0000 z " in capsys.readouterr().out
