@@ -22,6 +22,9 @@ Files = dict[str, str]
 XACRO = 'xmlns:xacro="http://www.ros.org/wiki/xacro"'
 BUDGET = 20.0
 """Seconds of CPU after which a run is stopped."""
+LOADING_BUDGET = 80.0
+"""Seconds of CPU after which a run that loads meshes, builds a model or simulates is stopped."""
+LOADING = ("info", "tf", "view", "sim")
 MAX_RATIO = 6.0
 ROOT = Path(__file__).parents[2]
 
@@ -458,8 +461,14 @@ def write(folder: Path, files: Files) -> Path:
     return folder / next(iter(files))
 
 
+def budget_of(command: str) -> float:
+    """Return the seconds of CPU after which a run of a command is stopped."""
+    return LOADING_BUDGET if command in LOADING else BUDGET
+
+
 def measured(command: str, files: Files) -> tuple[float, float, int, str]:
     """Return CPU [s], memory [MB], exit status and the last line of the errors."""
+    budget = int(budget_of(command))
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name) / "r_description"
         entry = write(folder, files)
@@ -471,7 +480,7 @@ def measured(command: str, files: Files) -> tuple[float, float, int, str]:
                 env={**os.environ, "PYTHONPATH": str(ROOT), "XDG_CACHE_HOME": os.environ.get("XDG_CACHE_HOME", "")},
                 stdout=out,
                 stderr=err,
-                preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_CPU, (int(BUDGET), int(BUDGET))),
+                preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_CPU, (budget, budget)),
             )
             _, status, used = os.wait4(process.pid, 0)
         lines = (folder / "err").read_text(errors="replace").splitlines() or [""]
@@ -492,7 +501,7 @@ def main(words: Sequence[str] | None = None) -> int:
             small = measured(command, FAMILIES[name](arguments.size))
             large = measured(command, FAMILIES[name](4 * arguments.size))
             ratio = (large[0] - base) / max(small[0] - base, 0.05)
-            slow = ratio > MAX_RATIO or large[0] > BUDGET or large[2] not in (0, 1, 2)
+            slow = ratio > MAX_RATIO or large[0] > budget_of(command) or large[2] not in (0, 1, 2)
             failed |= slow
             print(
                 f"{command:7}{name:24}{small[0]:7.2f} s{large[0]:7.2f} s  ×{ratio:5.1f} {large[1]:6.0f} MB  "
