@@ -1,6 +1,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -9,6 +10,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from urdfkit.description import load
 from urdfkit.description.urdf.queries import tree_order
 from urdfkit.description.urdf.robot import Robot
 from urdfkit.errors import KinematicsError, UrdfkitError
@@ -360,3 +362,33 @@ def test_indices_of_joints_that_do_not_move_are_refused(kinematics: Kinematics) 
         kinematics.velocity_index("post")
     with pytest.raises(KinematicsError, match="no movable joint"):
         kinematics.configuration_index("nothing")
+
+
+def test_a_chain_of_mimics_is_followed_once(tmp_path: Path) -> None:
+    from types import SimpleNamespace
+
+    from urdfkit.kinematics.mimic import couplings
+
+    class Counted(dict[str, Any]):
+        searches = 0
+
+        def get(self, *words: Any) -> Any:
+            self.searches += 1
+            return super().get(*words)
+
+    count = 300
+    joints = [
+        f'<link name="l{i}"/><joint name="j{i}" type="prismatic"><parent link="base"/><child link="l{i}"/>'
+        f'<axis xyz="0 0 1"/><limit lower="0" upper="1" effort="1" velocity="1"/>{mimic}</joint>'
+        for i, mimic in enumerate(
+            [f'<mimic joint="j{i + 1}" multiplier="-1" offset="1"/>' for i in range(count - 1)] + [""]
+        )
+    ]
+    (tmp_path / "r.urdf").write_text(f'<robot name="r"><link name="base"/>{"".join(joints)}</robot>')
+    robot = load(tmp_path / "r.urdf")
+    searched = Counted(robot.joint_by_name)
+    found = couplings(SimpleNamespace(joints=robot.joints, joint_by_name=searched))  # type: ignore[arg-type]
+    assert [(c.master, c.multiplier, c.offset) for c in found.values()] == [
+        (f"j{count - 1}", (-1.0) ** (count - 1 - i), float((count - 1 - i) % 2)) for i in range(count - 1)
+    ]
+    assert searched.searches == count - 1

@@ -34,21 +34,20 @@ def couplings(robot: Robot) -> dict[str, Coupling]:
         KinematicsError: a master does not exist, masters form a cycle, or a joint that takes part has more than one
             degree of freedom.
     """
-    found: dict[str, Coupling] = {}
-    for joint in robot.joints:
-        if joint.mimic is not None and joint.is_movable:
-            found.setdefault(joint.name, _follow(robot.joint_by_name, joint))
-    return found
+    resolved: dict[str, Coupling] = {}
+    mimics = [joint for joint in robot.joints if joint.mimic is not None and joint.is_movable]
+    return {joint.name: _follow(robot.joint_by_name, joint, resolved) for joint in mimics}
 
 
 def without_impossible_mimics(robot: Robot) -> Robot:
     """Return a robot without each <mimic> that `couplings` refuses, with a repair for each."""
     joints, repairs = dict(robot.joint_by_name), []
+    resolved: dict[str, Coupling] = {}
     for joint in robot.joints:
         if joint.mimic is None or not joint.is_movable:
             continue
         try:
-            _follow(joints, joint)
+            _follow(joints, joint, resolved)
         except KinematicsError as error:
             joints[joint.name] = replace(joint, mimic=None)
             origin = joint.mimic.element.origin
@@ -60,11 +59,14 @@ def without_impossible_mimics(robot: Robot) -> Robot:
     return replace(robot, joints=kept, repairs=(*robot.repairs, *repairs))
 
 
-def _follow(joints: Mapping[str, Joint], joint: Joint) -> Coupling:
-    multiplier, offset = 1.0, 0.0
+def _follow(joints: Mapping[str, Joint], joint: Joint, resolved: dict[str, Coupling]) -> Coupling:
+    """Return the coupling of a joint; add those of all joints of its chain to `resolved`."""
     at = joint
-    passed: dict[str, None] = {}  # in order
-    while at.is_movable:
+    passed: dict[str, Joint] = {}  # in order
+    while True:
+        if at.name in resolved or not at.is_movable:
+            end = resolved.get(at.name) or Coupling(at.name, None, 0.0, 0.0)
+            break
         place = (at.mimic or joint.mimic).element.origin.position  # type: ignore[union-attr]
         if at.type not in _SINGLE:
             raise KinematicsError(
@@ -73,13 +75,12 @@ def _follow(joints: Mapping[str, Joint], joint: Joint) -> Coupling:
                 position=place,
             )
         if at.mimic is None:
-            return Coupling(joint.name, at.name, multiplier, offset)
-        passed[at.name] = None
+            end = Coupling(at.name, at.name, 1.0, 0.0)
+            break
+        passed[at.name] = at
         if at.mimic.joint in passed:
             circle = " → ".join(f"`{name}`" for name in [*passed, at.mimic.joint])
             raise KinematicsError(f"mimic joints form a cycle: {circle}", position=place)
-        offset += multiplier * at.mimic.offset
-        multiplier *= at.mimic.multiplier
         master = joints.get(at.mimic.joint)
         if master is None:
             hint = did_you_mean(at.mimic.joint, joints)
@@ -87,4 +88,8 @@ def _follow(joints: Mapping[str, Joint], joint: Joint) -> Coupling:
                 f"joint `{at.name}` mimics the unknown joint `{at.mimic.joint}`{hint}", position=place
             )
         at = master
-    return Coupling(joint.name, None, 0.0, offset)
+    for each in reversed(passed.values()):
+        factor, offset = each.mimic.multiplier, each.mimic.offset  # type: ignore[union-attr]
+        end = Coupling(each.name, end.master, factor * end.multiplier, factor * end.offset + offset)
+        resolved[each.name] = end
+    return end

@@ -77,7 +77,7 @@ def test_loading_a_robot_is_limited(command, file, monkeypatch, capsys) -> None:
     from urdfkit.description.xml import cost_limit
     from urdfkit.kinematics import mimic
 
-    def follow(joints, joint):
+    def follow(joints, joint, resolved):
         while True:
             pass
 
