@@ -165,7 +165,7 @@ def test_targets(write):
     joint = '<joint name="j" type="revolute"><parent link="a"/><child link="b"/></joint>'
     path = write("r.xacro", f'<link name="a"/><link name="b"/>{joint}')
     assert codes(lint(path, target="ros2")) == ["J403"]
-    assert codes(lint(path, target="mujoco")) == []
+    assert codes(lint(path, target="mujoco")) == ["I511"], "MuJoCo needs no limits, but masses"
     with pytest.raises(UsageError, match="did you mean `mujoco`"):
         lint(path, target="mujco")
 
