@@ -1,4 +1,4 @@
-"""Entry points, beside importlib.metadata."""
+"""Entry points, next to importlib.metadata."""
 
 from __future__ import annotations
 

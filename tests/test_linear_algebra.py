@@ -1,4 +1,4 @@
-"""Products, norms and inverses beside numpy's, and that nothing simulated goes through OpenBLAS."""
+"""Products, norms and inverses next to numpy's, and that nothing simulated goes through OpenBLAS."""
 
 from __future__ import annotations
 

@@ -52,7 +52,7 @@ def test_installed_data_are_found_without_a_checkout(tmp_path, monkeypatch):
 
 
 def test_a_robot_with_variants(tmp_path, monkeypatch):
-    """The folder's name means the model of that name; a model beside it goes by its own."""
+    """The folder's name means the model of that name; a model next to it goes by its own."""
     urdf = tmp_path / "rover" / "rover_description" / "urdf"
     for name in ("rover", "rover_with_arm"):
         write(urdf / f"{name}.urdf.xacro", f'<robot name="{name}"><link name="a"/></robot>')

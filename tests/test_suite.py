@@ -46,9 +46,9 @@ def run(file: Path, text: str) -> list[object]:
 def test_a_run_that_leaves_a_process_behind_fails_and_names_the_test(tmp_path: Path) -> None:
     command = run(tmp_path / "test_leaves_one.py", LEAVES_ONE)
     with running(command, cwd=ROOT, stdout=subprocess.PIPE, text=True) as process:
-        said = process.communicate(timeout=PATIENCE)[0]
-    assert process.returncode == 1, said
-    assert "ERROR test_leaves_one.py::test_it (call): process " in said
+        reported = process.communicate(timeout=PATIENCE)[0]
+    assert process.returncode == 1, reported
+    assert "ERROR test_leaves_one.py::test_it (call): process " in reported
     assert not [line for _, line in descendants() if "test_leaves_one" in line]
 
 
@@ -61,8 +61,8 @@ def test_a_run_that_is_told_to_end_ends_what_its_tests_have_started(tmp_path: Pa
         while process.stdout.readline() != "\n":  # of the program that the test has started
             pass
         process.send_signal(signal.SIGTERM)
-        said = process.communicate(timeout=PATIENCE)[0]
-    assert process.returncode == 143, said
+        reported = process.communicate(timeout=PATIENCE)[0]
+    assert process.returncode == 143, reported
     assert not [line for _, line in descendants() if "test_waits" in line]
 
 

@@ -1,4 +1,4 @@
-"""One step of the compiled engine beside one of the reference, from random states, for every robot we ship.
+"""One step of the compiled engine next to one of the reference, from random states, for every robot we ship.
 
 Run it: ``python tests/bench/agreement.py [ROBOT …] [--states 1000] [--world house] [--seed 0] [--json]``. In the air,
 at the ground and on it, upright and not, at rest and in motion, with motors, servos and efforts. Exit code 1 where the

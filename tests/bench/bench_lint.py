@@ -1,4 +1,4 @@
-"""``urdfkit lint FILE`` beside ``xacro FILE | check_urdf``: whole processes, in turns, on the same file.
+"""``urdfkit lint FILE`` next to ``xacro FILE | check_urdf``: whole processes, in turns, on the same file.
 
 Run it as ``python tests/bench/bench_lint.py [FILE] [RUNS]``, or with ``--sizes [RUNS]`` on ten chains of 4 to 1,200
 links; check_urdf is in Debian's liburdfdom-tools.

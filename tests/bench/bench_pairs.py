@@ -1,4 +1,4 @@
-"""Time of one pair of shapes: ours within a compiled loop and called from Python, beside coal's called from Python.
+"""Time of one pair of shapes: ours within a compiled loop and called from Python, next to coal's called from Python.
 
     python tests/bench/bench_pairs.py
 

@@ -1,4 +1,4 @@
-"""Pictures per CPU second beside MuJoCo's and PyBullet's software renderers, 640 × 480, of a room of the house.
+"""Pictures per CPU second next to MuJoCo's and PyBullet's software renderers, 640 × 480, of a room of the house.
 
 Run it: ``python tests/bench/bench_pictures.py [--seconds 1] [--rounds 3] [--json]``. Everybody gets the same visuals,
 the same camera and one sun; before every picture a table in it is moved a little, as a robot would be. All take turns,

@@ -1,4 +1,4 @@
-"""Rays per CPU second beside MuJoCo's mj_multiRay, embree and PyBullet, on one core and the same house.
+"""Rays per CPU second next to MuJoCo's mj_multiRay, embree and PyBullet, on one core and the same house.
 
 Run it: ``python tests/bench/bench_rays.py [--seconds 0.3] [--rounds 3] [--json]``. Everybody gets the same collision
 shapes and the same rays from the same place; all take turns, and the best round of each counts, because other programs

@@ -1,4 +1,4 @@
-"""Broken files by the thousand: the linter says what is wrong, quickly and in little memory, or that a file is refused.
+"""Broken files by the thousand: the linter reports each defect, or refuses the file.
 
 Run it as ``python tests/bench/fuzz_lint.py [COUNT] [SEED] [FOLDER]``. It takes the robots we ship (and the files of
 FOLDER), changes bytes or structure by lot, and lints the result in worker processes with a limit on memory. A

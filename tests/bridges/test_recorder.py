@@ -121,12 +121,12 @@ def test_a_run_is_recorded_and_the_same_run_gives_the_same_bytes(
     for name in ("by_another_name.mcap", "run.mcap"):  # which changes nothing in it
         words = ["sim", "run", "diff_wheeled_robot", "--for", "1", "--cmd-vel", "0.2,0,0.5", "--record", name]
         assert main(words) == 0
-        said = capsys.readouterr().err
+        reported = capsys.readouterr().err
         contents.append((tmp_path / name).read_bytes())
     assert contents[0] == contents[1]
     found = read(tmp_path / "run.mcap")
-    assert f"recorded {len(found)} messages of " in said
-    assert said.rstrip().endswith(" topics to run.mcap")
+    assert f"recorded {len(found)} messages of " in reported
+    assert reported.rstrip().endswith(" topics to run.mcap")
     count = {topic: sum(name == topic for name, _, _ in found) for topic, _, _ in found}
     assert count["/clock"] == 100
     assert count["/tf_static"] == 1

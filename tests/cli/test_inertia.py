@@ -38,7 +38,7 @@ def test_both_inertias_and_the_defect_are_shown(write, capsys):
     out = capsys.readouterr().out
     assert out.startswith("a  r.urdf.xacro:3\n  1 collision shape, 0.002 m³ in total\n")
     assert "present        computed" in out
-    assert "320 times" in out  # 4 kg·m² beside 3 · (0.2² + 0.1²)/12
+    assert "320 times" in out  # 4 kg·m² next to 3 · (0.2² + 0.1²)/12
     assert "  warning: iyy is 800 times that of the shapes\n" in out
 
 
@@ -98,9 +98,9 @@ def test_what_is_right_already_is_not_written(write, capsys):
     mended = path.read_bytes()
     capsys.readouterr()
     main(["inertia", str(path), "a", "--write"])
-    said = capsys.readouterr()
-    assert "wrote" not in said.err
-    assert "note: not written: the file has these values already" in said.out
+    reported = capsys.readouterr()
+    assert "wrote" not in reported.err
+    assert "note: not written: the file has these values already" in reported.out
     assert path.read_bytes() == mended
 
 

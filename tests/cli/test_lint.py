@@ -206,9 +206,9 @@ def test_of_several_files_the_broken_ones_do_not_hide_the_others(package, capsys
     Path("world.urdf").write_text("<sdf/>")
     Path("cut.urdf").write_text('<robot name="x"><link')
     assert main(["lint", "world.urdf", "cut.urdf", "urdf/clean.urdf", "--jobs", "1", "--no-cache"]) == 2
-    said = capsys.readouterr()
-    assert "cut.urdf:1:17: E001" in said.out
-    assert said.err == "urdfkit: world.urdf:1:1: <sdf> is not a robot description\n"
+    reported = capsys.readouterr()
+    assert "cut.urdf:1:17: E001" in reported.out
+    assert reported.err == "urdfkit: world.urdf:1:1: <sdf> is not a robot description\n"
     assert main(["lint", "world.urdf"]) == 2
 
 

@@ -156,9 +156,9 @@ def test_colours(scout, capsys):
 )
 def test_what_cannot_be_updated(scout, capsys, arguments, message):
     assert main(["new", *arguments]) == 2
-    said = capsys.readouterr().err
-    assert message in said
-    assert said.count("\n") == 1
+    reported = capsys.readouterr().err
+    assert message in reported
+    assert reported.count("\n") == 1
 
 
 OWN = """
@@ -266,11 +266,11 @@ def test_what_an_edited_file_includes_is_kept(place, capsys):
     capsys.readouterr()
     assert main(["new", "--update", "--diff", "-q"]) == 0  # what is edited is left alone
     assert main(["new", "robot", "--update", "--sensor", "", "--yes", "-q"]) == 0
-    said = lines_of(capsys)
+    reported = lines_of(capsys)
     lidar = "scout_description/urdf/sensors/lidar"
-    assert f"{lidar}.xacro: kept: scout_description/urdf/scout.urdf.xacro refers to it" in said
-    assert f"{lidar}_gazebo.xacro: kept: {lidar}.xacro refers to it" in said
-    assert "scout_description/urdf/sensors/camera.xacro: removed" in said
+    assert f"{lidar}.xacro: kept: scout_description/urdf/scout.urdf.xacro refers to it" in reported
+    assert f"{lidar}_gazebo.xacro: kept: {lidar}.xacro refers to it" in reported
+    assert "scout_description/urdf/sensors/camera.xacro: removed" in reported
     assert model.read_text() == edited
     assert main(["lint", "scout_description", "-q"]) == 0
     # Once nothing names them they go, and the folder with them.
@@ -291,13 +291,13 @@ def test_an_outcome_that_would_be_broken_is_refused(place, capsys):
     capsys.readouterr()
     for options in (["--yes"], ["--diff"]):
         assert main(["new", "robot", "--update", "--drive", "none", "-q", *options]) == 2
-        said = capsys.readouterr()
-        assert "scout_description/urdf/drive.xacro: changed" in said.out
-        assert said.err.startswith("urdfkit: nothing was changed: the update would add errors: ")
-        assert "wheel_radius" in said.err
-        assert "adapt your scout_description/urdf/scout.urdf.xacro first" in said.err
-        assert said.err.count("\n") == 1
-    # Nothing is changed; what it would be is beside it, and once that is merged the same goes.
+        reported = capsys.readouterr()
+        assert "scout_description/urdf/drive.xacro: changed" in reported.out
+        assert reported.err.startswith("urdfkit: nothing was changed: the update would add errors: ")
+        assert "wheel_radius" in reported.err
+        assert "adapt your scout_description/urdf/scout.urdf.xacro first" in reported.err
+        assert reported.err.count("\n") == 1
+    # Nothing is changed; what it would be is next to it, and once that is merged the same goes.
     offered = model.with_name("scout.urdf.xacro.new")
     after = {path: path.read_bytes() for path in place.rglob("*") if path.is_file()}
     assert after.pop(offered).decode().rstrip().endswith("</robot>")
@@ -328,8 +328,8 @@ def test_new_parts_beside_an_edited_file_wait_for_it_to_be_merged(place, capsys,
     assert not model.with_name("scout.urdf.xacro.new").exists()
     capsys.readouterr()
     assert main(["new", "robot", "--update", *options, "--yes", "-q"]) == 0
-    said = capsys.readouterr().err
-    assert said == (
+    reported = capsys.readouterr().err
+    assert reported == (
         "urdfkit: to do: merge scout_description/urdf/scout.urdf.xacro.new into your scout.urdf.xacro; "
         "until then its new elements have no effect\n"
     )
@@ -367,20 +367,23 @@ def test_extensions_for_the_other_gazebo_are_reported(place, capsys):
     assert main(["new", "robot", "--update", "--mass", "6", "--yes", "-q"]) == 0
     assert "was kept" not in capsys.readouterr().err
     assert main(["new", "robot", "--update", "--ros", "noetic", "--yes", "-q"]) == 0
-    said = capsys.readouterr().err
+    reported = capsys.readouterr().err
     assert (
         "urdfkit: scout_description/urdf/camera_sensor.xacro was kept, but its sensor has no plugin for Gazebo Classic"
-        in said
+        in reported
     )
-    assert "urdfkit: scout_gazebo/config/bridge.yaml was kept, but it configures a bridge, which Gazebo Classic" in said
-    assert said.count("was kept") == 2
+    assert (
+        "urdfkit: scout_gazebo/config/bridge.yaml was kept, but it configures a bridge, which Gazebo Classic"
+        in reported
+    )
+    assert reported.count("was kept") == 2
     (place / "scout_gazebo/config/bridge.yaml").unlink()
     assert main(["new", "sensor", "camera", "--into", "scout_description", "--name", "other", "-q"]) == 0
     assert "libgazebo_ros_camera.so" in (place / "scout_description/urdf/camera_sensor.xacro").read_text()
     capsys.readouterr()
     assert main(["new", "robot", "--update", "--ros", "jazzy", "--yes", "-q"]) == 0
-    said = capsys.readouterr().err
-    assert "are for Gazebo Classic, and Gazebo Sim ignores them" in said
+    reported = capsys.readouterr().err
+    assert "are for Gazebo Classic, and Gazebo Sim ignores them" in reported
 
 
 @pytest.mark.slow
@@ -391,11 +394,11 @@ def test_joints_missing_in_edited_settings_are_reported(place, capsys):
     settings.write_text(settings.read_text() + "# mine, for wrist_roll_joint\n")
     capsys.readouterr()
     assert main(["new", "robot", "--update", "--arm", "6", "--gripper", "--yes", "-q"]) == 0
-    said = capsys.readouterr().err
+    reported = capsys.readouterr().err
     assert (
         "to do: merge rover_control/config/controllers.yaml.new into your controllers.yaml; until then "
         "its controllers do not move `forearm_roll_joint`, `wrist_roll_joint`, `left_finger_joint`\n"
-    ) in said
-    assert "K960 unknown controller `gripper_controller`" in said
+    ) in reported
+    assert "K960 unknown controller `gripper_controller`" in reported
     settings.with_name("controllers.yaml.new").replace(settings)
     assert main(["lint", ".", "-q"]) == 0

@@ -31,19 +31,19 @@ class Terminal:
     def __init__(self, master, process):
         self.master, self.process = master, process
         self.decoder = codecs.getincrementaldecoder("utf-8")()
-        self.said = ""
+        self.reported = ""
 
     def until(self, pattern):
-        """Read until something is said; return the match."""
+        """Read until something is reported; return the match."""
         end = time.monotonic() + PATIENCE
-        while (found := re.search(pattern, self.said)) is None:
-            assert time.monotonic() < end, self.said
+        while (found := re.search(pattern, self.reported)) is None:
+            assert time.monotonic() < end, self.reported
             if select.select([self.master], [], [], 0.2)[0]:
                 try:
-                    self.said += self.decoder.decode(os.read(self.master, 65536))
+                    self.reported += self.decoder.decode(os.read(self.master, 65536))
                 except OSError:  # the other side is closed
-                    raise AssertionError(self.said) from None
-        self.said = self.said[found.end() :]
+                    raise AssertionError(self.reported) from None
+        self.reported = self.reported[found.end() :]
         return found
 
     def type(self, line):

@@ -66,7 +66,7 @@ def test_an_unused_controller_file_is_reported(tmp_path: Path, capsys: pytest.Ca
     path = tmp_path / "own.yaml"
     path.write_text(OWN)
     assert main(["sim", "run", "diff_wheeled_robot", "--for", "0.01", "--controllers", str(path)]) == 0
-    said = capsys.readouterr().err
-    assert f"has no plugin that runs controllers: {path} configures nothing" in said
+    reported = capsys.readouterr().err
+    assert f"has no plugin that runs controllers: {path} configures nothing" in reported
     assert main(["sim", "run", "rrbot", "--for", "0.01", "--controllers", str(path)]) == 0
     assert "configures nothing" not in capsys.readouterr().err

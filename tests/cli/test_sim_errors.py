@@ -1,4 +1,4 @@
-"""What `urdfkit sim run` cannot do: one line that says why and where, exit 2, no traceback."""
+"""What `urdfkit sim run` cannot do: one line that states why and where, exit 2, no traceback."""
 
 from __future__ import annotations
 
@@ -152,7 +152,7 @@ REFUSED = {
 def test_models_that_cannot_be_simulated_are_refused_with_place_and_value(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: Capture, what: str
 ) -> None:
-    text, said = REFUSED[what]
+    text, reported = REFUSED[what]
     monkeypatch.chdir(tmp_path)
     Path("probe.urdf").write_text(text)
     assert main(["sim", "run", "probe.urdf", "--for", "0.1", "--strict"]) == 2
@@ -160,7 +160,7 @@ def test_models_that_cannot_be_simulated_are_refused_with_place_and_value(
     assert out == ""
     assert err.startswith("urdfkit: probe.urdf:")
     assert err.count("\n") == 1, err
-    assert said in err
+    assert reported in err
 
 
 REPAIRED = {
@@ -184,19 +184,19 @@ def test_models_that_can_be_repaired_run_with_one_warning(
     Path("probe.urdf").write_text(REFUSED[what][0])
     assert main(["sim", "run", "probe.urdf", "--for", "0.1", "--json"]) == 0
     out, err = capsys.readouterr()
-    kind, code, said = REPAIRED[what]
+    kind, code, reported = REPAIRED[what]
     (repair,) = json.loads(out)["repairs"]
     assert (repair["kind"], repair["code"]) == (kind, code)
     assert f"urdfkit: warning: {repair['file']}:{repair['line']}:{repair['column']}: {repair['message']}\n" in err
-    assert said in err
+    assert reported in err
 
 
 def test_a_negative_mass_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: Capture) -> None:
     monkeypatch.chdir(tmp_path)
-    text, said = REFUSED["negative mass"]
+    text, reported = REFUSED["negative mass"]
     Path("probe.urdf").write_text(text)
     assert main(["sim", "run", "probe.urdf", "--for", "0.1"]) == 2
-    assert said in capsys.readouterr().err
+    assert reported in capsys.readouterr().err
 
 
 PLUGINS = {
@@ -240,7 +240,7 @@ def test_unknown_plugins_of_models_are_reported_once(tmp_path: Path, capsys: Cap
     )
     assert main(["sim", "run", "simpleton", "--for", "0.1", "--world", str(path)]) == 0
     lines = capsys.readouterr().err.splitlines()
-    for filename, said in (
+    for filename, reported in (
         ("doorr", "w.sdf:2:1: unknown plugin `libgazebo_ros_doorr.so` in model `door` is left out"),
         (
             "diff_drve",
@@ -249,7 +249,7 @@ def test_unknown_plugins_of_models_are_reported_once(tmp_path: Path, capsys: Cap
         ("my_stuff", "w.sdf:4:1: unknown plugin `libmy_stuff.so` in model `door` is left out"),
     ):
         (line,) = [line for line in lines if filename in line]
-        assert line.endswith(said)
+        assert line.endswith(reported)
 
 
 def test_unknown_plugins_of_a_world_are_noted_and_the_rest_runs(tmp_path: Path, capsys: Capture) -> None:
@@ -357,9 +357,9 @@ def test_an_interrupted_run_keeps_its_recording(tmp_path: Path, until, how: sign
     with running(words, cwd=tmp_path, stderr=subprocess.PIPE, text=True) as process:
         until(lambda: [path for path in tmp_path.glob(".urdfkit-*/*/*.mcap") if path.stat().st_size > 100_000])
         process.send_signal(how)
-        said = process.communicate(timeout=PATIENCE)[1]
+        reported = process.communicate(timeout=PATIENCE)[1]
     assert process.returncode == 128 + how
-    assert re.fullmatch(r"urdfkit: recorded \d+ messages of \d+ topics to ride.mcap\n", said.splitlines(True)[-1])
+    assert re.fullmatch(r"urdfkit: recorded \d+ messages of \d+ topics to ride.mcap\n", reported.splitlines(True)[-1])
     assert [path.name for path in tmp_path.iterdir()] == ["ride.mcap"]
 
 

@@ -87,20 +87,22 @@ def opened(folder: Path, message: Any) -> np.ndarray:
 
 def test_points_are_saved_otherwise(capsys: Capture) -> None:
     assert main(["sim", "run", "gem_e2", "--for", "0", "--save-image", "/velodyne_points=x.png"]) == 2
-    said = "--save-image: /velodyne_points carries points, not images; use --save-scan"
-    assert said in capsys.readouterr().err.splitlines()[-1]
+    reported = "--save-image: /velodyne_points carries points, not images; use --save-scan"
+    assert reported in capsys.readouterr().err.splitlines()[-1]
 
 
 @pytest.mark.parametrize(
-    ("option", "said"),
+    ("option", "reported"),
     [
         ("/simpleton/camera1/image=x.png", f"unknown topic /simpleton/camera1/image; did you mean `{TOPIC}`?"),
         (f"{TOPIC}=x.jpg", "is not TOPIC=FILE.png"),
         ("x.png", "no image was published on /simpleton/camera1/image_raw in 0 s; increase --for"),
     ],
 )
-def test_an_option_that_cannot_be_saved_is_an_error(tmp_path: Path, capsys: Capture, option: str, said: str) -> None:
+def test_an_option_that_cannot_be_saved_is_an_error(
+    tmp_path: Path, capsys: Capture, option: str, reported: str
+) -> None:
     option = option.replace("x.png", str(tmp_path / "x.png"))
     assert main(["sim", "run", "simpleton", "--for", "0", "--save-image", option]) == 2
-    assert said in capsys.readouterr().err.splitlines()[-1]
+    assert reported in capsys.readouterr().err.splitlines()[-1]
     assert not list(tmp_path.iterdir())

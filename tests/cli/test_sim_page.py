@@ -226,7 +226,7 @@ def test_topics_are_listed_looked_at_plotted_and_published_to(page, keep, until)
     keep(page, "topic")
     page.locator("#numbers summary").click()
     page.get_by_role("button", name="pose.pose.position.x", exact=True).click()
-    page.locator("#open-topics").click()  # the plot, which is pinned, stays beside it
+    page.locator("#open-topics").click()  # the plot, which is pinned, stays next to it
     page.locator("#topic-filter").fill("cmd_vel")
     page.locator("[data-topic='/simpleton/cmd_vel']").get_by_role("button").click()
     page.locator("#publish summary").click()
@@ -541,14 +541,14 @@ def test_only_the_driver_can_change_the_simulation(page, served, visits, until) 
     other = visits.open(served.url, viewport={"width": 640, "height": 480})
     page.bring_to_front()
     page.keyboard.down("w")
-    said = until(lambda: other.locator("#driver-other").bounding_box())
+    reported = until(lambda: other.locator("#driver-other").bounding_box())
     for name in ("#readout", "#pad", *(f"#tools button >> nth={k}" for k in range(4))):
         there = other.locator(name).bounding_box()
         assert there is None or (
-            said["x"] + said["width"] <= there["x"]
-            or there["x"] + there["width"] <= said["x"]
-            or said["y"] + said["height"] <= there["y"]
-            or there["y"] + there["height"] <= said["y"]
+            reported["x"] + reported["width"] <= there["x"]
+            or there["x"] + there["width"] <= reported["x"]
+            or reported["y"] + reported["height"] <= there["y"]
+            or there["y"] + there["height"] <= reported["y"]
         ), name
     ask = "urdfkit.connection.request('gravity', { gravity: [0, 0, -9.81] }).catch((error) => error.message)"
     until(lambda: "another page is driving" in str(other.evaluate(ask)))

@@ -35,7 +35,7 @@ class Wall:
 
 
 class Page:
-    """A server that keeps what it is told, and one page that wants what a test says."""
+    """A server that keeps what it is told, and one page that wants what a test states."""
 
     def __init__(self) -> None:
         from urdfkit.view.server.drive_lock import DriveLock
@@ -44,7 +44,7 @@ class Page:
         self.inbox, self.drive_lock, self.requests = Inbox(), DriveLock(), {}
         self.wanted: set[str] = set()
         self.hub = SimpleNamespace(accepts=lambda key: key in self.wanted, watchers=1)
-        self.said: dict[str, dict[str, Any]] = {}
+        self.reported: dict[str, dict[str, Any]] = {}
         self.streamed: list[dict[str, Any]] = []
         self.sensed: dict[str, bytes] = {}
         self.answers: list[tuple[str | None, dict[str, Any]]] = []
@@ -70,7 +70,7 @@ class Page:
 
     def publish_latched(self, type: str, **values: Any) -> None:
         json.dumps(values, allow_nan=False)
-        self.said[type] = values
+        self.reported[type] = values
 
     broadcast = publish_latched
 
@@ -147,7 +147,7 @@ def test_steps_and_speed(ride) -> None:
     before = ride.simulator.t
     spend(ride, 2.0)
     assert ride.simulator.t - before == pytest.approx(0.5, abs=0.01)
-    assert ride.page.said["status"]["real_time_factor"] == pytest.approx(0.25, abs=0.02)
+    assert ride.page.reported["status"]["real_time_factor"] == pytest.approx(0.25, abs=0.02)
     do(ride, "speed", factor=4.0)
     before = ride.simulator.t
     spend(ride, 1.0)
@@ -200,13 +200,13 @@ def test_as_fast_as_it_can_fills_the_round_and_no_more() -> None:
 def test_topics_rates_and_the_last_message(ride) -> None:
     ride.page.wanted |= {"topics", "echo:/simpleton/odom"}
     spend(ride, 4.0)
-    rows = {row[0]: row for row in ride.page.said["topics"]["rows"]}
+    rows = {row[0]: row for row in ride.page.reported["topics"]["rows"]}
     _, kind, count, rate, _ = rows["/simpleton/odom"]
     assert kind == "nav_msgs/msg/Odometry"
     assert rate == pytest.approx(ride.simulator.bus.topics[1].count / ride.simulator.t, rel=0.1)
     assert count > 50
     assert all("/msg/" in row[1] for row in rows.values())
-    assert ride.page.said["echo"]["message"]["child_frame_id"]
+    assert ride.page.reported["echo"]["message"]["child_frame_id"]
     with pytest.raises(AssertionError):
         ride.page.send_to_subscribers("other", "x")
 
@@ -312,7 +312,7 @@ def test_objects_come_move_and_go(ride) -> None:
     assert where == pytest.approx([1.0, 2.0, where[2], 0, 0, 0.5], abs=1e-3)
     do(ride, "place", name="crate", pose=[-1.0, 0.0, 0.3, 0.0, 0.0, 1.0])
     assert do(ride, "get_pose", name="crate")["pose"][5] == pytest.approx(1.0, abs=0.01)
-    assert ride.page.said["objects"]["objects"][0]["name"] == "simpleton"
+    assert ride.page.reported["objects"]["objects"][0]["name"] == "simpleton"
     shown = len(ride.page.shown)
     do(ride, "remove", name="crate")
     assert len(ride.page.shown) == shown + 1
@@ -408,17 +408,17 @@ def test_the_world_is_saved_as_it_is(ride, tmp_path) -> None:
 
 def test_arms_go_where_their_sliders_are_put(made) -> None:
     ride = made("rrbot")
-    rows = {row["name"]: row for row in ride.page.said["arms"]["arms"]}
+    rows = {row["name"]: row for row in ride.page.reported["arms"]["arms"]}
     name = next(name for name in rows if "joint1" in name)
     joint = rows[name]["joints"][0]
     assert rows[name]["of"] == "position"
     ride.page.wanted.add("arms")
     do(ride, "arm", controller=name, joint=joint["name"], value=0.5)
     spend(ride, 4.0)
-    now = ride.page.said["arms_now"]["values"][name][joint["name"]]
+    now = ride.page.reported["arms_now"]["values"][name][joint["name"]]
     assert now == pytest.approx(0.5, abs=0.15)  # its PID has no integral: gravity pulls it a little off
     do(ride, "controller", controller=name, running=False)
-    assert not {row["name"]: row for row in ride.page.said["arms"]["arms"]}[name]["running"]
+    assert not {row["name"]: row for row in ride.page.reported["arms"]["arms"]}[name]["running"]
     with pytest.raises(SimulationError, match="unknown joint"):
         do(ride, "arm", controller=name, joint="nothing", value=0.5)
 
@@ -426,7 +426,7 @@ def test_arms_go_where_their_sliders_are_put(made) -> None:
 @pytest.mark.slow
 def test_a_trajectory_controller_takes_sliders_too(made) -> None:
     ride = made("seven_dof_arm")
-    arms = ride.page.said["arms"]["arms"]
+    arms = ride.page.reported["arms"]["arms"]
     assert arms
     for row in arms:
         joint = row["joints"][0]
@@ -440,20 +440,20 @@ def test_a_trajectory_controller_takes_sliders_too(made) -> None:
 def test_gravity_mass_friction_and_gains(made) -> None:
     ride = made("rrbot")
     do(ride, "gravity", gravity=[0, 0, -1.6])
-    assert ride.page.said["parameters"]["gravity"] == [0.0, 0.0, -1.6]
-    row = next(row for row in ride.page.said["parameters"]["rows"] if row["mass"] is not None)
+    assert ride.page.reported["parameters"]["gravity"] == [0.0, 0.0, -1.6]
+    row = next(row for row in ride.page.reported["parameters"]["rows"] if row["mass"] is not None)
     do(ride, "mass", name=row["name"], link=row["link"], mass=3.5)
-    assert any(each["mass"] == 3.5 for each in ride.page.said["parameters"]["rows"])
-    path = ride.page.said["parameters"]["gains"][0]["path"]
+    assert any(each["mass"] == 3.5 for each in ride.page.reported["parameters"]["rows"])
+    path = ride.page.reported["parameters"]["gains"][0]["path"]
     do(ride, "gains", path=path, p=50, i=0, d=1)
-    assert ride.page.said["parameters"]["gains"][0]["p"] == 50.0
+    assert ride.page.reported["parameters"]["gains"][0]["p"] == 50.0
     with pytest.raises(SimulationError, match="no link `nothing`"):
         do(ride, "mass", name=row["name"], link="nothing", mass=1)
 
 
 def test_a_push_lasts_as_long_as_it_is_held(ride) -> None:
     name = do(ride, "spawn", model="ball", pose=[2.0, 0.0, 3.0])["name"]
-    mass = next(row["mass"] for row in ride.page.said["parameters"]["rows"] if row["name"] == name)
+    mass = next(row["mass"] for row in ride.page.reported["parameters"]["rows"] if row["name"] == name)
     do(ride, "gravity", gravity=[0, 0, 0])
     before = ride.simulator.world.bodies[name].twist[0]
     centre = list(ride.simulator.world.bodies[name].body.centre)
@@ -478,10 +478,10 @@ def test_forces_and_slip_are_sent_while_requested(ride) -> None:
     spend(ride, 0.5)
     forces = np.frombuffer(ride.page.sensed["contacts"], "<f4").reshape(-1, 6)
     assert forces[:, 5].sum() == pytest.approx(1.55 * 9.81, rel=1e-3)
-    assert {link for link, _ in ride.page.said["slip"]["rows"]} == {"left_wheel", "right_wheel", "caster"}
+    assert {link for link, _ in ride.page.reported["slip"]["rows"]} == {"left_wheel", "right_wheel", "caster"}
     ride.page.drive_lock.update(1, Axes((1.0, 0.0, 0.0, 0.0), 0.5, 1.0))
     spend(ride, 0.3)
-    slip = dict(ride.page.said["slip"]["rows"])
+    slip = dict(ride.page.reported["slip"]["rows"])
     assert slip["caster"] > 0.1 > 10 * slip["left_wheel"]  # the caster slides, the wheels roll
 
 
@@ -495,7 +495,7 @@ def test_motion_is_recorded_and_shown_again(ride) -> None:
         spend(ride, FRAME)
     there = float(ride.page.poses[1][0][0])
     do(ride, "record", on=False)
-    assert ride.page.said["recorder"]["frames"] == pytest.approx(120, abs=5)
+    assert ride.page.reported["recorder"]["frames"] == pytest.approx(120, abs=5)
     do(ride, "replay", action="show", at=begun)
     assert ride.page.poses[1][0][0] == pytest.approx(0.0, abs=0.02)
     now = ride.simulator.t
@@ -515,14 +515,14 @@ def test_a_recording_ends_when_something_comes_or_time_begins_anew(ride) -> None
     do(ride, "record", on=True)
     spend(ride, 0.2)
     do(ride, "spawn", model="crate", pose=[2, 0, 0])
-    assert "an entity was spawned or removed" in ride.page.said["notice"]["text"]
+    assert "an entity was spawned or removed" in ride.page.reported["notice"]["text"]
     with pytest.raises(SimulationError, match="entities were spawned or removed"):
         do(ride, "replay", action="play")
     do(ride, "record", on=True)
     spend(ride, 0.2)
     ride._act("reset")
     spend(ride, 0.1)
-    assert "the simulation was reset" in ride.page.said["notice"]["text"]
+    assert "the simulation was reset" in ride.page.reported["notice"]["text"]
 
 
 def test_a_tape_has_an_end(ride, monkeypatch) -> None:
@@ -531,8 +531,8 @@ def test_a_tape_has_an_end(ride, monkeypatch) -> None:
     monkeypatch.setattr(replay, "MOST_BYTES", 20_000)
     do(ride, "record", on=True)
     spend(ride, 3.0)
-    assert "the memory limit was reached" in ride.page.said["notice"]["text"]
-    assert not ride.page.said["recorder"]["recording"]
+    assert "the memory limit was reached" in ride.page.reported["notice"]["text"]
+    assert not ride.page.reported["recorder"]["recording"]
 
 
 def test_topics_are_recorded_to_a_file_that_the_page_gets(ride, tmp_path, monkeypatch) -> None:
@@ -560,7 +560,7 @@ def test_topics_are_recorded_to_a_file_that_the_page_gets(ride, tmp_path, monkey
 
 def test_several_robots_are_driven_one_at_a_time(ride) -> None:
     name = do(ride, "spawn", model="mybot", pose=[2.0, 2.0, 0.0, 0.0])["name"]
-    assert {robot["name"] for robot in ride.page.said["teleop"]["robots"]} == {"simpleton", name}
+    assert {robot["name"] for robot in ride.page.reported["teleop"]["robots"]} == {"simpleton", name}
     before = ride.simulator.world.pose(name)[0]
     for _ in range(60):
         ride.page.drive_lock.update(1, Axes((1.0, 0.0, 0.0, 0.0), 0.4, 1.0, name))
@@ -599,14 +599,14 @@ def test_stop_holds_for_every_robot_whoever_drives(ride) -> None:
     spend(ride, FRAME)
     assert heard == {"simpleton": [0.0], name: [0.4, 0.0]}
     assert ride.page.drive_lock.holder is None
-    assert "stop" in ride.page.said  # the pages let go
+    assert "stop" in ride.page.reported  # the pages let go
 
 
 def test_overlap_of_a_spawned_body_is_reported_each_time(ride) -> None:
     for _ in range(2):
         done = do(ride, "spawn", model="barrel", pose=[0.0, 0.1, 0.0, 0.0])
         assert any("inside `chassis`; place `barrel` elsewhere" in remark for remark in done["warnings"])
-        assert ride.page.said["notice"]["tone"] == "warning"
+        assert ride.page.reported["notice"]["tone"] == "warning"
         assert "warnings" not in do(ride, "remove", name="barrel")
     done = do(ride, "walls", corners=[[-1.0, 0.0], [1.0, 0.0]])
     assert any("`walls` starts 200 mm inside `chassis`" in remark for remark in done["warnings"])
@@ -654,7 +654,7 @@ def test_random_orders_never_break_the_loop(ride) -> None:
 def test_after_a_divergence_nothing_falls_over_and_reset_starts_again(ride) -> None:
     ride.simulator.world.builder.engine.arrays["v"][:] = 1e200
     spend(ride, 0.1)
-    assert "diverged" in ride.page.said["fault"]["message"]
+    assert "diverged" in ride.page.reported["fault"]["message"]
     with pytest.raises(SimulationError, match="press Reset"):
         do(ride, "gravity", gravity=[0, 0, 0])
     ride.page.inbox.put_action("play")
@@ -662,7 +662,7 @@ def test_after_a_divergence_nothing_falls_over_and_reset_starts_again(ride) -> N
     assert ride.simulator.paused
     ride.page.inbox.put_action("reset")
     spend(ride, 0.2)
-    assert ride.page.said["fault"]["message"] is None
+    assert ride.page.reported["fault"]["message"] is None
     assert ride.simulator.t == pytest.approx(0.2, abs=0.03)
 
 
@@ -727,7 +727,7 @@ def test_repairs_are_findings_on_the_page(made, tmp_path) -> None:
         '<joint name="axle" type="continuous"><parent link="base"/><child link="wheel"/><axis xyz="0 1 0"/></joint>'
         "</robot>"
     )
-    (row,) = made(str(path)).page.said["findings"]["findings"]
+    (row,) = made(str(path)).page.reported["findings"]["findings"]
     assert (row["code"], row["severity"], row["link"], row["line"]) == ("I511", "warning", "wheel", 2)
     assert row["lines"] == [f'<link name="wheel">{ball}</link>']
-    assert made().page.said["findings"]["findings"] == []
+    assert made().page.reported["findings"]["findings"] == []

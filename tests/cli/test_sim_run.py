@@ -30,9 +30,9 @@ def refused(capsys: Capture, *arguments: str) -> str:
     assert main(["sim", "run", *arguments]) == 2
     out, err = capsys.readouterr()
     assert out == ""
-    said = [line for line in err.splitlines() if "not simulated yet" not in line]
-    assert len(said) == 1, err
-    return said[0]
+    reported = [line for line in err.splitlines() if "not simulated yet" not in line]
+    assert len(reported) == 1, err
+    return reported[0]
 
 
 def ramped_unicycle(v: float, w: float, ramp: float, seconds: float) -> tuple[float, float, float]:
@@ -145,7 +145,7 @@ def test_planar_and_floating_joints_are_reported(tmp_path: Path, capsys: Capture
 
 
 @pytest.mark.parametrize(
-    ("start", "said"),
+    ("start", "reported"),
     [
         ("pl=1", "joint `pl` is planar and has more than one position: `pl/x`, `pl/y`, `pl/theta`"),
         ("fl/x=1", "no movable joint `fl/x` in robot `several`; did you mean `fl/trans_x`?"),
@@ -154,12 +154,12 @@ def test_planar_and_floating_joints_are_reported(tmp_path: Path, capsys: Capture
     ],
 )
 def test_starts_of_planar_and_floating_joints_that_make_no_sense(
-    tmp_path: Path, capsys: Capture, start: str, said: str
+    tmp_path: Path, capsys: Capture, start: str, reported: str
 ) -> None:
     path = tmp_path / "several.urdf"
     path.write_text(SEVERAL)
     assert main(["sim", "run", str(path), "--world", "void", "--for", "0.1", "--initial-joints", start]) == 2
-    assert said in capsys.readouterr().err
+    assert reported in capsys.readouterr().err
 
 
 def test_the_summary_for_people(capsys: Capture) -> None:
@@ -222,7 +222,7 @@ def test_commands_that_are_not_finite_are_dropped_with_a_warning(capsys: Capture
 
 
 @pytest.mark.parametrize(
-    ("arguments", "said"),
+    ("arguments", "reported"),
     [
         (["simpletn", "--for", "1"], "no robot, file or folder `simpletn`; did you mean `simpleton`?"),
         (["simpleton"], "the following arguments are required: --for"),
@@ -263,15 +263,15 @@ def test_commands_that_are_not_finite_are_dropped_with_a_warning(capsys: Capture
         ),
     ],
 )
-def test_what_makes_no_sense_is_one_line(capsys: Capture, arguments: list[str], said: str) -> None:
-    assert said in refused(capsys, *arguments)
+def test_what_makes_no_sense_is_one_line(capsys: Capture, arguments: list[str], reported: str) -> None:
+    assert reported in refused(capsys, *arguments)
 
 
 MASS = "<inertial><mass value='1'/><inertia ixx='1' iyy='1' izz='1' ixy='0' ixz='0' iyz='0'/></inertial>"
 
 
 @pytest.mark.parametrize(
-    ("content", "said"),
+    ("content", "reported"),
     [
         ("<link name='a'/>", "2:1: link `a` has no <inertial>, but the robot is free to move"),
         ("<link", "3:1: "),
@@ -281,11 +281,11 @@ MASS = "<inertial><mass value='1'/><inertia ixx='1' iyy='1' izz='1' ixy='0' ixz=
         ),
     ],
 )
-def test_models_that_cannot_be_simulated(capsys: Capture, tmp_path: Path, content: str, said: str) -> None:
+def test_models_that_cannot_be_simulated(capsys: Capture, tmp_path: Path, content: str, reported: str) -> None:
     path = tmp_path / "r.urdf"
     path.write_text(f"<robot name='r'>\n{content}\n</robot>")
     line = refused(capsys, str(path), "--for", "1", "--strict")
-    assert f"r.urdf:{said}" in line
+    assert f"r.urdf:{reported}" in line
 
 
 def test_warmup_makes_the_kernel_ready(capsys: Capture) -> None:

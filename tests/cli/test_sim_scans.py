@@ -61,7 +61,7 @@ def test_the_only_cloud_needs_no_topic(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    ("robot", "option", "seconds", "said"),
+    ("robot", "option", "seconds", "reported"),
     [
         (LASER, "/scn=x.json", "0.1", "--save-scan: unknown topic /scn; did you mean `/scan`?"),
         (LASER, "/scan=x.png", "0.1", "`/scan=x.png` is not TOPIC=FILE.json or .csv"),
@@ -83,11 +83,11 @@ def test_the_only_cloud_needs_no_topic(tmp_path: Path) -> None:
     ],
 )
 def test_an_option_that_cannot_be_saved_is_an_error(
-    tmp_path: Path, capsys: Capture, monkeypatch, robot: str, option: str, seconds: str, said: str
+    tmp_path: Path, capsys: Capture, monkeypatch, robot: str, option: str, seconds: str, reported: str
 ) -> None:
     monkeypatch.chdir(tmp_path)
     assert run(robot, option, seconds=seconds) == 2
-    assert said in capsys.readouterr().err.splitlines()[-1]
+    assert reported in capsys.readouterr().err.splitlines()[-1]
     assert not list(tmp_path.iterdir())
 
 

@@ -325,7 +325,7 @@ def test_the_robot_moves_while_a_page_drives_and_then_stops(ride: DriveLoop) -> 
         ride.server.drive_lock.update(1, AHEAD)
         spend(ride, FRAME)
     assert ride.simulator.state.v[0] == pytest.approx(0.5, abs=0.02)
-    spend(ride, 2.0)  # the driver says nothing more
+    spend(ride, 2.0)  # the driver states nothing more
     assert abs(ride.simulator.state.v[0]) < 1e-3
     assert sent[-1].linear.x == 0.0
     assert sum(message.linear.x == 0.0 for message in sent) == 1  # said once, then quiet

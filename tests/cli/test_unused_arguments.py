@@ -14,7 +14,7 @@ TEXT = """<robot xmlns:xacro="http://www.ros.org/wiki/xacro"><xacro:arg default=
 
 
 @pytest.mark.parametrize(
-    ("name", "said"),
+    ("name", "reported"),
     [
         ("prefix", []),
         ("use_arm", []),
@@ -23,8 +23,8 @@ TEXT = """<robot xmlns:xacro="http://www.ros.org/wiki/xacro"><xacro:arg default=
         ("foo", ["no file uses the argument `foo` (declared: prefix)"]),
     ],
 )
-def test_what_is_used(name: str, said: list[str]) -> None:
-    assert unused_arguments({name: "1"}, [Source("robot.xacro", TEXT)]) == said
+def test_what_is_used(name: str, reported: list[str]) -> None:
+    assert unused_arguments({name: "1"}, [Source("robot.xacro", TEXT)]) == reported
 
 
 def test_a_file_without_arguments() -> None:

@@ -33,7 +33,7 @@ def test_a_click_selects_a_link_and_hovering_names_it(page, keep, until) -> None
     target = page.evaluate("urdfkit.viewport.viewer.controls.target.toArray()")
     assert target == pytest.approx([0, 0.25, 0], abs=1e-6)  # three.js has y up
     keep(page, "selected")
-    page.mouse.click(150, 760)  # beside it
+    page.mouse.click(150, 760)  # next to it
     assert page.evaluate("urdfkit.page.selected") is None
     assert page.evaluate(glow) == 0
 

@@ -20,7 +20,7 @@ from urdfkit.errors import UrdfkitError
 SHARED = Path(__file__).parents[2].parent / "shared"
 CORPUS = SHARED / "corpus"
 
-pytestmark = pytest.mark.skipif(not (CORPUS / "expected.json").is_file(), reason="no corpus beside the checkout")
+pytestmark = pytest.mark.skipif(not (CORPUS / "expected.json").is_file(), reason="no corpus next to the checkout")
 
 
 def entries() -> list[dict[str, Any]]:

@@ -25,7 +25,7 @@ def shown() -> list[str]:
 
 @pytest.fixture(scope="module")
 def place(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """Type what the page says, but for what serves a page until it is stopped."""
+    """Type what the page states, but for what serves a page until it is stopped."""
     folder = tmp_path_factory.mktemp("tutorial")
     here = Path.cwd()
     os.chdir(folder)
@@ -41,9 +41,9 @@ def place(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.mark.slow
 def test_every_step_is_there(place: Path) -> None:
-    said = " ".join(shown())
+    reported = " ".join(shown())
     for step in ("new robot", "lint", "view", "new world", "sim teleop", "sim run", "new sensor", "colcon build"):
-        assert step in said
+        assert step in reported
     model = place / "ws/src/scout_description/urdf/scout.urdf.xacro"
     assert {"lidar_link", "camera_link", "rear_lidar_link"} <= set(load(model).link_by_name)
     assert [finding.code for finding in lint([place / "ws/src"]) if finding.severity != "note"] == []

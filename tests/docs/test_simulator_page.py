@@ -1,4 +1,4 @@
-"""The code on the simulator's page runs, block after block, and says what the page says."""
+"""The code on the simulator's page runs, block after block, and states what the page states."""
 
 from __future__ import annotations
 
@@ -27,9 +27,9 @@ def test_every_block_runs(capsys: pytest.CaptureFixture[str], tmp_path: Path, mo
     assert len(blocks()) >= 8
     for block in blocks():
         exec(compile(block, str(PAGE), "exec"), names)
-    said = capsys.readouterr().out
-    assert "did you mean `simpleton`?" in said
-    assert "one and a half seconds" in said
+    reported = capsys.readouterr().out
+    assert "did you mean `simpleton`?" in reported
+    assert "one and a half seconds" in reported
 
 
 def test_ten_lines_are_enough() -> None:

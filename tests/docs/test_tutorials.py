@@ -19,13 +19,13 @@ def test_stop_on_white_drives_up_to_the_barrier_and_stops(capsys: pytest.Capture
     node = TUTORIALS / "stop_on_white.py"
     assert len(node.read_text().splitlines()) <= 30
     simulator = runpy.run_path(str(node))["simulator"]
-    (said,) = capsys.readouterr().out.splitlines()
-    assert said.endswith("Stopping!")
+    (reported,) = capsys.readouterr().out.splitlines()
+    assert reported.endswith("Stopping!")
     x, y, _ = simulator.state.base_pose[:3]
     assert 0.8 < x < 2.0  # the barrier begins at 2.4 m
     assert abs(y) < 1e-3
     assert np.abs(simulator.state.base_velocity).max() < 1e-6
-    assert float(said.split()[0]) < 3.2
+    assert float(reported.split()[0]) < 3.2
 
 
 def test_wander_drives_about_and_touches_nothing(capsys: pytest.CaptureFixture[str]) -> None:

@@ -95,7 +95,7 @@ def test_the_layout_is_tidy(tree: TransformTree) -> None:
 
 
 @pytest.mark.slow
-@pytest.mark.skipif(not CORPUS.is_dir(), reason="the corpus is not beside the checkout")
+@pytest.mark.skipif(not CORPUS.is_dir(), reason="the corpus is not next to the checkout")
 def test_the_layout_of_real_robots_is_tidy() -> None:
     drawn = 0
     for path in sorted((CORPUS / "example-robot-data").rglob("*.urdf")):

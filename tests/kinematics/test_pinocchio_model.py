@@ -187,7 +187,7 @@ def test_a_zero_axis_is_refused_at_its_place(pair: Callable[..., Robot]) -> None
 
 
 @pytest.mark.slow
-@pytest.mark.skipif(not CORPUS.is_dir(), reason="the corpus is not beside the checkout")
+@pytest.mark.skipif(not CORPUS.is_dir(), reason="the corpus is not next to the checkout")
 def test_the_corpus_is_what_pinocchio_reads(capfd: pytest.CaptureFixture[str]) -> None:
     rng = np.random.default_rng(4)
     compared = 0

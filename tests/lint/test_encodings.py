@@ -1,4 +1,4 @@
-"""Bytes that are no UTF-8: what xacro and urdfdom refuse is an error, whatever the file says of itself."""
+"""Bytes that are no UTF-8: what xacro and urdfdom refuse is an error, whatever the file states of itself."""
 
 from __future__ import annotations
 

@@ -63,7 +63,7 @@ def test_where_nobody_wants_to_go_on_it_is_raised(write):
         lint(write("bad.urdf", FAILS))
 
 
-def test_what_fails_before_the_rules_is_said_too(write, capsys, monkeypatch):
+def test_what_fails_before_the_rules_is_reported_too(write, capsys, monkeypatch):
     from urdfkit.description.urdf import parser
 
     def parse(root, **more):
@@ -81,7 +81,7 @@ def test_what_fails_before_the_rules_is_said_too(write, capsys, monkeypatch):
     assert printed.err.startswith("urdfkit: bad.urdf: a bug in urdfkit, not in your files: KeyError: 'x' (")
 
 
-def test_an_editor_is_told(write):
+def test_an_editor_is_notified(write):
     path = write("bad.urdf", FAILS).resolve()
     project = Project(Options())
     assert [finding.code for finding in project.findings(path)[path]].count("E009") == 1

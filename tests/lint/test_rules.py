@@ -132,7 +132,7 @@ def test_the_examples_of_a_page_are_true(rule: type[Rule], tmp_path, monkeypatch
         if beside:  # A rule on what lies around the description.
             file = tmp_path / f"example{beside[0].suffix}"
         file.write_text(example[1])
-        # Meshes and manifests that examples need lie beside the files of the rule.
+        # Meshes and manifests that examples need lie next to the files of the rule.
         shutil.copytree(HERE / rule.name, tmp_path, dirs_exist_ok=True, ignore=shutil.ignore_patterns(*FIXTURES))
         codes = {finding.code for finding in lint(file, target=target(rule))}
         assert (rule.code in codes) is is_bad
@@ -252,7 +252,7 @@ def test_launch_files_in_python_are_read_and_never_run(tmp_path, monkeypatch):
     assert [(f.code, f.file, f.line) for f in lint(tmp_path)] == [("K964", "a.launch.py", 1)]
 
 
-def test_what_follows_from_another_defect_is_not_said(tmp_path):
+def test_what_follows_from_another_defect_is_not_reported(tmp_path):
     link = '<collision><geometry><sphere radius="-1"/></geometry></collision>'
     mass = '<inertial><mass value="1"/><inertia ixx="0.4" ixy="0" ixz="0" iyy="0.41" iyz="0" izz="0.42"/></inertial>'
     loop = '<origin xyz="0.1 0.1 0"/><parent link="b"/><child link="b"/>'

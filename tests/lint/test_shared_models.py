@@ -1,4 +1,4 @@
-"""Precision on real robots and recall on the tutorials' models, where ``../shared`` lies beside the checkout."""
+"""Precision on real robots and recall on the tutorials' models, where ``../shared`` lies next to the checkout."""
 
 from __future__ import annotations
 

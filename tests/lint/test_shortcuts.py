@@ -1,4 +1,4 @@
-"""Where a plain look at a text spares a pattern, it says nothing else than the pattern does."""
+"""Where a plain look at a text spares a pattern, it states nothing else than the pattern does."""
 
 from __future__ import annotations
 

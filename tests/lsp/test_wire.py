@@ -41,9 +41,9 @@ def test_a_change_that_makes_no_sense_is_one_line(client):
     document = {"uri": client.uri("r.urdf"), "version": 2}
     client.tell("textDocument/didChange", {"textDocument": document, "contentChanges": [change]})
     assert client.ask("textDocument/hover", client.at("r.urdf", TEXT, 'link name="|a')) is not None
-    said = client.close().splitlines()
-    assert len(said) == 1
-    assert "Position.line should be in range" in said[0]
+    reported = client.close().splitlines()
+    assert len(reported) == 1
+    assert "Position.line should be in range" in reported[0]
 
 
 @pytest.mark.slow

@@ -58,7 +58,7 @@ def test_times_as_in_ros_1_and_in_seconds(written: object, sec: int, nanosec: in
 
 
 @pytest.mark.parametrize(
-    ("written", "said"),
+    ("written", "reported"),
     [
         ({"secs": 2, "sec": 3}, "sets the same field twice"),
         ({"sec": 2.5, "nanosec": 3}, "sets the fraction of a second twice"),
@@ -69,14 +69,14 @@ def test_times_as_in_ros_1_and_in_seconds(written: object, sec: int, nanosec: in
         ("2", "write its fields, sec, nanosec"),
     ],
 )
-def test_times_that_are_none(written: object, said: str) -> None:
+def test_times_that_are_none(written: object, reported: str) -> None:
     with pytest.raises(UsageError) as caught:
         from_fields("std_msgs/Header", {"stamp": written})
-    assert said in str(caught.value)
+    assert reported in str(caught.value)
 
 
 @pytest.mark.parametrize(
-    ("fields", "said"),
+    ("fields", "reported"),
     [
         ({"linear": {"w": 1}}, "no field `w` in geometry_msgs/msg/Vector3"),
         ({"linaer": {}}, "did you mean `linear`?"),
@@ -85,10 +85,10 @@ def test_times_that_are_none(written: object, said: str) -> None:
         ({"linear": [1, 2]}, "write its fields, x, y, z"),
     ],
 )
-def test_wrong_fields(fields: object, said: str) -> None:
+def test_wrong_fields(fields: object, reported: str) -> None:
     with pytest.raises(UsageError) as caught:
         from_fields(TWIST, fields)
-    assert said in str(caught.value)
+    assert reported in str(caught.value)
 
 
 def test_transforms() -> None:

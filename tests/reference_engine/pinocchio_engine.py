@@ -346,7 +346,7 @@ class Reference:
         return changed
 
     def _beside(self, v: Array) -> Array:
-        """Return the effort beside the row of a dof with motor and dry friction."""
+        """Return the effort next to the row of a dof with motor and dry friction."""
         a = self.a
         effort, rub, target = a["motor_effort"], a["friction"], a["motor_velocity"]
         both = (effort != 0.0) & (rub != 0.0) & (target != 0.0)

@@ -1,4 +1,4 @@
-"""Driving a robot beside its ideal."""
+"""Driving a robot next to its ideal."""
 
 import math
 

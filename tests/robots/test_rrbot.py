@@ -94,7 +94,7 @@ def test_it_falls_over_and_hangs(robot, pendulum):
 
 
 def test_a_small_swing_is_that_of_a_double_pendulum(robot, pendulum):
-    """About hanging, M·q̈ + D·q̇ + K·q = 0: the solution of that, beside ours."""
+    """About hanging, M·q̈ + D·q̇ + K·q = 0: the solution of that, next to ours."""
     inverse = np.linalg.inv(pendulum.mass)
     system = np.block([[np.zeros((2, 2)), np.eye(2)], [-inverse @ pendulum.stiffness(), -inverse * 0.7]])
     rates, shapes = np.linalg.eig(system)

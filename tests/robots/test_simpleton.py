@@ -1,4 +1,4 @@
-"""The robot simpleton: a sound description, mended as its README says, that drives as commanded."""
+"""The robot simpleton: a sound description, mended as its README states, that drives as commanded."""
 
 import math
 import subprocess
@@ -152,7 +152,7 @@ def test_yourdfpy_places_every_link_where_we_do(tmp_path, kinematics):
 
 
 def drive(command, *, ramp, seconds):
-    """Drive on a command that is ramped up, and integrate the ideal unicycle beside it."""
+    """Drive on a command that is ramped up, and integrate the ideal unicycle next to it."""
     simulator = Simulator("simpleton", note=lambda _: None)
     x = y = yaw = 0.0
     dt = simulator.dt

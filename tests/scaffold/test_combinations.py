@@ -1,4 +1,4 @@
-"""Any two options go together: the robot expands, lints clean and loads, and publishes what its README says."""
+"""Any two options go together: the robot expands, lints clean and loads, and publishes what its README states."""
 
 import itertools
 import math

@@ -117,7 +117,7 @@ def test_wheels_drive(place, flavour):
 
 
 @pytest.mark.parametrize("flavour", FLAVOURS)
-def test_arms_get_where_they_are_told(place, flavour):
+def test_arms_reach_their_targets(place, flavour):
     build, needs, options = FLAVOURS[flavour]
     folder = robot(place, ARM, build, needs)
     assert new(*options) == 0
@@ -142,9 +142,9 @@ def test_two_drivers_on_one_joint_are_never_written(place, capsys):
         model = place / name / f"{name}_description/urdf/{name}.urdf.xacro"
         before = model.read_bytes()
         assert main(["new", "controllers", "--into", str(model)]) == 2
-        said = capsys.readouterr().err
-        assert "is already driven by" in said
-        assert "no joint without a controller; nothing was changed" in said
+        reported = capsys.readouterr().err
+        assert "is already driven by" in reported
+        assert "no joint without a controller; nothing was changed" in reported
         assert model.read_bytes() == before
 
 
@@ -156,9 +156,9 @@ def test_what_is_driven_stays_and_the_rest_is_added(place, capsys):
   </plugin></gazebo>"""
     folder = robot(place, ROVER + ARM + drive)
     assert new() == 0
-    said = capsys.readouterr().err
-    assert "`left_joint` is already driven by plugin `gz::sim::systems::DiffDrive`" in said
-    assert "`other_joint` mimics `finger_joint`" in said
+    reported = capsys.readouterr().err
+    assert "`left_joint` is already driven by plugin `gz::sim::systems::DiffDrive`" in reported
+    assert "`other_joint` mimics `finger_joint`" in reported
     settings = yaml.safe_load((place / "rover_control/config/controllers.yaml").read_text())
     assert set(settings) == {"controller_manager", "arm_controller", "gripper_controller"}
     assert settings["arm_controller"]["ros__parameters"]["joints"] == ["shoulder_joint", "elbow_joint"]
@@ -212,8 +212,8 @@ def test_diff_changes_nothing(place, capsys):
     folder = robot(place, ROVER)
     before = {path: path.read_bytes() for path in place.rglob("*") if path.is_file()}
     assert new("--diff") == 0
-    said = capsys.readouterr().out
-    assert "+  base_controller" in said or "+base_controller:" in said
+    reported = capsys.readouterr().out
+    assert "+  base_controller" in reported or "+base_controller:" in reported
     assert {path: path.read_bytes() for path in place.rglob("*") if path.is_file()} == before
     assert folder.is_dir()
 
@@ -342,9 +342,9 @@ def test_what_the_plugin_reads_gets_the_controllers(place, capsys):
     (folder / "config/mine.yaml").write_text(mine)
     before = (folder / "urdf/rover.urdf.xacro").read_text()
     assert new() == 0
-    said = capsys.readouterr()
-    assert "ros2 run controller_manager spawner base_controller arm_controller" in said.out
-    assert "base_controller: left_joint, right_joint (velocity, as in the model)" in said.err
+    reported = capsys.readouterr()
+    assert "ros2 run controller_manager spawner base_controller arm_controller" in reported.out
+    assert "base_controller: left_joint, right_joint (velocity, as in the model)" in reported.err
     after = (folder / "config/mine.yaml").read_text()
     assert all(line in after for line in mine.splitlines())
     settings = yaml.safe_load(after)
@@ -369,9 +369,9 @@ def test_a_plugin_whose_file_is_not_there_is_told_of(place, capsys):
     )
     robot(place, CHAIN + ros2_control("position", ["shoulder_joint", "elbow_joint"], plugin))
     assert new() == 2
-    said = capsys.readouterr().err
-    assert "plugin `loop` names " in said
-    assert "config/none.yaml, which does not exist" in said
+    reported = capsys.readouterr().err
+    assert "plugin `loop` names " in reported
+    assert "config/none.yaml, which does not exist" in reported
 
 
 def test_controllers_of_another_robot_are_none_of_ours(place):
@@ -417,8 +417,8 @@ def test_gazebo_classic_passes_over_followers_so_they_are_told_too(place, capsys
     bent = part("wrist", "elbow", more='<mimic joint="shoulder_joint"/>')
     folder = robot(place, mirrored + bent, "catkin")
     assert new() == 0
-    said = capsys.readouterr().err
-    assert "`other_joint` is -1 × `finger_joint` +0.5, but Gazebo Classic ignores <mimic>" in said
+    reported = capsys.readouterr().err
+    assert "`other_joint` is -1 × `finger_joint` +0.5, but Gazebo Classic ignores <mimic>" in reported
     settings = yaml.safe_load((place / "rover_control/config/controllers.yaml").read_text())["rover"]
     assert settings["gripper_controller"]["joints"] == ["finger_joint", "other_joint"]
     assert settings["arm_controller"]["joints"] == ["shoulder_joint", "wrist_joint", "elbow_joint"]
@@ -452,13 +452,13 @@ def test_transmissions_are_nothing_to_ros2(place, capsys, more):
     assert settings["arm_controller"]["ros__parameters"]["command_interfaces"] == ["position"]
 
 
-def test_a_joint_that_nothing_can_move_is_told_with_its_place(place, capsys):
+def test_a_joint_that_nothing_can_move_is_reported_with_its_place(place, capsys):
     folder = robot(place, ARM.replace('effort="30"', 'effort="0"', 1))
     assert new() == 0
     lines = (folder / "urdf/rover.urdf.xacro").read_text().splitlines()
     number = next(number for number, line in enumerate(lines, 1) if 'effort="0"' in line)
-    said = f"rover.urdf.xacro:{number}:5: `shoulder_joint` has the limit effort 0: its controller cannot move it\n"
-    assert said in capsys.readouterr().err
+    reported = f"rover.urdf.xacro:{number}:5: `shoulder_joint` has the limit effort 0: its controller cannot move it\n"
+    assert reported in capsys.readouterr().err
 
 
 def test_gains_of_a_joint_carry_its_weight(place):
@@ -499,9 +499,9 @@ def test_a_robot_without_ros_gets_what_needs_none(place, capsys, tell):
     assert main(["new", "controllers", "--into", "ab_description", "--name", "x"]) == 2
     assert "--name is for a ROS package, and this robot has none" in capsys.readouterr().err
     assert main(["new", "controllers", "--into", "ab_description"]) == 0
-    said = capsys.readouterr()
-    assert "elbow_joint: topic arm/elbow" in said.err
-    assert "ros2" not in said.out
+    reported = capsys.readouterr()
+    assert "elbow_joint: topic arm/elbow" in reported.err
+    assert "ros2" not in reported.out
     assert {path.name for path in set(place.rglob("*")) - before} == {"control.xacro"}
     assert clean(place / "ab_description") == []
     simulator = Simulator(load(place / "ab_description/urdf/ab.urdf.xacro"), note=lambda _: None)

@@ -13,7 +13,7 @@ from urdfkit.sim import Simulator
 
 @pytest.mark.slow
 @pytest.mark.parametrize("drive", ["diff", "skid", "ackermann", "omni"])
-def test_odd_sizes_go_where_they_are_told(robot_template, tmp_path, drive):
+def test_odd_sizes_go_to_their_targets(robot_template, tmp_path, drive):
     for i, answers in enumerate(itertools.islice(drawn(robot_template, drive, 7), 3)):
         folder = tmp_path / str(i)
         robot = made(robot_template, answers, folder)

@@ -52,9 +52,9 @@ def folder(tmp_path):
 def test_ctrl_c_leaves_nothing(folder):
     with writing(folder) as process:
         process.send_signal(signal.SIGINT)
-        _, said = process.communicate(timeout=PATIENCE)
+        _, reported = process.communicate(timeout=PATIENCE)
     assert process.returncode == 130
-    assert "Traceback" not in said
+    assert "Traceback" not in reported
     assert [path.name for path in folder.iterdir()] == ["mine"]
 
 
@@ -63,9 +63,9 @@ def test_ctrl_c_leaves_nothing(folder):
 def test_being_told_to_end_leaves_nothing_not_even_the_folder_it_made(folder, how):
     with writing(folder, "--into", "src") as process:
         process.send_signal(how)
-        _, said = process.communicate(timeout=PATIENCE)
+        _, reported = process.communicate(timeout=PATIENCE)
     assert process.returncode == 128 + how
-    assert said == ""
+    assert reported == ""
     assert [path.name for path in folder.iterdir()] == ["mine"]
 
 
@@ -134,9 +134,9 @@ def test_a_full_disk(mounted, monkeypatch, capsys):
     (disk / "mine").write_text("mine")
     monkeypatch.chdir(disk)
     assert main(["new", "robot", "scout", "--yes"]) == 2
-    said = capsys.readouterr().err
-    assert said.startswith("urdfkit: cannot write ")
-    assert said.endswith(": No space left on device\n")
+    reported = capsys.readouterr().err
+    assert reported.startswith("urdfkit: cannot write ")
+    assert reported.endswith(": No space left on device\n")
     assert [path.name for path in disk.iterdir()] == ["mine"]
     monkeypatch.chdir("/")
 

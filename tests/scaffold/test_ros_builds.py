@@ -113,10 +113,12 @@ def test_catkin_make(robot_template, workspace):
         "launches": [[launch.parents[1].name, launch.name] for launch in started],
         "packages": sorted(path.parent.name for name in names for path in share.glob(f"{name}_*/package.xml")),
     }
-    said = run(workspace, f". install/setup.bash; export PATH={path}; /usr/bin/python3 {DUMP}", given=json.dumps(asked))
-    said = json.loads(said[said.index('{"places"') :])
-    assert said["places"] == {name: str(share / name) for name in asked["packages"]}
-    loaded = [value for params in said["params"] for value in params.values()]
+    reported = run(
+        workspace, f". install/setup.bash; export PATH={path}; /usr/bin/python3 {DUMP}", given=json.dumps(asked)
+    )
+    reported = json.loads(reported[reported.index('{"places"') :])
+    assert reported["places"] == {name: str(share / name) for name in asked["packages"]}
+    loaded = [value for params in reported["params"] for value in params.values()]
     for name in names:
         assert sum(f'<robot name="{name}"' in value for value in loaded) >= 2, name
 
@@ -130,8 +132,8 @@ def test_catkin_build(robot_template, workspace):
     new = written(robot_template, "noetic")
     count = len(list((workspace / "src").iterdir()))
     run(workspace, f"catkin config --init --install --env-cache --cmake-args {without_compilers()} >/dev/null")
-    said = run(workspace, "catkin build --no-status --no-color --no-notify")
-    assert f"All {count + 1} packages succeeded!" in said  # one of them its own
+    reported = run(workspace, "catkin build --no-status --no-color --no-notify")
+    assert f"All {count + 1} packages succeeded!" in reported  # one of them its own
     for name in new:
         for package in ("description", "gazebo", "bringup"):
             assert (workspace / f"install/share/{name}_{package}/package.xml").is_file()

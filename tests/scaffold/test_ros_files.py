@@ -54,7 +54,7 @@ def depends(package):
 @pytest.mark.slow
 @pytest.mark.parametrize("what", OF_ROS_2[:2])
 def test_tests_of_packages_pass_without_ros(robots, what):
-    """A package whose only test has nothing to do is skipped: pytest says 5, which fails, of one without tests."""
+    """A package whose only test has nothing to do is skipped: pytest states 5, which fails, of one without tests."""
     for folder in sorted(robots[what].glob("scout_*")):
         command = [sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider", "test"]
         ran = subprocess.run(command, cwd=folder, capture_output=True, text=True, timeout=60)
@@ -109,7 +109,7 @@ def test_speeds_of_a_joystick_are_floats_however_they_are_typed(robots, launch_m
     (told,) = (
         each.kwargs["parameters"][0] for each in Recorder.made if each.kwargs.get("package") == "teleop_twist_joy"
     )
-    kinds = {name: getattr(said, "kwargs", {}).get("value_type") for name, said in told.items()}
+    kinds = {name: getattr(reported, "kwargs", {}).get("value_type") for name, reported in told.items()}
     assert {name: kind for name, kind in kinds.items() if kind} == {
         "scale_linear.x": float,
         "scale_angular.yaw": float,

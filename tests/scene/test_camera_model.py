@@ -1,4 +1,4 @@
-"""Lenses beside OpenCV: Brown's distortion, and a calibration that finds what a lens was made of."""
+"""Lenses next to OpenCV: Brown's distortion, and a calibration that finds what a lens was made of."""
 
 from __future__ import annotations
 

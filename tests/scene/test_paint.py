@@ -73,7 +73,7 @@ def test_a_texture_lies_between_its_texels(repeats: int) -> None:
 
 
 def files(folder: Path, suffix: str) -> Path:
-    """Write a square with a picture beside it, or in it, and return its file."""
+    """Write a square with a picture next to it, or in it, and return its file."""
     image = Image.fromarray(np.kron(QUARTERS, np.ones((8, 8, 1), dtype=np.uint8)))
     mesh = trimesh.Trimesh(SQUARE, FACES, process=False)
     if suffix == ".glb":

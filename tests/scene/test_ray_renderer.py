@@ -120,8 +120,8 @@ def test_a_mesh_shows_the_colours_of_its_vertices_where_nobody_says_another() ->
     mesh = TriMesh(vertices, faces, colors=colors)
     light = lit(ambient=(1, 1, 1))
     own = Shape("m", "m", "visual", Mesh("m.stl"), np.eye(4), mesh=mesh)
-    said = Shape("m", "m", "visual", Mesh("m.stl"), np.eye(4), (1.0, 0.0, 0.0, 1.0), True, mesh)
-    for shape, color in ((own, (0, 0, 255)), (said, (255, 0, 0))):
+    reported = Shape("m", "m", "visual", Mesh("m.stl"), np.eye(4), (1.0, 0.0, 0.0, 1.0), True, mesh)
+    for shape, color in ((own, (0, 0, 255)), (reported, (255, 0, 0))):
         picture = rendering(shape, lighting=light).take(Lens(3, 3, 0.2), pose_matrix(Pose((1.0, 1.0, 5.0), DOWN.rpy)))
         assert tuple(picture.rgb[1, 1]) == color
 

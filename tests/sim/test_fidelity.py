@@ -1,4 +1,4 @@
-"""Our engine beside closed forms: the rows of docs/fidelity.md, without peers, and that the page has them all."""
+"""Our engine next to closed forms: the rows of docs/fidelity.md, without peers, and that the page has them all."""
 
 from __future__ import annotations
 

@@ -263,7 +263,7 @@ def test_a_plugin_that_is_not_simulated_is_named(write_rover: Callable[..., Path
     assert notes == ["plugin libgazebo_ros_vacuum_gripper.so: not simulated yet"]
 
 
-def test_what_cannot_be_simulated_is_said_with_its_place(write_rover: Callable[..., Path]) -> None:
+def test_what_cannot_be_simulated_is_reported_with_its_place(write_rover: Callable[..., Path]) -> None:
     arm = '<link name="arm"/><joint name="elbow" type="revolute"><parent link="base"/><child link="arm"/>'
     path = write_rover(f'{arm}<axis xyz="0 1 0"/><limit lower="-1" upper="1" effort="1" velocity="1"/></joint>')
     with pytest.raises(SimulationError) as caught:

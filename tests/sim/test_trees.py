@@ -108,7 +108,7 @@ def test_joints_may_point_to_the_root(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    ("inside", "said"),
+    ("inside", "reported"),
     [
         (link("a") + link("b") + joint("ball", "a", "b"), "joint `joint` of model `thing` is ball, which cannot"),
         (
@@ -124,8 +124,8 @@ def test_joints_may_point_to_the_root(tmp_path: Path) -> None:
         ),
     ],
 )  # fmt: skip
-def test_what_cannot_be_simulated_is_refused_with_its_place(tmp_path: Path, inside: str, said: str) -> None:
-    with pytest.raises(SimulationError, match=said) as caught:
+def test_what_cannot_be_simulated_is_refused_with_its_place(tmp_path: Path, inside: str, reported: str) -> None:
+    with pytest.raises(SimulationError, match=reported) as caught:
         simulate(tmp_path, f'<model name="thing">{inside}</model>')
     assert re.search(r"probe\.world:\d+:\d+: joint", str(caught.value))
 

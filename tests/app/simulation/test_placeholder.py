@@ -22,7 +22,7 @@ class Page:
     def __init__(self) -> None:
         self.geometries = GeometryStore()
         self.shown: list[dict] = []
-        self.said: list[tuple[str, dict]] = []
+        self.reported: list[tuple[str, dict]] = []
 
     def send(self, command) -> None:
         command.lower()
@@ -35,7 +35,7 @@ class Page:
         self.poses = np.array(poses)
 
     def publish_latched(self, type: str, **values) -> None:
-        self.said.append((type, values))
+        self.reported.append((type, values))
 
 
 @pytest.mark.parametrize("name", ["simpleton", "rrbot"])
@@ -63,4 +63,4 @@ def test_an_open_page_shows_why_the_server_stops(monkeypatch) -> None:
 
     with pytest.raises(SimulationError):
         fail()
-    assert page.said == [("fault", {"message": "no such wheel"})]
+    assert page.reported == [("fault", {"message": "no such wheel"})]

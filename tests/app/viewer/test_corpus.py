@@ -24,7 +24,7 @@ NUMBER = r"[-+]?[\d.]+(?:[eE][-+]?\d+)?"
 
 pytestmark = [
     pytest.mark.slow,
-    pytest.mark.skipif(not (CORPUS / "expected.json").is_file(), reason="no corpus beside the checkout"),
+    pytest.mark.skipif(not (CORPUS / "expected.json").is_file(), reason="no corpus next to the checkout"),
 ]
 
 

@@ -35,14 +35,14 @@ class Shown(Recording):
     def __init__(self) -> None:
         super().__init__()
         self.poses = np.zeros((0, 7))
-        self.said: dict[str, dict] = {}
+        self.reported: dict[str, dict] = {}
 
     def publish(self, time: float, poses: np.ndarray) -> None:
         self.poses = poses
 
     def publish_latched(self, type: str, **values) -> None:
         super().publish_latched(type, **values)
-        self.said[type] = values
+        self.reported[type] = values
 
     broadcast = publish_latched
 
@@ -61,7 +61,7 @@ def test_joints_move_links_and_unknown_ones_nothing(session: Session) -> None:
     session.move({"turn": 0.5, "nothing": 1.0, "fly/trans_x": 2.0})
     assert session.server.poses[1, 5] == pytest.approx(np.sin(0.25))
     assert session.server.poses[2, :3] == pytest.approx([2, 0, 0])
-    assert session.server.said["joints"]["positions"]["fly/trans_x"] == 2.0
+    assert session.server.reported["joints"]["positions"]["fly/trans_x"] == 2.0
     assert "nothing" not in session.positions
 
 
@@ -85,7 +85,7 @@ def test_a_point_is_published_in_the_frame_of_its_link(session: Session, capsys)
 
 def test_a_fix_is_ordered_by_its_number(session: Session) -> None:
     session.lint()
-    number = next(row["number"] for row in session.server.said["findings"]["findings"] if row["code"] == "J412")
+    number = next(row["number"] for row in session.server.reported["findings"]["findings"] if row["code"] == "J412")
     assert session.execute(Request(1, 1, "fix", {"finding": number}))["done"].startswith("J412: ")
     assert 'xyz="0 0 1"' in session.model.path.read_text()
 
@@ -96,14 +96,16 @@ def test_a_deleted_file_is_reported_and_followed_again(session: Session, capsys)
     path.rename(aside)
     session.check_files()
     session.check_files()
-    assert "lab.urdf not found; the page shows the robot that was read last" in session.server.said["fault"]["message"]
+    assert (
+        "lab.urdf not found; the page shows the robot that was read last" in session.server.reported["fault"]["message"]
+    )
     assert capsys.readouterr().err.count("not found") == 1
     session.check_files()
     assert capsys.readouterr().err == ""  # once
     aside.rename(path)  # as it was, to the time of its last change
     session.check_files()
     session.check_files()
-    assert session.server.said["fault"]["message"] is None
+    assert session.server.reported["fault"]["message"] is None
     assert "reloaded lab.urdf" in capsys.readouterr().err
 
 
@@ -167,7 +169,7 @@ def test_a_mesh_that_comes_back_is_shown_within_a_second(uri: str, tmp_path: Pat
     assert checked(session, lambda: placeholders(session) == []) < 1.0
     file.unlink()
     assert checked(session, lambda: placeholders(session) == ["arm/visual/placeholder"]) < 1.0
-    assert session.server.said["fault"]["message"] is None
+    assert session.server.reported["fault"]["message"] is None
 
 
 def test_a_file_that_is_empty_while_it_is_saved_is_not_reported(session: Session, capsys) -> None:
@@ -179,8 +181,8 @@ def test_a_file_that_is_empty_while_it_is_saved_is_not_reported(session: Session
     checked(session, lambda: "dragon" in session.shown.kinematics.link_names)
     assert "empty" not in capsys.readouterr().err
     path.write_text("")
-    assert checked(session, lambda: session.server.said["fault"]["message"] is not None) >= SAVE_TIME
-    assert "the file is empty" in session.server.said["fault"]["message"]
+    assert checked(session, lambda: session.server.reported["fault"]["message"] is not None) >= SAVE_TIME
+    assert "the file is empty" in session.server.reported["fault"]["message"]
 
 
 def test_repairs_are_printed_once_and_join_the_findings_of_their_line(session: Session, capsys) -> None:
@@ -190,7 +192,7 @@ def test_repairs_are_printed_once_and_join_the_findings_of_their_line(session: S
     printed = capsys.readouterr().err
     assert printed.count("urdfkit: warning: ") == 1
     assert "is fixed to the origin of `base`" in printed
-    rows = [row for row in session.server.said["findings"]["findings"] if row["code"] == "T203"]
+    rows = [row for row in session.server.reported["findings"]["findings"] if row["code"] == "T203"]
     assert [row["link"] for row in rows] == ["stray"]
     assert "is fixed to the origin of `base`" in rows[0]["repair"]
     path.write_text(path.read_text() + "\n")
@@ -202,8 +204,8 @@ def test_repairs_are_printed_once_and_join_the_findings_of_their_line(session: S
 def test_a_strict_session_keeps_the_last_robot_that_needs_no_repair(session: Session, capsys) -> None:
     session.strict = True
     session.model.path.write_text(ROBOT.replace("</robot>", '<link name="stray"/></robot>'))
-    checked(session, lambda: session.server.said["fault"]["message"] is not None)
-    assert "2 root links" in session.server.said["fault"]["message"]
+    checked(session, lambda: session.server.reported["fault"]["message"] is not None)
+    assert "2 root links" in session.server.reported["fault"]["message"]
     assert "stray" not in session.shown.kinematics.link_names
 
 

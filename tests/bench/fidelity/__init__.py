@@ -1,1 +1,1 @@
-"""Physics beside closed forms: rows of docs/fidelity.md, for our engine and for peers on the same models."""
+"""Physics next to closed forms: rows of docs/fidelity.md, for our engine and for peers on the same models."""

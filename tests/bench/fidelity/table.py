@@ -36,7 +36,7 @@ class Result:
 
     @property
     def verdict(self) -> str:
-        """How ours stands beside the better peer."""
+        """How ours stands next to the better peer."""
         best = self.better_peer[1]
         if max(self.ours, best) <= self.row.negligible:
             return "equal"

@@ -19,7 +19,7 @@ FINALISTS, HEATS, RUN_IN = 4, 5, 10
 
 
 class Peer(Protocol):
-    """An engine to compare with; settings are its own affair, but for what ``str`` says of them."""
+    """An engine to compare with; settings are its own affair, but for what ``str`` states of them."""
 
     name: str
     label: str

@@ -1,4 +1,4 @@
-"""Plugins that nothing here runs: what is said of them."""
+"""Plugins that nothing here runs: what is reported of them."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from urdfkit.sim import Simulator
     [
         ("gazebo_ros_diff_drve", "gazebo_ros_diff_drive"),
         ("gz-sim-diff-drve-system", "gz-sim-diff-drive-system"),
-        ("gazebo_ros_doorr", ""),  # what all of them begin with says nothing about which was meant
+        ("gazebo_ros_doorr", ""),  # what all of them begin with states nothing about which was meant
         ("my_stuff", ""),
         ("gripper_of_hours", "gripper_of_ours"),
     ],

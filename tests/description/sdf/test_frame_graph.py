@@ -104,7 +104,7 @@ def test_a_frame_of_a_frame(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    ("text", "said"),
+    ("text", "reported"),
     [
         (
             '<model name="m"><pose relative_to="yrad"/><link name="l"/></model><frame name="yard"/>',
@@ -135,10 +135,10 @@ def test_a_frame_of_a_frame(tmp_path: Path) -> None:
         ),
     ],
 )
-def test_frames_that_make_no_sense(tmp_path: Path, text: str, said: str) -> None:
+def test_frames_that_make_no_sense(tmp_path: Path, text: str, reported: str) -> None:
     with pytest.raises(DescriptionError) as caught:
         load_world(world_with(tmp_path, text))
-    assert said in str(caught.value)
+    assert reported in str(caught.value)
     assert str(caught.value).startswith((f"{tmp_path}/test.sdf:2:", f"{tmp_path}/test.sdf:3:"))
 
 

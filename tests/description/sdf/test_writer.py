@@ -279,7 +279,7 @@ def test_places_do_not_count() -> None:
 
 
 @pytest.mark.parametrize(
-    ("world", "said"),
+    ("world", "reported"),
     [
         (
             World("w", models=(WorldModel("a::b", static=True),)),
@@ -292,10 +292,10 @@ def test_places_do_not_count() -> None:
         (World("w\x00"), "the character '\\x00' cannot be written in XML"),
     ],
 )
-def test_what_sdf_cannot_hold(world: World, said: str) -> None:
+def test_what_sdf_cannot_hold(world: World, reported: str) -> None:
     with pytest.raises(DescriptionError) as caught:
         to_sdf(world)
-    assert said in str(caught.value)
+    assert reported in str(caught.value)
 
 
 def test_editing_makes_new_worlds() -> None:

@@ -223,7 +223,7 @@ def test_the_first_tutorials_robot() -> None:
         / "shared/seed_cases/simpleton_xacro/simpleton_description/urdf/simpleton.xacro"
     )
     if not path.is_file():
-        pytest.skip("no seed cases beside the checkout")
+        pytest.skip("no seed cases next to the checkout")
     expanded = expand_leniently(path)
     assert expanded.root is not None
     chains = {
@@ -294,7 +294,7 @@ def test_blocks_that_hold_each_other_many_times_are_one_fault(write: Write) -> N
     assert tags(expanded) == ["link"]
 
 
-def test_names_of_files_that_are_too_long_are_said(write: Write) -> None:
+def test_names_of_files_that_are_too_long_are_reported(write: Write) -> None:
     main = write("m.xacro", f'HEAD\n<xacro:include filename="{"x" * 5000}.xacro"/>\n<link name="a"/></robot>')
     expanded = expand_leniently(main)
     (fault,) = expanded.faults

@@ -102,7 +102,7 @@ def test_bundled_robots_are_expanded_as_without_recovery() -> None:
 
 
 @pytest.mark.slow
-@pytest.mark.skipif(not SHARED.is_dir(), reason="no corpus beside the checkout")
+@pytest.mark.skipif(not SHARED.is_dir(), reason="no corpus next to the checkout")
 def test_the_corpus_is_expanded_as_without_recovery() -> None:
     paths = [path for folder in ("seed_cases", "corpus") for path in sorted((SHARED / folder).rglob("*.xacro"))]
     assert [str(path) for path in paths[::10] if not is_consistent(path)] == []

@@ -75,7 +75,7 @@ def test_the_nearest_file_counts_and_the_repository_is_the_end(tmp_path):
         ("[lint]\ntarget = 'gzz'\n", "`lint.target` gzz: unknown target; did you mean `gz"),
     ],
 )
-def test_what_is_not_known_is_said_in_one_line(tmp_path, text, message):
+def test_what_is_not_known_is_reported_in_one_line(tmp_path, text, message):
     file = tmp_path / "urdfkit.toml"
     file.write_text(text)
     with pytest.raises(UsageError, match=r"urdfkit\.toml") as caught:

@@ -41,7 +41,7 @@ def package(folder, *needs: str):
 
 @pytest.fixture
 def workspace(tmp_path):
-    """A description, and a package beside it that starts it."""
+    """A description, and a package next to it that starts it."""
     described, started = package(tmp_path / "arm_description"), package(tmp_path / "arm_start", "arm_description")
     for folder in (described / "urdf", started / "launch", started / "config"):
         folder.mkdir()
@@ -341,7 +341,7 @@ def test_a_package_whose_settings_a_plugin_reads_is_looked_at(tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("lines", "place", "said"),
+    ("lines", "place", "reported"),
     [
         ("a:\n  b\n  - one\n  - two\n  c: 1\n", 2, "missing colon after `b`"),
         ("a:\n  b: 1\n  c:2\n  d: 3\n", 3, "missing space after `c:`"),
@@ -349,13 +349,13 @@ def test_a_package_whose_settings_a_plugin_reads_is_looked_at(tmp_path):
         ("a:\n  b: 'open\n", 3, "end of stream"),
     ],
 )
-def test_where_a_text_ceases_to_be_yaml(tmp_path, lines, place, said):
+def test_where_a_text_ceases_to_be_yaml(tmp_path, lines, place, reported):
     (tmp_path / "package.xml").write_text("<package><name>arm</name></package>")
     (tmp_path / "arm.urdf").write_text('<robot name="arm"><link name="base"/></robot>')
     (tmp_path / "arm.yaml").write_text(lines)
     (found,) = lint(tmp_path)
     assert (found.code, found.line) == ("K966", place), found
-    assert said in found.message
+    assert reported in found.message
 
 
 def test_what_a_condition_holds():

@@ -24,7 +24,7 @@ def found(tmp_path, body: str, **files: str) -> list[tuple[str, int, str]]:
     return [(f.code, f.line, f.message) for f in lint(tmp_path / "r.urdf.xacro") if f.severity != "note"]
 
 
-def test_a_size_below_zero_is_told_at_its_property_and_nothing_that_follows(tmp_path):
+def test_a_size_below_zero_is_reported_at_its_property_and_nothing_that_follows(tmp_path):
     ball = BALL.format("base", "${R}").replace("</link>", f"{WEIGHT}</link>")
     body = f'<xacro:property name="R" value="-0.05"/>\n{ball.replace("visual", "collision", 2)}'
     body = body.replace("<inertial>", "<visual><geometry><sphere radius='${2*R}'/></geometry></visual><inertial>")
@@ -87,7 +87,7 @@ def test_numbers_that_cannot_be_read_are_no_other_defect(tmp_path):
     assert [(c, line) for c, line, _ in found(tmp_path, body) if c != "G610"] == [("E010", 4), ("E010", 5)]
 
 
-def test_a_property_that_is_nearly_a_number_is_told_where_it_is_written(tmp_path):
+def test_a_property_that_is_nearly_a_number_is_reported_where_it_is_written(tmp_path):
     body = """<xacro:property name="track" value="O.4"/>
 <link name="base"/><link name="a"/><link name="b"/>
 <joint name="j" type="fixed"><parent link="base"/><child link="a"/><origin xyz="0 ${track/2} 0"/></joint>
@@ -97,7 +97,7 @@ def test_a_property_that_is_nearly_a_number_is_told_where_it_is_written(tmp_path
     assert [(code, line) for code, line, _ in told] == [("E010", 2)]
 
 
-def test_what_fails_for_another_reason_is_told_where_it_fails(tmp_path):
+def test_what_fails_for_another_reason_is_reported_where_it_fails(tmp_path):
     body = f'<xacro:property name="side" value="left"/>\n{BALL.format("base", "${side / 2}")}'
     assert [(code, line) for code, line, _ in found(tmp_path, body) if code != "G610"] == [("X124", 3)]
 

@@ -35,7 +35,7 @@ def found(path, codes=tuple(SLIPS)):
         '<xacro:macro name="m" params="p"><xacro:m p="${p}"/><link name="${p}_x"/></xacro:macro><xacro:m p="a"/>',
     ],
 )
-def test_what_an_error_cannot_have_hidden_is_said(write, fault):
+def test_what_an_error_cannot_have_hidden_is_reported(write, fault):
     assert {code: severity for code, (severity, *_) in found(write("r.xacro", ROBOT.format(fault))).items()} == (
         dict.fromkeys(SLIPS, "error")
     )
@@ -50,7 +50,7 @@ def test_what_an_error_cannot_have_hidden_is_said(write, fault):
         ('<xacro:include filename="broken.xacro"/>', "it may be in broken.xacro, which is not well-formed"),
     ],
 )
-def test_slips_are_said_as_notes_where_any_name_may_be_missing(write, fault, why):
+def test_slips_are_reported_as_notes_where_any_name_may_be_missing(write, fault, why):
     write("broken.xacro", b"<robot><link name='x'>")
     assert found(write("r.xacro", ROBOT.format(fault))) == dict.fromkeys(SLIPS, ("note", why, None))
     others = ROBOT.replace("bse", "tower").replace("mst", "turret").replace("m_j", "hinge")

@@ -140,7 +140,7 @@ def test_a_urdf_without_xacro_gets_plain_elements(place):
 def test_what_cannot_be_is_refused_and_nothing_changed(simpleton, capsys, options, says):
     before = {path: path.read_bytes() for path in simpleton.parents[1].rglob("*") if path.is_file()}
     assert new(*options) == 2
-    said = capsys.readouterr().err
-    assert says in said
-    assert said.count("\n") == 1
+    reported = capsys.readouterr().err
+    assert says in reported
+    assert reported.count("\n") == 1
     assert {path: path.read_bytes() for path in simpleton.parents[1].rglob("*") if path.is_file()} == before

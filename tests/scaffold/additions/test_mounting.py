@@ -56,11 +56,11 @@ def test_a_second_of_each_has_a_place_a_name_and_a_topic_of_its_own(scout, capsy
         assert main(["new", "sensor", kind, "--into", str(scout)]) == 0
         assert f"`{kind}" in capsys.readouterr().err  # what it is called, and where it is
     assert main(["new", "arm", "--into", str(scout), "--reach", "0.3"]) == 0
-    said = capsys.readouterr().err
+    reported = capsys.readouterr().err
     robot = load(scout / "urdf/scout.urdf.xacro")
     assert {"lidar_2_link", "lidar_3_link", "camera_2_link", "imu_2_link", "gps_2_link"} <= set(robot.link_by_name)
     place = robot.joint_by_name["arm_2_arm_mount_joint"].origin.xyz
-    assert f"`arm_2` on `base_link` at {' '.join(f'{x:.6g}' for x in place)}" in said
+    assert f"`arm_2` on `base_link` at {' '.join(f'{x:.6g}' for x in place)}" in reported
     assert overlaps(robot) == []
     imus = {robot.joint_by_name[name].origin.xyz for name in ("imu_joint", "imu_2_joint")}
     assert len(imus) == 2
@@ -79,9 +79,9 @@ def test_a_place_that_is_asked_for_is_taken_and_told_about(scout, capsys):
 def test_where_no_room_is_left_it_is_refused(scout, capsys):
     before = (scout / "urdf/scout.urdf.xacro").read_bytes()
     assert main(["new", "arm", "--into", str(scout), "--reach", "2.4"]) == 2
-    said = capsys.readouterr().err
-    assert "`base_link` has no room next to `arm_foot`" in said
-    assert "or a place with --xyz" in said
+    reported = capsys.readouterr().err
+    assert "`base_link` has no room next to `arm_foot`" in reported
+    assert "or a place with --xyz" in reported
     assert (scout / "urdf/scout.urdf.xacro").read_bytes() == before
 
 

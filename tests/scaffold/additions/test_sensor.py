@@ -210,12 +210,12 @@ def test_diff_changes_nothing(place, capsys):
     before = everything(place)
     capsys.readouterr()
     assert new("lidar", folder, "--diff") == 0
-    said = capsys.readouterr().out
-    assert '+  <xacro:include filename="lidar_sensor.xacro"/>' in said
+    reported = capsys.readouterr().out
+    assert '+  <xacro:include filename="lidar_sensor.xacro"/>' in reported
     assert everything(place) == before
 
 
-def test_the_bridge_is_told(place):
+def test_the_bridge_is_reported(place):
     folder = robot(place, "jazzy")
     assert new("camera", folder, "--name", "eye") == 0
     topics = [
@@ -291,9 +291,9 @@ def test_what_cannot_be_is_refused_and_nothing_changed(place, capsys, options, s
     capsys.readouterr()
     into = [] if "--into" in options else ["--into", "scout_description"]
     assert main(["new", "sensor", *options, *into]) == 2
-    said = capsys.readouterr().err
-    assert says in said
-    assert said.count("\n") == 1
+    reported = capsys.readouterr().err
+    assert says in reported
+    assert reported.count("\n") == 1
     assert everything(place) == before
 
 

@@ -1,4 +1,4 @@
-"""What is wrong with a template.toml is said with its line and the nearest right thing."""
+"""What is wrong with a template.toml is reported with its line and the nearest right thing."""
 
 import pytest
 
@@ -77,9 +77,9 @@ def test_errors_have_their_line(tmp_path, old, new, message):
     assert GOOD.count(old) == 1
     with pytest.raises(ResourceError) as caught:
         read(tmp_path, GOOD.replace(old, new))
-    said = str(caught.value)
-    assert said.startswith(f"{tmp_path}/template.toml:{message.removeprefix(':')}")
-    assert "\n" not in said
+    reported = str(caught.value)
+    assert reported.startswith(f"{tmp_path}/template.toml:{message.removeprefix(':')}")
+    assert "\n" not in reported
 
 
 @pytest.mark.parametrize(

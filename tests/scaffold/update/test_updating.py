@@ -67,11 +67,11 @@ def test_files_come_and_go(template, place):
     assert not (place / "box/COLOUR").exists()
 
 
-def test_what_was_edited_stays_and_is_told(template, place):
+def test_what_was_edited_stays_and_is_reported(template, place):
     path = place / "box/src/box.txt"
     path.write_text("mine\n")
     assert changed(template, place, colour="blue")["box/more.txt"] == "replace"
-    assert "box/src/box.txt" not in changed(template, place, colour="red")  # the template says what it said
+    assert "box/src/box.txt" not in changed(template, place, colour="red")  # the template states what it said
     assert changed(template, place, size="3")["box/src/box.txt"] == "new_version"
     assert path.read_text() == "mine\n"
     assert path.with_name("box.txt.new").read_text().startswith("box is 3 m")

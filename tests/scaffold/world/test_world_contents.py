@@ -34,9 +34,9 @@ def new(name, *options):
 
 def refusal(capsys, *options):
     assert new("lab", *options) == 2
-    said = capsys.readouterr().err
-    assert said.count("\n") == 1
-    return said
+    reported = capsys.readouterr().err
+    assert reported.count("\n") == 1
+    return reported
 
 
 def free_space(path, radius, cell=0.1):

@@ -57,11 +57,11 @@ def test_what_is_no_mesh_of_the_robot_is_refused(download, capsys, mesh, says):
     (download / "pointer.stl").write_text("version https://git-lfs.github.com/spec/v1\n")
     (download / "arm.urdf").write_text(urdf(mesh.replace("@", str(home))))
     assert main(["import", "arm.urdf", "--into", "src"]) == 2
-    said = capsys.readouterr()
-    assert said.err.startswith("urdfkit: arm.urdf:3: the mesh `")
-    assert said.err.endswith("; nothing was written\n")
-    assert says in said.err
-    assert said.err.count("\n") == 1
+    reported = capsys.readouterr()
+    assert reported.err.startswith("urdfkit: arm.urdf:3: the mesh `")
+    assert reported.err.endswith("; nothing was written\n")
+    assert says in reported.err
+    assert reported.err.count("\n") == 1
     assert not (download / "src").exists()
 
 
@@ -91,8 +91,8 @@ def test_what_a_mesh_names_is_held_to_the_same(download, capsys):
     (download / "a.mtl").write_text("newmtl m\nmap_Kd tex/a.png\nmap_Ks tex/b.png\n")
     (download / "arm.urdf").write_text(urdf("a.obj"))
     assert main(["import", "arm.urdf", "--into", "src"]) == 0
-    said = capsys.readouterr().out
-    assert f"not copied: {private / 'hostname'}: outside the folders of the robot" in said
+    reported = capsys.readouterr().out
+    assert f"not copied: {private / 'hostname'}: outside the folders of the robot" in reported
     meshes = download / "src/arm_description/meshes"
     assert sorted(path.name for path in meshes.rglob("*") if path.is_file()) == ["a.mtl", "a.obj", "b.png"]
 
@@ -102,7 +102,7 @@ def test_what_a_mesh_names_is_held_to_the_same(download, capsys):
     [
         ("a.STL", STL),
         ("a.stl", b"solid x\nfacet normal 0 0 1\n"),
-        ("a.stl", STL[:-10]),  # cut off: what lint says
+        ("a.stl", STL[:-10]),  # cut off: what lint states
         ("a.dae", b'<?xml version="1.0"?>\n<COLLADA xmlns="x">'),
         ("a.dae", '<?xml version="1.0" encoding="utf-16"?><COLLADA>'.encode("utf-16")),
         ("a.obj", b"# by hand\n" * 5000 + b"v 0 0 1\n"),

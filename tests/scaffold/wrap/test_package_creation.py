@@ -65,7 +65,7 @@ def stl(size=0.05):
 
 @pytest.fixture
 def export(tmp_path, monkeypatch):
-    """A folder as CAD programs write it: urdf, meshes beside it, no package of that name to be found."""
+    """A folder as CAD programs write it: urdf, meshes next to it, no package of that name to be found."""
     folder = tmp_path / "export"
     for sub in ("urdf", "meshes/fine", "other"):
         (folder / sub).mkdir(parents=True)
@@ -89,9 +89,9 @@ def test_it_becomes_packages(export, capsys, ros):
     packages = ["my_arm_bringup", "my_arm_description", "my_arm_gazebo"]
     beside = [".devcontainer", ".github", ".gitignore", ".pre-commit-config.yaml", "LICENSE", "README.md", "pytest.ini"]
     assert sorted(path.name for path in src.iterdir()) == sorted([*beside, *packages])
-    said = capsys.readouterr().out
-    assert f"next to them: {', '.join(beside)}" in said
-    assert "2 meshes copied" in said
+    reported = capsys.readouterr().out
+    assert f"next to them: {', '.join(beside)}" in reported
+    assert "2 meshes copied" in reported
     package = src / "my_arm_description"
     assert (package / "meshes/base_link.STL").read_bytes() == stl()
     assert (package / "meshes/fine/link1.stl").is_file()
@@ -114,13 +114,13 @@ def test_it_becomes_packages(export, capsys, ros):
     simulator.run(0.05)
 
 
-def test_what_is_mended_and_left_is_told(export, capsys):
+def test_what_is_mended_and_left_is_reported(export, capsys):
     file = export / "urdf/arm.urdf"
     file.write_text(file.read_text().replace('<axis xyz="0 0 1" />', '<axis xyz="0 0 2" />'))
     code = main(["import", "export/urdf/arm.urdf"])
-    said = capsys.readouterr()
-    assert (code, said.err) == (0, "")
-    assert "fixed: " in said.out
+    reported = capsys.readouterr()
+    assert (code, reported.err) == (0, "")
+    assert "fixed: " in reported.out
 
 
 @pytest.mark.parametrize(
@@ -166,8 +166,8 @@ def test_names_that_not_every_tool_takes(export, capsys, encoding):
     file = export / "urdf/arm.urdf"
     file.write_bytes(text.replace("utf-8", encoding.removesuffix("-sig")).encode(encoding))
     assert main(["import", "export/urdf/arm.urdf", "--ros", "noetic"]) == 0
-    said = "`My Arm.SLDASM` → `my_arm`, `base link` → `base_link`, `Grün Arm` → `Grun_Arm`, `Joint 1` → `Joint_1`"
-    assert f"\nrenamed: {said}\n" in capsys.readouterr().out
+    reported = "`My Arm.SLDASM` → `my_arm`, `base link` → `base_link`, `Grün Arm` → `Grun_Arm`, `Joint 1` → `Joint_1`"
+    assert f"\nrenamed: {reported}\n" in capsys.readouterr().out
     package = export.parent / "my_arm_description"
     robot = load(package / "urdf/my_arm.urdf.xacro", package_path=[export.parent])
     assert (robot.name, [link.name for link in robot.links]) == ("my_arm", ["base_link", "Grun_Arm"])
@@ -202,8 +202,8 @@ def test_what_a_mesh_needs_comes_along(export):
 def test_a_missing_mesh_is_refused(export, capsys):
     (export / "meshes/fine/link1.stl").unlink()
     assert main(["import", "export/urdf/arm.urdf", "--into", "src"]) == 2
-    said = capsys.readouterr().err
-    assert "no file for `../meshes/fine/link1.stl`; nothing was written" in said
+    reported = capsys.readouterr().err
+    assert "no file for `../meshes/fine/link1.stl`; nothing was written" in reported
     assert not (export.parent / "src").exists()
     (export.parent / "elsewhere").mkdir()
     (export.parent / "elsewhere/link1.stl").write_bytes(stl())
@@ -232,9 +232,9 @@ def test_what_cannot_be_is_refused_and_nothing_written(export, capsys, words, sa
     (export / "urdf/room.sdf").write_text("<sdf/>")
     before = everything(export.parent)
     assert main(["import", *words]) == 2
-    said = capsys.readouterr().err
-    assert says in said
-    assert said.count("\n") == 1
+    reported = capsys.readouterr().err
+    assert says in reported
+    assert reported.count("\n") == 1
     assert everything(export.parent) == before
 
 
@@ -363,8 +363,8 @@ def test_names_that_a_uri_would_have_to_escape(export, ros):
     Simulator(robot, note=lambda _: None).run(0.01)
 
 
-def test_what_its_own_test_will_say_is_told(export, capsys):
+def test_what_its_own_test_will_say_is_reported(export, capsys):
     assert main(["import", "export/urdf/arm.urdf", "--into", "src"]) == 0
-    said = capsys.readouterr().out
-    assert "remaining: 1 × I507" in said
-    assert "the package's lint test fails until these findings are fixed" in said
+    reported = capsys.readouterr().out
+    assert "remaining: 1 × I507" in reported
+    assert "the package's lint test fails until these findings are fixed" in reported

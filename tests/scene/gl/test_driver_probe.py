@@ -22,7 +22,7 @@ from urdfkit.scene.renderer import check, renderer_of
 
 
 @pytest.mark.parametrize(
-    ("program", "said"),
+    ("program", "reported"),
     [
         ("import os, signal; os.kill(os.getpid(), signal.SIGSEGV)", "the driver crashed (signal 11)"),
         ("import time; time.sleep(60)", "the driver did not draw a triangle in 0.5 s"),
@@ -31,13 +31,13 @@ from urdfkit.scene.renderer import check, renderer_of
         ("print('[1]')", "the driver test printed no result (exit status 0)"),
     ],
 )
-def test_a_broken_driver_takes_only_its_own_process_down(program: str, said: str) -> None:
+def test_a_broken_driver_takes_only_its_own_process_down(program: str, reported: str) -> None:
     assert run_probe([sys.executable, "-c", program], seconds=0.5 if "sleep" in program else 30.0) == Found(
-        False, "", said
+        False, "", reported
     )
 
 
-def test_what_works_is_told_with_its_name() -> None:
+def test_what_works_is_reported_with_its_name() -> None:
     line = '{"works": true, "backend": "egl", "name": "a card"}'
     assert run_probe([sys.executable, "-c", f"print('chatter'); print('{line}')"]) == Found(True, "egl", "a card")
 
@@ -114,11 +114,11 @@ MISSING = Found(False, "", "moderngl is not installed: pip install 'urdfkit[gl]'
     ],
 )
 def test_rays_take_pictures_where_opengl_does_not(found: Found, notes: list[str]) -> None:
-    said: list[str] = []
-    chosen = renderer_of(table_of(*zoo()), lit(), "auto", said.append, lambda: found)
+    reported: list[str] = []
+    chosen = renderer_of(table_of(*zoo()), lit(), "auto", reported.append, lambda: found)
     assert isinstance(chosen, RayRenderer)
-    assert len(said) == len(notes)
-    assert all(line.startswith(note) for line, note in zip(said, notes, strict=True))
+    assert len(reported) == len(notes)
+    assert all(line.startswith(note) for line, note in zip(reported, notes, strict=True))
 
 
 SUN = Light("sun", "directional", cast_shadows=True)
@@ -134,10 +134,10 @@ SUN = Light("sun", "directional", cast_shadows=True)
     ],
 )
 def test_the_quicker_one_takes_pictures(renderer: str, name: str, lights, rays: bool) -> None:
-    said: list[str] = []
+    reported: list[str] = []
     nowhere = Found(True, "no such backend", name)  # whoever asks for a context is told so, and then casts rays
-    renderer_of(table_of(*zoo()), lit(*lights), renderer, said.append, lambda: nowhere)
-    assert (not said) == rays
+    renderer_of(table_of(*zoo()), lit(*lights), renderer, reported.append, lambda: nowhere)
+    assert (not reported) == rays
 
 
 @pytest.mark.parametrize(

@@ -1,4 +1,4 @@
-"""OpenGL's pictures beside those of rays: the same scene, the same colours, depths and shapes."""
+"""OpenGL's pictures next to those of rays: the same scene, the same colours, depths and shapes."""
 
 from __future__ import annotations
 

@@ -191,7 +191,7 @@ def test_scenes_are_listed(capsys: Capture) -> None:
 
 
 @pytest.mark.parametrize(
-    ("arguments", "said"),
+    ("arguments", "reported"),
     [
         (["--scene", "diff-drvie"], "unknown scene `diff-drvie`; did you mean `diff-drive`?"),
         (["--scene", "Memory"], "unknown scene `Memory`; did you mean `memory`?"),
@@ -199,12 +199,14 @@ def test_scenes_are_listed(capsys: Capture) -> None:
         (["--seconds", "-1"], "`-1` must be greater than zero"),
     ],
 )
-def test_mistakes_are_reported_with_the_nearest_right_name(capsys: Capture, arguments: list[str], said: str) -> None:
+def test_mistakes_are_reported_with_the_nearest_right_name(
+    capsys: Capture, arguments: list[str], reported: str
+) -> None:
     with pytest.raises(SystemExit, match="2"):
         main(arguments)
     out, err = capsys.readouterr()
     assert out == ""
-    assert said in err.splitlines()[-1]
+    assert reported in err.splitlines()[-1]
 
 
 def test_every_figure_has_its_target_and_its_answer_beside_it() -> None:

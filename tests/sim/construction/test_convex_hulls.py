@@ -1,4 +1,4 @@
-"""Hulls of ellipsoids and cones stay as near to the true shapes as is said."""
+"""Hulls of ellipsoids and cones stay as near to the true shapes as is reported."""
 
 from __future__ import annotations
 

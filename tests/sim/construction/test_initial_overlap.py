@@ -38,7 +38,7 @@ def test_below_the_ground() -> None:
     assert " starts 50 mm inside `ground_plane`" in note
 
 
-def test_nothing_is_said_of_a_robot_that_stands_or_touches(world: Path) -> None:
+def test_nothing_is_reported_of_a_robot_that_stands_or_touches(world: Path) -> None:
     assert deep(world, Spawn(x=0.0)) == []
     assert deep("empty", Spawn(z=-0.001)) == []
 

@@ -22,15 +22,17 @@ def written(folder: Path, collisions: str) -> Path:
     return folder / "r.urdf"
 
 
-@pytest.mark.parametrize(("mesh", "said"), [("gone.stl", "no file gone.stl"), ("broken.stl", "is truncated")])
-def test_the_shape_is_left_out_by_name_and_the_rest_stands_on_the_ground(tmp_path: Path, mesh: str, said: str) -> None:
+@pytest.mark.parametrize(("mesh", "reported"), [("gone.stl", "no file gone.stl"), ("broken.stl", "is truncated")])
+def test_the_shape_is_left_out_by_name_and_the_rest_stands_on_the_ground(
+    tmp_path: Path, mesh: str, reported: str
+) -> None:
     file = written(tmp_path, BOX + MESH.format(mesh))
     notes: list[str] = []
     simulator = Simulator(file, note=notes.append)
     simulator.run(0.3)
     assert simulator.state.base_pose[2] == pytest.approx(0.0, abs=1e-6)
     (note,) = [each for each in notes if mesh in each]
-    assert said in note
+    assert reported in note
     assert note.startswith(f"{file}:1:")
     assert note.endswith("shape `base/collision/hull` is left out: it has no contacts")
 
@@ -98,8 +100,8 @@ SDF_BOX = collision("box", "<box><size>1 1 1</size></box>")
 
 
 @pytest.mark.parametrize("static", [True, False])
-@pytest.mark.parametrize(("mesh", "said"), [("gone.stl", "no file gone.stl"), ("broken.stl", "is truncated")])
-def test_so_is_one_of_a_worlds_models(tmp_path: Path, mesh: str, said: str, static: bool) -> None:
+@pytest.mark.parametrize(("mesh", "reported"), [("gone.stl", "no file gone.stl"), ("broken.stl", "is truncated")])
+def test_so_is_one_of_a_worlds_models(tmp_path: Path, mesh: str, reported: str, static: bool) -> None:
     robot = written(tmp_path, BOX)
     world = world_with(tmp_path, collision("hull", sdf_mesh(mesh)) + SDF_BOX, static=static)
     notes: list[str] = []
@@ -107,7 +109,7 @@ def test_so_is_one_of_a_worlds_models(tmp_path: Path, mesh: str, said: str, stat
     simulator.run(0.1)
     (note,) = [each for each in notes if mesh in each]
     assert note.startswith(f"{world}:1:")
-    assert said in note
+    assert reported in note
     assert note.endswith("collision `hull` is left out: it has no contacts")
 
 
@@ -132,7 +134,7 @@ def test_a_broken_visual_of_a_world_is_not_seen_and_the_rest_is(tmp_path: Path) 
     assert "visual `coat` is invisible: mesh broken.stl is truncated" in note
 
 
-def test_a_misspelt_material_of_a_world_is_told_with_the_nearest(tmp_path: Path) -> None:
+def test_a_misspelt_material_of_a_world_is_reported_with_the_nearest(tmp_path: Path) -> None:
     paint = "<material><script><name>Gazebo/{0}</name></script></material>"
     visual = '<visual name="{0}"><geometry><sphere><radius>1</radius></sphere></geometry>' + paint + "</visual>"
     world = world_with(tmp_path, SDF_BOX + visual.format("Oragne") + visual.format("Red"), static=True)

@@ -98,7 +98,7 @@ def test_numbers_and_vectors_are_what_they_were() -> None:
     assert vector([1, 2, 3], 3, "it", "m") == (1.0, 2.0, 3.0)
 
 
-def test_a_limit_is_told_with_its_unit() -> None:
+def test_a_limit_is_reported_with_its_unit() -> None:
     arm = Simulator("seven_dof_arm", note=lambda text: None)
     with pytest.raises(SimulationError, match=r"cannot go to 9 rad: its limits are -?[\d.]+ … [\d.]+ rad"):
         arm.motors.hold("elbow_pitch_joint", 9.0)

@@ -218,7 +218,7 @@ def test_gzs_services_are_topics() -> None:
     assert "ball_1" not in simulator.world.bodies
 
 
-def test_what_is_not_there_is_said_with_what_is_near() -> None:
+def test_what_is_not_there_is_reported_with_what_is_near() -> None:
     simulator = Simulator("simpleton")
     with pytest.raises(ResourceError, match="no model or robot `coke_cn`; did you mean `coke_can`"):
         simulator.world.spawn("coke_cn")

@@ -63,7 +63,7 @@ def test_an_order_that_is_refused_says_why(server: Server) -> None:
         talk(server.url, lambda client: client.request("gret", text="x" * 70_000))
 
 
-def test_who_is_no_server_or_has_another_key_is_said(server: Server) -> None:
+def test_who_is_no_server_or_has_another_key_is_reported(server: Server) -> None:
     wrong = server.url[:-4] + "nope"
     with pytest.raises(ResourceError, match="wrong token"):
         talk(wrong, lambda client: client.text())

@@ -191,7 +191,7 @@ def test_a_frame_that_is_none_closes_the_line_with_a_word(page, until, caplog) -
 def test_a_page_that_says_goodbye_is_no_refusal(page, server, until, caplog, status: int) -> None:
     until(lambda: server.hub.watchers)
     code = b"" if status == 1005 else status.to_bytes(2, "big")
-    page.sock.sendall(bytes((0x88, 0x80 | len(code))) + bytes(4) + code)  # a tab that is closed says 1001 or nothing
+    page.sock.sendall(bytes((0x88, 0x80 | len(code))) + bytes(4) + code)  # a tab that is closed states 1001 or nothing
     read_to_the_end(page)
     until(lambda: not server.hub.watchers)
     assert "rejected" not in caplog.text

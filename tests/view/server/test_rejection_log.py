@@ -1,7 +1,7 @@
 from urdfkit.view.server.rejection_log import AGAIN, MINUTE, MOST, RejectionLog
 
 
-def test_the_same_refusal_is_said_once_in_a_while(caplog) -> None:
+def test_the_same_refusal_is_reported_once_in_a_while(caplog) -> None:
     now = [0.0]
     rejections = RejectionLog(lambda: now[0])
     for _ in range(5):

@@ -435,7 +435,7 @@ def test_state_scales_shapes(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    ("text", "said"),
+    ("text", "reported"),
     [
         ("<lihgt/>", "unknown element <lihgt> in <world> is ignored; did you mean <light>?"),
         (
@@ -454,9 +454,9 @@ def test_state_scales_shapes(tmp_path: Path) -> None:
         ('<population name="p"/>', "populations are not simulated"),
     ],
 )
-def test_notes(tmp_path: Path, text: str, said: str) -> None:
+def test_notes(tmp_path: Path, text: str, reported: str) -> None:
     (note,) = world_of(tmp_path, text).notes
-    assert said in note
+    assert reported in note
     assert note.startswith(f"{tmp_path}/test.world:3:")
 
 
@@ -476,7 +476,7 @@ def test_a_newer_version_is_noted(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    ("text", "said"),
+    ("text", "reported"),
     [
         ("<gravity>0 0</gravity>", "<gravity> is `0 0`; it must be 3 finite numbers"),
         ("<gravity>0 0 nan</gravity>", "<gravity> is `0 0 nan`"),
@@ -546,16 +546,16 @@ def test_a_newer_version_is_noted(tmp_path: Path) -> None:
         ),
     ],
 )
-def test_what_is_refused_is_named_with_its_place(tmp_path: Path, text: str, said: str) -> None:
+def test_what_is_refused_is_named_with_its_place(tmp_path: Path, text: str, reported: str) -> None:
     with pytest.raises(UrdfkitError) as caught:
         world_of(tmp_path, text)
-    assert said in str(caught.value)
+    assert reported in str(caught.value)
     assert "\n" not in str(caught.value)
     assert str(caught.value).startswith((f"{tmp_path}/test.world:3:", f"{tmp_path}/test.world:4:"))
 
 
 @pytest.mark.parametrize(
-    ("text", "said"),
+    ("text", "reported"),
     [
         ("<heightmap><uri>a.png</uri></heightmap>", "<heightmap> cannot be simulated; model the ground as boxes"),
         ("<polyline/>", "<polyline> cannot be simulated; extrude it"),
@@ -568,10 +568,10 @@ def test_what_is_refused_is_named_with_its_place(tmp_path: Path, text: str, said
         ("<bxo/>", "unknown geometry <bxo>; did you mean `box`?"),
     ],
 )
-def test_shapes_that_are_refused(tmp_path: Path, text: str, said: str) -> None:
+def test_shapes_that_are_refused(tmp_path: Path, text: str, reported: str) -> None:
     with pytest.raises(UrdfkitError) as caught:
         geometry_of(tmp_path, text)
-    assert said in str(caught.value)
+    assert reported in str(caught.value)
     assert str(caught.value).startswith(f"{tmp_path}/test.world:4:")
 
 
@@ -603,22 +603,22 @@ def test_files_that_include_each_other(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    ("text", "said"),
+    ("text", "reported"),
     [
         ("<sdf><world", r"bad\.sdf:1:"),
         ('<!DOCTYPE sdf [<!ENTITY a "b">]><sdf version="1.6"/>', "declares the entity `a`"),
         ('<!DOCTYPE sdf SYSTEM "/etc/passwd"><sdf version="1.6"/>', "external entities are refused"),
     ],
 )
-def test_hostile_and_broken_files(tmp_path: Path, text: str, said: str) -> None:
+def test_hostile_and_broken_files(tmp_path: Path, text: str, reported: str) -> None:
     path = tmp_path / "bad.sdf"
     path.write_text(text)
-    with pytest.raises(XmlError, match=said):
+    with pytest.raises(XmlError, match=reported):
         load_world(path)
 
 
 @pytest.mark.parametrize(
-    ("text", "said"),
+    ("text", "reported"),
     [
         ("<robot/>", "an SDF world starts with <sdf>"),
         ('<sdf version="1.6"/>', "an SDF world starts with <sdf>"),
@@ -627,10 +627,10 @@ def test_hostile_and_broken_files(tmp_path: Path, text: str, said: str) -> None:
         ('<sdf version="new"><world name="w"/></sdf>', "version `new` is not a version of SDF"),
     ],
 )
-def test_wrong_files(tmp_path: Path, text: str, said: str) -> None:
+def test_wrong_files(tmp_path: Path, text: str, reported: str) -> None:
     path = tmp_path / "bad.sdf"
     path.write_text(text)
-    with pytest.raises(DescriptionError, match=said):
+    with pytest.raises(DescriptionError, match=reported):
         load_world(path)
 
 
@@ -690,7 +690,7 @@ def test_two_buildings_and_ten_objects() -> None:
 
 
 @pytest.mark.parametrize(
-    ("name", "text", "said"),
+    ("name", "text", "reported"),
     [
         ("house.world", None, "No such file or directory; did you mean the bundled world `house`?"),
         ("cart.urdf", "<robot/>", "is a robot, not a world; pass it as ROBOT"),
@@ -704,7 +704,7 @@ def test_two_buildings_and_ten_objects() -> None:
         ),
     ],
 )
-def test_what_newcomers_take_for_a_world(tmp_path: Path, name: str, text: str | None, said: str) -> None:
+def test_what_newcomers_take_for_a_world(tmp_path: Path, name: str, text: str | None, reported: str) -> None:
     path = tmp_path / name
     if text is not None:
         shape = f'<collision name="c"><geometry>{text}</geometry></collision>'
@@ -712,7 +712,7 @@ def test_what_newcomers_take_for_a_world(tmp_path: Path, name: str, text: str | 
         path.write_text(text if text == "<robot/>" else model)
     with pytest.raises(UrdfkitError) as caught:
         load_world(path)
-    assert said in str(caught.value)
+    assert reported in str(caught.value)
     assert "\n" not in str(caught.value)
 
 

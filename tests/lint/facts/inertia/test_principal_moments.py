@@ -1,4 +1,4 @@
-"""Principal moments in plain Python, beside numpy."""
+"""Principal moments in plain Python, next to numpy."""
 
 from __future__ import annotations
 

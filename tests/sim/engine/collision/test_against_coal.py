@@ -1,4 +1,4 @@
-"""Distances, depths and normals of thousands of random places, beside coal's and in closed form."""
+"""Distances, depths and normals of thousands of random places, next to coal's and in closed form."""
 
 from __future__ import annotations
 

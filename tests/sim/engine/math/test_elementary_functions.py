@@ -1,4 +1,4 @@
-"""Sine, cosine and the exponential beside numpy's in extended precision."""
+"""Sine, cosine and the exponential next to numpy's in extended precision."""
 
 from __future__ import annotations
 

@@ -221,7 +221,7 @@ def test_by_default_it_publishes_nothing(make: Make) -> None:
 
 
 @pytest.mark.parametrize(
-    ("extra", "replaced", "said"),
+    ("extra", "replaced", "reported"),
     [
         ("<rear_left_joint>rear_lft_joint</rear_left_joint>", ("", ""), "no joint `rear_lft_joint` in robot `car`; d"),
         ("<max_steer>0</max_steer>", ("", ""), "<max_steer> is `0`; it must be a number greater than zero"),
@@ -235,11 +235,11 @@ def test_by_default_it_publishes_nothing(make: Make) -> None:
     ],
 )
 def test_wrong_parameters_are_named_with_their_place(
-    make: Make, extra: str, replaced: tuple[str, str], said: str
+    make: Make, extra: str, replaced: tuple[str, str], reported: str
 ) -> None:
     with pytest.raises(SimulationError) as caught:
         make(extra + GAINS, replaced=replaced, strict=True)
-    assert said in str(caught.value)
+    assert reported in str(caught.value)
     assert "car.urdf:" in str(caught.value)
 
 
@@ -359,17 +359,17 @@ def test_topics_of_gz_sim(make: Make, parameters: str, topic: str) -> None:
 
 
 @pytest.mark.parametrize(
-    ("parameters", "said"),
+    ("parameters", "reported"),
     [
         (JOINTS.partition("<left_steering")[0], "no <left_steering_joint>; this drive needs at least one"),
         (JOINTS + "<wheel_base>0</wheel_base>", "<wheel_base> is `0`; it must be a number greater than zero"),
         (JOINTS + "<use_actuator_msg>true</use_actuator_msg>", "steering by actuator messages is not simulated"),
     ],
 )
-def test_wrong_parameters_of_gz_sim(make: Make, parameters: str, said: str) -> None:
+def test_wrong_parameters_of_gz_sim(make: Make, parameters: str, reported: str) -> None:
     with pytest.raises(SimulationError) as caught:
         make(parameters, SYSTEM, strict=True)
-    assert said in str(caught.value)
+    assert reported in str(caught.value)
     assert "car.urdf:" in str(caught.value)
 
 

@@ -345,7 +345,7 @@ def test_ros_2_never_swapped_sides(make: Make) -> None:
     assert simulator.state.velocity("right_joint") == pytest.approx(1.5)
 
 
-def test_models_that_rely_on_legacy_mode_are_told(make: Make, write_rover: Callable[..., Path]) -> None:
+def test_models_that_rely_on_legacy_mode_are_reported(make: Make, write_rover: Callable[..., Path]) -> None:
     def notes(path: Path, distro: str | None) -> list[str]:
         found: list[str] = []
         Simulator(path, ros_distro=distro, note=found.append)

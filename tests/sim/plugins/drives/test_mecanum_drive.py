@@ -118,7 +118,7 @@ def test_commands_hold_and_are_forgotten_by_a_reset(make: Make) -> None:
 
 
 @pytest.mark.parametrize(
-    ("plugins", "said"),
+    ("plugins", "reported"),
     [
         (MECANUM.format("<front_left_joint>front_left_joint</front_left_joint>"), "no <front_right_joint>; this drive"),
         (drive("<back_left_joint>back_lft_joint</back_left_joint>"), "no joint `back_lft_joint` in robot `platform`"),
@@ -127,10 +127,10 @@ def test_commands_hold_and_are_forgotten_by_a_reset(make: Make) -> None:
         (PUBLISHER.format("<xyz_offset>1</xyz_offset>"), "<xyz_offset> is `1`; it must be 3 finite numbers"),
     ],
 )
-def test_wrong_parameters_are_named_with_their_place(make: Make, plugins: str, said: str) -> None:
+def test_wrong_parameters_are_named_with_their_place(make: Make, plugins: str, reported: str) -> None:
     with pytest.raises(SimulationError) as caught:
         make(plugins, strict=True)
-    assert said in str(caught.value)
+    assert reported in str(caught.value)
     assert "platform.urdf:" in str(caught.value)
 
 

@@ -273,7 +273,7 @@ def test_commands_that_are_not_finite_are_dropped(make: Make, generation: str) -
 
 
 @pytest.mark.parametrize(
-    ("generation", "wrong", "said"),
+    ("generation", "wrong", "reported"),
     [
         ("ros1", "<odometryRate>often</odometryRate>", "<odometryRate> is `often`; it must be a finite number"),
         ("ros2", "<publish_odom>maybe</publish_odom>", "<publish_odom> is `maybe`; it must be true or false"),
@@ -281,10 +281,10 @@ def test_commands_that_are_not_finite_are_dropped(make: Make, generation: str) -
         ("gz", "<initial_angular>a b c</initial_angular>", "<initial_angular> is `a b c`; it must be 3 finite"),
     ],
 )
-def test_wrong_parameters_are_named_with_their_place(make: Make, generation: str, wrong: str, said: str) -> None:
+def test_wrong_parameters_are_named_with_their_place(make: Make, generation: str, wrong: str, reported: str) -> None:
     with pytest.raises(SimulationError) as caught:
         make(generation, wrong, strict=True)
-    assert said in str(caught.value)
+    assert reported in str(caught.value)
     assert "sled.urdf:8:1: " in str(caught.value)
 
 

@@ -1,4 +1,4 @@
-"""The skid steer drive, and that robots skid as Coulomb friction says."""
+"""The skid steer drive, and that robots skid as Coulomb friction states."""
 
 from __future__ import annotations
 
@@ -199,15 +199,15 @@ def test_sides_were_never_swapped(make: Make) -> None:
 
 
 @pytest.mark.parametrize(
-    ("extra", "said"),
+    ("extra", "reported"),
     [
         ("<leftRearJoint>left_rare_joint</leftRearJoint>", "no joint `left_rare_joint` in robot `quad`; did you mean"),
         ("<wheelDiameter>0</wheelDiameter>", "<wheelDiameter> is `0`; it must be a number greater than zero"),
         ("<wheelSeparation>-1</wheelSeparation>", "<wheelSeparation> is `-1`; it must be a number greater than zero"),
     ],
 )
-def test_wrong_parameters_are_named_with_their_place(make: Make, extra: str, said: str) -> None:
+def test_wrong_parameters_are_named_with_their_place(make: Make, extra: str, reported: str) -> None:
     with pytest.raises(SimulationError) as caught:
         make(extra, strict=True)
-    assert said in str(caught.value)
+    assert reported in str(caught.value)
     assert "quad.urdf:" in str(caught.value)

@@ -222,7 +222,7 @@ def test_the_default_torque_of_ros_2_is_small(make: Make) -> None:
 
 
 @pytest.mark.parametrize(
-    ("extra", "said"),
+    ("extra", "reported"),
     [
         ("<steeringJoint>front_steer_joint</steeringJoint>", "no joint `front_steer_joint` in robot `trike`; did you"),
         ("<encoderWheelSeparation>0</encoderWheelSeparation>", "<encoderWheelSeparation> is `0`; it must be a number"),
@@ -231,10 +231,10 @@ def test_the_default_torque_of_ros_2_is_small(make: Make) -> None:
         ("<odometrySource>gps</odometrySource>", "<odometrySource> is `gps`; it must be `encoder` or `world`"),
     ],
 )
-def test_wrong_parameters_are_named_with_their_place(make: Make, extra: str, said: str) -> None:
+def test_wrong_parameters_are_named_with_their_place(make: Make, extra: str, reported: str) -> None:
     with pytest.raises(SimulationError) as caught:
         make("ros1", extra, strict=True)
-    assert said in str(caught.value)
+    assert reported in str(caught.value)
     assert "trike.urdf:" in str(caught.value)
 
 

@@ -161,7 +161,7 @@ def test_p3d_tells_poses_as_another_link_sees_them(brick) -> None:
 
 
 @pytest.mark.parametrize(
-    ("plugin", "said"),
+    ("plugin", "reported"),
     [
         ("<bodyName>cornr</bodyName><topicName>t</topicName>", "`cornr`, which is not a link; did you mean `corner`?"),
         ("<bodyName>base</bodyName>", "gazebo_ros_p3d lacks its <topicName>"),
@@ -171,11 +171,11 @@ def test_p3d_tells_poses_as_another_link_sees_them(brick) -> None:
         ),
     ],
 )
-def test_a_pose_that_cannot_be_told_is_left_out_by_name(tmp_path: Path, brick, plugin: str, said: str) -> None:
+def test_a_pose_that_cannot_be_told_is_left_out_by_name(tmp_path: Path, brick, plugin: str, reported: str) -> None:
     notes: list[str] = []
     written = f'<plugin name="p" filename="libgazebo_ros_p3d.so">{plugin}</plugin>'
     robot = brick("", more=written).robot
     Simulator(robot, world="void", note=notes.append)
     (note,) = [each for each in notes if "left out" in each]
-    assert contains(note, said)
+    assert contains(note, reported)
     assert "; sensor `p` is left out" in note

@@ -21,7 +21,7 @@ BLOCK = '<gazebo reference="eye">{}</gazebo>'
 
 @pytest.fixture
 def robot(tmp_path: Path) -> Callable[[str], Path]:
-    """Return what writes a robot with gazebo blocks, and a good laser beside them."""
+    """Return what writes a robot with gazebo blocks, and a good laser next to them."""
 
     def write(blocks: str) -> Path:
         file = tmp_path / "post.urdf"
@@ -105,12 +105,12 @@ WRONG = [
 ]
 
 
-@pytest.mark.parametrize(("blocks", "said"), WRONG)
-def test_a_line_says_what_is_wrong_and_where_and_the_rest_runs(robot, blocks: str, said: str) -> None:
+@pytest.mark.parametrize(("blocks", "reported"), WRONG)
+def test_a_line_says_what_is_wrong_and_where_and_the_rest_runs(robot, blocks: str, reported: str) -> None:
     notes: list[str] = []
     simulator = Simulator(load(robot(blocks)), world="void", note=notes.append)
     (note,) = notes
-    assert contains(note, said)
+    assert contains(note, reported)
     assert "\n" not in note
     assert re.search(r"/post\.urdf:[4-9]:\d+: ", note)  # the good one ends on line 3
     assert heard(simulator, "/scan")
@@ -124,8 +124,8 @@ def test_a_rate_of_zero_is_every_step_as_in_gazebo(robot) -> None:
 def test_the_command_says_it_in_one_line_and_goes_on(robot, capsys: Any) -> None:
     file = robot(WRONG[0][0])
     assert main(["sim", "run", str(file), "--world", "void", "--for", "0.01"]) == 0
-    said = capsys.readouterr().err.splitlines()
-    assert [line for line in said if "raay" in line] == [
+    reported = capsys.readouterr().err.splitlines()
+    assert [line for line in reported if "raay" in line] == [
         f"urdfkit: warning: {file}:4:25: unknown sensor type `raay`; sensor `lidar` is left out; did you mean `ray`?"
     ]
 
@@ -172,12 +172,12 @@ REMARKED = [
 ]
 
 
-@pytest.mark.parametrize(("blocks", "said"), REMARKED)
-def test_what_is_ignored_is_said_once_and_the_sensor_works(robot, blocks: str, said: str) -> None:
+@pytest.mark.parametrize(("blocks", "reported"), REMARKED)
+def test_what_is_ignored_is_reported_once_and_the_sensor_works(robot, blocks: str, reported: str) -> None:
     notes: list[str] = []
     simulator = Simulator(load(robot(blocks)), world="void", note=notes.append)
     (note,) = notes
-    assert contains(note, said)
+    assert contains(note, reported)
     assert "left out" not in note
     assert re.search(r"/post\.urdf:[4-9]:\d+: ", note)
     assert heard(simulator, "/scan")

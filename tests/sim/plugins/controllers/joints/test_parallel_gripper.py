@@ -32,7 +32,7 @@ grip:
 
 
 class Rig:
-    """An arm whose elbow is the gripper, and what it says."""
+    """An arm whose elbow is the gripper, and what it states."""
 
     def __init__(self, folder: Path, more: str, **options: Any) -> None:
         config = arm_package.package(folder, "arm_bringup") / "config"

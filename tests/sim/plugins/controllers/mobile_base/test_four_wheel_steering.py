@@ -1,4 +1,4 @@
-"""four_wheel_steering_controller of ROS 1: its law, its odometry beside where the robot really is, errors."""
+"""four_wheel_steering_controller of ROS 1: its law, its odometry next to where the robot really is, errors."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Steering and mecanum controllers: laws, odometry beside where the robot really is, timeouts, topics, errors."""
+"""Steering and mecanum controllers: laws, odometry next to where the robot really is, timeouts, topics, errors."""
 
 from __future__ import annotations
 

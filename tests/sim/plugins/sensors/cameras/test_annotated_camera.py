@@ -92,7 +92,7 @@ def test_boxes_go_round_what_is_seen(post) -> None:
 
 
 @pytest.mark.parametrize(
-    ("sensor", "said"),
+    ("sensor", "reported"),
     [
         (segmentation("panoptick"), "<segmentation_type> is `panoptick`; it must be semantic, "),
         (
@@ -101,11 +101,11 @@ def test_boxes_go_round_what_is_seen(post) -> None:
         ),
     ],
 )
-def test_what_is_not_made_is_left_out_by_name(post, sensor: str, said: str) -> None:
+def test_what_is_not_made_is_left_out_by_name(post, sensor: str, reported: str) -> None:
     notes: list[str] = []
     post(sensor, room=ROOM, note=notes.append)
     (note,) = [each for each in notes if "left out" in each]
-    assert said in note
+    assert reported in note
 
 
 def box(name: str, label: int, pose: str, size: str) -> str:

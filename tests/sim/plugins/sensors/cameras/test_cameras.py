@@ -56,7 +56,7 @@ def test_a_camera_of_ros_1(post) -> None:
     assert info.d.tolist() == [0.0] * 5
 
 
-def test_what_is_written_about_intrinsics_is_told(post) -> None:
+def test_what_is_written_about_intrinsics_is_reported(post) -> None:
     more = "<focalLength>50</focalLength><Cx>30</Cx><Cy>20</Cy><hackBaseline>0.07</hackBaseline>"
     more += "<distortionK1>-0.1</distortionK1>"
     (info,) = heard(post(eye(ros1(more=more)), room=ROOM), "/cam/camera_info")
@@ -246,13 +246,13 @@ def test_a_texture_that_is_not_there_is_named_once(post, tmp_path, content, why:
     (picture,) = heard(simulator, "/cam/image_raw")
     heard(simulator, "/cam/image_raw")
     (note,) = [note for note in notes if "gone.png" in note]
-    said = f"`world/walls/visual/v` is shown without its texture: `gone.png` {why}"
-    assert re.fullmatch(rf"\S+\.\w+:\d+:\d+: {re.escape(said)}", note)
+    reported = f"`world/walls/visual/v` is shown without its texture: `gone.png` {why}"
+    assert re.fullmatch(rf"\S+\.\w+:\d+:\d+: {re.escape(reported)}", note)
     assert len(np.unique(pixels(picture).reshape(-1, 3), axis=0)) == 2
 
 
 @pytest.mark.parametrize(
-    ("inside", "said"),
+    ("inside", "reported"),
     [
         (
             camera().replace("</format>", "</format><anti_aliasing>1.5</anti_aliasing>"),
@@ -266,11 +266,11 @@ def test_a_texture_that_is_not_there_is_named_once(post, tmp_path, content, why:
         ("", "a camera lacks its <camera>"),
     ],
 )
-def test_a_camera_that_makes_no_sense_is_left_out_by_name(post, inside: str, said: str) -> None:
+def test_a_camera_that_makes_no_sense_is_left_out_by_name(post, inside: str, reported: str) -> None:
     notes: list[str] = []
     simulator = post(eye(ros1(), inside=inside), room=ROOM, note=notes.append)
     (note,) = [each for each in notes if "left out" in each]
-    assert contains(note, said)
+    assert contains(note, reported)
     assert "; sensor `lidar` is left out" in note
     simulator.run(0.1)
 

@@ -1,4 +1,4 @@
-"""Organised clouds beside closed forms: every point where its ray meets a sphere or a box, edges included."""
+"""Organised clouds next to closed forms: every point where its ray meets a sphere or a box, edges included."""
 
 from __future__ import annotations
 

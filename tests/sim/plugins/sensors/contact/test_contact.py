@@ -89,7 +89,7 @@ def test_a_push_off_centre_turns_the_crate_by_what_the_torque_says(crate) -> Non
     assert state.total_wrench.torque.y == pytest.approx(-0.1 * 10.0, abs=1e-6)  # balances the push
 
 
-def test_a_short_touch_between_two_messages_is_told(crate) -> None:
+def test_a_short_touch_between_two_messages_is_reported(crate) -> None:
     simulator = crate(bumper(ROS_1.format(""), rate=2.0), spawn=Spawn(z=0.15))
     messages = heard(simulator, "/bump", 0.5)  # it falls for 0.1 s and lies from then on
     assert messages[0].states
@@ -128,7 +128,7 @@ def test_a_collision_on_the_very_place_of_another_hears_its_own_points(crate) ->
         assert sum(contact.depth >= 0.0 or any(contact.force) for contact in simulator.state.contacts) == 8
 
 
-def test_which_collision_of_a_body_was_touched_is_told(crate, tmp_path: Path) -> None:
+def test_which_collision_of_a_body_was_touched_is_reported(crate, tmp_path: Path) -> None:
     felt = (
         '<collision name="{}"><pose>{} 0 0.05 0 0 0</pose><geometry><box><size>1 1 0.1</size></box></geometry>'
         "</collision>"
@@ -187,18 +187,18 @@ def test_another_robots_bumper_hears_its_own_link_and_names_the_first_one(crate,
 
 
 @pytest.mark.parametrize(
-    ("wrong", "said"),
+    ("wrong", "reported"),
     [
         (bumper(ROS_1.format(""), "base_colision"), "no collision `base_colision`; did you mean `base_collision`?"),
         (bumper().replace("<collision>base_collision</collision>", ""), "lacks the <collision> in its <contact>"),
         (bumper(ROS_1.format(""), rate=-5), "<update_rate> is `-5`; it must be a finite number, 0 or greater"),
     ],
 )
-def test_what_makes_no_sense_is_left_out_by_name(crate, wrong: str, said: str) -> None:
+def test_what_makes_no_sense_is_left_out_by_name(crate, wrong: str, reported: str) -> None:
     notes: list[str] = []
     crate(wrong, note=notes.append)
     (note,) = [each for each in notes if "left out" in each]
-    assert contains(note, said)
+    assert contains(note, reported)
     assert "crate.urdf:1:" in note
     assert "; sensor `s` is left out" in note
 

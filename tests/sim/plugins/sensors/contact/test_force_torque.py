@@ -1,4 +1,4 @@
-"""Force and torque at a joint, beside closed forms: a load on an arm, a pendulum that swings, a load that rests."""
+"""Force and torque at a joint, next to closed forms: a load on an arm, a pendulum that swings, a load that rests."""
 
 from __future__ import annotations
 
@@ -164,7 +164,7 @@ def test_noise_is_on_all_six(arm) -> None:
 
 
 @pytest.mark.parametrize(
-    ("plugin", "sensor", "joint", "said"),
+    ("plugin", "sensor", "joint", "reported"),
     [
         (ROS_1, "", "sholder", "no joint `sholder` in robot `arm`; did you mean `shoulder`?"),
         (ROS_1.replace("<topicName>ft</topicName>", ""), "", "wrist", "gazebo_ros_ft_sensor lacks its <topicName>"),
@@ -174,9 +174,9 @@ def test_noise_is_on_all_six(arm) -> None:
         ("", GZ.format("<force_torque><frame>chidl</frame></force_torque>"), "wrist", "did you mean `child`?"),
     ],
 )
-def test_what_makes_no_sense_is_left_out_by_name(arm, plugin: str, sensor: str, joint: str, said: str) -> None:
+def test_what_makes_no_sense_is_left_out_by_name(arm, plugin: str, sensor: str, joint: str, reported: str) -> None:
     notes: list[str] = []
     arm(plugin, sensor, joint=joint, note=notes.append)
     (note,) = [each for each in notes if "left out" in each]
-    assert contains(note, said)
+    assert contains(note, reported)
     assert "arm.urdf:" in note

@@ -150,7 +150,7 @@ def test_a_reset_starts_the_count_again(post) -> None:
 
 
 @pytest.mark.parametrize(
-    ("wrong", "said"),
+    ("wrong", "reported"),
     [
         (sensor(LASER, inside=scan(0)), "<horizontal> has 0 samples; it must be one or more"),
         (sensor(LASER, inside=scan(9, 1.0, -1.0)), "<horizontal> goes from 1 to -1 rad"),
@@ -169,12 +169,12 @@ def test_a_reset_starts_the_count_again(post) -> None:
         (sensor(LASER, rate="often"), "<update_rate> is `often`"),
     ],
 )
-def test_a_sensor_that_makes_no_sense_is_left_out_by_name_and_the_rest_runs(post, wrong: str, said: str) -> None:
+def test_a_sensor_that_makes_no_sense_is_left_out_by_name_and_the_rest_runs(post, wrong: str, reported: str) -> None:
     notes: list[str] = []
     good = sensor(LASER.replace("scan<", "good<"))
     simulator = post(wrong + good, note=notes.append)
     (note,) = [each for each in notes if "left out" in each]
-    assert contains(note, said)
+    assert contains(note, reported)
     assert "post.urdf:" in note
     assert "; sensor `lidar` is left out" in note
     assert heard(simulator, "/good")

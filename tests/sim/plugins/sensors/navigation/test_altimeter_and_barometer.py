@@ -233,7 +233,7 @@ def test_hectors_sonar_is_the_nearest_of_its_rays(post) -> None:
 
 
 @pytest.mark.parametrize(
-    ("sensors", "plugins", "said"),
+    ("sensors", "plugins", "reported"),
     [
         ("", hector("gps", "<bodyName>bse</bodyName>"), "`bse`, which is not a link; did you mean `base`?"),
         ("", hector("gps", "<drift>-1</drift>"), "<drift> is `-1`; it must be 0 or greater"),
@@ -242,9 +242,9 @@ def test_hectors_sonar_is_the_nearest_of_its_rays(post) -> None:
         (bare("logical_camera", "<logical_camera><near>2</near></logical_camera>"), "", "from 2 m to 1 m sees nothing"),
     ],
 )  # fmt: skip
-def test_what_makes_no_sense_is_left_out_by_name(drone, sensors: str, plugins: str, said: str) -> None:
+def test_what_makes_no_sense_is_left_out_by_name(drone, sensors: str, plugins: str, reported: str) -> None:
     notes: list[str] = []
     drone(sensors, plugins, note=notes.append)
     (note,) = [each for each in notes if "left out" in each]
-    assert contains(note, said)
+    assert contains(note, reported)
     assert "drone.urdf:1:" in note
