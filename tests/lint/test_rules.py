@@ -59,7 +59,6 @@ def report(path: Path) -> str:
     return "".join(f"{line}\n" for line in lines).replace(f"{Path.cwd()}/", "")
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("path", files("bad"))
 def test_bad_files_are_found_out_exactly_where_marked(path):
     found = lint(path, target=target(BY_NAME[path.parent.name]))
@@ -67,7 +66,6 @@ def test_bad_files_are_found_out_exactly_where_marked(path):
     assert BY_NAME[path.parent.name].code in {finding.code for finding in found}
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("path", files("bad"))
 def test_findings_have_their_place_message_help_and_fix(path, monkeypatch):
     """After an intended change, write the expected files with ``python -m tests.lint.test_rules`` and read the diff."""
