@@ -11,6 +11,12 @@ from urdfkit.view.protocol.page_requests import Schema
 CONNECTIONS = 300
 
 
+@pytest.fixture(autouse=True)
+def no_pings(monkeypatch) -> None:
+    """Keep pages connected that read nothing and therefore answer no ping."""
+    monkeypatch.setattr("urdfkit.view.server.http_handlers.PING", 0)
+
+
 @pytest.fixture
 def driven(page, server, until):
     """The number of a page that drives."""

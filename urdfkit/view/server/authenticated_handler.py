@@ -63,10 +63,10 @@ class AuthenticatedHandler(RequestHandler):
         tokens = self.get_query_arguments("token")
         return len(tokens) == 1 and self.access.accepts_token(tokens[0])
 
-    def reject(self, reason: str) -> None:
-        """Respond with 403 and a page that explains what to do."""
+    def reject(self, reason: str, *, status: int = 403) -> None:
+        """Respond with an error and a page that explains what to do."""
         self.server.rejections.add(str(self.request.remote_ip), f"{self.request.method} {self.request.path}", reason)
-        self.set_status(403)
+        self.set_status(status)
         self.set_header("Content-Type", "text/html; charset=utf-8")
         self.finish(REJECTED.format(reason=reason))
 

@@ -16,6 +16,7 @@ from tornado.websocket import WebSocketClosedError, WebSocketHandler, WebSocketP
 from urdfkit.view.protocol import websocket_messages as protocol
 from urdfkit.view.server.authenticated_handler import AuthenticatedHandler
 from urdfkit.view.server.broadcast import CLEAR
+from urdfkit.view.server.connection_limit import limits
 from urdfkit.view.server.send_queue import Channel, Frame
 from urdfkit.view.server.server_interface import PageServer
 
@@ -31,6 +32,7 @@ class PageSocket(AuthenticatedHandler, WebSocketHandler):
     """The WebSocket of one page."""
 
     _numbers = itertools.count(1)
+    most = limits()[0]
 
     def initialize(self, server: PageServer) -> None:
         """Store the arguments of the route."""
@@ -49,6 +51,8 @@ class PageSocket(AuthenticatedHandler, WebSocketHandler):
         super().prepare()
         if not self._finished and not self.access.accepts_origin(self.request.headers.get("Origin"), self.host):
             self.reject("A WebSocket connection requires an Origin header.")
+        if not self._finished and self.server.hub.watchers >= self.most:
+            self.reject(f"{self.most} pages are open already; close one of them.", status=503)
 
     def get_websocket_protocol(self) -> WebSocketProtocol | None:
         """Return the protocol of tornado, extended by a log line when it closes a connection for an invalid frame."""

@@ -20,6 +20,7 @@ from urdfkit.view.protocol import websocket_messages as protocol
 from urdfkit.view.protocol.page_requests import Request, Schema, check
 from urdfkit.view.server.access_control import LOOPBACK_NAMES, AccessControl, is_loopback
 from urdfkit.view.server.broadcast import Hub, pack
+from urdfkit.view.server.connection_limit import REQUEST_TIMEOUT, LimitedHTTPServer
 from urdfkit.view.server.drive_lock import DriveLock
 from urdfkit.view.server.http_handlers import application
 from urdfkit.view.server.listen_address import bind, urls
@@ -272,8 +273,12 @@ class Server:
 
     async def _open(self) -> HTTPServer:
         app: Application = application(self)
-        http = HTTPServer(
-            app, max_header_size=16 * 1024, max_body_size=protocol.MAX_INBOUND, idle_connection_timeout=60
+        http = LimitedHTTPServer(
+            app,
+            max_header_size=16 * 1024,
+            max_body_size=protocol.MAX_INBOUND,
+            idle_connection_timeout=REQUEST_TIMEOUT,
+            body_timeout=REQUEST_TIMEOUT,
         )
         http.add_socket(self._socket)
         return http
