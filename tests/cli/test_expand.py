@@ -63,6 +63,14 @@ def test_a_file_that_was_read_is_not_overwritten(model: Path, capsys: pytest.Cap
     assert model.read_text() == MODEL
 
 
+def test_a_created_folder_is_named(model: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["expand", str(model), "-o", "out/deep/robot.urdf"]) == 0
+    assert capsys.readouterr().err == "urdfkit: note: created the folder out/deep\n"
+    assert main(["expand", str(model), "-o", "out/deep/robot.urdf"]) == 0
+    assert main(["expand", str(model), "-o", "other/robot.urdf", "-q"]) == 0
+    assert capsys.readouterr().err == ""
+
+
 def test_an_output_that_cannot_be_written(model: Path, capsys: pytest.CaptureFixture[str]) -> None:
     Path("folder").mkdir()
     assert main(["expand", str(model), "-o", "folder"]) == 2

@@ -30,7 +30,13 @@ def configure(parser: argparse.ArgumentParser) -> None:
     add_macro(parser)
     add_time_limit(parser)
     output = parser.add_mutually_exclusive_group()
-    output.add_argument("-o", "--output", type=Path, metavar="FILE", help="write to FILE, atomically")
+    output.add_argument(
+        "-o",
+        "--output",
+        type=Path,
+        metavar="FILE",
+        help="write to FILE, atomically; missing folders are created, as by xacro",
+    )
     output.add_argument(
         "--compare", action="store_true", help="print the first difference from the output of the xacro package"
     )
@@ -69,7 +75,9 @@ def _run(arguments: argparse.Namespace) -> int:
     if arguments.output is None:
         sys.stdout.write(expanded.xml)
     else:
-        _write(expanded, arguments.output)
+        created = _write(expanded, arguments.output)
+        if created is not None and not arguments.quiet:
+            print(f"urdfkit: note: created the folder {created}", file=sys.stderr)
     return 0
 
 
@@ -129,15 +137,18 @@ def _show_notes(expanded: Expanded, arguments: dict[str, str]) -> None:
         print(f"urdfkit: warning: {line}", file=sys.stderr)
 
 
-def _write(expanded: Expanded, output: Path) -> None:
+def _write(expanded: Expanded, output: Path) -> Path | None:
+    """Write the file; return its folder if it was created."""
     from urdfkit.atomic import write_text
 
     if any(output.exists() and file.exists() and output.samefile(file) for file in expanded.files):
         raise UsageError(f"expand: -o {output} would overwrite a file that was read")
     if output.is_dir():
         raise ResourceError(f"cannot write {output}: it is a folder")
+    is_new = not output.parent.exists()
     try:
         output.parent.mkdir(parents=True, exist_ok=True)
     except OSError as error:
         raise ResourceError(f"cannot write {output}: {error.strerror or error}") from error
     write_text(output, expanded.xml)
+    return output.parent if is_new else None
