@@ -6,6 +6,7 @@ import re
 from pathlib import Path
 
 from urdfkit.description.control.parameter_yaml import Settings, parse_settings, read_settings
+from urdfkit.description.packages.existence import is_file
 from urdfkit.description.packages.resolver import Packages
 from urdfkit.description.xml.element import Element
 from urdfkit.description.xml.reader import document_of, read_source, shown_path
@@ -78,7 +79,7 @@ class _Launch:
             if name is None:
                 return
             path = self._path.parent / name
-            if not path.is_file():
+            if not is_file(path):
                 return
             self.files.append(path)
             read = read_settings(path)

@@ -7,6 +7,7 @@ import shlex
 from collections.abc import Callable, Mapping
 from pathlib import Path
 
+from urdfkit.description.packages.existence import is_file
 from urdfkit.errors import ResourceError
 from urdfkit.record import field, record
 
@@ -153,7 +154,7 @@ class LaunchScope:
             moved = self.packages.relocate(path)
         except (OSError, ValueError):
             return None
-        return moved if moved is not None and moved.is_file() else None
+        return moved if moved is not None and is_file(moved) else None
 
 
 def is_false(text: str) -> bool:

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from urdfkit.description.packages.existence import is_file, is_folder
+
 
 def in_any_case(path: Path) -> Path | None:
     """Return the one existing file whose path differs in capital letters; None without one, or with several.
@@ -12,7 +14,7 @@ def in_any_case(path: Path) -> Path | None:
         path: a path that does not exist.
     """
     missing: list[str] = []
-    while not path.is_dir():
+    while not is_folder(path):
         if path == path.parent:
             return None
         missing.insert(0, path.name)
@@ -26,4 +28,4 @@ def in_any_case(path: Path) -> Path | None:
         if len(exact or found) != 1:
             return None
         path = (exact or found)[0]
-    return path if path.is_file() else None
+    return path if is_file(path) else None

@@ -5,6 +5,8 @@ import re
 from collections.abc import Iterator
 from pathlib import Path
 
+from urdfkit.description.packages.existence import is_file
+
 LAUNCH = (".launch", ".launch.xml", ".launch.py", ".launch.yaml", "_launch.xml", "_launch.py", "_launch.yaml")
 """Suffixes of launch files."""
 
@@ -26,7 +28,7 @@ _MAX_SRDF_BYTES = 1_000_000
 
 def package_of(path: Path) -> Path | None:
     """Return the enclosing folder of a file that has a package.xml."""
-    return next((folder for folder in path.absolute().parents if (folder / "package.xml").is_file()), None)
+    return next((folder for folder in path.absolute().parents if is_file(folder / "package.xml")), None)
 
 
 def manifest(package: Path) -> str:

@@ -6,6 +6,7 @@ import os
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from pathlib import Path
 
+from urdfkit.description.packages.existence import exists, is_file, is_folder
 from urdfkit.description.xml.reader import absolute
 from urdfkit.errors import ResourceError, did_you_mean, may_suggest
 
@@ -153,7 +154,7 @@ class Packages:
             from urllib.parse import unquote
 
             decoded = Path(unquote(str(path)))
-            if decoded.exists():
+            if exists(decoded):
                 return decoded
         raise ResourceError(f"no file {uri}{near_path(path)}", kind="file")
 
@@ -188,21 +189,21 @@ class Packages:
 
     def _moved(self, path: str) -> str:
         """Return the path if it exists now, else its relocated path."""
-        return path if Path(path).exists() else str(self._relocated(path) or "")
+        return path if exists(path) else str(self._relocated(path) or "")
 
     def _relocated(self, path: str | Path) -> Path | None:
         wanted = absolute(path)
         for folder in dict.fromkeys(self._found.values()):
             if folder in wanted.parents:
                 moved = folder / "description" / wanted.relative_to(folder)
-                if moved.exists():
+                if exists(moved):
                     return moved
         return None
 
     def _path_of(self, uri: str, relative_to: Path) -> Path:
         scheme, separator, rest = uri.partition("://")
         if not separator:
-            base = relative_to if relative_to.is_dir() else relative_to.parent
+            base = relative_to if is_folder(relative_to) else relative_to.parent
             return base / uri
         if scheme in ("package", "model"):
             name, _, inside = rest.partition("/")
@@ -224,9 +225,9 @@ class Packages:
             for around in (self.near, *self.near.parents):
                 if not self.permits(around):
                     break
-                if around.name == name and around.is_dir():
+                if around.name == name and is_folder(around):
                     return around
-                if len(around.parts) > 2 and (around / name).is_dir() and around != self.near:
+                if len(around.parts) > 2 and is_folder(around / name) and around != self.near:
                     return around / name
         return None
 
@@ -243,7 +244,7 @@ class Packages:
         from urdfkit.description.packages.discovery import package_name
 
         direct = folder / name
-        if package_name(direct) == name or (direct / "model.config").is_file():
+        if package_name(direct) == name or is_file(direct / "model.config"):
             return direct
         return self._scan(folder).get(name)
 
@@ -332,7 +333,7 @@ def near_path(path: Path) -> str:
     if not may_suggest():
         return ""
     missing, parent = path, path.parent
-    while not parent.is_dir() and parent != parent.parent:
+    while not is_folder(parent) and parent != parent.parent:
         missing, parent = parent, parent.parent
     try:
         names = sorted(child.name for child in parent.iterdir())

@@ -2,6 +2,8 @@
 
 from pathlib import Path
 
+from urdfkit.description.packages.existence import is_file
+
 FOLDER = Path(__file__).resolve().parent.parent / "library"
 
 STANDS_IN = {
@@ -86,13 +88,13 @@ def world_names() -> list[str]:
 def model_file(name: str) -> Path | None:
     """Return the SDF file of a bundled model; None for an unknown name."""
     path = FOLDER / "models" / name / "model.sdf"
-    return path if name and path.is_file() else None
+    return path if name and is_file(path) else None
 
 
 def world_file(name: str) -> Path | None:
     """Return the SDF file of a bundled world; None for an unknown name."""
     path = FOLDER / "worlds" / f"{name}.sdf"
-    return path if name and "/" not in name and path.is_file() else None
+    return path if name and "/" not in name and is_file(path) else None
 
 
 def replacement_of(name: str) -> tuple[str, Path] | None:

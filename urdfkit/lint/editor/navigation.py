@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from pathlib import Path
 
+from urdfkit.description.packages.existence import is_file
 from urdfkit.errors import UsageError
 from urdfkit.lint.editor.symbol_occurrences import EXPANDED, in_settings, of_model, parameters_around
 from urdfkit.lint.finding import Edit
@@ -61,9 +62,9 @@ def file_at(model: Model, cursor: Cursor) -> Path | None:
         except ResourceError:
             return None
         path = base / value
-        if not path.is_file():
+        if not is_file(path):
             path = model.expanded.packages.relocate(path) or path
-        return path if "$" not in value and path.is_file() else None
+        return path if "$" not in value and is_file(path) else None
     for mesh, element, _ in meshes(model.robot):
         if model.tag(element.origin.position) is tag:
             return path_of(mesh, model.expanded)

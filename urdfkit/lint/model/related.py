@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from urdfkit.description.packages.existence import is_file
 from urdfkit.description.packages.related_files import SRDF, package_of
 from urdfkit.description.xml.reader import document_of, read_source, shown_path
 from urdfkit.errors import ResourceError, UrdfkitError, XmlError
@@ -77,7 +78,7 @@ def _configured(robot: Robot, own: Path) -> list[Path]:
         for plugin in block.plugins:
             for child in plugin.element.find_all("parameters"):
                 file = Path(child.text) if child.text.startswith("/") and "$" not in child.text else None
-                package = package_of(file) if file is not None and file.is_file() else None
+                package = package_of(file) if file is not None and is_file(file) else None
                 if package is not None and package.parent == own.parent:
                     found[package] = None
     found.pop(own, None)

@@ -8,6 +8,7 @@ from collections.abc import Iterable
 from dataclasses import replace
 from pathlib import Path
 
+from urdfkit.description.packages.existence import exists, is_folder
 from urdfkit.description.packages.resolver import Packages, near_path
 from urdfkit.description.sdf.frame_graph import Scope
 from urdfkit.description.sdf.model import WorldModel
@@ -55,9 +56,9 @@ def load_world(world: str | Path, *, package_path: Iterable[str | Path] = ()) ->
     names = world_names()
     if path.suffix in _ROBOT_SUFFIXES:
         raise ResourceError(f"`{world}` is a robot, not a world; pass it as ROBOT, or include it in a world")
-    if path.is_dir():
+    if is_folder(path):
         raise ResourceError(f"`{world}` is a folder; a world is a .world or .sdf file (worlds: {', '.join(names)})")
-    if path.suffix in _SUFFIXES and not path.exists():
+    if path.suffix in _SUFFIXES and not exists(path):
         hint = f"; did you mean the bundled world `{path.stem}`?" if path.stem in names else near_path(path)
         hint = hint or did_you_mean(path.stem, names) or f" (bundled worlds: {', '.join(names)})"
         raise ResourceError(f"cannot read {shown_path(path)}: No such file or directory{hint}")

@@ -3,6 +3,7 @@
 import re
 from pathlib import Path
 
+from urdfkit.description.packages.existence import exists, is_file
 from urdfkit.description.packages.resolver import near_path
 from urdfkit.description.sdf.model_library import ALIKE, FOLDER, model_file, model_names, replacement_of
 from urdfkit.description.sdf.reader.reading_state import NEWEST, Context
@@ -30,7 +31,7 @@ def find_file(context: Context, uri: Element) -> Path:
     if scheme == "model":
         # A model has the name of its folder, so its own files need no search.
         for folder in context.path.parents:
-            if folder.name == name and (folder / inside).is_file():
+            if folder.name == name and is_file(folder / inside):
                 return folder / inside
     try:
         return context.packages.resolve(uri.text, context.path)
@@ -80,7 +81,7 @@ def _users(context: Context, text: str, name: str, inside: str) -> Path | None:
             return None
     for folder in context.path.parents[:5]:
         for around in (folder / "models" / name, folder / name):
-            if _is_model(around) or (inside and (around / inside).exists()):
+            if _is_model(around) or (inside and exists(around / inside)):
                 return around / inside
     try:
         found = context.packages.find(name)
@@ -92,28 +93,28 @@ def _users(context: Context, text: str, name: str, inside: str) -> Path | None:
 
 
 def _is_model(folder: Path) -> bool:
-    return (folder / "model.config").is_file() or (folder / "model.sdf").is_file()
+    return is_file(folder / "model.config") or is_file(folder / "model.sdf")
 
 
 def _entry(path: Path, uri: Element) -> Path:
     """Return the model file; for a folder, the newest file in its model.config."""
-    if path.is_file():
+    if is_file(path):
         return path
     manifest, plain = path / "model.config", path / "model.sdf"
-    if not manifest.is_file():
+    if not is_file(manifest):
         manifest = path / "manifest.xml"
-    if manifest.is_file():
+    if is_file(manifest):
         root = document_of(read_source(manifest, shown_as=shown_path(manifest)))
         named = [(_version(each), each.text.strip()) for each in root.find_all("sdf") if each.text.strip()]
         fit = [each for each in named if each[0] <= NEWEST] or named
         if fit:
             found = path / max(fit, key=lambda each: each[0])[1]
-            if found.is_file():
+            if is_file(found):
                 return found
             raise ResourceError(
                 f"no file {shown_path(found)}{near_path(found)}", position=uri.origin.position, kind="file"
             )
-    if plain.is_file():
+    if is_file(plain):
         return plain
     raise ResourceError(f"no model.config and no model.sdf in {shown_path(path)}", position=uri.origin.position)
 

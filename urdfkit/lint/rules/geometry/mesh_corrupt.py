@@ -5,6 +5,7 @@ from pathlib import Path
 
 from urdfkit.description.meshes.bounds import bounds
 from urdfkit.description.meshes.limits import MAX_BYTES, MAX_TRIANGLES
+from urdfkit.description.packages.existence import is_file
 from urdfkit.lint.model.mesh_files import LFS, meshes, path_of
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
@@ -58,7 +59,7 @@ class MeshCorrupt(RobotRule):
         for mesh, element, link in meshes(model.robot):
             if mesh.uri not in faults:
                 path = path_of(mesh, model.expanded)
-                faults[mesh.uri] = _fault(path) if path is not None and path.is_file() else ""
+                faults[mesh.uri] = _fault(path) if path is not None and is_file(path) else ""
                 box = model.box_of(mesh) if path is not None and not faults[mesh.uri] and any(mesh.scale) else None
                 if box is not None and not any(box[1]):
                     faults[mesh.uri] = "has all triangles in one point"

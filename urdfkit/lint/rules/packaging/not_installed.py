@@ -3,6 +3,7 @@
 import re
 from pathlib import Path
 
+from urdfkit.description.packages.existence import is_folder
 from urdfkit.description.packages.related_files import name_in
 from urdfkit.lint.finding import Finding
 from urdfkit.lint.rule import Findings, Model, RobotRule
@@ -61,7 +62,7 @@ class NotInstalled(RobotRule):
                 continue
             for match in uses.finditer(source.text):
                 folder = match[1]
-                if folder in checked or not (package / folder).is_dir():
+                if folder in checked or not is_folder(package / folder):
                     continue
                 checked.add(folder)
                 install_rules = _install_rules(package) if install_rules is None else install_rules

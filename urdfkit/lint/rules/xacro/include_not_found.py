@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from urdfkit.description.packages.existence import is_folder
 from urdfkit.description.xacro.faults import Fault
 from urdfkit.lint.finding import Edit, Fix
 from urdfkit.lint.fix_builders import nearest
@@ -71,7 +72,7 @@ def _nearest_file(fault: Fault, model: Model) -> Fix | None:
     path = Path(str(fault.details.get("path", "")))
     tag = model.tag(fault.position)
     attribute = tag.attributes.get("filename") if tag is not None else None
-    if not path.name or not path.parent.is_dir() or attribute is None or not attribute.value.endswith(path.name):
+    if not path.name or not is_folder(path.parent) or attribute is None or not attribute.value.endswith(path.name):
         return None
     try:
         files = sorted(file.name for file in path.parent.iterdir() if file.is_file() and file.suffix == path.suffix)
