@@ -279,3 +279,12 @@ def test_a_missing_trimesh_says_what_to_run(
     monkeypatch.setitem(__import__("sys").modules, "trimesh", None)
     with pytest.raises(MissingDependencyError, match=r"pip install 'urdfkit\[view\]'"):
         loader.load(path)
+
+
+@pytest.mark.parametrize("kind", [b"VEC2", b"VEC4", b"MAT4"])
+def test_vertices_without_three_coordinates_are_refused(tmp_path, kind):
+    path = tmp_path / "a.glb"
+    content = trimesh.creation.box().export(file_type="glb")
+    path.write_bytes(content.replace(b"VEC3", kind))
+    with pytest.raises(ResourceError, match=r"mesh a\.glb (is invalid: a vertex|cannot be read)"):
+        MeshLoader().load(path)

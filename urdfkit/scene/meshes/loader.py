@@ -167,14 +167,13 @@ def _parse(path: Path, content: bytes, scale: Vector, beside: Beside, places: bo
             warnings.simplefilter("ignore")
             logging.getLogger("trimesh").setLevel(logging.CRITICAL)
             scene = trimesh.load_scene(io.BytesIO(content), file_type=suffix[1:], resolver=beside, process=False)
-            parts = list(_parts(scene))
+            factor = metres_per_unit(content) if suffix == ".dae" else 1.0
+            mesh = _merge(path, list(_parts(scene)), np.array(scale, dtype=float) * factor, places)
     except ResourceError:
         raise
-    except Exception as error:  # any error of the reader of the format
+    except Exception as error:  # any error of the reader of the format, which evaluates properties when they are used
         reason = str(error).strip().splitlines()[0] if str(error).strip() else type(error).__name__
         raise ResourceError(f"mesh {path.name} cannot be read: {reason}") from error
-    factor = metres_per_unit(content) if suffix == ".dae" else 1.0
-    mesh = _merge(path, parts, np.array(scale, dtype=float) * factor, places)
     missing, broken = (tuple(dict.fromkeys(names)) for names in (beside.missing, beside.broken))
     return replace(mesh, missing=missing, broken=broken) if missing else mesh
 
@@ -213,6 +212,8 @@ def _merge(path: Path, parts: list[tuple[Any, Any]], scale: NDArray[np.float64],
     start = 0
     for part, transform in parts:
         linear = scale[:, None] * transform[:3, :3]
+        if np.shape(part.vertices)[1:] != (3,):
+            raise ResourceError(f"mesh {path.name} is invalid: a vertex does not have three coordinates")
         points = matmul(np.asarray(part.vertices, dtype=float), linear.T) + scale * transform[:3, 3]
         triangles = np.asarray(part.faces, dtype=np.int64).reshape(-1, 3)
         if triangles.size and (triangles.min() < 0 or triangles.max() >= len(points)):

@@ -52,7 +52,7 @@ class Wrapper:
                 self._textures[name] = read_texture(self._resolve(name))
             except (ResourceError, FileNotFoundError):
                 self._textures[name] = None
-            except (OSError, ValueError, SyntaxError):  # raised by Pillow
+            except (OSError, ValueError):
                 self._textures[name] = None
                 self._broken.add(name)
         texture = self._textures[name]

@@ -10,11 +10,15 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from urdfkit.description.packages.existence import is_file
+
 MAX_EDGE = 4096
 """Largest edge length of a texture; larger ones are halved until they fit [px]."""
 
-MAX_PIXELS = 2**28
-"""Largest number of pixels of an image."""
+MAX_PIXELS = 2**27
+"""Largest number of pixels of an image, which needs 0.7 GB to be read."""
+LONGEST_EDGE = 2**16
+"""Largest width and height of an image that is read [px]."""
 
 PICTURES = (".png", ".jpg", ".jpeg", ".bmp", ".tga", ".gif", ".tif", ".tiff", ".webp")
 _OWN = (".mtl", ".bin")
@@ -63,12 +67,19 @@ def read_texture(path: Path) -> Texture:
 
     Raises:
         OSError: the file is missing or invalid.
-        ValueError: it is too large.
+        ValueError: it is invalid or too large.
     """
     from PIL import Image
 
-    with Image.open(path) as picture:
-        return Texture(_pixels(picture))
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            with Image.open(path) as picture:
+                return Texture(_pixels(picture))
+    except (OSError, ValueError):
+        raise
+    except Exception as error:  # any error of the reader of the format
+        raise ValueError(f"invalid image: {error}") from error
 
 
 def _pixels(picture: Any) -> NDArray[np.uint8]:
@@ -78,7 +89,7 @@ def _pixels(picture: Any) -> NDArray[np.uint8]:
         OSError: it is broken.
         ValueError: it is too large.
     """
-    if picture.width * picture.height > MAX_PIXELS:
+    if picture.width * picture.height > MAX_PIXELS or max(picture.size) > LONGEST_EDGE:
         raise ValueError(f"the texture is too large: {picture.width} × {picture.height} pixels")
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
@@ -112,6 +123,8 @@ class Beside(dict[str, bytes]):
         self.broken: list[str] = []
 
     def __missing__(self, name: str) -> bytes:
+        if "\0" in name:
+            raise KeyError(name)
         wanted = name.replace("\\", "/").removeprefix("file://")
         picture = Path(wanted).suffix.lower() in PICTURES
         places = [(self._folder / wanted, self._folder.parent if picture else self._folder)]
@@ -121,7 +134,7 @@ class Beside(dict[str, bytes]):
         for place, within in places:
             path = place.resolve()
             allowed = picture or path.suffix.lower() in _OWN
-            if allowed and path.is_relative_to(within) and path.is_file():
+            if allowed and path.is_relative_to(within) and is_file(path):
                 status = path.stat()
                 if status.st_size <= self._limit:
                     self.read[path] = status.st_mtime_ns, status.st_size
