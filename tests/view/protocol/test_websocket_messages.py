@@ -7,6 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from urdfkit.view.protocol import websocket_messages
+from urdfkit.view.protocol.page_requests import Schema, check, number, tree, whole
 from urdfkit.view.protocol.websocket_messages import Ack, Axes, Control, Joints, ProtocolError, read
 
 
@@ -81,3 +82,11 @@ def test_poses_are_packed_in_sixteen_bytes_and_seven_floats_each() -> None:
     assert struct.unpack_from("<BBHId", frame) == (1, 3, 2, 5, 12.25)
     assert np.array_equal(np.frombuffer(frame, "<f4", offset=16).reshape(2, 7), poses)
     assert len(websocket_messages.pack_poses(0, 0.0, np.zeros((30, 7)))) == 856
+
+
+@pytest.mark.parametrize("digits", ["1" + "0" * 400, "-1" + "0" * 4000])
+def test_an_integer_that_no_float_can_hold_is_refused_with_an_answer(digits: str) -> None:
+    raw = read(f'{{"type":"request","number":1,"name":"move","values":{{"x":{digits},"y":{digits}}}}}')
+    for schema in ({"x": number(), "y": number()}, {"x": whole(), "y": whole()}, {"x": tree, "y": tree}):
+        with pytest.raises(ProtocolError, match=r"too|integer|finite"):
+            check({"move": Schema(schema)}, 1, raw)

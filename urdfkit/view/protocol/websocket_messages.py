@@ -32,6 +32,7 @@ MAX_NAME = 200
 """Longest name of a request, a robot or a key [characters]."""
 MAX_KEYS = 64
 """Maximum number of keys that a page may subscribe to."""
+_MAX_DIGITS = 300
 ACTIONS = ("play", "pause", "reset", "stop")
 
 POSE_HEADER = struct.Struct("<BBHId")
@@ -125,7 +126,7 @@ def read(text: str | bytes) -> Message:
     if isinstance(text, bytes):
         raise ProtocolError("binary frames are not accepted")
     try:
-        message = json.loads(text, parse_constant=_reject)
+        message = json.loads(text, parse_int=_integer, parse_constant=_reject)
     except (ValueError, RecursionError) as error:
         raise ProtocolError("not JSON") from error
     if not isinstance(message, dict):
@@ -139,6 +140,11 @@ def read(text: str | bytes) -> Message:
         raise ProtocolError(f"`{kind}` accepts exactly {', '.join(sorted(keys))}")
     checked: Message = reader(message)
     return checked
+
+
+def _integer(digits: str) -> int | float:
+    """Return an integer; infinity for one that no float can hold, which the checks of numbers reject."""
+    return int(digits) if len(digits) <= _MAX_DIGITS else float(digits)
 
 
 def _reject(constant: str) -> NoReturn:
