@@ -105,3 +105,26 @@ def test_names_that_could_not_be_evaluated_have_their_fault_already(write):
 )
 def test_sisters_are_no_slips(name, near, slip):
     assert is_typo(name, near) is slip
+
+
+def test_a_macro_that_doubles_its_argument_hides_any_name(tmp_path):
+    path = tmp_path / "r.urdf.xacro"
+    path.write_text(
+        '<robot name="r" xmlns:xacro="http://www.ros.org/wiki/xacro"><xacro:macro name="m" params="x">'
+        '<link name="${x}"/><xacro:m x="${x}${x}"/></xacro:macro><xacro:m x="a"/><gazebo reference="mst"/></robot>'
+    )
+    assert [f.code for f in lint(path, select=("X114", "Z801"))] == ["X114"]
+
+
+def test_macros_that_call_each_other_deep_inside_of_elements(tmp_path):
+    """Together deeper than Python's recursion limit."""
+    path, macros = tmp_path / "r.urdf.xacro", []
+    for k in range(12):
+        inner = f'<xacro:m{k + 1} x="a"/>' if k < 11 else '<link name="mst"/>'
+        body = f'<xacro:if value="0">{"<a>" * 150}{inner}{"</a>" * 150}</xacro:if>'
+        macros.append(f'<xacro:macro name="m{k}" params="x">{body}</xacro:macro>')
+    path.write_text(
+        f'<robot name="r" xmlns:xacro="http://www.ros.org/wiki/xacro">{"".join(macros)}<link name="base"/>'
+        '<xacro:if value="${missing}"><xacro:m0 x="a"/></xacro:if><gazebo reference="mst"/></robot>'
+    )
+    assert [f.code for f in lint(path, select=("E", "Z801"))] == []

@@ -61,6 +61,10 @@ _CUTOFF = 0.8
 """Minimum similarity of the one word that differs in a typo (`difflib.SequenceMatcher.ratio`): `bse`, `lnk`, `weel`."""
 
 
+_MAX_PATTERN = 2_000
+"""Longest pattern of a name; a macro that passes ``${x}${x}`` to itself doubles it with each call."""
+
+
 class MaskedNames:
     """Names that the parts of a robot dropped by faults may define.
 
@@ -113,7 +117,8 @@ class MaskedNames:
             self.unreadable = "the part that was not expanded"
         elif kind == "undefined-macro" and fault.defined_at is None:
             if tag is not None:
-                self._call(tag, fault.name or "", {})
+                for called, values in self._called(tag, fault.name or "", {}):
+                    self._read([called], values)
         elif kind == "xml":
             names = re.findall(_UNQUOTED_NAME, self._model.document(fault.position.file).source.text)
             self.unreadable = f"{fault.position.file}, which is not well-formed"
@@ -130,7 +135,10 @@ class MaskedNames:
 
     def _read(self, tags: Iterable[Tag], values: Mapping[str, str]) -> None:
         """Collect the names in source tags; macro parameters become patterns."""
-        for tag in tags:
+        pending = [(tag, values) for tag in tags][::-1]
+        while pending:
+            tag, values = pending.pop()
+            pending += [(child, values) for child in reversed(tag.children)]
             if tag.name in _NAMED and (name := tag.attributes.get("name")) is not None:
                 self.patterns.add(_pattern(name.value, values))
             elif tag.name == "child" and (name := tag.attributes.get("link")) is not None:
@@ -142,10 +150,10 @@ class MaskedNames:
                 if tag.parent is None or tag.parent.name in _BLOCK_PARENTS:
                     self.unreadable = "a block that was not inserted"
             elif (prefix == "xacro" and local not in _DIRECTIVES) or local in self._definitions:
-                self._call(tag, local, values)
-            self._read(tag.children, values)
+                pending += self._called(tag, local, values)[::-1]
 
-    def _call(self, tag: Tag, name: str, values: Mapping[str, str]) -> None:
+    def _called(self, tag: Tag, name: str, values: Mapping[str, str]) -> list[tuple[Tag, Mapping[str, str]]]:
+        """Return the source tags of a called macro that were not read with these arguments yet, and the arguments."""
         bodies = self._definitions.get(name.rpartition(".")[2], ())
         if not bodies:
             self.unreadable = f"macro `{name}`, which is not defined"
@@ -153,8 +161,8 @@ class MaskedNames:
         key = name, tuple(sorted(arguments.items()))
         if key not in self._seen and len(self._seen) < 1_000:
             self._seen.add(key)
-            for body in bodies:
-                self._read(body.children, arguments)
+            return [(child, arguments) for body in bodies for child in body.children]
+        return []
 
     @property
     def _definitions(self) -> dict[str, list[Tag]]:
@@ -217,4 +225,4 @@ def _pattern(name: str, values: Mapping[str, str]) -> str:
             parts.append(values.get(part[2:-1].strip(), _ANY))
         else:
             parts.append(re.escape(part))
-    return "".join(parts)
+    return "".join(parts) if sum(map(len, parts)) <= _MAX_PATTERN else _ANY
