@@ -13,7 +13,7 @@ import sys
 from collections import Counter
 
 from tests.bench.fuzz.families import FAMILIES
-from tests.bench.fuzz.runner import limit_memory, work
+from tests.bench.fuzz.runner import prepare, work
 
 
 def main() -> int:
@@ -29,13 +29,13 @@ def main() -> int:
     counts: Counter[str] = Counter()
     longest = 0.0
     context = multiprocessing.get_context("spawn")
-    with context.Pool(options.jobs, limit_memory, maxtasksperchild=40) as pool:
+    with context.Pool(options.jobs, prepare, (options.family,), maxtasksperchild=40) as pool:
         for some, failures, slowest in pool.imap_unordered(work, jobs):
             counts += some
             longest = max(longest, slowest)
             for seed, what in failures:
                 print(f"seed {seed}: {what}", flush=True)
-    print(f"{options.family}: {counts.total()} cases from seed {options.seed}: {dict(counts)}; longest {longest:.2f} s")
+    print(f"{options.family}: {options.count} cases from seed {options.seed}: {dict(counts)}; longest {longest:.2f} s")
     return 1 if counts["failed"] else 0
 
 

@@ -4,34 +4,22 @@ from __future__ import annotations
 
 import io
 import random
+from collections import Counter
 from collections.abc import Callable
 from functools import cache
 from pathlib import Path
 from types import SimpleNamespace
 
-from tests.bench import fuzz_lint
 from tests.bench.fuzz import mutations
+from tests.bench.fuzz.descriptions import description, world_file
+from tests.bench.fuzz.frames import frames
 from tests.bench.fuzz.hostile_values import HOSTILE
-from tests.bench.fuzz.seed_files import files_read, seeds, text_of, with_changed
+from tests.bench.fuzz.seed_files import seeds, text_of
+from tests.bench.fuzz.simulations import prepare_kernels, sim
 from tests.bench.fuzz.xml_mutations import xml
 
 LIMIT = 10.0
 """CPU time that lint, expand and lsp may take for a file [s]."""
-STEPS = 50
-"""Steps of a simulation."""
-
-
-def description(folder: Path, rng: random.Random, original: Path | None = None) -> Path:
-    """Write a robot description in a copy of its package, in which it or a file that it reads is changed."""
-    original = original or rng.choice(seeds(".urdf", ".xacro"))
-    changed = rng.choice(files_read(original)) if rng.random() < 0.3 else original
-    if rng.random() < 0.2:
-        content = fuzz_lint.mutated(changed.read_bytes(), rng)
-    elif changed.suffix in (".yaml", ".yml"):
-        content = mutations.yaml(text_of(changed), rng).encode("utf-8", "replace")
-    else:
-        content = xml(text_of(changed), rng).encode("utf-8", "replace")
-    return with_changed(folder, original, changed, content)
 
 
 def lint(folder: Path, rng: random.Random) -> str:
@@ -97,9 +85,7 @@ def sdf(folder: Path, rng: random.Random) -> str:
     from urdfkit.description.sdf.reader.load import load_world
     from urdfkit.description.sdf.writer import to_sdf
 
-    original = rng.choice(seeds(".sdf", ".world"))
-    path = folder / f"changed_{original.name}"
-    path.write_text(xml(text_of(original), rng), "utf-8", "replace")
+    path, original = world_file(folder, rng)
     world = load_world(path, package_path=[original.parent])
     path.write_text(to_sdf(world), "utf-8")
     load_world(path, package_path=[original.parent])
@@ -197,6 +183,8 @@ def parameters(folder: Path, rng: random.Random) -> str:
     return "read"
 
 
-Case = Callable[[Path, random.Random], str]
-FAMILIES: dict[str, Case] = {each.__name__: each for each in (lint, expand, lsp, sdf, mesh, parameters)}
-"""Name → case; a case writes a changed file into a folder and reads it."""
+Case = Callable[[Path, random.Random], str | Counter[str]]
+FAMILIES: dict[str, Case] = {each.__name__: each for each in (lint, expand, lsp, sdf, mesh, parameters, sim, frames)}
+"""Name → case; it writes a changed file into a folder, reads it, and returns a word for success or several counts."""
+PREPARATIONS: dict[str, Callable[[], None]] = {"sim": prepare_kernels, "frames": prepare_kernels}
+"""Name → function that a process calls before the first case, such as to load compiled code."""

@@ -31,7 +31,8 @@ def yaml(text: str, rng: random.Random) -> str:
             for _ in range(rng.choice((1, 2, 4))):
                 changed = tree(parsed, rng)
                 parsed = changed if isinstance(changed, dict | list) else parsed
-            return str(dump(parsed, allow_unicode=True, sort_keys=False))
+            if len(repr(parsed)) < 100_000:
+                return str(dump(parsed, allow_unicode=True, sort_keys=False))
     return lines_of_yaml(text, rng)
 
 
@@ -188,7 +189,7 @@ def tree(value: Any, rng: random.Random, depth: int = 0) -> Any:
         if kind == 0:
             return value[:at] + value[at + 1 :]
         if kind == 1:
-            return value * rng.choice((2, 100, 3000))
+            return value * rng.choice((2, 100, 1000 if len(value) < 10 and depth < 3 else 3))
         return [*value[:at], tree(value[at], rng, depth + 1), *value[at + 1 :]]
     nested: Any = value
     for _ in range(rng.choice((1, 50))):
@@ -199,9 +200,14 @@ def tree(value: Any, rng: random.Random, depth: int = 0) -> Any:
 
 def frame(message: dict[str, Any], rng: random.Random) -> str | bytes:
     """Return a frame of the WebSocket, mostly JSON with a changed part."""
-    for _ in range(rng.choice((0, 1, 1, 1, 2, 4))):
-        changed = tree(message, rng)
-        message = changed if isinstance(changed, dict) else message
+    for _ in range(rng.choice((0, 0, 0, 1, 1, 2))):
+        parts = [name for name, value in message.items() if isinstance(value, dict | list)]
+        if parts and rng.random() < 0.8:
+            part = rng.choice(parts)
+            message = {**message, part: tree(message[part], rng)}
+        elif rng.random() < 0.5:
+            changed = tree(message, rng)
+            message = changed if isinstance(changed, dict) else message
     text = json.dumps(message)
     kind = rng.random()
     if kind < 0.03:

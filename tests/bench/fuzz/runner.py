@@ -13,8 +13,9 @@ import traceback
 import warnings
 from collections import Counter
 from pathlib import Path
+from typing import NamedTuple
 
-from tests.bench.fuzz.families import FAMILIES
+from tests.bench.fuzz.families import FAMILIES, PREPARATIONS
 from tests.bench.fuzz.seed_files import ROOT
 from urdfkit.errors import UrdfkitError
 
@@ -23,7 +24,13 @@ BUDGET = 12.0
 BYTES = 10**9
 """Memory that a case may add to that of its process."""
 
-Result = tuple[str, float]
+
+class Outcome(NamedTuple):
+    """The outcome of a case: counts by their names, the traceback of a failure or "", and the CPU time [s]."""
+
+    counts: Counter[str]
+    failure: str
+    seconds: float
 
 
 class OverBudget(BaseException):
@@ -34,33 +41,37 @@ def _stop(*_: object) -> None:
     raise OverBudget
 
 
-def outcome(family: str, seed: int, folder: Path) -> Result:
-    """Run one case.
-
-    Returns:
-        ``refused``, a word of the family for success, or a failure, which begins with ``FAILED``; and its CPU time [s].
-    """
+def outcome(family: str, seed: int, folder: Path) -> Outcome:
+    """Run one case."""
     signal.signal(signal.SIGVTALRM, _stop)
     signal.setitimer(signal.ITIMER_VIRTUAL, BUDGET)
     start = time.process_time()
+    counts, failure = Counter({"failed": 1}), ""
     try:
-        word = FAMILIES[family](folder, random.Random(f"{family} {seed}"))
+        found = FAMILIES[family](folder, random.Random(f"{family} {seed}"))
+        counts = Counter({found: 1}) if isinstance(found, str) else found
     except UrdfkitError as error:
-        word = "refused" if "\n" not in str(error) else f"FAILED: a message of several lines: {error}"
+        if "\n" in str(error):
+            failure = f"a message of several lines: {error}"
+        elif isinstance(error.__cause__, MemoryError):
+            failure = f"more than {BYTES / 1e9:g} GB: {error}"
+        else:
+            counts = Counter({"refused": 1})
     except OverBudget:
-        word = f"FAILED: more than {BUDGET:g} s of CPU\n{traceback.format_exc(limit=-6)}"
+        failure = f"more than {BUDGET:g} s of CPU\n{traceback.format_exc(limit=-6)}"
     except MemoryError:
-        word = f"FAILED: more than {BYTES / 1e9:g} GB\n{traceback.format_exc(limit=-6)}"
+        failure = f"more than {BYTES / 1e9:g} GB\n{traceback.format_exc(limit=-6)}"
     except Exception:
-        word = f"FAILED\n{traceback.format_exc(limit=-8)}"
+        failure = traceback.format_exc(limit=-8)
     finally:
         signal.setitimer(signal.ITIMER_VIRTUAL, 0.0)
-    return word, time.process_time() - start
+    return Outcome(counts, failure, time.process_time() - start)
 
 
-def limit_memory() -> None:
-    """Limit the memory of this process to its current size plus `BYTES`."""
+def prepare(family: str) -> None:
+    """Prepare this process for a family, and limit its memory to its size then plus `BYTES`."""
     warnings.simplefilter("ignore")
+    PREPARATIONS.get(family, lambda: None)()
     used = int(Path("/proc/self/statm").read_text().split()[0]) * os.sysconf("SC_PAGE_SIZE")
     resource.setrlimit(resource.RLIMIT_AS, (used + BYTES, used + BYTES))
 
@@ -73,11 +84,11 @@ def work(job: tuple[str, int, int]) -> tuple[Counter[str], list[tuple[int, str]]
     longest = 0.0
     for seed in range(first, last):
         with tempfile.TemporaryDirectory() as name:
-            word, seconds = outcome(family, seed, Path(name))
-            longest = max(longest, seconds)
-            if word.startswith("FAILED"):
-                failures.append((seed, word))
+            result = outcome(family, seed, Path(name))
+            if result.failure:
+                failures.append((seed, result.failure))
                 kept = ROOT / "artifacts" / "fuzz" / family / str(seed)
                 shutil.copytree(name, kept, dirs_exist_ok=True)
-        counts[word if not word.startswith("FAILED") else "failed"] += 1
+        longest = max(longest, result.seconds)
+        counts += result.counts
     return counts, failures, longest

@@ -158,8 +158,10 @@ def _attribute(text: str, rng: random.Random) -> str:
     one = rng.choice(attributes)
     if rng.random() < 0.5:
         return _put(text, owner.start(3) + one.start(), owner.start(3) + one.end(), "")
-    place = rng.choice(tags).end(2)
-    return _put(text, place, place, one[0])
+    other = rng.choice(tags)
+    if rng.random() < 0.8 and one[1] in other[3]:
+        return text
+    return _put(text, other.end(2), other.end(2), one[0])
 
 
 def _nest(text: str, rng: random.Random) -> str:

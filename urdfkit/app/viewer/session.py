@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from urdfkit.resources import ModelArgument
     from urdfkit.view.html_export import Recording
     from urdfkit.view.protocol.page_requests import Request, Schema
+    from urdfkit.view.server.request_inbox import PageInput
     from urdfkit.view.server.server import Server
 
 CHECK_PERIOD = 0.15
@@ -84,15 +85,19 @@ class Session:
             if (now := time.monotonic()) >= due:
                 server.broadcast("alive")
                 due = now + KEEPALIVE_PERIOD
-            inputs = server.inbox.wait(CHECK_PERIOD)
-            if inputs.joints:
-                self.move(inputs.joints)
-            for request in inputs.requests:
-                try:
-                    server.answer(request, **self.execute(request))
-                except UrdfkitError as error:
-                    server.answer(request, str(error))
+            self.process(server.inbox.wait(CHECK_PERIOD))
             self.check_files()
+
+    def process(self, inputs: PageInput) -> None:
+        """Move the joints and execute the requests of pages."""
+        server = cast("Server", self.server)
+        if inputs.joints:
+            self.move(inputs.joints)
+        for request in inputs.requests:
+            try:
+                server.answer(request, **self.execute(request))
+            except UrdfkitError as error:
+                server.answer(request, str(error))
 
     def move(self, joints: Mapping[str, float]) -> None:
         """Set positions [rad or m] of existing joints; keep the last positions if they are invalid."""
