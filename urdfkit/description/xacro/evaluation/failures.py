@@ -87,6 +87,13 @@ def undefined_property(name: str, candidates: Iterable[str]) -> Failure:
     return Failure("undefined-property", f"property `{name}` is not defined{hint}", name=name, candidates=names)
 
 
+def undefined_default(name: str, macro: str, candidates: Iterable[str]) -> Failure:
+    """Return the failure for a call without a parameter whose default is the property of the same name (``:=^``)."""
+    failure = undefined_property(name, candidates)
+    failure.message = f"macro `{macro}` needs `{name}` or a property of that name: {failure.message}"
+    return failure
+
+
 def undefined_in_command(name: str, arguments: tuple[str, ...]) -> Failure:
     """Return the failure for a name in ``$(eval …)`` that is not defined."""
     message = f"`{name}` in $(eval …) is neither an argument nor a function{did_you_mean(name, arguments)}"

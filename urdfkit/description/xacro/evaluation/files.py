@@ -191,7 +191,12 @@ class Files(Texts):
         text = content.decode()
         self.file_stack.append(path)
         try:
-            found = yaml_values(text, lambda value: self.expressions.evaluate(value, self.globals), self.budget.spend)
+            found = yaml_values(
+                text,
+                shown_path(Path(path)),
+                lambda value: self.expressions.evaluate(value, self.globals),
+                self.budget.spend,
+            )
             return self.budget.checked(found)
         finally:
             self.file_stack.pop()

@@ -12,8 +12,8 @@ from urdfkit.description.xacro.evaluation.failures import (
     cycle,
     macro_arguments,
     recursive_macro,
+    undefined_default,
     undefined_macro,
-    undefined_property,
 )
 from urdfkit.description.xacro.evaluation.parameters import MacroParameter, parameters
 from urdfkit.description.xacro.evaluation.tree import Tag
@@ -160,7 +160,9 @@ class Calls(Elements):
             elif parameter.default is not None:
                 value = self.text(parameter.default, scope)
             else:
-                raise self.placed(undefined_property(name, self.visible(scope)))
+                self.at = (node, None)
+                title = str(node.tag).removeprefix("xacro:")
+                raise self.placed(undefined_default(name, title, self.visible(scope)))
             self.at = (node, None)
             inner.set(name, value, is_lazy=False)
             names.remove(name)

@@ -22,15 +22,17 @@ _UNITS = {
 }
 
 
-def yaml_values(text: str, evaluate: Callable[[str], Any], spend: Callable[[int], None]) -> Any:
+def yaml_values(text: str, name: str, evaluate: Callable[[str], Any], spend: Callable[[int], None]) -> Any:
     """Return the value of a YAML document.
 
     Args:
         text: of the file.
+        name: of the file, for errors.
         evaluate: evaluates the expression of a value with a unit.
         spend: counts steps; a value takes as long to read as four operations of an expression.
 
     Raises:
+        ValueError: it is not YAML.
         TooLarge: its merge keys or its nesting make too much.
     """
     import yaml
@@ -71,6 +73,10 @@ def yaml_values(text: str, evaluate: Callable[[str], Any], spend: Callable[[int]
         Loader.add_constructor(tag, with_unit(factor))
     try:
         return wrapped(yaml.load(text, Loader))
+    except yaml.MarkedYAMLError as error:
+        mark = error.problem_mark or error.context_mark
+        place = f"{name}:{mark.line + 1}:{mark.column + 1}" if mark is not None else name
+        raise ValueError(f"{place}: {error.problem or error.context}") from None
     except RecursionError:
         raise TooLarge("the YAML file is nested too deeply") from None
 
