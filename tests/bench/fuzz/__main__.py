@@ -29,7 +29,7 @@ def main() -> int:
     counts: Counter[str] = Counter()
     longest = 0.0
     context = multiprocessing.get_context("spawn")
-    with context.Pool(options.jobs, prepare, (options.family,), maxtasksperchild=40) as pool:
+    with context.Pool(options.jobs, prepare, (options.family,), maxtasksperchild=10) as pool:
         for some, failures, slowest in pool.imap_unordered(work, jobs):
             counts += some
             longest = max(longest, slowest)

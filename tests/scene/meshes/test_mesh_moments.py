@@ -9,6 +9,7 @@ import pinocchio as pin
 import pytest
 import trimesh
 
+from urdfkit.description.urdf import volume_moments
 from urdfkit.description.urdf.robot import Box, Capsule, Cylinder, Pose, Sphere
 from urdfkit.description.urdf.volume_moments import Moments, of_primitive, placed, union
 from urdfkit.scene import MeshLoader
@@ -112,3 +113,21 @@ def test_an_open_mesh_is_taken_as_its_hull_and_a_flat_one_has_no_volume(tmp_path
     )
     assert flat.volume == 0.0
     assert "flat" in note
+
+
+def test_many_shapes_in_a_row_that_overlap_are_their_box(monkeypatch):
+    """Each of 80 boxes overlaps six others; the number of sample points is bounded."""
+    checks = 0
+    holds = volume_moments._holds
+
+    def counted(*arguments):
+        nonlocal checks
+        checks += 1
+        return holds(*arguments)
+
+    monkeypatch.setattr(volume_moments, "_holds", counted)
+    box = Box((1.0, 1.0, 1.0))
+    whole, _, _ = union([(box, Pose((0.3 * k, 0.0, 0.0)), of_primitive(box)) for k in range(80)])
+    assert whole.volume == pytest.approx(1.0 + 0.3 * 79, rel=5e-3)
+    assert whole.middle == pytest.approx((0.3 * 79 / 2, 0.0, 0.0), abs=0.05)
+    assert checks <= volume_moments.MAX_CHECKS
