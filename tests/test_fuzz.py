@@ -2,16 +2,18 @@
 
 import pytest
 
-from tests.bench.fuzz.families import FAMILIES
+from tests.bench.fuzz.families import FAMILIES, PREPARATIONS
 from tests.bench.fuzz.runner import outcome
 
-CASES = 10
+CASES = {"frames": 1}
+"""Family → cases, 10 of the others."""
 
 
 @pytest.mark.filterwarnings("ignore")
-@pytest.mark.parametrize("family", sorted(FAMILIES.keys() - {"lsp"}))
+@pytest.mark.parametrize("family", sorted(FAMILIES))
 def test_a_changed_file_is_read_or_refused_in_one_line(family, tmp_path):
-    for seed in range(CASES):
+    PREPARATIONS.get(family, lambda: None)()
+    for seed in range(CASES.get(family, 10)):
         (tmp_path / str(seed)).mkdir()
         failure = outcome(family, seed, tmp_path / str(seed)).failure
         assert not failure, f"{family}, seed {seed}: {failure}"

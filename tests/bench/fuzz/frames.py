@@ -57,8 +57,8 @@ class Errors(logging.Handler):
 
 def frames(folder: Path, rng: random.Random) -> Counter[str]:
     """Send changed frames and HTTP requests to a server; return the number of frames by their result."""
+    before = Path.cwd()
     os.chdir(folder)  # a long recording is written to the working directory
-    os.environ["XDG_RUNTIME_DIR"] = str(folder)
     errors, log = Errors(), logging.getLogger()
     level = log.level
     log.addHandler(errors)
@@ -75,7 +75,7 @@ def frames(folder: Path, rng: random.Random) -> Counter[str]:
     finally:
         log.removeHandler(errors)
         log.setLevel(level)
-        os.chdir("/")
+        os.chdir(before)
     if errors.texts:
         raise AssertionError("\n".join(errors.texts))
     return counts
