@@ -42,8 +42,9 @@ from xml.etree import ElementTree
 
 import numpy as np
 
-from urdfkit import Simulator, expand, lint, load
+from urdfkit import Simulator, expand, lint
 from urdfkit.cli import main as urdfkit
+from urdfkit.description.loading import load_repaired
 from urdfkit.description.xml.source import Source
 from urdfkit.description.xml.start_tag import start_tag
 from urdfkit.errors import UrdfkitError
@@ -130,7 +131,7 @@ def run(entry: dict[str, Any], variant: str, corpus: Path, options: argparse.Nam
     started = time.process_time()
     repairs = []
     try:
-        robot = load(path, arguments=arguments, package_path=package_path)
+        robot = load_repaired(path, arguments=arguments, package_path=package_path)
         simulator = Simulator(robot, note=notes.append)
         repairs = list(simulator.repairs)
         before = _lowest(simulator)
@@ -212,7 +213,7 @@ def _view(path: Path, arguments: dict[str, str], package_path: list[Path], entry
         if status != 0:
             return f"status {status}: {output.getvalue().strip().splitlines()[-1]}"
         text = page.read_text()
-        links = [link.name for link in load(path, arguments=arguments, package_path=package_path).links]
+        links = [link.name for link in load_repaired(path, arguments=arguments, package_path=package_path).links]
         missing = [link for link in links if json.dumps(link)[1:-1] not in text]
         return f"not on the page: {missing}" if missing else "ok"
     except Exception:

@@ -6,8 +6,9 @@ from pathlib import Path
 
 import pytest
 
-from urdfkit.description import load
-from urdfkit.errors import SimulationError
+from urdfkit import Simulator, lint
+from urdfkit.description.loading import load_repaired
+from urdfkit.errors import SimulationError, UrdfkitError
 from urdfkit.sim.construction.surface_parameters import surfaces_of
 from urdfkit.sim.engine import Surface
 
@@ -17,7 +18,7 @@ def surfaces(folder: Path, *blocks: str) -> dict[str, Surface]:
     joint = '<joint name="j" type="continuous"><parent link="chassis"/><child link="wheel"/></joint>'
     path = folder / "robot.urdf"
     path.write_text(f'<robot name="r" xmlns:gz="http://gazebosim.org/schema">{links}{joint}{"".join(blocks)}</robot>')
-    return surfaces_of(load(path))
+    return surfaces_of(load_repaired(path))
 
 
 def block(inside: str, link: str = "wheel") -> str:
@@ -46,6 +47,11 @@ def test_a_direction_may_be_another_links(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("text", ["-1", "much", "1 2", "nan"])
-def test_nonsense_is_refused(tmp_path: Path, text: str) -> None:
-    with pytest.raises(SimulationError, match="mu1"):
-        surfaces(tmp_path, block(f"<mu1>{text}</mu1>"))
+def test_an_invalid_coefficient_is_ignored_and_reported(tmp_path: Path, text: str) -> None:
+    assert surfaces(tmp_path, block(f"<mu1>{text}</mu1>\n<mu2>0.3</mu2>")) == {"wheel": Surface(1.0, 0.3)}
+    (finding,) = [each for each in lint(tmp_path / "robot.urdf") if each.code == "E010"]
+    assert finding.message == f"<mu1>: `{text}` is not a number, zero or greater"
+    (repair,) = Simulator(tmp_path / "robot.urdf", fixed_base=True, note=lambda _: None).repairs[:1]
+    assert repair.code == "E010"
+    with pytest.raises(UrdfkitError, match="<mu1>"):
+        Simulator(tmp_path / "robot.urdf", strict=True)

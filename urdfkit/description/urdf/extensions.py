@@ -30,8 +30,11 @@ def transmission(reader: Reader, element: Element) -> Transmission:
     )
 
 
-def gazebo_block(element: Element) -> GazeboBlock:
+def gazebo_block(reader: Reader, element: Element) -> GazeboBlock:
     """Read a ``<gazebo>``; children other than plugins and sensors are only in its element."""
+    for child in element.children:
+        if child.tag in ("mu1", "mu2"):
+            reader.check_friction(child)
     sensors = [SensorTag(e.get("name"), e.get("type"), _plugins(e), e) for e in element.find_all("sensor")]
     return GazeboBlock(element.get("reference"), _plugins(element), tuple(sensors), element)
 

@@ -80,7 +80,7 @@ def parse(
         elif child.tag == "transmission":
             transmissions.append(transmission(reader, child))
         elif child.tag == "gazebo":
-            gazebo.append(gazebo_block(child))
+            gazebo.append(gazebo_block(reader, child))
         elif child.tag == "ros2_control":
             controls.append(ros2_control(child))
     if cached_parts is not None:

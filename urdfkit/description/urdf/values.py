@@ -197,6 +197,15 @@ class Reader:
             self.note("bad-number", _not(element.text, "a number", f"<{element.tag}>"), element)
         return value
 
+    def check_friction(self, element: Element) -> None:
+        """Note a coefficient of friction that is not a number, or negative, in an element's text or ``value``."""
+        attribute = None if element.text else "value"
+        text = element.text or element.get("value") or ""
+        value = number(text)
+        if value is None or not math.isfinite(value) or value < 0.0:
+            wanted = "a number, zero or greater"
+            self.note("bad-number", _not(text, wanted, f"<{element.tag}>"), element, attribute)
+
     def _note_number(self, element: Element, attribute: str, text: str, wanted: str) -> None:
         where = f"{attribute} of <{element.tag}>"
         self.note("bad-number", _not(text, wanted, where), element, attribute)
