@@ -10,8 +10,9 @@ import pytest
 
 from tests.reference_engine import ENGINES
 from urdfkit.description import load
-from urdfkit.errors import SimulationError
+from urdfkit.description.loading import load_repaired
 from urdfkit.kinematics import Kinematics
+from urdfkit.lint import lint
 from urdfkit.scene import scene_of
 from urdfkit.sim import Simulator, Spawn
 from urdfkit.sim.construction.link_options import self_colliding, weightless_links
@@ -205,11 +206,16 @@ def test_what_is_written_is_read(tmp_path: Path) -> None:
     assert (weightless_links(robot), self_colliding(robot)) == ({"b"}, frozenset())
 
 
-@pytest.mark.parametrize("tag", ["gravity", "selfCollide"])
-def test_what_is_neither_true_nor_false_is_refused(tmp_path: Path, tag: str) -> None:
-    robot = load(write(tmp_path, link("a", 1.0), "\n", block(f"<{tag}>maybe</{tag}>", "a")))
-    with pytest.raises(SimulationError, match=f"probe.urdf:2.*<{tag}> is `maybe`; it must be true or false"):
-        {"gravity": weightless_links, "selfCollide": self_colliding}[tag](robot)
+@pytest.mark.parametrize("tag", ["gravity", "turnGravityOff", "selfCollide", "self_collide"])
+def test_a_value_that_is_neither_true_nor_false_is_ignored_and_reported(tmp_path: Path, tag: str) -> None:
+    path = write(tmp_path, link("a", 1.0), "\n", block(f"<{tag}>maybe</{tag}>", "a"))
+    robot = load_repaired(path)
+    assert (weightless_links(robot), self_colliding(robot)) == (frozenset(), frozenset())
+    (repair,) = robot.repairs
+    (finding,) = [each for each in lint(path) if each.code == "E010"]
+    assert repair.position is not None
+    assert (repair.code, repair.position.line) == ("E010", finding.line)
+    assert finding.message == f"<{tag}>: `maybe` is not true or false"
 
 
 def test_the_engine_takes_names_or_all(tmp_path: Path) -> None:

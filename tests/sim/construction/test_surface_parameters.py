@@ -55,3 +55,9 @@ def test_an_invalid_coefficient_is_ignored_and_reported(tmp_path: Path, text: st
     assert repair.code == "E010"
     with pytest.raises(UrdfkitError, match="<mu1>"):
         Simulator(tmp_path / "robot.urdf", strict=True)
+
+
+@pytest.mark.parametrize("text", ["1 0", "a b c", "1 0 inf"])
+def test_an_invalid_direction_is_ignored_and_reported(tmp_path: Path, text: str) -> None:
+    assert surfaces(tmp_path, block(f"<mu1>0.2</mu1>\n<fdir1>{text}</fdir1>")) == {"wheel": Surface(0.2, 0.2)}
+    assert f"<fdir1>: `{text}` is not 3 numbers" in [each.message for each in lint(tmp_path / "robot.urdf")]

@@ -9,7 +9,7 @@ from urdfkit.description.urdf.robot import (
     Transmission,
     TransmissionJoint,
 )
-from urdfkit.description.urdf.values import Reader
+from urdfkit.description.urdf.values import GAZEBO_VALUES, Reader
 from urdfkit.description.xml.element import Element
 
 
@@ -33,8 +33,8 @@ def transmission(reader: Reader, element: Element) -> Transmission:
 def gazebo_block(reader: Reader, element: Element) -> GazeboBlock:
     """Read a ``<gazebo>``; children other than plugins and sensors are only in its element."""
     for child in element.children:
-        if child.tag in ("mu1", "mu2"):
-            reader.check_friction(child)
+        if child.tag in GAZEBO_VALUES:
+            reader.check_gazebo_value(child)
     sensors = [SensorTag(e.get("name"), e.get("type"), _plugins(e), e) for e in element.find_all("sensor")]
     return GazeboBlock(element.get("reference"), _plugins(element), tuple(sensors), element)
 

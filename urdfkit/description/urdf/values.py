@@ -28,6 +28,20 @@ LARGEST = 1e30
 AGREEMENT = 1e-3
 """Largest difference between entries of the rotations of ``rpy`` and ``quat_xyzw`` that is rounding."""
 
+GAZEBO_VALUES = {
+    "mu1": "a number, zero or greater",
+    "mu2": "a number, zero or greater",
+    "fdir1": "3 numbers",
+    "gravity": "true or false",
+    "turnGravityOff": "true or false",
+    "selfCollide": "true or false",
+    "self_collide": "true or false",
+}
+"""Simulated elements of a ``<gazebo>`` block, and their valid values."""
+
+TRUTHS = {"true": True, "yes": True, "1": True, "false": False, "no": False, "0": False}
+"""Values of the elements that are true or false; Gazebo ignores case, too."""
+
 
 class Reader:
     """Reads values and records problems, in document order; a text that occurs again is parsed once.
@@ -197,13 +211,17 @@ class Reader:
             self.note("bad-number", _not(element.text, "a number", f"<{element.tag}>"), element)
         return value
 
-    def check_friction(self, element: Element) -> None:
-        """Note a coefficient of friction that is not a number, or negative, in an element's text or ``value``."""
+    def check_gazebo_value(self, element: Element) -> None:
+        """Note an invalid value of one of `GAZEBO_VALUES`, in an element's text or ``value``."""
         attribute = None if element.text else "value"
         text = element.text or element.get("value") or ""
-        value = number(text)
-        if value is None or not math.isfinite(value) or value < 0.0:
-            wanted = "a number, zero or greater"
+        wanted = GAZEBO_VALUES[element.tag]
+        if wanted == "true or false":
+            is_valid = text.strip().lower() in TRUTHS
+        else:
+            values, count = numbers(text) or (), 3 if element.tag == "fdir1" else 1
+            is_valid = len(values) == count and all(map(math.isfinite, values)) and (count == 3 or min(values) >= 0.0)
+        if not is_valid:
             self.note("bad-number", _not(text, wanted, f"<{element.tag}>"), element, attribute)
 
     def _note_number(self, element: Element, attribute: str, text: str, wanted: str) -> None:

@@ -12,10 +12,10 @@ from urdfkit.sim.engine import Surface
 def surfaces_of(robot: Robot) -> dict[str, Surface]:
     """Return the surfaces of links that define one; without ``<mu2>``, ``<mu1>`` applies to both directions.
 
-    Coefficients that are negative or not a number are ignored; they are problems of the robot.
+    Invalid numbers are ignored; they are problems of the robot.
 
     Raises:
-        SimulationError: a direction is not three numbers, or its frame is not a link; with its place.
+        SimulationError: the frame of a direction is not a link; with its place.
     """
     found: dict[str, Surface] = {}
     across: set[str | None] = set()
@@ -63,10 +63,6 @@ def _numbers(element: Element | None, count: int) -> tuple[float, ...] | None:
         numbers = tuple(float(word) for word in text.split())
     except ValueError:
         numbers = ()
-    is_valid = len(numbers) == count and all(isfinite(number) for number in numbers)
-    if count == 1:
-        return numbers if is_valid and numbers[0] >= 0.0 else None
-    if not is_valid:
-        message = f"<{element.tag}> is `{text}`; it must be {count} numbers"
-        raise SimulationError(message, position=element.origin.position)
+    if len(numbers) != count or not all(isfinite(number) for number in numbers) or (count == 1 and numbers[0] < 0.0):
+        return None
     return numbers
