@@ -212,3 +212,82 @@ def test_tensors_of_mirrored_parts(products: tuple[str, str], is_reported: bool,
     )
     found = codes(tmp_path, {"arm.urdf": robot(links + JOINT.format(""))})
     assert ("warning I506" in found) is is_reported
+
+
+LIMIT = '<limit lower="-1" upper="1" effort="{}" velocity="2"/>'
+MOVING = '<joint name="{0}" type="revolute"><parent link="base"/><child link="{0}_link"/><axis xyz="0 0 1"/>{1}</joint>'
+
+
+@pytest.mark.parametrize(
+    ("efforts", "expected"),
+    [((-1, -1), {"note"}), ((-1, 5), {"error"}), ((-5, -5), {"error"}), ((-1,), {"error"}), ((5, 5), set())],
+)
+def test_limits_of_minus_one_at_every_joint(efforts: tuple[int, ...], expected: set[str], tmp_path: Path) -> None:
+    content = "".join(
+        f'<link name="j{i}_link"/>{MOVING.format(f"j{i}", LIMIT.format(effort))}' for i, effort in enumerate(efforts)
+    )
+    found = codes(tmp_path, {"arm.urdf": robot(f'<link name="base"/>{content}')})
+    assert {each.partition(" ")[0] for each in found if each.endswith("J410")} == expected
+
+
+@pytest.mark.parametrize(
+    ("kind", "geometry", "target", "severity"),
+    [
+        ("collision", '<sphere radius="0"/>', None, "note"),  # a contact point
+        ("collision", '<sphere radius="-1"/>', None, "error"),
+        ("visual", '<sphere radius="0"/>', None, "warning"),
+        ("collision", '<box size="1 1 0"/>', None, "warning"),
+        ("collision", '<sphere radius="0"/>', "mujoco", "error"),
+    ],
+)
+def test_sizes_that_readers_reject(kind: str, geometry: str, target: str | None, severity: str, tmp_path: Path) -> None:
+    found = codes(tmp_path, {"arm.urdf": robot(f'<link name="base">{shape(kind, geometry)}</link>')}, target=target)
+    assert [each for each in found if each.endswith("G611")] == [f"{severity} G611"]
+
+
+@pytest.mark.parametrize(
+    ("reference", "content", "severity"),
+    [
+        ("stick", "<mu1>1</mu1>", "warning"),
+        ("bse", "<mu1>1</mu1>", "error"),
+        ("stick", '<sensor name="s" type="imu"/>', "error"),
+    ],
+)
+def test_leftover_gazebo_blocks(reference: str, content: str, severity: str, tmp_path: Path) -> None:
+    block = f'<gazebo reference="{reference}">{content}</gazebo>'
+    found = codes(tmp_path, {"arm.urdf": robot(f'<link name="base"/>{block}')})
+    assert [each for each in found if each.endswith("Z801")] == [f"{severity} Z801"]
+
+
+IMPOSSIBLE = '<mass value="{0}"/><inertia ixx="{1}" ixy="0" ixz="0" iyy="{1}" iyz="0" izz="{2}"/>'
+
+
+@pytest.mark.parametrize(
+    ("mass", "moment", "joint", "severity"),
+    [
+        (0.001, 1e-5, "fixed", "note"),
+        (0.001, 1e-5, "floating", "error"),
+        (1.0, 1e-5, "fixed", "warning"),  # a tenth of the mass of the base
+        (0.001, 1.0, "fixed", "warning"),
+        (1.0, 1e-5, "floating", "error"),
+    ],
+)
+def test_impossible_tensors_of_small_parts(
+    mass: float, moment: float, joint: str, severity: str, tmp_path: Path
+) -> None:
+    base = '<link name="base"><inertial><mass value="10"/><inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1.5"/>'
+    part = f'<link name="tip"><inertial>{IMPOSSIBLE.format(mass, moment, 3 * moment)}</inertial></link>'
+    content = f"{base}</inertial></link>{part}{JOINT.format('').replace('fixed', joint)}"
+    found = codes(tmp_path, {"arm.urdf": robot(content)})
+    assert [each for each in found if each.endswith("I503")] == [f"{severity} I503"]
+
+
+@pytest.mark.parametrize(
+    ("tensor", "severity"),
+    [("ixx=0 iyy=1 izz=1", "warning"), ("ixx=0 iyy=0 izz=1", "error"), ("ixx=-1 iyy=1 izz=1", "error")],
+)
+def test_tensor_of_a_thin_rod(tensor: str, severity: str, tmp_path: Path) -> None:
+    moments = " ".join(f'{name}="{value}"' for name, value in (word.split("=") for word in tensor.split()))
+    inertial = f'<inertial><mass value="1"/><inertia {moments} ixy="0" ixz="0" iyz="0"/></inertial>'
+    found = codes(tmp_path, {"arm.urdf": robot(f'<link name="base">{inertial}</link>')})
+    assert f"{severity} I502" in found

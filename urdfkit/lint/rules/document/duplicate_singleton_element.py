@@ -19,7 +19,8 @@ class DuplicateSingletonElement(RobotRule):
     ## What it does
     Checks for a second ``<inertial>``, ``<mass>``, ``<inertia>``, ``<origin>``, ``<geometry>``, ``<axis>``, ``<limit>``
     … in the same element, and for a plugin parameter that is given twice with different values although the plugin
-    reads only one. A second material or plugin parameter is a warning, because no reader rejects it.
+    reads only one. A second plugin parameter is a warning, because no reader rejects it, and a second material a note,
+    because it only changes a colour.
 
     ## Why is this bad?
     Readers differ: urdfdom and Gazebo use the first element, others the last, and MuJoCo rejects the file ("repeated
@@ -76,7 +77,7 @@ class DuplicateSingletonElement(RobotRule):
                 if child.tag not in allowed or (element.tag == "link" and child.tag != "inertial"):
                     continue
                 if kind in first_by_kind:
-                    severity: Severity | None = "warning" if kind == "material" else None
+                    severity: Severity | None = "note" if kind == "material" else None
                     yield self._duplicate(model, element.tag, child, first_by_kind[kind], severity)
                 else:
                     first_by_kind[kind] = child

@@ -67,6 +67,7 @@ class UnboundNamespacePrefix(SourceRule):
         if not used or not document.roots:
             return
         root = document.roots[0]
+        is_expanded = not document.source.file.endswith(".urdf")
         for tag in document.walk():
             names = (tag.name, *tag.attributes) if ":" in text[tag.start : tag.end] else ()
             for prefix in [name.partition(":")[0] for name in names if ":" in name]:
@@ -82,6 +83,7 @@ class UnboundNamespacePrefix(SourceRule):
                     f"unbound prefix `{prefix}:`, first used in line {first.line}",
                     help=f"add {binding} to the root element of this file",
                     fix=Fix("safe", f"Bind the prefix `{prefix}:`", edits) if edits else None,
+                    severity=None if prefix == "xacro" or is_expanded else "warning",
                 )
 
 

@@ -82,7 +82,7 @@ class UnexpectedText(RobotRule):
                 yield Finding(
                     self.code,
                     self.name,
-                    self.severity,
+                    "note" if words.startswith(("#", "//")) else self.severity,
                     f"unexpected text `{shown}` in <{tag.name}>: readers ignore it",
                     span,
                     help="remove it, or restore the tag or comment it belongs to",

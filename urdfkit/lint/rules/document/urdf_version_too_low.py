@@ -18,7 +18,7 @@ class UrdfVersionTooLow(RobotRule):
     ## What it does
     Checks for ``quat_xyzw`` and ``<capsule>``, which need ``version="1.1"`` in ``<robot>``, and for limits of
     ``acceleration``, ``deceleration`` and ``jerk``, which need ``version="1.2"``. A robot without the attribute is URDF
-    1.0. The first use of each is reported.
+    1.0. The first use of each is reported; the limits are notes, because readers only ignore them.
 
     ## Why is this bad?
     Readers ignore attributes of a later version: without ``quat_xyzw`` the part has no rotation. urdfdom drops the
@@ -91,5 +91,5 @@ class UrdfVersionTooLow(RobotRule):
                 attribute=None if is_capsule else name,
                 help=f'write version="{shown(max(needs.values()))}" in <robot>, if all readers of the robot support it',
                 fix=fix,
-                severity="error" if name == "quat_xyzw" else None,
+                severity="error" if name == "quat_xyzw" else None if is_capsule else "note",
             )

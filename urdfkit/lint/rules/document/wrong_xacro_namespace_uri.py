@@ -63,8 +63,12 @@ class WrongXacroNamespaceUri(SourceRule):
             help=f'write xmlns:xacro="{NAMESPACE}"',
             fix=Fix("safe", "Replace with xacro's namespace", (Edit(span, NAMESPACE),)),
             # Output of xacro keeps the declaration, but does not use it.
-            severity="note" if document.source.file.endswith(".urdf") and "<xacro:" not in text else None,
+            severity="note" if document.source.file.endswith(".urdf") and not _uses_xacro(document) else None,
         )
+
+
+def _uses_xacro(document: Document) -> bool:
+    return any(tag.name.startswith("xacro:") for tag in document.walk())
 
 
 def _is_xacro_namespace(address: str) -> bool:

@@ -1,7 +1,7 @@
 """Z801 gazebo-reference-undefined."""
 
 from urdfkit.lint.fix_builders import meant, new_value
-from urdfkit.lint.model.masked_names import unless_masked
+from urdfkit.lint.model.masked_names import is_typo, unless_masked
 from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
 
 
@@ -9,7 +9,8 @@ class GazeboReferenceUndefined(RobotRule):
     """A ``<gazebo reference="…">`` block refers to an undefined link or joint.
 
     ## What it does
-    Compares the reference of each ``<gazebo>`` block with the links and joints of the robot.
+    Compares the reference of each ``<gazebo>`` block with the links and joints of the robot. This is an error if the
+    name is misspelt or if the block contains a sensor or a plugin, and a warning otherwise: a leftover block.
 
     ## Why is this bad?
     Gazebo silently drops the block with its friction, colours and sensors.
@@ -51,6 +52,7 @@ class GazeboReferenceUndefined(RobotRule):
             if not name or name in robot.link_by_name or name in robot.joint_by_name or "$" in name:
                 continue
             near, hint = meant(name, [*robot.link_by_name, *robot.joint_by_name])
+            is_misspelt = near is not None and is_typo(name, near)
             finding = self.at(
                 model,
                 block.element,
@@ -60,5 +62,6 @@ class GazeboReferenceUndefined(RobotRule):
                 fix=new_value(model, block.element, "reference", near, "unsafe", f"Replace with `{near}`")
                 if near
                 else None,
+                severity=None if is_misspelt or block.sensors or block.plugins else "warning",
             )
             yield from unless_masked(model, name, near, finding)

@@ -1,10 +1,14 @@
 """G601 mesh-file-missing."""
 
 import re
+from pathlib import Path
 
 from urdfkit.lint.fix_builders import new_value
 from urdfkit.lint.model.mesh_files import is_absolute, meshes, missing
 from urdfkit.lint.rule import Findings, Model, RobotRule
+
+_MAX_FOLDERS = 4
+"""Number of folders above a xacro file in which the expanded robot may lie."""
 
 
 class MeshFileMissing(RobotRule):
@@ -57,6 +61,8 @@ class MeshFileMissing(RobotRule):
                 continue
             if is_absolute(mesh.uri) and model.literal(element, "filename") is not None:
                 continue  # Reported by G603.
+            if _is_relative_to_output(mesh.uri.strip(), model.expanded.path):
+                continue
             near = re.search(r"did you mean `([^`]+)`", failure[1])
             uri = f"{mesh.uri.strip().rpartition('/')[0]}/{near[1]}".lstrip("/") if near else ""
             has_same_suffix = (
@@ -73,3 +79,10 @@ class MeshFileMissing(RobotRule):
                 else None,
                 cause="" if near else f"folder of {mesh.uri.strip().rpartition('/')[0]}",
             )
+
+
+def _is_relative_to_output(uri: str, path: Path) -> bool:
+    """Return whether a relative path in a xacro file names a file above its folder, where xacro writes the robot."""
+    if "://" in uri or path.suffix != ".xacro":
+        return False
+    return any((folder / uri).is_file() for folder in list(path.absolute().parents)[1:_MAX_FOLDERS])

@@ -1,10 +1,19 @@
 """G611 nonpositive-primitive."""
 
+from __future__ import annotations
+
+from urdfkit.description.urdf.robot import Sphere
 from urdfkit.description.xml.numbers import numbers
 from urdfkit.description.xml.source import Position
 from urdfkit.lint.facts.root_cause import is_not_positive, root_cause
 from urdfkit.lint.model.placement import shapes_of
 from urdfkit.lint.rule import Findings, Model, RobotRule
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from urdfkit.description.urdf.robot import Collision, Link, Visual
+    from urdfkit.description.xml.element import Element
+    from urdfkit.lint.finding import Severity
 
 _SIZES = {
     "box": ("size",),
@@ -18,7 +27,8 @@ class NonpositivePrimitive(RobotRule):
     """A box, cylinder, sphere or capsule has a size that is not positive.
 
     ## What it does
-    Checks for sizes, radii and lengths that are zero or negative.
+    Checks for sizes, radii and lengths that are zero or negative. Zero is a warning, and a note for the radius of a
+    collision sphere, which exporters write for a contact point; both are errors for MuJoCo.
 
     ## Why is this bad?
     MuJoCo and physics engines reject the shape ("size must be positive"); elsewhere it is invisible and does not
@@ -57,11 +67,31 @@ class NonpositivePrimitive(RobotRule):
                         text = element.get(attribute, "") or ""
                         values = numbers(text) or []
                         if any(value <= 0.0 for value in values) and not model.is_unresolved(element, attribute):
+                            severity = _severity(model, link, shape, element, values)
                             message = f'link `{link.name}`: {attribute}="{text}" of <{element.tag}> must be positive'
                             place = root_cause(model, element, attribute, is_not_positive)
                             if place is None:
-                                yield self.at(model, element, message, attribute=attribute, link=link.name)
+                                yield self.at(
+                                    model, element, message, attribute=attribute, link=link.name, severity=severity
+                                )
                             elif place not in reported:
                                 reported.add(place)
                                 help = f"the value is used at {model.shown(element.origin.position)}"
-                                yield self.at(model, place[0], message, attribute=place[1], link=link.name, help=help)
+                                yield self.at(
+                                    model,
+                                    place[0],
+                                    message,
+                                    attribute=place[1],
+                                    link=link.name,
+                                    help=help,
+                                    severity=severity,
+                                )
+
+
+def _severity(model: Model, link: Link, shape: Visual | Collision, element: Element, values: list[float]) -> Severity:
+    """Return ``error`` for a size that a reader of the target rejects."""
+    if model.target == "mujoco" or any(value < 0.0 for value in values):
+        return "error"
+    geometries = [each.geometry for each in link.collisions]
+    is_placeholder = any(isinstance(geometry, Sphere) and geometry.radius == 0.0 for geometry in geometries)
+    return "note" if element.tag == "sphere" and (shape.element.tag == "collision" or is_placeholder) else "warning"

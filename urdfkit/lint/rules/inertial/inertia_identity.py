@@ -2,6 +2,7 @@
 
 from math import sqrt
 
+from urdfkit.lint.facts.inertia.attached_bodies import is_fixed_to_world
 from urdfkit.lint.facts.inertia.inertia_from_shapes import computed, tensor_of
 from urdfkit.lint.facts.inertia.principal_moments import is_identity
 from urdfkit.lint.rule import Findings, Model, RobotRule
@@ -15,7 +16,8 @@ class InertiaIdentity(RobotRule):
 
     ## What it does
     Checks for ixx = iyy = izz = 1 with zero products of inertia. The tensor is accepted if the link's shapes are large
-    enough for it and, at uniform density, have a largest moment between 0.1 and 25 kg·m².
+    enough for it and, at uniform density, have a largest moment between 0.1 and 25 kg·m², or if fixed joints attach it
+    to a link ``world``.
 
     ## Why is this bad?
     1 kg·m² is the inertia of a refrigerator. Wheels and fingers with this inertia hardly accelerate.
@@ -72,6 +74,8 @@ class InertiaIdentity(RobotRule):
                         continue
                 if extent is None and not link.visuals and not link.collisions:
                     continue  # The size of the link is unknown.
+                if is_fixed_to_world(model, link):
+                    continue
                 yield self.at(
                     model,
                     element,

@@ -1,7 +1,14 @@
 """I502 inertia-not-positive-definite."""
 
+from __future__ import annotations
+
+from urdfkit.lint.facts.inertia.attached_bodies import is_fixed, is_negligible
 from urdfkit.lint.facts.inertia.principal_moments import principal_moments, reordered
 from urdfkit.lint.rule import Findings, Model, RobotRule
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from urdfkit.lint.finding import Severity
 
 TOLERANCE = 1e-9
 """Tolerance relative to the largest principal moment; rounding errors are about 1e-15."""
@@ -12,7 +19,9 @@ class InertiaNotPositiveDefinite(RobotRule):
 
     ## What it does
     Computes the principal moments (eigenvalues) of the inertia tensor of every link. Tensors of zeros are reported by
-    I504.
+    I504. The tensor of a thin rod is a warning: only MuJoCo rejects it. So is that of a link that a fixed joint
+    attaches to its parent, because readers merge both. A link that is fixed to a body with more than twenty times its
+    mass and inertia is a note.
 
     ## Why is this bad?
     A body with mass and size has a positive moment of inertia about every axis. check_urdf and Pinocchio accept the
@@ -58,10 +67,14 @@ class InertiaNotPositiveDefinite(RobotRule):
                     continue
                 listed = ", ".join(f"{moment:.3g}" for moment in moments)
                 sign = "negative" if moments[0] < -TOLERANCE * largest else "zero"
+                is_rod = sign == "zero" and moments[1] > (1.0 - TOLERANCE) * moments[2]
+                severity: Severity | None = "warning" if is_rod or is_fixed(model, link) else None
+                severity = "note" if is_negligible(model, link) else severity
                 yield self.at(
                     model,
                     element,
                     f"inertia of link `{link.name}` is impossible: principal moments {listed} kg·m², one is {sign}",
                     link=link.name,
                     help="compute it from shape and mass; products of inertia are small compared with the diagonal",
+                    severity=severity,
                 )

@@ -1,12 +1,19 @@
 """I507 inertia-vs-geometry-too-large."""
 
+from __future__ import annotations
+
 from math import sqrt
 
 from urdfkit.description.urdf.robot import Link
 from urdfkit.description.xml.element import Element
+from urdfkit.lint.facts.inertia.attached_bodies import is_negligible
 from urdfkit.lint.facts.inertia.inertia_from_shapes import computed
 from urdfkit.lint.facts.inertia.principal_moments import is_identity, principal_moments
 from urdfkit.lint.rule import Findings, Model, RobotRule
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from urdfkit.lint.finding import Severity
 
 MARGIN = 1.2
 """Largest plausible ratio; simplified shapes may be slightly smaller than the body."""
@@ -22,7 +29,7 @@ class InertiaTooLarge(RobotRule):
     Compares the radius of gyration √(I/m) with the distance from the centre of mass to the farthest point of all visual
     and collision shapes of the link. Collision shapes alone often cover only a part of the body, so for links without
     visuals only a radius of more than three times the distance is reported. Links with an unreadable mesh are not
-    checked.
+    checked. A link that is fixed to a body with more than twenty times its mass and inertia is a note.
 
     ## Why is this bad?
     However the mass is distributed inside the shapes, √(I/m) cannot exceed that distance. The link rotates as if it
@@ -64,7 +71,6 @@ class InertiaTooLarge(RobotRule):
     name = "inertia-vs-geometry-too-large"
     severity = "warning"
     fix = "unsafe"
-    checks_each_alone = True
 
     def check(self, model: Model) -> Findings:
         """Yield a finding for each tensor that is too large for the shapes."""
@@ -81,7 +87,7 @@ class InertiaTooLarge(RobotRule):
             margin = MARGIN if link.visuals else MARGIN_WITHOUT_VISUALS
             for moments, element in principal_moments(link):
                 gyration = sqrt(max(moments[2], 0.0) / mass)
-                if gyration > margin * reach and not is_identity(element):
+                if reach > 0.0 and gyration > margin * reach and not is_identity(element):
                     from urdfkit.lint.facts.inertia.inertia_formulas import has_slip
 
                     if has_slip(model, element):
@@ -101,4 +107,5 @@ class InertiaTooLarge(RobotRule):
             if call is not None:
                 help = "check the arguments of this macro call; other calls give plausible tensors"
             fix = computed(model, link, element)
-            yield self.at(model, call or element, message, link=link.name, help=help, fix=fix)
+            severity: Severity | None = "note" if is_negligible(model, link) else None
+            yield self.at(model, call or element, message, link=link.name, help=help, fix=fix, severity=severity)

@@ -1,5 +1,6 @@
 """I503 inertia-triangle-inequality."""
 
+from urdfkit.lint.facts.inertia.attached_bodies import is_fixed, is_negligible
 from urdfkit.lint.facts.inertia.principal_moments import principal_moments, reordered, shown
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
@@ -14,7 +15,9 @@ class InertiaTriangleInequality(RobotRule):
     """The principal moments of an inertia tensor violate the triangle inequality.
 
     ## What it does
-    Computes the principal moments A ≤ B ≤ C of every tensor and checks that A + B ≥ C.
+    Computes the principal moments A ≤ B ≤ C of every tensor and checks that A + B ≥ C. The tensor of a
+    link that a fixed joint attaches to its parent is a warning, because readers merge both; a link that is fixed to a
+    body with more than twenty times its mass and inertia is a note.
 
     ## Why is this bad?
     Every physical body satisfies the inequality: A + B - C is twice the second moment of mass along the third axis
@@ -61,6 +64,8 @@ class InertiaTriangleInequality(RobotRule):
                 if reordered(element) is not None or has_slip(model, element):
                     continue  # Reported by I505 or X119.
                 a, b, c = shown(moments)
+                is_note = large - small - middle <= TOLERANCE * large or is_negligible(model, link)
+                is_merged = is_fixed(model, link)
                 yield self.at(
                     model,
                     element,
@@ -68,5 +73,5 @@ class InertiaTriangleInequality(RobotRule):
                     f"{a} + {b} < {c}",
                     link=link.name,
                     help="compute it from shape and mass; set placeholders for products of inertia to 0",
-                    severity="error" if large - small - middle > TOLERANCE * large else "note",
+                    severity="note" if is_note else "warning" if is_merged else "error",
                 )

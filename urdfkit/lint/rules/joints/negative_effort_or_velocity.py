@@ -1,5 +1,6 @@
 """J410 negative-effort-or-velocity."""
 
+from urdfkit.description.urdf.robot import Robot
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
 _UNITS = {
@@ -17,7 +18,8 @@ class NegativeEffortOrVelocity(RobotRule):
 
     ## What it does
     Checks for negative ``effort`` and ``velocity`` values in ``<limit>``, and since URDF 1.2 for negative
-    ``acceleration``, ``deceleration`` and ``jerk``.
+    ``acceleration``, ``deceleration`` and ``jerk``. A limit of -1 at every joint is a note: exporters write it for no
+    limit, and Gazebo reads it so.
 
     ## Why is this bad?
     These limits are magnitudes. Pinocchio rejects the robot, and controllers clamp commands to an empty range.
@@ -56,6 +58,7 @@ class NegativeEffortOrVelocity(RobotRule):
 
     def check(self, model: Model) -> Findings:
         """Yield a finding for each negative limit."""
+        unlimited = {name for name in _UNITS if _is_minus_one_everywhere(model.robot, name)}
         for joint in model.robot.joints:
             for name in _UNITS if joint.limit is not None and joint.is_movable else ():
                 value = getattr(joint.limit, name)
@@ -68,4 +71,11 @@ class NegativeEffortOrVelocity(RobotRule):
                         attribute=name,
                         joint=joint.name,
                         help="remove the sign, or write a large value if the joint has no limit",
+                        severity="note" if name in unlimited else None,
                     )
+
+
+def _is_minus_one_everywhere(robot: Robot, name: str) -> bool:
+    """Return whether all movable joints with limits, at least two, have the limit -1."""
+    limits = [joint.limit for joint in robot.joints if joint.limit is not None and joint.is_movable]
+    return len(limits) > 1 and all(getattr(limit, name) == -1.0 for limit in limits)

@@ -1,5 +1,8 @@
 """T201 parent-link-undefined."""
 
+import re
+from pathlib import Path
+
 from urdfkit.description.urdf.queries import dangling
 from urdfkit.lint.fix_builders import meant, new_value
 from urdfkit.lint.model.masked_names import unless_masked
@@ -10,7 +13,8 @@ class ParentLinkUndefined(RobotRule):
     """The parent link of a joint is undefined.
 
     ## What it does
-    Checks for joints whose ``<parent>`` names an undefined link, and suggests the link with the most similar name.
+    Checks for joints whose ``<parent>`` names an undefined link, and suggests the link with the most similar name. This
+    is a note for a fragment: a xacro file without a root link, if another description of the package defines the link.
 
     ## Why is this bad?
     The joint has no parent link: urdfdom, Pinocchio and every viewer reject the robot.
@@ -45,6 +49,7 @@ class ParentLinkUndefined(RobotRule):
         """Yield a finding for each joint with an undefined parent link."""
         for joint, name, element in dangling(model.robot, "parent"):
             suggestion, hint = meant(name, model.robot.link_by_name)
+            is_outside = not model.robot.roots() and not suggestion and _is_defined_nearby(model, name)
             finding = self.at(
                 model,
                 element,
@@ -54,5 +59,19 @@ class ParentLinkUndefined(RobotRule):
                 fix=new_value(model, element, "link", suggestion, "unsafe", f"Replace with `{suggestion}`")
                 if suggestion
                 else None,
+                help="a file that includes this one has to define it" if is_outside else None,
+                severity="note" if is_outside else None,
             )
             yield from unless_masked(model, name, suggestion, finding)
+
+
+def _is_defined_nearby(model: Model, name: str) -> bool:
+    """Return whether another description of the package defines a link, for a xacro file."""
+    from urdfkit.lint.project.entry_files import near_descriptions
+
+    if model.expanded.path.suffix != ".xacro":
+        return False
+    own = {str(Path(file).absolute()) for file in model.expanded.sources}
+    link = re.compile(rf"<link\s+name\s*=\s*[\"']{re.escape(name)}[\"']")
+    texts = (text for path, text in near_descriptions(model.package, model.expanded.path) if str(path) not in own)
+    return any(link.search(text) for text in texts)

@@ -77,4 +77,5 @@ def _is_run_through_xacro(file: str, model: Model) -> bool:
     """Return whether a launch file of these packages runs xacro and names the file."""
     name = file.rpartition("/")[2]
     launch_files = (other.text for other in model.related_files.values() if other.file.endswith(LAUNCH))
-    return any("xacro" in text and name in text for text in launch_files)
+    ending = re.compile(r"[\"']\.urdf[\"']")  # a computed name
+    return any("xacro" in text and (name in text or ending.search(text)) for text in launch_files)
