@@ -15,8 +15,11 @@ def is_negligible(model: Model, link: Link) -> bool:
         model: the linted model.
         link: a link of the model.
     """
-    if not is_fixed(model, link):
-        return False
+    return is_fixed(model, link) and is_small(model, link)
+
+
+def is_small(model: Model, link: Link) -> bool:
+    """Return whether fixed joints attach a link to one with much more mass and inertia, in either direction."""
     attached = _attached(model, link)
     others = [model.robot.link_by_name[name] for name in attached - {link.name} if name in model.robot.link_by_name]
     return _mass(link) <= NEGLIGIBLE * max(map(_mass, others), default=0.0) and _moment(link) <= NEGLIGIBLE * max(

@@ -53,6 +53,9 @@ class GazeboReferenceUndefined(RobotRule):
                 continue
             near, hint = meant(name, [*robot.link_by_name, *robot.joint_by_name])
             is_misspelt = near is not None and is_typo(name, near)
+            is_leftover = not (is_misspelt or block.sensors or block.plugins)
+            if is_leftover:
+                near, hint = None, ""
             finding = self.at(
                 model,
                 block.element,
@@ -62,6 +65,6 @@ class GazeboReferenceUndefined(RobotRule):
                 fix=new_value(model, block.element, "reference", near, "unsafe", f"Replace with `{near}`")
                 if near
                 else None,
-                severity=None if is_misspelt or block.sensors or block.plugins else "warning",
+                severity="warning" if is_leftover else None,
             )
             yield from unless_masked(model, name, near, finding)

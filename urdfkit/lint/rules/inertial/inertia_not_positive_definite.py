@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from urdfkit.lint.facts.inertia.attached_bodies import is_fixed, is_negligible
+from urdfkit.lint.facts.inertia.attached_bodies import is_fixed, is_negligible, is_small
 from urdfkit.lint.facts.inertia.principal_moments import principal_moments, reordered
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
@@ -68,7 +68,9 @@ class InertiaNotPositiveDefinite(RobotRule):
                 listed = ", ".join(f"{moment:.3g}" for moment in moments)
                 sign = "negative" if moments[0] < -TOLERANCE * largest else "zero"
                 is_rod = sign == "zero" and moments[1] > (1.0 - TOLERANCE) * moments[2]
-                severity: Severity | None = "warning" if is_rod or is_fixed(model, link) else None
+                severity: Severity | None = (
+                    "warning" if is_rod or is_fixed(model, link) or is_small(model, link) else None
+                )
                 severity = "note" if is_negligible(model, link) else severity
                 yield self.at(
                     model,

@@ -1,6 +1,6 @@
 """I503 inertia-triangle-inequality."""
 
-from urdfkit.lint.facts.inertia.attached_bodies import is_fixed, is_negligible
+from urdfkit.lint.facts.inertia.attached_bodies import is_fixed, is_negligible, is_small
 from urdfkit.lint.facts.inertia.principal_moments import principal_moments, reordered, shown
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
@@ -65,7 +65,7 @@ class InertiaTriangleInequality(RobotRule):
                     continue  # Reported by I505 or X119.
                 a, b, c = shown(moments)
                 is_note = large - small - middle <= TOLERANCE * large or is_negligible(model, link)
-                is_merged = is_fixed(model, link)
+                is_merged = is_fixed(model, link) or is_small(model, link)
                 yield self.at(
                     model,
                     element,

@@ -8,6 +8,9 @@ from urdfkit.lint.finding import Edit, Fix
 from urdfkit.lint.model.tags import Document, Tag
 from urdfkit.lint.rule import Findings, Model, SourceRule
 
+_EXACT, _EXPORTED = 1e-6, 1e-5
+"""Largest error of an angle that is not reported [rad]: in general, and in plain URDF with meshes, a CAD export."""
+
 _ANGLES = r"rpy(?<=\srpy)\s*=\s*(?:\"([^\"<]*)\"|'([^'<]*)')"
 _DEFINITION = (
     r"<(?:xacro:)?property\b[^<>]*?\bname\s*=\s*[\"'](PI|Pi|M_PI|pi)[\"'][^<>]*?\bvalue\s*=\s*[\"']\s*([0-9.]+)\s*[\"']"
@@ -19,6 +22,7 @@ class RoundedPi(SourceRule):
 
     ## What it does
     Checks ``rpy`` for rounded multiples of π, such as 3.14, 1.57 and 0.785, and checks for properties that define π.
+    Plain URDF with meshes is usually exported; there, angles with an error of up to 0.01 mrad are accepted.
 
     ## Why is this bad?
     1.57 rad is 0.8 mrad less than a right angle, an error of nearly one millimetre at a distance of one metre. xacro
@@ -61,10 +65,12 @@ class RoundedPi(SourceRule):
     def check(self, document: Document, model: Model) -> Findings:
         """Yield a finding for each rounded angle, and for each property that defines π."""
         text = document.source.text
+        is_xacro = ".xacro" in document.source.file
+        tolerance = _EXPORTED if not is_xacro and "<mesh" in text else _EXACT
         for match in re.finditer(_ANGLES, text):
             value = match[1] or match[2] or ""
             words = re.findall(r"\$\{[^{}]*\}|\$\([^()]*\)|[^\s]+", value)
-            exact_words = [_exact(word, ".xacro" in document.source.file) for word in words]
+            exact_words = [_exact(word, is_xacro, tolerance) for word in words]
             first = next((word for word, exact in zip(words, exact_words, strict=True) if exact), None)
             if first is None:
                 continue
@@ -95,7 +101,7 @@ class RoundedPi(SourceRule):
                 )
 
 
-def _exact(word: str, is_xacro: bool) -> str | None:
+def _exact(word: str, is_xacro: bool, tolerance: float) -> str | None:
     """Return the exact form of a rounded angle; None if the angle is exact or not a multiple of π."""
     value = number(word)
     if value is None or not 0.5 <= abs(value) < 100.0:
@@ -103,7 +109,7 @@ def _exact(word: str, is_xacro: bool) -> str | None:
     for divisor in (1, 2, 4):
         multiple = round(value * divisor / pi)
         deviation = abs(value - multiple * pi / divisor)
-        if multiple and 1e-6 < deviation < 2e-3 and len(word.lstrip("+-")) >= 4:
+        if multiple and tolerance < deviation < 2e-3 and len(word.lstrip("+-")) >= 4:
             if not is_xacro:
                 return f"{multiple * pi / divisor:.10g}"
             sign, count = "-" if multiple < 0 else "", abs(multiple)
