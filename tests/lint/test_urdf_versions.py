@@ -51,9 +51,9 @@ def test_releases_that_do_not_read_a_version(tmp_path: Path, version: str, targe
         ('lower="-1" upper="1"', {"J404 error"}, set()),
         ('effort="1" velocity="1"', {"J406 warning"}, {"E014 error"}),
         ('lower="-1" effort="1" velocity="1"', set(), {"E014 error"}),
-        (f'{LIMIT} acceleration="-1"', {"E021 warning"}, {"J410 error"}),
-        (f'{LIMIT} acceleration="2" deceleration="1" jerk="-1"', {"E021 warning"}, {"J410 error"}),
-        (f'{LIMIT} jerk="x"', {"E021 warning"}, {"E010 error"}),
+        (f'{LIMIT} acceleration="-1"', {"E021 note"}, {"J410 error"}),
+        (f'{LIMIT} acceleration="2" deceleration="1" jerk="-1"', {"E021 note"}, {"J410 error"}),
+        (f'{LIMIT} jerk="x"', {"E021 note"}, {"E010 error"}),
     ],
 )
 def test_limits_of_each_version(tmp_path: Path, limit: str, old: set[str], new: set[str]) -> None:

@@ -18,7 +18,8 @@ class UrdfVersionTooLow(RobotRule):
     ## What it does
     Checks for ``quat_xyzw`` and ``<capsule>``, which need ``version="1.1"`` in ``<robot>``, and for limits of
     ``acceleration``, ``deceleration`` and ``jerk``, which need ``version="1.2"``. A robot without the attribute is URDF
-    1.0. The first use of each is reported; the limits are notes, because readers only ignore them.
+    1.0. The first use of each is reported. The limits are notes, because readers only ignore them, and so are capsules
+    in a robot without target outside of a package, which urdfdom may never read.
 
     ## Why is this bad?
     Readers ignore attributes of a later version: without ``quat_xyzw`` the part has no rotation. urdfdom drops the
@@ -65,6 +66,7 @@ class UrdfVersionTooLow(RobotRule):
         if declared is None or declared >= RATE_LIMITS:
             return
         uses: dict[str, list[Element]] = {}
+        is_for_ros = model.target is not None or model.package is not None
         needs: dict[str, Version] = {}
         for element in model.elements:
             if element.tag == "capsule" and declared < CAPSULE and model.target != "mujoco":
@@ -91,5 +93,5 @@ class UrdfVersionTooLow(RobotRule):
                 attribute=None if is_capsule else name,
                 help=f'write version="{shown(max(needs.values()))}" in <robot>, if all readers of the robot support it',
                 fix=fix,
-                severity="error" if name == "quat_xyzw" else None if is_capsule else "note",
+                severity="error" if name == "quat_xyzw" else None if is_capsule and is_for_ros else "note",
             )

@@ -2,6 +2,7 @@
 
 from math import sqrt
 
+from urdfkit.lint.facts.gazebo.plugins import is_simulated
 from urdfkit.lint.facts.inertia.attached_bodies import is_fixed_to_world
 from urdfkit.lint.facts.inertia.inertia_from_shapes import computed, tensor_of
 from urdfkit.lint.facts.inertia.principal_moments import is_identity
@@ -17,7 +18,7 @@ class InertiaIdentity(RobotRule):
     ## What it does
     Checks for ixx = iyy = izz = 1 with zero products of inertia. The tensor is accepted if the link's shapes are large
     enough for it and, at uniform density, have a largest moment between 0.1 and 25 kg·m², or if fixed joints attach it
-    to a link ``world``.
+    to a link ``world``. The root link of a robot that is not simulated is a note, because it often stands still.
 
     ## Why is this bad?
     1 kg·m² is the inertia of a refrigerator. Wheels and fingers with this inertia hardly accelerate.
@@ -60,6 +61,7 @@ class InertiaIdentity(RobotRule):
 
     def check(self, model: Model) -> Findings:
         """Yield a finding for each identity that the shapes do not explain."""
+        roots = {link.name for link in model.robot.roots()} if len(model.robot.links) > 1 else set()
         for link in model.robot.links:
             mass = link.inertial.mass if link.inertial is not None else None
             if link.inertial is None or not mass or mass < 0.0:
@@ -83,4 +85,5 @@ class InertiaIdentity(RobotRule):
                     link=link.name,
                     help="compute it from shape and mass",
                     fix=computed(model, link, element),
+                    severity="note" if link.name in roots and not is_simulated(model) else None,
                 )

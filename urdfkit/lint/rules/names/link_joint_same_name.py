@@ -1,5 +1,6 @@
 """N301 link-joint-same-name."""
 
+from urdfkit.lint.facts.gazebo.plugins import is_simulated
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
 
@@ -7,7 +8,8 @@ class LinkJointSameName(RobotRule):
     """A joint and a link have the same name.
 
     ## What it does
-    Checks for joints that have the name of a link.
+    Checks for joints that have the name of a link. This is a note for a robot without target and without plugins or
+    sensors of Gazebo, which may never be converted to SDF.
 
     ## Why is this bad?
     URDF allows this, but in SDF links and joints share one namespace. Gazebo rejects the model ("non-unique name") or
@@ -53,6 +55,7 @@ class LinkJointSameName(RobotRule):
 
     def check(self, model: Model) -> Findings:
         """Yield a finding for each joint with the name of a link."""
+        may_become_sdf = model.target is not None or is_simulated(model)
         for joint in model.robot.joints:
             link = model.robot.link_by_name.get(joint.name)
             if link is not None and joint.name:
@@ -64,4 +67,5 @@ class LinkJointSameName(RobotRule):
                     joint=joint.name,
                     help=f"rename the joint to `{joint.name}_joint`; "
                     f"the link is at {model.shown(link.element.origin.position)}",
+                    severity=None if may_become_sdf else "note",
                 )
