@@ -1,7 +1,7 @@
 """Findings on real repositories: how many per repository, and a sample by seed to judge as their maintainers would.
 
 Run it as ``python tests/bench/corpus_findings.py [--draw N --seed S] [--verdicts FILE]``. It lints each repository of
-the corpus beside the checkout as ``urdfkit lint .`` would in it, with the arguments that its launch files pass, and
+the corpus next to the checkout as ``urdfkit lint .`` would in it, with the arguments that its launch files pass, and
 without the findings on meshes that exist upstream, since the corpus contains neither launch files nor meshes.
 
 It prints errors and warnings per repository and their groups: findings of one rule with the same sentence, names and
@@ -92,7 +92,7 @@ def verdicts(path: Path) -> dict[tuple[str, ...], str]:
 
 
 def main() -> None:
-    """Print the counts, and what the options request."""
+    """Print the counts, a sample, or a comparison with verdicts."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--draw", type=int, metavar="N", help="print N findings drawn at random, as TSV")
     parser.add_argument("--seed", type=int, default=1)
@@ -118,11 +118,11 @@ def main() -> None:
     for (severity, code), count in sorted(Counter((each.severity, each.code) for _, each in found).items()):
         print(f"  {severity:8} {code} {count}")
     if arguments.verdicts:
-        known = verdicts(arguments.verdicts)
+        verdict_of = verdicts(arguments.verdicts)
         rows = {row(each) for each in found}
-        judged = [known[each] for each in rows if each in known]
+        judged = [verdict_of[each] for each in rows if each in verdict_of]
         print(f"{judged.count('right')} of {len(judged)} judged findings that are still reported are right")
-        print(f"{len(known) - len(judged)} judged findings are no longer reported")
+        print(f"{len(verdict_of) - len(judged)} judged findings are no longer reported")
 
 
 if __name__ == "__main__":
