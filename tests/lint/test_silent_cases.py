@@ -291,3 +291,30 @@ def test_tensor_of_a_thin_rod(tensor: str, severity: str, tmp_path: Path) -> Non
     inertial = f'<inertial><mass value="1"/><inertia {moments} ixy="0" ixz="0" iyz="0"/></inertial>'
     found = codes(tmp_path, {"arm.urdf": robot(f'<link name="base">{inertial}</link>')})
     assert f"{severity} I502" in found
+
+
+@pytest.mark.parametrize(("size", "is_reported"), [("0.001", False), ("0.005", True)])
+def test_visuals_that_stand_in_for_a_shape(size: str, is_reported: bool, tmp_path: Path) -> None:
+    shapes = shape("visual", SPHERE.format(size)) + shape("collision", SPHERE.format(0.3))
+    small = SMALL.replace("0.002", "0.00001")
+    found = codes(tmp_path, {"arm.urdf": robot(f'<link name="base"><inertial>{small}</inertial>{shapes}</link>')})
+    assert ("warning G617" in found) is is_reported
+    alone = f"<inertial>{SMALL}</inertial>{shape('visual', SPHERE.format(size))}"
+    found = codes(tmp_path, {"arm.urdf": robot(f'<link name="base">{alone}</link>')})
+    assert ("warning I514" in found) is is_reported
+
+
+@pytest.mark.parametrize(
+    ("name", "is_reported"), [("HalfDifferentialTransmission", False), ("SimpleTransmision", True)]
+)
+def test_transmissions_of_other_packages(name: str, is_reported: bool, tmp_path: Path) -> None:
+    content = f'<transmission name="t"><type>transmission_interface/{name}</type></transmission>'
+    found = codes(tmp_path, {"arm.urdf": robot(f'<link name="base"/>{content}')})
+    assert ("error C715" in found) is is_reported
+
+
+def test_mesh_uri_without_package(tmp_path: Path) -> None:
+    mesh = '<mesh filename="package:///arm/a.stl"/>'
+    (tmp_path / "arm.urdf").write_text(robot(f'<link name="base">{shape("visual", mesh)}</link>'))
+    (found,) = (finding for finding in lint(tmp_path / "arm.urdf") if finding.code == "G602")
+    assert "three slashes" in found.message

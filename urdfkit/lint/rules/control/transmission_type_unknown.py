@@ -11,6 +11,10 @@ _TYPES = ("SimpleTransmission", "DifferentialTransmission", "FourBarLinkageTrans
 """The classes of transmission_interface, the same in ros_control and ros2_control."""
 
 
+_MAX_LENGTH_DIFFERENCE = 2
+"""Largest accepted difference in length from the suggested type."""
+
+
 class TransmissionTypeUnknown(RobotRule):
     """A transmission has an unknown type.
 
@@ -71,6 +75,8 @@ class TransmissionTypeUnknown(RobotRule):
             qualified = f"{_PACKAGE}/{suggestion}"
             if suggestion is None or not is_standard or element.text in (qualified, suggestion):
                 continue
+            if abs(len(name) - len(suggestion)) > _MAX_LENGTH_DIFFERENCE:
+                continue  # A type of another package, such as `HalfDifferentialTransmission` of PAL Robotics.
             yield self.at(
                 model,
                 element,

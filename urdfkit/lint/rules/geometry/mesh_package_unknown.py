@@ -50,8 +50,10 @@ class MeshPackageUnknown(RobotRule):
                 yield self.at(
                     model,
                     element,
-                    f"package `{name}` of the mesh not found in workspace or environment",
+                    f"package `{name}` of the mesh not found in workspace or environment"
+                    if name
+                    else f"mesh URI `{mesh.uri.strip()}` has three slashes, so it contains no package",
                     attribute="filename",
                     link=link.name,
-                    help="pass the folder that contains it with --package-path",
+                    help="pass the folder that contains it with --package-path" if name else "remove a slash",
                 )

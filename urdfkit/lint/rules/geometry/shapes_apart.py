@@ -8,6 +8,9 @@ from urdfkit.lint.rule import Findings, Model, RobotRule
 _MIN_ALPHA = 0.5
 """Visuals with a smaller alpha are translucent."""
 
+PLACEHOLDER = 0.002
+"""Largest reach of shapes that only stand in for a missing one [m]: exporters write spheres of one millimetre."""
+
 _MAX_HULL = 100.0
 """Ratio to the reach of the other shapes from which a sphere is a wrong unit, not a safety hull."""
 
@@ -74,6 +77,8 @@ class ShapesApart(RobotRule):
             from urdfkit.lint.facts.detached_shapes import TIMES, detached_shapes
 
             shapes, far, near = detached_shapes(model, link)
+            if near <= PLACEHOLDER:
+                continue
             for shape in shapes:
                 if isinstance(shape, Visual) and _is_translucent(model, shape):
                     continue  # It probably shows the view of a sensor.

@@ -8,6 +8,9 @@ MIN_DENSITY, MAX_DENSITY = 1.0, 25000.0
 PLACEHOLDER = 0.01
 """[kg] Masses up to this value are placeholders."""
 
+PLACEHOLDER_SIZE = 0.004
+"""[m] Shapes up to this diagonal are placeholders: exporters write spheres of one millimetre."""
+
 
 class MassVsVolume(RobotRule):
     """The density of a link is implausible.
@@ -60,6 +63,8 @@ class MassVsVolume(RobotRule):
                 continue
             extent = model.extents.get(link.name)
             if extent is None or not extent.volumes or min(extent.volumes) <= 0.0:
+                continue
+            if extent.diagonal <= PLACEHOLDER_SIZE:
                 continue
             lightest, heaviest = mass / max(extent.volumes), mass / min(extent.volumes)
             if heaviest < MIN_DENSITY or lightest > MAX_DENSITY:
