@@ -189,6 +189,7 @@ RELATED_FILES: tuple[Row, ...] = (
     (_LAUNCH, "packaging.spawn_argument_misspelt", "SpawnArgumentMisspelt"),
     (f"{_LAUNCH} {_YAML}", "packaging.bridge_misspelt", "BridgeMisspelt"),
     (_YAML, "packaging.controller_contradicts_wheels", "ControllerContradictsWheels"),
+    (_YAML, "packaging.parameter_value_invalid", "ParameterValueInvalid"),
     (_LAUNCH, "launch.launch_argument_undeclared", "LaunchArgumentUndeclared"),
     (_LAUNCH, "launch.launch_argument_unknown", "LaunchArgumentUnknown"),
     (_LAUNCH, "launch.executable_unknown", "ExecutableUnknown"),

@@ -81,10 +81,12 @@ def around(package: Path) -> list[Path]:
     needed = {other: dependencies_in(manifest(folder)) for other, folder in near.items()}
     users = {name, *(other for other, names in needed.items() if name in names)}
     # Packages that only these packages use, such as controllers, belong to the same robot.
-    parts = {other for user in users - {name} for other in needed.get(user, ()) if other in near} - needed.get(
-        name, set()
-    )
-    parts = {part for part in parts if {other for other, names in needed.items() if part in names} <= users}
+    parts = {other for user in users - {name} for other in needed.get(user, ()) if other in near}
+    parts = {
+        part
+        for part in parts - needed.get(name, set())
+        if {other for other, names in needed.items() if part in names} <= users
+    }
     own = [folder for other, folder in near.items() if folder == package or other in users | parts]
     files = [file for folder in own for file in list(_files(folder, 0))[:_MAX_FILES]]
     return [*files, *(file for folder in own for name in BUILD if (file := folder / name).is_file())]

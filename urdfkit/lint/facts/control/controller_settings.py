@@ -7,7 +7,7 @@ from collections.abc import Iterator
 
 from urdfkit.description.xml.source import Source
 from urdfkit.lint.facts.control.ros2_controllers import PARAMETERS, declared
-from urdfkit.lint.facts.control.yaml_tree import Node, documents, groups
+from urdfkit.lint.facts.control.yaml_tree import Node, documents, groups, walk
 from urdfkit.record import record
 
 _ALWAYS = ("type", "update_rate", "use_sim_time", "is_async", "async_parameters", "params_file", "publish_rate", "pid")
@@ -50,6 +50,37 @@ _OF_TYPES = {
 }
 """Controller type → its parameters in any release: ros_controllers (Noetic), ros2_controllers (from Humble)."""
 
+_LIMITS = [f"{kind}_{name}" for kind in ("max", "min") for name in ("velocity", "acceleration", "deceleration", "jerk")]
+_NESTED = {
+    "gains": (
+        "p",
+        "i",
+        "d",
+        "i_clamp",
+        "i_clamp_min",
+        "i_clamp_max",
+        "antiwindup",
+        "ff_velocity_scale",
+        "publish_state",
+    ),
+    "constraints": ("stopped_velocity_tolerance", "goal_time", "trajectory", "goal", "stopped_position_tolerance"),
+    **dict.fromkeys(
+        ("linear", "angular"),
+        ("x", "y", "z", *(f"has_{name}_limits" for name in ("velocity", "acceleration", "jerk")), *_LIMITS),
+    ),
+}
+"""Group of parameters → the parameters in it, without those of joints."""
+
+_MANAGER = (
+    *("update_rate", "use_sim_time", "lock_memory", "thread_priority", "cpu_affinity", "enforce_command_limits"),
+    *("hardware_components_initial_state", "handle_exceptions", "overruns", "defaults", "diagnostics"),
+    *("shutdown_on_initial_state_failure", "state_publish_rate", "is_async", "qos_overrides", "robot_description"),
+)
+"""Parameters of controller_manager (Humble to Rolling)."""
+
+INTERFACES = ("position", "velocity", "acceleration", "effort", "torque", "force")
+_INTERFACE_KEYS = ("command_interfaces", "state_interfaces", "interface_name", "interface_names")
+
 
 @record(eq=False)
 class ControllerSettings:
@@ -81,6 +112,54 @@ def settings(source: Source) -> Iterator[ControllerSettings]:
                 yield ControllerSettings(name, kind.text, group)
 
 
+def misspelt_names(source: Source) -> Iterator[tuple[Node, str, str]]:
+    """Yield misspelt controller managers, their parameters, nested parameters and interfaces.
+
+    Yields:
+        The YAML node, the suggested name, and a description of the name with its owner.
+    """
+    from urdfkit.lint.fix_builders import nearest
+
+    for key, group in _managers(source):
+        name = key.text.strip("/").rpartition("/")[2]
+        if name != "controller_manager" and nearest(name, ("controller_manager",), cutoff=0.9) is not None:
+            yield key, "controller_manager", f"unknown node `{name}`"
+        for parameter, value in group.entries:
+            near = nearest(parameter.text, _MANAGER, cutoff=0.8) if parameter.text not in _MANAGER else None
+            if near is not None and value.find("type") is None:
+                yield parameter, near, f"unknown parameter `{parameter.text}` of the controller manager"
+    for one in settings(source):
+        joints = [node.text for name in ("joints", "joint") for node in _items(one.group.find(name))]
+        for key, value in one.group.entries:
+            for part in _items(value) if key.text in _INTERFACE_KEYS else ():
+                near = nearest(part.text, INTERFACES, cutoff=0.8) if part.text not in INTERFACES else None
+                if near is not None:
+                    yield part, near, f"unknown interface `{part.text}` of controller `{one.name}`"
+            names = (*_NESTED.get(key.text, ()), *joints)
+            inner = [each for node in walk(value) for each, _ in node.entries] if key.text in _NESTED else []
+            for each in inner:
+                if each.text in names:
+                    continue
+                near = nearest(each.text, names, cutoff=0.8) or (each.text[0] if set(each.text) < {"p", "d"} else None)
+                if near is not None:
+                    yield each, near, f"unknown name `{each.text}` in `{key.text}` of controller `{one.name}`"
+
+
+def _managers(source: Source) -> Iterator[tuple[Node, Node]]:
+    """Yield the name and the parameters of each ROS 2 node that loads controllers."""
+    for root in documents(source)[0] if PARAMETERS in source.text else ():
+        for key, section in root.entries:
+            group = section.find(PARAMETERS)
+            kinds = [value.find("type") for _, value in group.entries] if group is not None else []
+            if group is not None and any(kind is not None and "/" in kind.text for kind in kinds):
+                yield key, group
+
+
+def _items(node: Node | None) -> tuple[Node, ...]:
+    """Return the scalars of a list, or the scalar."""
+    return () if node is None else node.items if node.kind == "list" else (node,) if node.kind == "text" else ()
+
+
 def misspelt(source: Source) -> Iterator[tuple[Node, str, ControllerSettings]]:
     """Yield the misspelt parameters of controllers: key, suggested name, settings of the controller."""
     from urdfkit.lint.fix_builders import nearest
@@ -95,6 +174,6 @@ def misspelt(source: Source) -> Iterator[tuple[Node, str, ControllerSettings]]:
             name = key.text.partition(".")[0]
             if name in parameters or name in _ALWAYS or value.find("type") is not None:
                 continue
-            meant = nearest(name, lacking, cutoff=0.85)
+            meant = nearest(name, lacking, cutoff=0.8)
             if meant is not None:
                 yield key, meant, one

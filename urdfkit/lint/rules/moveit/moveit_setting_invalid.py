@@ -12,8 +12,6 @@ if TYPE_CHECKING:
     from urdfkit.lint.facts.control.yaml_tree import Node
     from urdfkit.lint.facts.moveit.settings import MoveitEntry
 
-_FLAGS = ("true", "false", "yes", "no", "on", "off")
-
 
 class MoveitSettingInvalid(RobotRule):
     """A solver, joint limit or controller of MoveIt has a misspelt name or an impossible value.
@@ -100,7 +98,7 @@ def _joint(entry: MoveitEntry) -> Iterator[tuple[Node, str]]:
     for key, node in settings.entries:
         quantity, _, kind = key.text.removeprefix("has_").rpartition("_")
         is_flag = key.text.startswith("has_") and kind == "limits"
-        if is_flag and node.text.lower() not in _FLAGS:
+        if is_flag and _number(node) is not None:
             yield node, f"`{key.text}` of joint `{joint}` is `{node.text}`; write true or false"
         elif is_flag and node.text.lower() in ("true", "yes", "on"):
             limit = settings.find(f"max_{quantity}")

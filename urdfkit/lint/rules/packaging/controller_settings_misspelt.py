@@ -19,10 +19,10 @@ class ControllerSettingsMisspelt(RobotRule):
     """A controller type, section or parameter in YAML is misspelt.
 
     ## What it does
-    Checks the controller parameters in the YAML files of the robot's package and of neighbouring packages that depend
-    on it for misspelt controller types of ros_controllers and ros2_controllers, misspelt names of controller sections,
-    misspelt ``ros__parameters`` keys (with two underscores), misspelt parameters, and tabs. Types that a package of
-    the workspace exports are accepted.
+    Checks the controller parameters in the YAML files of the robot's package and of neighbouring packages that
+    depend on it for misspelt controller types of ros_controllers and ros2_controllers, misspelt names of controller
+    sections, misspelt or missing ``ros__parameters`` keys (with two underscores), misspelt parameters and
+    interfaces, and tabs. Types that a package of the workspace exports are accepted.
 
     ## Why is this bad?
     Loading fails with "Loader for controller not found", or the controller starts without its joints, because unknown
@@ -75,7 +75,8 @@ class ControllerSettingsMisspelt(RobotRule):
                     message = f"unknown controller type `{reference.name}`; did you mean `{suggestion}`?"
                     yield self._at(source, reference.start, reference.name, message)
             yield from self._keys(source, text)
-            yield from self._parameters(source)
+            yield from self._parameters(source, model)
+            yield from self._sections(source)
             if (tab := re.search(_TAB, text)) is not None:
                 yield self._at(source, tab.start(), tab[0], "YAML is indented with a tab", help="indent with spaces")
 
@@ -103,9 +104,40 @@ class ControllerSettingsMisspelt(RobotRule):
             if suggestion is not None:
                 yield self._at(source, start, name, f"unknown controller `{name}`; did you mean `{suggestion}`?")
 
-    def _parameters(self, source: Source) -> Findings:
-        from urdfkit.lint.facts.control.controller_settings import misspelt
+    def _sections(self, source: Source) -> Findings:
+        """Yield a finding for each type without package, and each ROS 2 section without ``ros__parameters``."""
+        from urdfkit.lint.facts.control.controller_joints import TYPES
+        from urdfkit.lint.facts.control.ros2_controllers import declared
+        from urdfkit.lint.facts.control.yaml_tree import documents, groups, span_of, walk
+
+        names = [one.name for one in declared(source)]
+        for root in documents(source)[0]:
+            for _, group in groups(root):
+                kind = group.find("type")
+                if kind is None or "/" in kind.text or not kind.text:
+                    continue
+                written = re.sub(r"::|\.", "/", kind.text)
+                matches = [name for name in TYPES if written == name or name.endswith(f"/{written}")]
+                if matches:
+                    message = f"unknown controller type `{kind.text}`; did you mean `{matches[0]}`?"
+                    yield Finding(self.code, self.name, self.severity, message, span_of(source, kind))
+            for key, section in root.entries if _PARAMETERS in source.text else ():
+                inner = {name.text for node in walk(section) for name, _ in node.entries}
+                if key.text in names and inner and not any(re.match(r"ros_|type$", name) for name in inner):
+                    message = f"section `{key.text}` has no `{_PARAMETERS}`; its parameters are not read"
+                    help = f"write the parameters below `{_PARAMETERS}:`"
+                    yield Finding(self.code, self.name, self.severity, message, span_of(source, key), help=help)
+
+    def _parameters(self, source: Source, model: Model) -> Findings:
+        from urdfkit.lint.facts.control.controller_settings import INTERFACES, misspelt, misspelt_names
+        from urdfkit.lint.facts.control.ros2_controllers import offered
         from urdfkit.lint.facts.control.yaml_tree import span_of
+
+        for node, suggestion, description in misspelt_names(source):
+            # hardware-interface-lacking compares interfaces with the hardware.
+            if suggestion not in INTERFACES or not offered(model):
+                message = f"{description}; did you mean `{suggestion}`?"
+                yield Finding(self.code, self.name, self.severity, message, span_of(source, node))
 
         for key, suggestion, controller in misspelt(source):
             message = f"unknown parameter `{key.text}` of controller `{controller.name}`; did you mean `{suggestion}`?"
