@@ -36,9 +36,10 @@ def target(rule: type[Rule]) -> str | None:
 
 def marks(path: Path) -> Counter:
     expected: Counter = Counter()
-    for number, line in enumerate(path.read_text().splitlines(), 1):
-        for codes in MARK.findall(line):
-            expected.update((code.strip(), number) for code in codes.split(","))
+    for file in sorted(path.rglob("*.*")) if path.is_dir() else [path]:
+        for number, line in enumerate(file.read_text().splitlines(), 1) if file.is_file() else ():
+            for codes in MARK.findall(line):
+                expected.update((code.strip(), number) for code in codes.split(","))
     return expected
 
 
@@ -112,7 +113,7 @@ def test_fixes_keep_to_the_line_ends_of_their_file(path, end, tmp_path, monkeypa
 
 @pytest.mark.parametrize("rule", RULES, ids=lambda rule: rule.name)
 def test_each_rule_has_its_files(rule: type[Rule]):
-    kinds = {path.stem for path in (HERE / rule.name).iterdir() if path.is_file()}
+    kinds = {path.stem for path in (HERE / rule.name).iterdir()}
     wanted = {"good", "bad"} | ({"fixed"} if rule.fix != "none" else set())
     assert {kind.partition(".")[0] for kind in kinds} >= wanted
 
@@ -122,13 +123,16 @@ def test_the_examples_of_a_page_are_true(rule: type[Rule], tmp_path, monkeypatch
     monkeypatch.chdir(tmp_path)
     found = sections(rule)
     for heading, is_bad in (("Example", True), ("Use instead", False)):
-        example = re.fullmatch(r"```(?:xml|yaml)\n(.*)\n```", found[heading], re.DOTALL)
-        assert example, f"the section {heading} of {rule.code} is one block of XML, or of YAML"
+        example = re.fullmatch(r"```(?:xml|yaml|cmake)\n(.*)\n```", found[heading], re.DOTALL)
+        assert example, f"the section {heading} of {rule.code} is one block of XML, YAML or CMake"
         is_xacro = "xacro" in example[1] and any((HERE / rule.name).glob("*.xacro"))
         file = tmp_path / ("example.urdf.xacro" if is_xacro else "example.urdf")
         beside = [path for path in (HERE / rule.name).glob("bad.*") if path.suffix in (".launch", ".yaml", ".srdf")]
         if beside:  # A rule on what lies around the description.
             file = tmp_path / f"example{beside[0].suffix}"
+        if (HERE / rule.name / "good.package").is_dir():  # A rule on the files of a package.
+            shutil.copytree(HERE / rule.name / "good.package", tmp_path, dirs_exist_ok=True)
+            file = tmp_path / ("CMakeLists.txt" if "```cmake" in found[heading] else "package.xml")
         file.write_text(example[1])
         # Meshes and manifests that examples need lie next to the files of the rule.
         shutil.copytree(HERE / rule.name, tmp_path, dirs_exist_ok=True, ignore=shutil.ignore_patterns(*FIXTURES))

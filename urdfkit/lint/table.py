@@ -190,6 +190,8 @@ RELATED_FILES: tuple[Row, ...] = (
     (f"{_LAUNCH} {_YAML}", "packaging.bridge_misspelt", "BridgeMisspelt"),
     (_YAML, "packaging.controller_contradicts_wheels", "ControllerContradictsWheels"),
     (_YAML, "packaging.parameter_value_invalid", "ParameterValueInvalid"),
+    ("package.xml", "packaging.manifest_invalid", "ManifestInvalid"),
+    ("package.xml", "packaging.build_file_inconsistent", "BuildFileInconsistent"),
     (_LAUNCH, "launch.launch_argument_undeclared", "LaunchArgumentUndeclared"),
     (_LAUNCH, "launch.launch_argument_unknown", "LaunchArgumentUnknown"),
     (_LAUNCH, "launch.executable_unknown", "ExecutableUnknown"),

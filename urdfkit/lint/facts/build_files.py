@@ -1,0 +1,117 @@
+"""Build files of packages: CMakeLists.txt, package.xml and setup.py with source positions."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from functools import cached_property
+from pathlib import Path
+
+from urdfkit.description.xml.source import Source
+from urdfkit.lint.model.model import Model
+from urdfkit.lint.model.tags import Document, Tag
+from urdfkit.record import record
+
+
+@record(eq=False)
+class Command:
+    """A command of a CMakeLists.txt.
+
+    Attributes:
+        name: its name in lower case.
+        start: offset of the name.
+        words: the arguments with their offsets, without quotes; ``${PROJECT_NAME}`` is not replaced.
+    """
+
+    name: str
+    start: int
+    words: tuple[tuple[str, int], ...]
+
+
+@record(eq=False)
+class BuildFiles:
+    """The build files of one package; None for each that is missing."""
+
+    folder: Path
+    manifest: Source
+    cmake: Source | None
+    setup: Source | None
+
+    @cached_property
+    def root(self) -> Tag | None:
+        """The <package> tag; None if package.xml has none."""
+        return next((root for root in Document(self.manifest).roots if root.name == "package"), None)
+
+    def tags(self, *names: str) -> list[tuple[str, Tag]]:
+        """Return the text and the tag of each element of package.xml with one of these names."""
+        root = self.root
+        inner = [tag for tag in root.walk() if tag.name in names] if root is not None else []
+        text = self.manifest.text
+        return [(text[tag.end : tag.close].strip() if tag.close else "", tag) for tag in inner]
+
+    def dependencies(self) -> set[str]:
+        """Return the names in all dependency elements."""
+        root = self.root
+        names = {tag.name for tag in root.walk() if tag.name.endswith("depend")} if root is not None else set()
+        return {text for text, _ in self.tags(*names)}
+
+    @property
+    def name(self) -> str:
+        """Name of the package."""
+        return next((text for text, tag in self.tags("name") if tag.parent is self.root), self.folder.name)
+
+    @property
+    def build_tool(self) -> str:
+        """Return ``catkin``, ``ament_cmake``, ``ament_python`` or another build tool; empty if none is named."""
+        tools = [text for text, _ in self.tags("buildtool_depend")]
+        types = [text for text, _ in self.tags("build_type")]
+        return next(iter([*types, *tools]), "")
+
+
+def build_files(model: Model) -> Iterator[BuildFiles]:
+    """Yield the build files of the robot's package and of related packages."""
+    files = {Path(name).absolute(): source for name, source in model.related_files.items()}
+    for path, source in files.items():
+        if path.name == "package.xml":
+            cmake, setup = (files.get(path.with_name(name)) for name in ("CMakeLists.txt", "setup.py"))
+            yield BuildFiles(path.parent, source, cmake, setup)
+
+
+def commands(source: Source) -> list[Command]:
+    """Return the commands of a CMakeLists.txt; nested parentheses end a command's arguments."""
+    text = re.sub(r"#[^\n]*", lambda at: " " * len(at[0]), source.text)
+    found = []
+    for at in re.finditer(r"([A-Za-z_]\w*)\s*\(([^()]*)\)", text):
+        words = tuple(
+            (word[1] if word[1] is not None else word[0], at.start(2) + word.start() + (word[1] is not None))
+            for word in re.finditer(r"\"([^\"]*)\"|[^\s\"]+", at[2])
+        )
+        found.append(Command(at[1].lower(), at.start(1), words))
+    return found
+
+
+def installed_folders(files: BuildFiles) -> tuple[set[str], list[Command]] | None:
+    """Return the folders that a package installs and the commands that install them; None if they are computed."""
+    names: set[str] = set()
+    installs: list[Command] = []
+    if files.cmake is not None:
+        if re.search(r"\bforeach\s*\(|\bGLOB\b|ament_auto_package|install_\w+\(", files.cmake.text):
+            return None
+        for command in commands(files.cmake):
+            words = [word for word, _ in command.words]
+            if command.name.startswith("inst") and words[:1] == ["DIRECTORY"]:
+                installs.append(command)
+                end = next((at for at, word in enumerate(words) if word in OPTIONS), len(words))
+                names.update(word.strip("/").partition("/")[0] for word in words[1:end])
+            elif command.name == "install":
+                names.update(word.partition("/")[0] for word in words[1:] if "/" in word and "$" not in word)
+    if files.setup is not None:
+        names.update(re.findall(r"[\"']([\w-]+)(?:/|[\"'])", files.setup.text))
+        if "walk" in files.setup.text or "rglob" in files.setup.text:
+            return None
+    return None if any("$" in name or name in (".", "") for name in names) else (names, installs)
+
+
+OPTIONS = frozenset(
+    ("DESTINATION", "PATTERN", "FILES_MATCHING", "USE_SOURCE_PERMISSIONS", "REGEX", "OPTIONAL", "COMPONENT")
+)

@@ -1,0 +1,98 @@
+"""Names of released ROS packages and of rosdep keys, to find misspelt dependencies."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+_NAMES = """
+ackermann_msgs ackermann_steering_controller action_msgs actionlib actionlib_msgs actuator_msgs admittance_controller
+amcl ament_cmake ament_cmake_auto ament_cmake_copyright ament_cmake_cppcheck ament_cmake_flake8 ament_cmake_gmock
+ament_cmake_gtest ament_cmake_lint_cmake ament_cmake_pep257 ament_cmake_pytest ament_cmake_python ament_cmake_ros
+ament_cmake_uncrustify ament_cmake_xmllint ament_copyright ament_flake8 ament_index_cpp ament_index_python
+ament_lint_auto ament_lint_common ament_pep257 ament_python angles apriltag_ros aruco_ros bicycle_steering_controller
+bond bond_core builtin_interfaces camera_calibration camera_info_manager cartographer cartographer_ros catkin
+catkin_virtualenv class_loader cmake_modules common_interfaces compressed_image_transport control_msgs control_toolbox
+controller_interface controller_manager controller_manager_msgs costmap_2d cv_bridge depth_image_proc
+depthimage_to_laserscan diagnostic_aggregator diagnostic_msgs diagnostic_updater diff_drive_controller
+dwa_local_planner dynamic_reconfigure effort_controllers eigen eigen_conversions example_interfaces fake_localization
+filters force_torque_sensor_broadcaster force_torque_sensor_controller forward_command_controller
+four_wheel_steering_msgs gazebo_dev gazebo_msgs gazebo_plugins gazebo_ros gazebo_ros2_control gazebo_ros_control
+gazebo_ros_pkgs generate_parameter_library geographic_msgs geometry_msgs global_planner gmapping gps_msgs
+gripper_controllers gtest gz_ros2_control hardware_interface hector_gazebo_plugins hector_mapping
+hector_sensors_description ign_ros2_control image_common image_geometry image_pipeline image_proc image_transport
+image_transport_plugins image_view imu_complementary_filter imu_filter_madgwick imu_sensor_broadcaster
+imu_sensor_controller imu_tools interactive_markers joint_limits joint_limits_interface joint_state_broadcaster
+joint_state_controller joint_state_publisher joint_state_publisher_gui joint_trajectory_controller joy joy_teleop
+kdl_parser kdl_parser_py key_teleop laser_filters laser_geometry laser_proc launch launch_param_builder launch_pytest
+launch_ros launch_testing launch_testing_ament_cmake launch_testing_ros launch_xml launch_yaml libgazebo
+libpcl-all-dev lifecycle_msgs map_msgs map_server mavros mavros_msgs mecanum_drive_controller message_filters
+message_generation message_runtime move_base move_base_msgs moveit moveit_commander moveit_common moveit_configs_utils
+moveit_core moveit_fake_controller_manager moveit_kinematics moveit_msgs moveit_planners moveit_planners_chomp
+moveit_planners_ompl moveit_py moveit_resources moveit_ros moveit_ros_benchmarks moveit_ros_control_interface
+moveit_ros_move_group moveit_ros_perception moveit_ros_planning moveit_ros_planning_interface
+moveit_ros_robot_interaction moveit_ros_visualization moveit_ros_warehouse moveit_servo moveit_setup_assistant
+moveit_simple_controller_manager moveit_visual_tools nav2_amcl nav2_behavior_tree nav2_behaviors nav2_bringup
+nav2_bt_navigator nav2_collision_monitor nav2_common nav2_controller nav2_core nav2_costmap_2d nav2_dwb_controller
+nav2_lifecycle_manager nav2_map_server nav2_mppi_controller nav2_msgs nav2_navfn_planner nav2_planner nav2_recoveries
+nav2_regulated_pure_pursuit_controller nav2_rviz_plugins nav2_simple_commander nav2_smac_planner nav2_smoother
+nav2_util nav2_velocity_smoother nav2_waypoint_follower nav_core nav_msgs navfn navigation navigation2
+nmea_navsat_driver nodelet octomap octomap_msgs octomap_ros octomap_server ompl orocos_kdl parallel_gripper_controller
+pcl_conversions pcl_msgs pcl_ros pick_ik pid_controller pilz_industrial_motion_planner plotjuggler pluginlib
+pointcloud_to_laserscan position_controllers python-numpy python3-matplotlib python3-numpy python3-opencv python3-pip
+python3-pytest python3-scipy python3-serial python3-setuptools python3-yaml python_qt_binding range_sensor_broadcaster
+rcl_interfaces rclcpp rclcpp_action rclcpp_components rclcpp_lifecycle rclpy rcutils realsense2_camera
+realsense2_description realtime_tools resource_retriever rmw robot_localization robot_pose_ekf robot_state_publisher
+robot_upstart ros2_control ros2_control_test_assets ros2_controllers ros2_controllers_test_nodes ros2bag ros2cli
+ros2control ros2controlcli ros2launch ros2param ros2run ros2topic ros_base ros_control ros_controllers ros_core ros_gz
+ros_gz_bridge ros_gz_image ros_gz_interfaces ros_gz_sim ros_ign ros_ign_bridge ros_ign_gazebo ros_ign_image
+ros_testing rosbag rosbag2 rosbash rosconsole roscpp roscpp_serialization rosgraph_msgs rosidl_default_generators
+rosidl_default_runtime roslaunch roslib roslint rosnode rosout rosparam_shortcuts rospy rosserial rosservice rostest
+rostopic rosunit rqt rqt_common_plugins rqt_controller_manager rqt_graph rqt_gui rqt_gui_py rqt_image_view
+rqt_joint_trajectory_controller rqt_plot rqt_robot_steering rqt_tf_tree rviz rviz2 rviz_common rviz_default_plugins
+rviz_imu_plugin rviz_visual_tools sensor_msgs sensor_msgs_py serial shape_msgs simulation_interfaces slam_gmapping
+slam_toolbox smach smach_ros spatio_temporal_voxel_layer srdfdom std_msgs std_srvs steering_controllers_library
+stereo_image_proc stereo_msgs teb_local_planner teleop_twist_joy teleop_twist_keyboard tf tf2 tf2_eigen
+tf2_geometry_msgs tf2_kdl tf2_msgs tf2_py tf2_ros tf2_ros_py tf2_sensor_msgs tf2_tools tf_conversions
+tf_transformations tinyxml tinyxml2 topic_tools trac_ik_kinematics_plugin trajectory_msgs transmission_interface
+tricycle_controller tricycle_steering_controller twist_mux twist_stamper ur_client_library ur_controllers
+ur_description ur_msgs urdf urdf_launch urdf_parser_plugin urdf_tutorial urdfdom urdfdom_headers urdfdom_py urg_node
+usb_cam v4l2_camera velocity_controllers velodyne velodyne_description velodyne_driver velodyne_gazebo_plugins
+velodyne_pointcloud velodyne_simulator vision_msgs vision_opencv visp visualization_msgs warehouse_ros
+warehouse_ros_mongo warehouse_ros_sqlite web_video_server xacro yaml-cpp yaml_cpp_vendor yocs_cmd_vel_mux
+"""
+"""Common names in distribution.yaml of Noetic, Humble and Jazzy, and in rosdep/*.yaml (ros/rosdistro)."""
+
+
+def names() -> frozenset[str]:
+    """Return the names of common released packages and rosdep keys; there are many others."""
+    return frozenset(_NAMES.split())
+
+
+def misspelling_of(name: str, others: Iterable[str]) -> str | None:
+    """Return the package that a name misspells by one letter or two swapped letters; None if it misspells none.
+
+    Names that differ by a digit or a final ``s`` can be two packages.
+
+    Args:
+        name: the name in the file.
+        others: further valid names, such as the packages of the workspace.
+    """
+    valid = names() | set(others)
+    if name in valid or len(name) < 4:
+        return None
+    from urdfkit.errors import similar
+
+    return next((near for near in similar(name, valid, count=3, cutoff=0.75) if _is_slip(name, near)), None)
+
+
+def _is_slip(name: str, other: str) -> bool:
+    """Return whether two names differ by one letter, by a separator, or by the order of letters in one place."""
+    if name.replace("-", "_") == other.replace("-", "_") or name.replace("_", "") == other.replace("_", ""):
+        return True
+    start = next((at for at, (a, b) in enumerate(zip(name, other, strict=False)) if a != b), min(len(name), len(other)))
+    left, right = name[start:], other[start:]
+    while left and right and left[-1] == right[-1]:
+        left, right = left[:-1], right[:-1]
+    if ({left, right} == {"", "s"} and not name.endswith("_msg")) or not (left + right).isalpha():
+        return False
+    return max(len(left), len(right)) <= 1 or sorted(left) == sorted(right)

@@ -1,0 +1,190 @@
+"""K973 build-file-inconsistent."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+
+from urdfkit.description.xml.source import Source
+from urdfkit.lint.finding import Finding
+from urdfkit.lint.rule import Findings, Model, RobotRule
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from urdfkit.lint.facts.build_files import BuildFiles, Command
+
+_COMMANDS = (
+    *("cmake_minimum_required", "project", "find_package", "install", "catkin_package", "ament_package"),
+    *("add_executable", "add_library", "target_link_libraries", "include_directories", "target_include_directories"),
+    *("ament_target_dependencies", "catkin_install_python", "ament_export_dependencies", "add_message_files"),
+    *("generate_messages", "add_dependencies", "ament_python_install_package", "catkin_python_setup"),
+)
+_VARIABLES = (
+    *("PROJECT_NAME", "CATKIN_PACKAGE_SHARE_DESTINATION", "CATKIN_PACKAGE_BIN_DESTINATION", "PROJECT_SOURCE_DIR"),
+    *("CATKIN_PACKAGE_LIB_DESTINATION", "CATKIN_PACKAGE_INCLUDE_DESTINATION", "CATKIN_GLOBAL_BIN_DESTINATION"),
+    *("CATKIN_GLOBAL_INCLUDE_DESTINATION", "CMAKE_CURRENT_SOURCE_DIR", "catkin_INCLUDE_DIRS", "catkin_LIBRARIES"),
+)
+
+
+class BuildFileInconsistent(RobotRule):
+    """CMakeLists.txt or setup.py contradicts the package, or lacks the folders that launch files use.
+
+    ## What it does
+    Checks the name of the project, misspelt commands, variables and packages, the call of ``ament_package()`` or
+    ``catkin_package()``, files and folders that ``install`` names but that do not exist, and folders with launch files,
+    or that launch files use, but that are not installed. In setup.py it checks the name and the resource marker.
+
+    ## Why is this bad?
+    The build fails, or the installed package lacks files: "file 'cart.launch.py' was not found in the share directory".
+
+    ## Example
+    ```cmake
+    cmake_minimum_required(VERSION 3.8)
+    project(cart_description)
+    find_package(ament_cmake REQUIRED)
+    install(DIRECTORY lanch urdf DESTINATION share/${PROJECT_NAME})
+    ament_package()
+    ```
+
+    ## Use instead
+    ```cmake
+    cmake_minimum_required(VERSION 3.8)
+    project(cart_description)
+    find_package(ament_cmake REQUIRED)
+    install(DIRECTORY launch urdf DESTINATION share/${PROJECT_NAME})
+    ament_package()
+    ```
+    """
+
+    code = "K973"
+    name = "build-file-inconsistent"
+
+    def check(self, model: Model) -> Findings:
+        """Yield a finding for each defect of the build files."""
+        from urdfkit.lint.facts.build_files import build_files, commands
+
+        used = _used_folders(model)
+        for files in build_files(model):
+            if files.cmake is not None:
+                yield from self._cmake(files, files.cmake, commands(files.cmake))
+            elif files.setup is not None:
+                yield from self._setup(files, files.setup)
+            yield from self._folders(files, used.get(files.name, {}))
+
+    def _cmake(self, files: BuildFiles, source: Source, every: list[Command]) -> Findings:
+        from urdfkit.lint.facts.ros_packages import misspelling_of
+        from urdfkit.lint.fix_builders import nearest
+        from urdfkit.lint.model.masked_names import is_typo
+
+        defined = set(re.findall(r"(?i)\b(?:function|macro)\s*\(\s*(\w+)", source.text))
+        assigned = set(
+            re.findall(r"(?i)\b(?:set|foreach|option|list\s*\(\s*\w+|file\s*\(\s*\w+)\s*\(?\s*(\w+)", source.text)
+        )
+        project = next((command for command in every if command.name == "project"), None)
+        for command in every:
+            near = nearest(command.name, _COMMANDS, cutoff=0.85) if command.name not in (*_COMMANDS, *defined) else None
+            if near is not None and is_typo(command.name, near):
+                yield self._at(source, command.start, command.name, f"unknown command; did you mean `{near}`?")
+            if command.name == "find_package" and command.words:
+                words = [word for at, word in enumerate(command.words) if at == 0 or command.words[0][0] == "catkin"]
+                for word, start in words:
+                    suggestion = misspelling_of(word, files.dependencies()) if word.islower() else None
+                    if suggestion is not None:
+                        yield self._at(source, start, word, f"unknown package `{word}`; did you mean `{suggestion}`?")
+            if command.name == "install":
+                yield from self._install(files, source, command)
+        for use in re.finditer(r"\$\{(\w+)\}", source.text):
+            near = nearest(use[1], _VARIABLES, cutoff=0.85) if use[1] not in (*_VARIABLES, *assigned) else None
+            if near is not None and is_typo(use[1], near):
+                message = f"unknown variable `{use[1]}`; did you mean `{near}`?"
+                yield self._at(source, use.start(1), use[1], message)
+        if project is not None and project.words and "$" not in project.words[0][0]:
+            word, start = project.words[0]
+            if word != files.name:
+                yield self._at(source, start, word, f"project `{word}` has another name than package `{files.name}`")
+        names = {command.name for command in every}
+        found = {command.words[0][0] for command in every if command.name == "find_package" and command.words}
+        for tool, call in (("catkin", "catkin_package"), ("ament_cmake", "ament_package")):
+            is_called = any(nearest(name, [call, "ament_auto_package"], cutoff=0.8) for name in names)
+            if tool in found and project is not None and not is_called:
+                yield self._at(source, project.start, "project", f"CMakeLists.txt does not call {call}()")
+
+    def _install(self, files: BuildFiles, source: Source, command: Command) -> Findings:
+        """Yield a finding for each literal file or folder that does not exist."""
+        from urdfkit.description.packages.resolver import near_path
+        from urdfkit.lint.facts.build_files import OPTIONS
+
+        if not command.words or command.words[0][0] not in ("DIRECTORY", "FILES", "PROGRAMS"):
+            return
+        for word, start in command.words[1:]:
+            if word in OPTIONS:
+                return
+            path = files.folder / word
+            if "$" not in word and not path.exists():
+                yield self._at(source, start, word, f"`{word}` does not exist in this package{near_path(path)}")
+
+    def _setup(self, files: BuildFiles, source: Source) -> Findings:
+        name = re.search(r"(?m)^\s*(?:package_name\s*=|name\s*=)\s*[\"']([^\"']+)[\"']", source.text)
+        if name is not None and name[1] != files.name:
+            message = f"the name in setup.py is `{name[1]}`, but that of the package is `{files.name}`"
+            yield self._at(source, name.start(1), name[1], message)
+        marker = re.search(r"share/ament_index/resource_index/packages", source.text)
+        data = re.search(r"data_files\s*=", source.text)
+        if marker is None and data is not None and "resource_index" not in source.text:
+            message = "data_files does not install the marker `resource/…` to share/ament_index/resource_index/packages"
+            yield self._at(source, data.start(), "data_files", message)
+        if data is not None and "package.xml" not in source.text:
+            yield self._at(source, data.start(), "data_files", "data_files does not install package.xml")
+
+    def _folders(self, files: BuildFiles, used: dict[str, str]) -> Findings:
+        """Yield a finding for each folder that launch files use and that is not installed."""
+        from urdfkit.lint.facts.build_files import installed_folders
+        from urdfkit.lint.fix_builders import nearest
+
+        installed = installed_folders(files)
+        source = files.cmake or files.setup
+        if installed is None or source is None:
+            return
+        names, installs = installed
+        is_catkin = files.build_tool == "catkin"
+        for folder, use in used.items():
+            absent = [name for name in names if not (files.folder / name).exists()]
+            if folder in names or not (files.folder / folder).is_dir() or nearest(folder, absent) is not None:
+                continue
+            place = installs[0].start if installs else max(source.text.find("data_files"), 0)
+            message = f"folder `{folder}` is not installed, but {use}"
+            severity = "note" if is_catkin else "warning"
+            yield self._at(source, place, "install" if installs else "data_files", message, severity)
+
+    def _at(self, source: Source, start: int, text: str, message: str, severity: str = "error") -> Finding:
+        span = source.span(start, min(start + len(text), len(source.text)))
+        return Finding(self.code, self.name, severity, message, span)  # type: ignore[arg-type]
+
+
+def _used_folders(model: Model) -> dict[str, dict[str, str]]:
+    """Return package → its folders that launch files use, with the place of the use; folders with launch files too."""
+    from pathlib import Path
+
+    from urdfkit.description.packages.related_files import LAUNCH, manifest, name_in, package_of
+
+    found: dict[str, dict[str, str]] = {}
+    for name, source in model.related_files.items():
+        package = package_of(Path(name)) if name.endswith(LAUNCH) else None
+        if package is None:
+            continue
+        for other, folder, line in _paths(source):
+            found.setdefault(other, {}).setdefault(folder, f"{name}:{line} uses it")
+        folder = Path(name).absolute().relative_to(package).parts[0]
+        if folder == "launch":
+            own = name_in(manifest(package), package.name)
+            found.setdefault(own, {}).setdefault(folder, "it contains launch files")
+    return found
+
+
+def _paths(source: Source) -> Iterator[tuple[str, str, int]]:
+    from urdfkit.lint.facts.control.launch_package_paths import package_paths
+
+    for path in package_paths(source):
+        folder, separator, _ = path.path.strip("/").partition("/")
+        if separator:
+            yield path.package, folder, source.position(path.start).line
