@@ -195,6 +195,7 @@ RELATED_FILES: tuple[Row, ...] = (
     (_LAUNCH, "launch.launch_argument_undeclared", "LaunchArgumentUndeclared"),
     (_LAUNCH, "launch.launch_argument_unknown", "LaunchArgumentUnknown"),
     (_LAUNCH, "launch.executable_unknown", "ExecutableUnknown"),
+    (f"{_LAUNCH} {_YAML}", "launch.launch_name_misspelt", "LaunchNameMisspelt"),
     (_SRDF, "moveit.srdf_not_well_formed", "SrdfNotWellFormed"),
     (_SRDF, "moveit.srdf_element_unknown", "SrdfElementUnknown"),
     (_SRDF, "moveit.srdf_of_other_robot", "SrdfOfOtherRobot"),

@@ -7,7 +7,9 @@ from collections.abc import Iterator
 from functools import cached_property
 from pathlib import Path
 
+from urdfkit.description.xml.reader import document_of
 from urdfkit.description.xml.source import Source
+from urdfkit.errors import XmlError
 from urdfkit.lint.model.model import Model
 from urdfkit.lint.model.tags import Document, Tag
 from urdfkit.record import record
@@ -72,9 +74,17 @@ def build_files(model: Model) -> Iterator[BuildFiles]:
     """Yield the build files of the robot's package and of related packages."""
     files = {Path(name).absolute(): source for name, source in model.related_files.items()}
     for path, source in files.items():
-        if path.name == "package.xml":
+        if path.name == "package.xml" and _is_well_formed(source):
             cmake, setup = (files.get(path.with_name(name)) for name in ("CMakeLists.txt", "setup.py"))
             yield BuildFiles(path.parent, source, cmake, setup)
+
+
+def _is_well_formed(source: Source) -> bool:
+    try:
+        document_of(source)
+    except XmlError:
+        return False
+    return True
 
 
 def commands(source: Source) -> list[Command]:

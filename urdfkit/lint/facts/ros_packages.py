@@ -82,10 +82,10 @@ def misspelling_of(name: str, others: Iterable[str]) -> str | None:
         return None
     from urdfkit.errors import similar
 
-    return next((near for near in similar(name, valid, count=3, cutoff=0.75) if _is_slip(name, near)), None)
+    return next((near for near in similar(name, valid, count=3, cutoff=0.75) if is_slip(name, near)), None)
 
 
-def _is_slip(name: str, other: str) -> bool:
+def is_slip(name: str, other: str) -> bool:
     """Return whether two names differ by one letter, by a separator, or by the order of letters in one place."""
     if name.replace("-", "_") == other.replace("-", "_") or name.replace("_", "") == other.replace("_", ""):
         return True

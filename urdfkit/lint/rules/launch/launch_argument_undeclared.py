@@ -52,28 +52,35 @@ class LaunchArgumentUndeclared(RobotRule):
         files = list(launch_files(model))
         elsewhere = {name for file in files if not file.is_ros1 for name in (*file.declared, *file.assigned)}
         elsewhere |= {word.name for file in files if not file.is_ros1 for call in file.includes for word in call.passed}
-        included = {call.path.rpartition("/")[2] for file in files for call in file.includes}
         for file in files:
             reported: set[str] = set()
             for use, has_default in file.used:
                 if use.name in file.declared or use.name in file.assigned or use.name in reported:
                     continue
                 reported.add(use.name)
-                if not file.is_ros1 and (use.name in elsewhere or file.is_computed):
-                    continue
-                yield from self._undeclared(file, use, has_default, included)
+                if not file.is_computed:
+                    yield from self._undeclared(file, use, has_default, use.name in elsewhere, model)
 
-    def _undeclared(self, file: LaunchActions, use: Named, has_default: bool, included: set[str]) -> Findings:
+    def _undeclared(
+        self, file: LaunchActions, use: Named, has_default: bool, is_elsewhere: bool, model: Model
+    ) -> Findings:
+        from urdfkit.lint.facts.launch.receivers import OUTSIDE, receiver
         from urdfkit.lint.fix_builders import nearest
         from urdfkit.lint.model.masked_names import is_typo
 
-        near = nearest(use.name, file.declared, cutoff=0.75)
+        used = {name.name for name, _ in file.used}
+        unused = [name for name in file.declared if name not in used]
+        candidates = unused if is_elsewhere and not file.is_ros1 else file.declared
+        near = nearest(use.name, candidates, cutoff=0.75)
         if near is not None and not is_typo(use.name, near):
             near = None
-        is_alone = not file.includes and file.source.file.rpartition("/")[2] not in included and not has_default
-        if near is None and not file.is_ros1 and not (is_alone and file.declared):
+        are_found = all(
+            receiver(call, model) is not None or (call.package, call.path.rpartition("/")[2]) in OUTSIDE
+            for call in file.includes
+        )
+        is_certain = are_found and not has_default and not is_elsewhere and bool(file.declared)
+        if near is None and not file.is_ros1 and not is_certain:
             return
-        used = {name.name for name, _ in file.used}
         if near is not None and near not in used and _is_rarer(near, use.name, file):
             place = file.declared[near].name
             message = f"launch argument `{near}` is declared but not used; did you mean `{use.name}`?"

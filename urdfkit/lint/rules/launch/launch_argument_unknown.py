@@ -49,8 +49,9 @@ class LaunchArgumentUnknown(RobotRule):
 
     def check(self, model: Model) -> Findings:
         """Yield a finding for each unknown or missing argument."""
+        from urdfkit.lint.facts.control.controller_joints import Named
         from urdfkit.lint.facts.launch.actions import launch_files
-        from urdfkit.lint.facts.launch.receivers import OUTSIDE, actions_at, receiver
+        from urdfkit.lint.facts.launch.receivers import OUTSIDE, actions_at, misspelt_file, receiver
 
         for file in launch_files(model):
             for call in file.includes:
@@ -59,6 +60,11 @@ class LaunchArgumentUnknown(RobotRule):
                 outside = OUTSIDE.get((call.package, call.path.rpartition("/")[2]))
                 if actions is not None:
                     yield from self._include(file, call, actions, model)
+                elif path is None and (near := misspelt_file(call)) is not None:
+                    message = f"package `{call.package}` has no launch file `{call.path}`; did you mean `{near}`?"
+                    written = call.path.rpartition("/")[2]
+                    start = max(file.source.text.find(written, call.start), call.start)
+                    yield self._at(file, Named(written, start), message, "error")
                 elif outside is not None:
                     yield from self._unknown(file, call.passed, outside.split(), call.path, True, self.severity)
             for call in file.xacro:
@@ -102,9 +108,7 @@ class LaunchArgumentUnknown(RobotRule):
         if path is None or not call.passed or path.resolve() != model.expanded.path.resolve():
             return
         names = declared_arguments(model.expanded.sources.values())
-        yield from self._unknown(
-            file, call.passed, names, path.name, bool(model.missing_file) or not names, self.severity
-        )
+        yield from self._unknown(file, call.passed, names, path.name, bool(model.missing_file), self.severity)
 
     def _unknown(
         self,

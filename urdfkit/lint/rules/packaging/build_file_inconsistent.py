@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
+from itertools import pairwise
 
 from urdfkit.description.xml.source import Source
 from urdfkit.lint.finding import Finding
@@ -24,6 +25,7 @@ _VARIABLES = (
     *("CATKIN_PACKAGE_LIB_DESTINATION", "CATKIN_PACKAGE_INCLUDE_DESTINATION", "CATKIN_GLOBAL_BIN_DESTINATION"),
     *("CATKIN_GLOBAL_INCLUDE_DESTINATION", "CMAKE_CURRENT_SOURCE_DIR", "catkin_INCLUDE_DIRS", "catkin_LIBRARIES"),
 )
+_DESTINATIONS = ("share", "lib", "bin", "include", "etc", "libexec", "python", "launch", "config", "meshes")
 
 
 class BuildFileInconsistent(RobotRule):
@@ -100,22 +102,34 @@ class BuildFileInconsistent(RobotRule):
                 yield self._at(source, use.start(1), use[1], message)
         if project is not None and project.words and "$" not in project.words[0][0]:
             word, start = project.words[0]
-            if word != files.name:
+            if word != files.name and word == files.folder.name:
+                tag = files.tags("name")[0][1]
+                message = f"the package is `{files.name}`, but its folder and its project are `{word}`"
+                yield self._at(files.manifest, tag.start, f"<name>{files.name}", message)
+            elif word != files.name:
                 yield self._at(source, start, word, f"project `{word}` has another name than package `{files.name}`")
         names = {command.name for command in every}
         found = {command.words[0][0] for command in every if command.name == "find_package" and command.words}
         for tool, call in (("catkin", "catkin_package"), ("ament_cmake", "ament_package")):
             is_called = any(nearest(name, [call, "ament_auto_package"], cutoff=0.8) for name in names)
             if tool in found and project is not None and not is_called:
-                yield self._at(source, project.start, "project", f"CMakeLists.txt does not call {call}()")
+                yield self._at(source, every[-1].start, every[-1].name, f"CMakeLists.txt does not call {call}()")
 
     def _install(self, files: BuildFiles, source: Source, command: Command) -> Findings:
         """Yield a finding for each literal file or folder that does not exist."""
         from urdfkit.description.packages.resolver import near_path
         from urdfkit.lint.facts.build_files import OPTIONS
+        from urdfkit.lint.fix_builders import nearest
 
         if not command.words or command.words[0][0] not in ("DIRECTORY", "FILES", "PROGRAMS"):
             return
+        for (option, _), (word, start) in pairwise(command.words):
+            first, separator, _ = word.partition("/")
+            near = nearest(first, _DESTINATIONS, cutoff=0.7) if option == "DESTINATION" and separator else None
+            if near is not None and first not in _DESTINATIONS and "$" not in first:
+                yield self._at(
+                    source, start, word, f"unknown folder `{first}` of the installation; did you mean `{near}`?"
+                )
         for word, start in command.words[1:]:
             if word in OPTIONS:
                 return

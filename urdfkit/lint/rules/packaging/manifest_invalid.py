@@ -79,7 +79,8 @@ class ManifestInvalid(RobotRule):
         from urdfkit.lint.facts.ros_packages import misspelling_of
         from urdfkit.lint.fix_builders import nearest
 
-        near = neighbours(model.package) if model.package is not None else {}
+        folders = neighbours(model.package) if model.package is not None else {}
+        near = {*folders, *(folder.name for folder in folders.values())}
         for files in build_files(model):
             root = files.root
             if root is None:
@@ -132,7 +133,7 @@ class ManifestInvalid(RobotRule):
         if not types:
             if expected.startswith("ament"):
                 message = f"package.xml has no <build_type>{expected}</build_type> in <export>"
-                yield self._at(files, root, message)
+                yield self._at(files, next((tag for _, tag in files.tags("export")), root), message)
             return
         text, tag = types[0]
         suggestion = nearest(text, _TYPES, cutoff=0.7) if text not in _TYPES else None

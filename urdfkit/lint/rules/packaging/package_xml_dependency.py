@@ -1,9 +1,10 @@
 """K956 package-xml-dependency."""
 
 import re
+from collections.abc import Iterable
 from pathlib import Path
 
-from urdfkit.description.packages.related_files import LAUNCH, dependencies_in, name_in, package_of
+from urdfkit.description.packages.related_files import LAUNCH, dependencies_in, name_in, neighbours, package_of
 from urdfkit.description.xml.source import Source
 from urdfkit.lint.finding import Finding
 from urdfkit.lint.rule import Findings, Model, RobotRule
@@ -54,7 +55,7 @@ class PackageXmlDependency(RobotRule):
         if package is None:
             return
         manifest = model.manifest(package)
-        declared = {name_in(manifest), *dependencies_in(manifest)}
+        declared = {name_in(manifest), *_dependencies(manifest, neighbours(package))}
         for file, source in model.expanded.sources.items():
             uses = "$(find" in source.text or "package://" in source.text
             path = Path(file).absolute()
@@ -79,7 +80,8 @@ class PackageXmlDependency(RobotRule):
                 continue
             if package not in declared:
                 manifest = model.manifest(package)
-                declared[package] = {name_in(manifest, package.name), *dependencies_in(manifest)}
+                needed = _dependencies(manifest, neighbours(package))
+                declared[package] = {name_in(manifest, package.name), package.name, *needed}
             for name, start, end in packages_used(source):
                 if name not in declared[package]:
                     declared[package].add(name)
@@ -94,3 +96,11 @@ class PackageXmlDependency(RobotRule):
             source.span(start, end),
             help=f"add <exec_depend>{name}</exec_depend> to package.xml",
         )
+
+
+def _dependencies(manifest: str, near: Iterable[str]) -> set[str]:
+    """Return the dependencies, and the packages that misspelt ones stand for; manifest-invalid reports these."""
+    from urdfkit.lint.facts.ros_packages import misspelling_of
+
+    found = dependencies_in(manifest)
+    return found | {meant for name in found if (meant := misspelling_of(name, near)) is not None}
