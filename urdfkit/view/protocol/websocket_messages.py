@@ -143,7 +143,7 @@ def read(text: str | bytes) -> Message:
 
 
 def _integer(digits: str) -> int | float:
-    """Return an integer; infinity for one that no float can hold, which the checks of numbers reject."""
+    """Return an integer; infinity if no float can hold it, which the checks of numbers reject."""
     return int(digits) if len(digits) <= _MAX_DIGITS else float(digits)
 
 
