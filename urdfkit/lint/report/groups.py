@@ -20,8 +20,8 @@ def grouped(findings: Iterable[Finding]) -> list[Finding]:
     """Return one finding for each cause, sorted by position; `Finding.related` contains its other places.
 
     Findings have one cause if they have the same code, severity and `Finding.cause`. Where the rule names no cause,
-    errors have one if their messages are equal, and warnings and notes if their messages differ in names and numbers
-    only: an export that gives no joint an effort limit, rounded angles.
+    errors have one if their messages are equal, and warnings and notes if their messages differ in names, tags and
+    numbers only: an export that gives no joint an effort limit, rounded angles.
 
     Args:
         findings: sorted by position.
@@ -42,7 +42,7 @@ def grouped(findings: Iterable[Finding]) -> list[Finding]:
 def _kind(finding: Finding) -> str:
     if finding.severity == "error":
         return finding.message
-    return re.sub(r"`[^`]*`|-?\d[\d.e+-]*", "…", finding.message)
+    return re.sub(r"`[^`]*`|<[^>]*>|-?\d[\d.e+-]*", "…", finding.message)
 
 
 def worst_first(findings: Iterable[Finding]) -> list[Finding]:
