@@ -16,7 +16,7 @@ from urdfkit.record import record
 
 
 @record(eq=False)
-class Command:
+class CMakeCommand:
     """A command of a CMakeLists.txt.
 
     Attributes:
@@ -87,7 +87,7 @@ def _is_well_formed(source: Source) -> bool:
     return True
 
 
-def commands(source: Source) -> list[Command]:
+def commands(source: Source) -> list[CMakeCommand]:
     """Return the commands of a CMakeLists.txt; nested parentheses end a command's arguments."""
     text = re.sub(r"#[^\n]*", lambda at: " " * len(at[0]), source.text)
     found = []
@@ -96,14 +96,14 @@ def commands(source: Source) -> list[Command]:
             (word[1] if word[1] is not None else word[0], at.start(2) + word.start() + (word[1] is not None))
             for word in re.finditer(r"\"([^\"]*)\"|[^\s\"]+", at[2])
         )
-        found.append(Command(at[1].lower(), at.start(1), words))
+        found.append(CMakeCommand(at[1].lower(), at.start(1), words))
     return found
 
 
-def installed_folders(files: BuildFiles) -> tuple[set[str], list[Command]] | None:
+def installed_folders(files: BuildFiles) -> tuple[set[str], list[CMakeCommand]] | None:
     """Return the folders that a package installs and the commands that install them; None if they are computed."""
     names: set[str] = set()
-    installs: list[Command] = []
+    installs: list[CMakeCommand] = []
     if files.cmake is not None:
         if re.search(r"\bforeach\s*\(|\bGLOB\b|ament_auto_package|install_\w+\(", files.cmake.text):
             return None

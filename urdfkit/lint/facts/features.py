@@ -68,6 +68,8 @@ def features_of(
     found.update(f"{problem.kind}!" for problem in robot.problems)
     if robot.element.tag != "robot" or not robot.element.get("name"):
         found.add("unnamed!")
+    if not root.children:
+        found.add("childless!")
     if "version" in robot.element.attributes:
         found.add("version!")
     tensors: dict[tuple[float, ...], int] = {}

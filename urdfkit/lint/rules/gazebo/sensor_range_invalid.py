@@ -1,6 +1,9 @@
 """Z823 sensor-range-invalid."""
 
+from collections.abc import Iterator
+
 from urdfkit.description.xml.element import Element
+from urdfkit.description.xml.numbers import numbers
 from urdfkit.lint.facts.gazebo.plugins import spec_of
 from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
 
@@ -12,7 +15,7 @@ class SensorRangeInvalid(RobotRule):
     Checks for lidars without samples or with a resolution of zero, for a minimum above its maximum (``<min>`` and
     ``<max>``, ``<min_angle>`` and ``<max_angle>``, ``<near>`` and ``<far>``, ``<pointCloudCutoff>`` and
     ``<pointCloudCutoffMax>``, ``<min_range>`` and ``<max_range>``), and for cameras without a valid field of view. Also
-    checks for values that are not numbers, negative rates and angles of more than a full turn.
+    checks for values that are not numbers, negative rates and standard deviations, and angles of more than a full turn.
 
     ## Why is this bad?
     The sensor measures nothing, and the simulator of urdfkit omits it.
@@ -70,6 +73,7 @@ class SensorRangeInvalid(RobotRule):
         for block in model.robot.gazebo:
             for sensor in block.sensors:
                 defects: list[tuple[Element, str]] = [*senseless_numbers(sensor.element)]
+                defects += _negative_noise(sensor.element)
                 for child in sensor.element.children:
                     if child.tag in ("ray", "lidar"):
                         defects += senseless_scan(child)
@@ -81,3 +85,14 @@ class SensorRangeInvalid(RobotRule):
                 for element, message in defects:
                     if not any(model.is_unresolved(each) for each in element.walk()):
                         yield self.at(model, element, message, link=block.reference)
+
+
+_DEVIATIONS = ("stddev", "bias_stddev", "dynamic_bias_stddev", "gaussianNoise", "gaussian_noise")
+
+
+def _negative_noise(sensor: Element) -> Iterator[tuple[Element, str]]:
+    """Yield the negative standard deviations of a sensor and its plugins."""
+    for element in sensor.walk():
+        value = numbers(element.text) if element.tag in _DEVIATIONS and not element.children else None
+        if value is not None and len(value) == 1 and value[0] < 0.0:
+            yield element, f"<{element.tag}> is {value[0]:g}; a standard deviation must not be negative"

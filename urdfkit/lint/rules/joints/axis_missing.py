@@ -3,13 +3,16 @@
 from urdfkit.lint.fix_builders import more_children
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
+_MIN_OTHERS = 3
+"""Number of joints with an axis from which the only joint without one is a warning."""
+
 
 class AxisMissing(RobotRule):
     """A movable joint has no ``<axis>``.
 
     ## What it does
     Checks for ``revolute``, ``continuous``, ``prismatic`` and ``planar`` joints without an ``<axis>`` whose child link
-    has a shape or a mass.
+    has a shape or a mass. It is a warning if four or more joints move and only one of them has no axis.
 
     ## Why is this bad?
     The default axis is x (``1 0 0``), although z is often expected. Write the axis explicitly, even if it is the
@@ -57,6 +60,9 @@ class AxisMissing(RobotRule):
 
     def check(self, model: Model) -> Findings:
         """Yield a finding for each joint that relies on the default axis."""
+        movable = [joint for joint in model.robot.joints if joint.type in ("revolute", "continuous", "prismatic")]
+        without = [joint for joint in movable if joint.element.find("axis") is None]
+        is_forgotten = len(without) == 1 and len(movable) > _MIN_OTHERS
         for joint in model.robot.joints:
             if (
                 joint.type not in ("revolute", "continuous", "prismatic", "planar")
@@ -71,5 +77,6 @@ class AxisMissing(RobotRule):
                     f"{joint.type} joint `{joint.name}` has no <axis> and uses the default, x (1 0 0)",
                     attribute="name",
                     joint=joint.name,
+                    severity="warning" if is_forgotten and not joint.mimic else None,
                     fix=more_children(model, joint.element, '<axis xyz="1 0 0"/>', "safe", "Write the default axis"),
                 )

@@ -2,13 +2,17 @@
 
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
+_MIN_OTHERS = 3
+"""Number of joints with limits from which the only joint with a limit of zero is a warning."""
+
 
 class EffortOrVelocityZero(RobotRule):
     """The effort or velocity limit of a joint is zero.
 
     ## What it does
     Checks for ``effort="0"`` and ``velocity="0"`` in the limits of movable joints. This is a warning with ``--target
-    gz``, ``classic`` or ``isaac``, and a note otherwise, because models that are only displayed often omit real limits.
+    gz``, ``classic`` or ``isaac``, or if it is the only one among four or more joints; else a note, because models that
+    are only displayed often omit real limits.
 
     ## Why is this bad?
     Simulators enforce the limits: with zero effort the joint cannot hold a load, and with zero velocity it never moves.
@@ -49,12 +53,15 @@ class EffortOrVelocityZero(RobotRule):
 
     def check(self, model: Model) -> Findings:
         """Yield a finding for each joint with a limit of zero."""
+        limits = [joint.limit for joint in model.robot.joints if joint.limit is not None and joint.mimic is None]
+        counts = {name: sum(getattr(each, name) == 0.0 for each in limits) for name in ("effort", "velocity")}
         for joint in model.robot.joints:
             limit = joint.limit
             if limit is None or joint.type not in ("revolute", "prismatic", "continuous") or joint.mimic is not None:
                 continue
             zero = [name for name in ("effort", "velocity") if getattr(limit, name) == 0.0]
             if zero:
+                is_only = all(counts[name] == 1 for name in zero) and len(limits) > _MIN_OTHERS
                 verb = "are" if len(zero) > 1 else "is"
                 yield self.at(
                     model,
@@ -63,5 +70,5 @@ class EffortOrVelocityZero(RobotRule):
                     attribute=zero[0],
                     joint=joint.name,
                     help=f"write the {' and '.join(zero)} of the actuator",
-                    severity="warning" if model.target in ("gz", "classic", "isaac") else None,
+                    severity="warning" if is_only or model.target in ("gz", "classic", "isaac") else None,
                 )

@@ -12,7 +12,7 @@ from urdfkit.lint.rule import Findings, Model, RobotRule
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from urdfkit.lint.facts.build_files import BuildFiles, Command
+    from urdfkit.lint.facts.build_files import BuildFiles, CMakeCommand
 
 _COMMANDS = (
     *("cmake_minimum_required", "project", "find_package", "install", "catkin_package", "ament_package"),
@@ -73,7 +73,7 @@ class BuildFileInconsistent(RobotRule):
                 yield from self._setup(files, files.setup)
             yield from self._folders(files, used.get(files.name, {}))
 
-    def _cmake(self, files: BuildFiles, source: Source, every: list[Command]) -> Findings:
+    def _cmake(self, files: BuildFiles, source: Source, every: list[CMakeCommand]) -> Findings:
         from urdfkit.lint.facts.ros_packages import misspelling_of
         from urdfkit.lint.fix_builders import nearest
         from urdfkit.lint.model.masked_names import is_typo
@@ -115,7 +115,7 @@ class BuildFileInconsistent(RobotRule):
             if tool in found and project is not None and not is_called:
                 yield self._at(source, every[-1].start, every[-1].name, f"CMakeLists.txt does not call {call}()")
 
-    def _install(self, files: BuildFiles, source: Source, command: Command) -> Findings:
+    def _install(self, files: BuildFiles, source: Source, command: CMakeCommand) -> Findings:
         """Yield a finding for each literal file or folder that does not exist."""
         from urdfkit.description.packages.resolver import near_path
         from urdfkit.lint.facts.build_files import OPTIONS
