@@ -129,7 +129,7 @@ REFUSED = {
     ),
     "friction in words": (
         robot(link("base"), '<gazebo reference="base"><mu1>slippery</mu1></gazebo>'),
-        ": <mu1> is `slippery`; it must be a number, zero or greater",
+        ": <mu1>: `slippery` is not a number, zero or greater",
     ),
     "joint of a plugin": (
         wheels("libgazebo_ros_diff_drive.so", "<leftJoint>lef</leftJoint><rightJoint>right</rightJoint>"),

@@ -22,7 +22,9 @@ ARM = """<robot name="arm">
     <material name="grey"/></visual></link>
   <link name="upper"><visual><origin xyz="0 0 0.2"/><geometry><box size="0.06 0.08 {length}"/></geometry>
     <material name="teal"/></visual>
-    <collision><origin xyz="0 0 0.2"/><geometry><box size="0.09 0.11 0.44"/></geometry></collision></link>
+    <collision><origin xyz="0 0 0.2"/><geometry><box size="0.09 0.11 0.44"/></geometry></collision>
+    <inertial><origin xyz="0 0 0.2"/><mass value="2"/>
+    <inertia ixx="0.03" ixy="0" ixz="0" iyy="0.03" iyz="0" izz="0.004"/></inertial></link>
   <link name="finger"><visual><origin xyz="0 0 0.08"/><geometry><box size="0.04 0.05 0.16"/></geometry>
     <material name="grey"/></visual></link>
   <joint name="shoulder" type="revolute"><parent link="base"/><child link="upper"/><origin xyz="0 0 0.1"/>
@@ -263,7 +265,7 @@ def test_a_background_job_of_a_script_ignores_ctrl_c_and_ends_with_sigterm(serve
         (["{folder}/loop.urdf", "--strict"], "loop.urdf:"),
         (["{folder}/mesh.urdf", "--strict"], "mesh.urdf:2:"),
         (["{folder}/arm.urdf", "--port", "99999"], "outside 0..65535"),
-        (["{folder}/arm.urdf", "--port", "x"], "invalid int value"),
+        (["{folder}/arm.urdf", "--port", "x"], "is not an integer"),
         (["{folder}/arm.urdf", "--host", "192.0.2.1"], "cannot listen on"),
         (["{folder}/arm.urdf", "--html", "{folder}/no/such/folder/x.html"], "cannot write"),
     ],

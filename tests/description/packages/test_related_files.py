@@ -13,7 +13,8 @@ Write = Callable[[str, str], Path]
 
 
 def names(package: Path, root: Path) -> list[str]:
-    return [file.relative_to(root).as_posix() for file in around(package)]
+    """Return the names of the related files, without the package.xml that each of the packages has."""
+    return [file.relative_to(root).as_posix() for file in around(package) if file.name != "package.xml"]
 
 
 @pytest.fixture
@@ -44,6 +45,7 @@ def test_which_files_and_folders_count(package: Package, write: Write) -> None:
         "config/f.yml",
         "d.launch.yaml",
     ]
+    assert own / "package.xml" in around(own)
 
 
 def test_folders_are_searched_to_a_depth_of_four(package: Package, write: Write) -> None:

@@ -149,7 +149,7 @@ class LaunchScope:
             return None
         path = Path(os.path.normpath(constant))
         try:
-            if path.is_file():
+            if is_file(path):
                 return path
             moved = self.packages.relocate(path)
         except (OSError, ValueError):

@@ -3,6 +3,7 @@
 import re
 from pathlib import Path
 
+from urdfkit.description.packages.existence import is_folder
 from urdfkit.description.packages.related_files import LAUNCH, dependencies_in
 from urdfkit.lint.model.model import Model
 
@@ -39,7 +40,7 @@ def argument_in_path(model: Model, path: str) -> str:
     missing = Path(path)
     if not missing.is_absolute():
         return ""
-    while not missing.parent.is_dir() and missing.parent != missing:
+    while not is_folder(missing.parent) and missing.parent != missing:
         missing = missing.parent
     for source in model.expanded.sources.values():
         for declaration in re.findall(_DECLARED.format(r"\w+"), source.text):

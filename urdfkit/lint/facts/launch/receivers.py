@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from pathlib import Path
 
+from urdfkit.description.packages.existence import is_file
 from urdfkit.description.packages.related_files import neighbours
 from urdfkit.description.xml.reader import read_source, shown_path
 from urdfkit.errors import ResourceError
@@ -48,7 +49,7 @@ def receiver(call: Call, model: Model) -> Path | None:
     """Return the file of a call in the packages next to the robot's; None if it is elsewhere."""
     package = neighbours(model.package).get(call.package) if model.package is not None and call.package else None
     file = package / call.path if package is not None else None
-    return file if file is not None and file.is_file() else None
+    return file if file is not None and is_file(file) else None
 
 
 def misspelt_file(call: Call) -> str | None:

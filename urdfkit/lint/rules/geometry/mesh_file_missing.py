@@ -3,6 +3,7 @@
 import re
 from pathlib import Path
 
+from urdfkit.description.packages.existence import is_file
 from urdfkit.lint.fix_builders import new_value
 from urdfkit.lint.model.mesh_files import is_absolute, meshes, missing
 from urdfkit.lint.rule import Findings, Model, RobotRule
@@ -85,4 +86,4 @@ def _is_relative_to_output(uri: str, path: Path) -> bool:
     """Return whether a relative path in a xacro file names a file above its folder, where xacro writes the robot."""
     if "://" in uri or path.suffix != ".xacro":
         return False
-    return any((folder / uri).is_file() for folder in list(path.absolute().parents)[1:_MAX_FOLDERS])
+    return any(is_file(folder / uri) for folder in list(path.absolute().parents)[1:_MAX_FOLDERS])

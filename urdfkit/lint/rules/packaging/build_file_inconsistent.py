@@ -6,6 +6,7 @@ import re
 from collections.abc import Iterator
 from itertools import pairwise
 
+from urdfkit.description.packages.existence import exists, is_folder
 from urdfkit.description.xml.source import Source
 from urdfkit.lint.finding import Finding
 from urdfkit.lint.rule import Findings, Model, RobotRule
@@ -134,7 +135,7 @@ class BuildFileInconsistent(RobotRule):
             if word in OPTIONS:
                 return
             path = files.folder / word
-            if "$" not in word and not path.exists():
+            if "$" not in word and not exists(path):
                 yield self._at(source, start, word, f"`{word}` does not exist in this package{near_path(path)}")
 
     def _setup(self, files: BuildFiles, source: Source) -> Findings:
@@ -162,8 +163,8 @@ class BuildFileInconsistent(RobotRule):
         names, installs = installed
         is_catkin = files.build_tool == "catkin"
         for folder, use in used.items():
-            absent = [name for name in names if not (files.folder / name).exists()]
-            if folder in names or not (files.folder / folder).is_dir() or nearest(folder, absent) is not None:
+            absent = [name for name in names if not exists(files.folder / name)]
+            if folder in names or not is_folder(files.folder / folder) or nearest(folder, absent) is not None:
                 continue
             place = installs[0].start if installs else max(source.text.find("data_files"), 0)
             message = f"folder `{folder}` is not installed, but {use}"
