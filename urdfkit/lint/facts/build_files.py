@@ -3,16 +3,17 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from functools import cached_property
 from pathlib import Path
 
+from urdfkit.description.packages.existence import exists
 from urdfkit.description.xml.reader import document_of
 from urdfkit.description.xml.source import Source
 from urdfkit.errors import XmlError
 from urdfkit.lint.model.model import Model
 from urdfkit.lint.model.tags import Document, Tag
-from urdfkit.record import record
+from urdfkit.record import field, record
 
 
 @record(eq=False)
@@ -32,12 +33,22 @@ class CMakeCommand:
 
 @record(eq=False)
 class BuildFiles:
-    """The build files of one package; None for each that is missing."""
+    """The build files of one package; None for each that is missing.
+
+    Attributes:
+        texts: absolute path → content that replaces a file on disk, also of files that are not on disk yet.
+    """
 
     folder: Path
     manifest: Source
     cmake: Source | None
     setup: Source | None
+    texts: Mapping[str, str] = field(default_factory=dict, repr=False)
+
+    def has(self, name: str) -> bool:
+        """Return whether a path relative to the package is a file or folder."""
+        path = str(self.folder / name)
+        return exists(path) or path in self.texts or any(other.startswith(f"{path}/") for other in self.texts)
 
     @cached_property
     def root(self) -> Tag | None:
@@ -76,7 +87,7 @@ def build_files(model: Model) -> Iterator[BuildFiles]:
     for path, source in files.items():
         if path.name == "package.xml" and _is_well_formed(source):
             cmake, setup = (files.get(path.with_name(name)) for name in ("CMakeLists.txt", "setup.py"))
-            yield BuildFiles(path.parent, source, cmake, setup)
+            yield BuildFiles(path.parent, source, cmake, setup, model.texts)
 
 
 def _is_well_formed(source: Source) -> bool:

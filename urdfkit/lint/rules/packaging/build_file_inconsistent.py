@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterator
 from itertools import pairwise
 
-from urdfkit.description.packages.existence import exists, is_folder
+from urdfkit.description.packages.existence import is_folder
 from urdfkit.description.xml.source import Source
 from urdfkit.lint.finding import Finding
 from urdfkit.lint.rule import Findings, Model, RobotRule
@@ -135,7 +135,7 @@ class BuildFileInconsistent(RobotRule):
             if word in OPTIONS:
                 return
             path = files.folder / word
-            if "$" not in word and not exists(path):
+            if "$" not in word and not files.has(word):
                 yield self._at(source, start, word, f"`{word}` does not exist in this package{near_path(path)}")
 
     def _setup(self, files: BuildFiles, source: Source) -> Findings:
@@ -163,7 +163,7 @@ class BuildFileInconsistent(RobotRule):
         names, installs = installed
         is_catkin = files.build_tool == "catkin"
         for folder, use in used.items():
-            absent = [name for name in names if not exists(files.folder / name)]
+            absent = [name for name in names if not files.has(name)]
             if folder in names or not is_folder(files.folder / folder) or nearest(folder, absent) is not None:
                 continue
             place = installs[0].start if installs else max(source.text.find("data_files"), 0)
