@@ -170,10 +170,11 @@ def test_another_robots_namespace_and_broken_files_do_not_matter(tmp_path: Path)
     assert find_configuration(found, "/other") is not None
 
 
-def test_a_broken_file_of_the_robots_own_is_an_error(tmp_path: Path) -> None:
+@pytest.mark.parametrize("text", ["bot: {", f"bot: {'[' * 50_000}{']' * 50_000}"])
+def test_a_broken_file_of_the_robots_own_is_an_error(text: str, tmp_path: Path) -> None:
     found = robot(tmp_path)
     where = package(tmp_path, "bot_control")
-    path = write(where / "config" / "a.yaml", "bot: {")
+    path = write(where / "config" / "a.yaml", text)
     write(where / "launch" / "a.launch", LOAD.format(package="bot_control", file="a.yaml", more=""))
     with pytest.raises(DescriptionError, match=r"a\.yaml:\d+:\d+: invalid YAML"):
         find_configuration(found, "/bot")

@@ -63,6 +63,11 @@ CASES = {
         "J411",
         "it is 1 0 0",
     ),
+    "axis whose length is zero as a number": (
+        links("a", "b") + "\n" + joint("j", "a", "b", "continuous", '<axis xyz="0 0 1e-200"/>'),
+        "J411",
+        "it is 1 0 0",
+    ),
     "unknown master": (
         links("a", "b") + "\n" + joint("j", "a", "b", "continuous", '<axis xyz="0 0 1"/><mimic joint="q"/>'),
         "J416",

@@ -2,13 +2,18 @@
 
 from __future__ import annotations
 
+import os
 import struct
 from pathlib import Path
 
 import numpy as np
 import pytest
 
+from urdfkit.description.meshes.bounds import bounds
 from urdfkit.lint import lint
+from urdfkit.lint.engine.run import run
+from urdfkit.lint.project.entry_files import Entry
+from urdfkit.lint.project.options import Options
 
 TRIANGLE = struct.pack("<12f2x", 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0)
 ASCII = b"""solid a
@@ -73,3 +78,20 @@ def test_messages_give_the_size_of_all_vertices_though_large_meshes_are_estimate
             <visual><geometry><mesh filename="part.stl"/></geometry></visual></link></robot>"""
         )
         assert [found.message for found in lint(path, select=["I513"])] == wanted
+
+
+@pytest.mark.parametrize("name", ["pipe.stl", "pipe.dae", "zero.obj"])
+def test_pipes_and_devices_are_not_read(name: str, tmp_path: Path) -> None:
+    """Reading a pipe that nobody writes to, or /dev/zero, never ends."""
+    if name.startswith("pipe"):
+        os.mkfifo(tmp_path / name)
+    else:
+        (tmp_path / name).symlink_to("/dev/zero")
+    path = tmp_path / "part.urdf"
+    shape = f'<visual><geometry><mesh filename="{name}"/></geometry></visual>'
+    path.write_text(f'<robot name="part"><link name="part">{shape}</link></robot>')
+    assert bounds(tmp_path / name) is None
+    expected = [f"mesh `{name}` is not a regular file"]
+    assert [one.message for one in lint(path, select=["G607", "G608"])] == expected
+    cached = [run([Entry(path)], Options(), cached=True) for _ in range(2)]
+    assert [[one.code for one in outcome.findings] for outcome in cached] == [["G607"]] * 2

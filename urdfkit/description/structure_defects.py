@@ -228,9 +228,10 @@ class _Structure:
             wanted = '<limit lower="…" upper="…" effort="…" velocity="…"/>'
             message = f"{joint.type} joint `{joint.name}` lacks {wanted}"
             self._add(message, "it moves without limits", "J403", joint.element, joint=joint.name)
-        if joint.is_movable and joint.type != "floating" and not any(joint.axis):
+        if joint.is_movable and joint.type != "floating" and not joint.has_axis:
             element = joint.element.find("axis") or joint.element
-            self._add(f"the axis of joint `{joint.name}` is zero", "it is 1 0 0", "J411", element, joint=joint.name)
+            size = "zero" if max(map(abs, joint.axis)) < 1.0 else "too large"
+            self._add(f"the axis of joint `{joint.name}` is {size}", "it is 1 0 0", "J411", element, joint=joint.name)
             return replace(joint, axis=(1.0, 0.0, 0.0))
         return joint if joint.is_movable or joint.type == "fixed" else replace(joint, type="fixed")
 

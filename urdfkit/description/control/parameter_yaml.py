@@ -208,6 +208,9 @@ def parse_settings(source: Source, *, separator: str = "/") -> Settings:
         raise DescriptionError(
             f"invalid YAML: {' '.join(str(error).split())}", position=Position(source.file, 1, 1)
         ) from None
+    except RecursionError:
+        message = "invalid YAML: lists or maps are nested too deeply"
+        raise DescriptionError(message, position=Position(source.file, 1, 1)) from None
     start = Position(source.file, 1, 1)
     if node is None:
         return Settings("", start)

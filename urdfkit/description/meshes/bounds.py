@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from stat import S_ISREG
+
 from urdfkit.description.meshes import stl, wavefront
 from urdfkit.description.meshes.limits import MAX_BYTES
 from urdfkit.description.meshes.points import UnusualFileError
@@ -28,6 +30,8 @@ def bounds(path: Path, *, estimated: bool = False) -> Corners | None:
     try:
         status = path.stat()
     except OSError:
+        return None
+    if not S_ISREG(status.st_mode):  # reading a pipe or device might never end
         return None
     key = (str(path), status.st_ino, status.st_size, status.st_mtime_ns, status.st_ctime_ns, estimated)
     if key not in _cached:

@@ -225,6 +225,11 @@ class Joint:
     element: Element = field(repr=False)
 
     @property
+    def has_axis(self) -> bool:
+        """Whether the axis has a direction: the square of its length is neither zero nor infinite."""
+        return 0.0 < sum(part * part for part in self.axis) < float("inf")
+
+    @property
     def is_movable(self) -> bool:
         """Whether the joint has a degree of freedom."""
         return self.type in JOINT_TYPES and self.type != "fixed"

@@ -165,7 +165,8 @@ class Cache:
     def _digest_of(self, path: str) -> str:
         if path not in self._digests:
             try:
-                self._digests[path] = _digest(content_of(Path(path)))
+                # A mesh can be a pipe or device, which might never end.
+                self._digests[path] = _digest(content_of(Path(path))) if os.path.isfile(path) else ""  # noqa: PTH113
             except OSError:
                 self._digests[path] = ""
         return self._digests[path]

@@ -3,6 +3,7 @@
 import re
 from pathlib import Path
 
+from urdfkit.description.packages.existence import is_file
 from urdfkit.lint.model.mesh_files import meshes, path_of
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
@@ -62,7 +63,7 @@ class ColladaUpAxis(RobotRule):
 
 def _asset(path: Path | None) -> tuple[str, float]:
     """Return the up axis of a file, empty if it has none, and its unit [m]."""
-    if path is None:
+    if path is None or not is_file(path):
         return "", 1.0
     try:
         with path.open("rb") as file:

@@ -5,7 +5,7 @@ from pathlib import Path
 
 from urdfkit.description.meshes.bounds import bounds
 from urdfkit.description.meshes.limits import MAX_BYTES, MAX_TRIANGLES
-from urdfkit.description.packages.existence import is_file
+from urdfkit.description.packages.existence import exists, is_file, is_folder
 from urdfkit.lint.model.mesh_files import LFS, meshes, path_of
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
@@ -59,7 +59,7 @@ class MeshCorrupt(RobotRule):
         for mesh, element, link in meshes(model.robot):
             if mesh.uri not in faults:
                 path = path_of(mesh, model.expanded)
-                faults[mesh.uri] = _fault(path) if path is not None and is_file(path) else ""
+                faults[mesh.uri] = _fault(path) if path is not None and exists(path) else ""
                 box = model.box_of(mesh) if path is not None and not faults[mesh.uri] and any(mesh.scale) else None
                 if box is not None and not any(box[1]):
                     faults[mesh.uri] = "has all triangles in one point"
@@ -75,6 +75,8 @@ class MeshCorrupt(RobotRule):
 
 def _fault(path: Path) -> str:
     """Return the fault of a mesh file; empty if none is found."""
+    if not is_file(path):
+        return "" if is_folder(path) else "is not a regular file"
     try:
         size = path.stat().st_size
         with path.open("rb") as file:

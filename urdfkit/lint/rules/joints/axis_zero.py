@@ -45,11 +45,12 @@ class AxisZero(RobotRule):
     def check(self, model: Model) -> Findings:
         """Yield a finding for each axis of length zero."""
         for joint in model.robot.joints:
-            if joint.type in ("revolute", "continuous", "prismatic", "planar") and not any(joint.axis):
+            if joint.type in ("revolute", "continuous", "prismatic", "planar") and not joint.has_axis:
+                axis = " ".join(f"{part:g}" for part in joint.axis)
                 yield self.at(
                     model,
                     joint.element.find("axis") or joint.element,
-                    f"joint `{joint.name}` has the axis 0 0 0, which has no direction",
+                    f"joint `{joint.name}` has the axis {axis}, which has no direction",
                     attribute="xyz",
                     joint=joint.name,
                     help="write the direction of the axis, such as 0 0 1",
