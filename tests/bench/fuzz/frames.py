@@ -167,6 +167,7 @@ def _send(
                     page.sock.sendall(_wire(mutations.frame(rng.choice(messages), rng), rng))
                 except OSError:  # the server has closed it
                     counts["closed"] += 1
+                    page.shutdown()
                     pages[k] = _connect(server)
             process()
             for k, page in enumerate(pages):
