@@ -15,6 +15,7 @@ import pytest
 from tests.bench import fuzz_lint as bench
 from tests.bench import growth
 from urdfkit import errors
+from urdfkit.cli import main
 from urdfkit.description.xml.source import Position, Span
 from urdfkit.lint.facts.suppressions import Suppression, suppressed
 from urdfkit.lint.finding import Finding
@@ -106,6 +107,24 @@ def test_hostile_files_are_refused_in_a_line(name, tmp_path):
     (line,) = [line for line in done.stdout.splitlines() if message in line]
     assert len(line) < 300
     assert max(map(len, done.stdout.splitlines())) < 500
+
+
+DEEP_LAUNCH_FILES = {
+    "a.launch": "<launch>" + "<group>" * 3_000 + "</group>" * 3_000 + "</launch>",
+    "b.launch.yaml": "launch:\n- group: " + "[{group: " * 3_000 + "1" + "}]" * 3_000,
+    "c.launch.py": "x = " + "(" * 150 + "1" + ")" * 150 + "\ny = " + "-" * 60_000 + "1",
+    "d.launch.py": "def generate_launch_description():\n    return a" + " + a" * 20_000,
+}
+
+
+@pytest.mark.parametrize("name", DEEP_LAUNCH_FILES)
+def test_deeply_nested_launch_files_cause_no_error_of_ours(name, tmp_path, capsys):
+    (tmp_path / "package.xml").write_text("<package format='3'><name>deep</name></package>")
+    (tmp_path / "launch").mkdir()
+    (tmp_path / "launch" / name).write_text(DEEP_LAUNCH_FILES[name])
+    (tmp_path / "robot.urdf").write_text("<robot name='r'><link name='base_link'/></robot>")
+    assert main(["lint", "--no-cache", str(tmp_path / "robot.urdf")]) in {0, 1}
+    assert "a bug in urdfkit" not in "".join(capsys.readouterr())
 
 
 @pytest.mark.slow

@@ -42,7 +42,14 @@ def launch_files(model: Model) -> Iterator[LaunchActions]:
 
 @lru_cache(maxsize=400)
 def actions_of(source: Source) -> LaunchActions:
-    """Return the actions of a launch file; empty if it cannot be parsed."""
+    """Return the actions of a launch file; empty if it cannot be parsed, or is nested too deeply."""
+    try:
+        return _actions_of(source)
+    except RecursionError:
+        return LaunchActions(source)
+
+
+def _actions_of(source: Source) -> LaunchActions:
     if source.file.endswith(".py"):
         from urdfkit.lint.facts.launch.python_actions import read_python
 
