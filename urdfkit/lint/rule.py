@@ -129,7 +129,7 @@ class FaultRule(Rule):
     def check(self, fault: Fault, model: Model) -> Findings:
         """Yield the finding for a fault that the rule reports; one for all names that a missing file may define."""
         if self.may_be_elsewhere and (missing := model.missing_file):
-            alike = [other for other in model.expanded.faults if self.claims(other)]
+            alike = model.faults_of(self.code, self.claims)
             if fault is not alike[0]:
                 return
             help = f"it may be defined in {missing}, which was not found"
