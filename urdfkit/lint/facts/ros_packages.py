@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from functools import cache
 
 _NAMES = """
 ackermann_msgs ackermann_steering_controller action_msgs actionlib actionlib_msgs actuator_msgs admittance_controller
@@ -63,6 +64,7 @@ warehouse_ros_mongo warehouse_ros_sqlite web_video_server xacro yaml-cpp yaml_cp
 """Common names in distribution.yaml of Noetic, Humble and Jazzy, and in rosdep/*.yaml (ros/rosdistro)."""
 
 
+@cache
 def names() -> frozenset[str]:
     """Return the names of common released packages and rosdep keys; there are many others."""
     return frozenset(_NAMES.split())

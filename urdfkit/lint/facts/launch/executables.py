@@ -3,10 +3,15 @@
 from __future__ import annotations
 
 import re
+from functools import cache
 from pathlib import Path
 
 from urdfkit.description.packages.related_files import manifest
 from urdfkit.record import record
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from collections.abc import Mapping
 
 _RELEASED = """
 robot_state_publisher: robot_state_publisher state_publisher; joint_state_publisher: joint_state_publisher;
@@ -63,7 +68,8 @@ class Executables:
     is_complete: bool
 
 
-def released() -> dict[str, Executables]:
+@cache
+def released() -> Mapping[str, Executables]:
     """Return package → the executables of common released packages; others may exist in other releases."""
     pairs = (entry.partition(":") for entry in _RELEASED.strip(";\n").split(";"))
     return {name.strip(): Executables(tuple(names.split()), frozenset(), False) for name, _, names in pairs}
