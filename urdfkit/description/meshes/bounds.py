@@ -14,8 +14,8 @@ if TYPE_CHECKING:
 
     from urdfkit.description.meshes.points import Corners
 
-_cached: dict[tuple[str, int, int, int, int, bool], Corners | None] = {}
-"""Boxes by path, inode, size, times of the file, and whether they are estimates."""
+_cached: dict[tuple[tuple[str, int, int, int, int], bool], Corners | None] = {}
+"""Boxes by path, inode, size, times of the file, and whether they may be estimates."""
 _MAX_CACHED = 10_000
 
 
@@ -33,18 +33,22 @@ def bounds(path: Path, *, estimated: bool = False) -> Corners | None:
         return None
     if not S_ISREG(status.st_mode):  # reading a pipe or device might never end
         return None
-    key = (str(path), status.st_ino, status.st_size, status.st_mtime_ns, status.st_ctime_ns, estimated)
+    version = (str(path), status.st_ino, status.st_size, status.st_mtime_ns, status.st_ctime_ns)
+    key = (version, estimated)
     if key not in _cached:
         if len(_cached) >= _MAX_CACHED:
             _cached.clear()
         try:
-            _cached[key] = _read(path, status.st_size, estimated)
+            _cached[key], is_exact = _read(path, status.st_size, estimated)
         except (UnusualFileError, OSError):
-            _cached[key] = None
+            _cached[key], is_exact = None, True
+        if is_exact:
+            _cached[version, False] = _cached[key]
     return _cached[key]
 
 
-def _read(path: Path, size: int, estimated: bool) -> Corners:
+def _read(path: Path, size: int, estimated: bool) -> tuple[Corners, bool]:
+    """Return the corners, and whether they are known to be exact."""
     suffix = path.suffix.lower()
     if size > MAX_BYTES:
         raise UnusualFileError
@@ -53,17 +57,17 @@ def _read(path: Path, size: int, estimated: bool) -> Corners:
         with path.open("rb", buffering=0) as file:
             box = samples(file, size)
         if box is not None:
-            return box
+            return box, False
     if suffix == ".stl":
-        return stl.corners(path.read_bytes())
+        return stl.corners(path.read_bytes()), True
     if suffix == ".obj":
-        return wavefront.corners(path.read_bytes())
+        return wavefront.corners(path.read_bytes()), True
     if suffix == ".dae":
         from urdfkit.description.meshes import collada
 
-        return collada.corners(path.read_bytes(), estimated=estimated)
+        return collada.corners(path.read_bytes(), estimated=estimated), not estimated
     if suffix == ".glb":
         from urdfkit.description.meshes import gltf
 
-        return gltf.corners(path.read_bytes())
+        return gltf.corners(path.read_bytes()), True
     raise UnusualFileError
