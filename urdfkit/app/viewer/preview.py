@@ -38,7 +38,9 @@ class Preview:
 
     def __init__(self, template: Template) -> None:
         self.template = template
-        self.folder = Path(tempfile.mkdtemp(prefix="urdfkit-preview-"))
+        self._place = Path(tempfile.mkdtemp(prefix="urdfkit-preview-"))
+        self.folder = self._place / "shown"
+        self.folder.mkdir()
         self.url = ""
         self._view: subprocess.Popen[str] | None = None
         self.model = self.folder / "preview.urdf.xacro"
@@ -58,7 +60,7 @@ class Preview:
                 self._view.wait()
             if self._view.stdout is not None:
                 self._view.stdout.close()
-        shutil.rmtree(self.folder, ignore_errors=True)
+        shutil.rmtree(self._place, ignore_errors=True)
 
     def follow(self, answers: Mapping[str, str]) -> None:
         """Show the robot of these answers and the defaults of the others; keep the last robot on a contradiction.
@@ -78,7 +80,8 @@ class Preview:
         names = {question.name for question in self.template.questions}
         answers = self.template.answers({name: answer for name, answer in chosen.items() if name in names})
         answers |= computed(self.template.name, answers)
-        with tempfile.TemporaryDirectory() as place:
+        # In a folder of its own, an interrupt while it is removed would leave it.
+        with tempfile.TemporaryDirectory(dir=self._place) as place:
             targets = self.template.render({**answers, "year": "", "into": "."}, Path(place))
             # Files that include others are written last: the page reloads when they change.
             for target in sorted(targets, key=lambda path: (".urdf." in path.name, path)):
