@@ -26,14 +26,7 @@ class Edit:
 
     def to_json(self) -> dict[str, Any]:
         """Return the edit as in ``--format json``."""
-        return {
-            "file": self.span.file,
-            "line": self.span.line,
-            "column": self.span.column,
-            "end_line": self.span.end_line,
-            "end_column": self.span.end_column,
-            "text": self.text,
-        }
+        return {**_place(self.span), "text": self.text}
 
 
 @record
@@ -118,11 +111,7 @@ class Finding:
             "name": self.name,
             "severity": self.severity,
             "message": self.message,
-            "file": self.span.file,
-            "line": self.span.line,
-            "column": self.span.column,
-            "end_line": self.span.end_line,
-            "end_column": self.span.end_column,
+            **_place(self.span),
             "link": self.link,
             "joint": self.joint,
             "help": self.help,
@@ -154,15 +143,20 @@ class EntryResult:
     unused: tuple[tuple[str, tuple[str, ...]], ...] = ()
 
 
-def _related(finding: Finding) -> dict[str, Any]:
-    span = finding.span
+def _place(span: Span) -> dict[str, Any]:
     return {
-        "message": finding.message,
         "file": span.file,
         "line": span.line,
         "column": span.column,
         "end_line": span.end_line,
         "end_column": span.end_column,
+    }
+
+
+def _related(finding: Finding) -> dict[str, Any]:
+    return {
+        "message": finding.message,
+        **_place(finding.span),
         "link": finding.link,
         "joint": finding.joint,
         "fix": finding.fix.to_json() if finding.fix is not None else None,
