@@ -34,6 +34,7 @@ COMMANDS = {
     "inertia": "compute masses and inertias from shapes and compare them with the file",
     "view": "show a robot in the browser",
     "tf": "compute a transform, or draw the frame tree",
+    "retime": "compute the fastest motion through waypoints within the limits of the joints",
     "sim": "simulate a robot: teleop, run, warmup",
     "topic": "inspect and publish topics of a running simulation: list, info, echo, hz, bw, pub",
     "completion": "print the completion script of bash, zsh or fish",

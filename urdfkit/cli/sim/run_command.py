@@ -111,6 +111,12 @@ def configure(parser: argparse.ArgumentParser) -> None:
         metavar="NAME=VALUE,…",
         help="move joints to these positions and hold them [rad or m]",
     )
+    add(
+        "--trajectory",
+        type=Path,
+        metavar="FILE.csv",
+        help="move joints along the trajectory in a file of `urdfkit retime`, from its first positions on",
+    )
     add("--fixed-base", action="store_true", help="fix the root link to the world")
     add("--until", metavar='"EXPR"', help='stop when the expression is true, e.g. "x > 1 or t > 3"')
     add(
@@ -181,6 +187,7 @@ def load(arguments: argparse.Namespace) -> Simulator:
         UrdfkitError: robot or world cannot be loaded or simulated.
     """
     from urdfkit.app.simulation.kernel_compilation import prepare_kernel
+    from urdfkit.app.simulation.trajectory import read_trajectory
     from urdfkit.description.sdf import load_world
     from urdfkit.description.xml.cost_limit import loading_limit
     from urdfkit.resources import find_model
@@ -195,8 +202,11 @@ def load(arguments: argparse.Namespace) -> Simulator:
         world = load_world(arguments.world)
     prepare_kernel(sys.stderr)
     spawn = None
-    if arguments.spawn or arguments.initial_twist or arguments.initial_joints:
+    if arguments.spawn or arguments.initial_twist or arguments.initial_joints or arguments.trajectory:
         positions, velocities = arguments.initial_joints or ({}, {})
+        if arguments.trajectory:
+            path = read_trajectory(arguments.trajectory)
+            positions = {**dict(zip(path.joints, path.positions[0].tolist(), strict=True)), **positions}
         pose = arguments.spawn._asdict() if arguments.spawn else {}
         twist = arguments.initial_twist or (0.0,) * 6
         spawn = Spawn(**pose, twist=twist, joints=positions, velocities=velocities)
@@ -221,16 +231,20 @@ def load(arguments: argparse.Namespace) -> Simulator:
 
 
 def command(simulator: Simulator, arguments: argparse.Namespace) -> None:
-    """Schedule the messages and targets of the options.
+    """Schedule the messages, targets and trajectory of the options.
 
     Raises:
         UrdfkitError: a topic, type, field or joint is unknown.
     """
+    from urdfkit.app.simulation.trajectory import follow, read_trajectory
+
     if arguments.cmd_vel is not None:
         ramp(simulator, arguments.cmd_vel, arguments.cmd_ramp or 0.0)
     for joint, target in (arguments.joint_target or {}).items():
         _require_free(simulator, joint)
         simulator.motors.hold(joint, target)
+    if arguments.trajectory is not None:
+        follow(simulator, read_trajectory(arguments.trajectory))
     for message in arguments.topic_pub:
         publish_at(simulator, message)
 
