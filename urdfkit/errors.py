@@ -139,32 +139,56 @@ MAX_COMPARED = 40_000
 """Names compared for all suggestions of one run; a lint of a large robot with some typos compares a few thousand."""
 MAX_COMPARED_LENGTH = 200
 """Characters of the longest name that is compared: the time grows with the square of the length."""
-
-_left: ContextVar[list[int]] = ContextVar("_left")
+MAX_CANDIDATES = 500
+"""Names of one pool whose similarity is estimated by their letters: those with the most equal letters at both ends."""
+MAX_RATED = 50
+"""Names of one pool whose similarity is computed, those with the largest estimates."""
+_MAX_POOLS = 50
 
 
 class LimitedSuggestions:
-    """Compares at most `MAX_COMPARED` names for the suggestions of a block.
+    """Compares at most `MAX_COMPARED` names for the suggestions of a block, in which pools of names do not change.
 
     Comparing each of many misspelt names with each of many others takes minutes. Names beyond the limit get no
-    suggestion.
+    suggestion, unless they differ by case only.
     """
 
+    def __init__(self) -> None:
+        self.left = 0
+        self._pools: dict[int, tuple[Collection[str], int, dict[str, str]]] = {}
+
     def __enter__(self) -> None:
-        self._token = _left.set([MAX_COMPARED])
+        self.left = MAX_COMPARED
+        self._token = _limits.set(self)
 
     def __exit__(self, *_: object) -> None:
-        _left.reset(self._token)
+        _limits.reset(self._token)
+        self._pools.clear()
+
+    def by_lower_case(self, pool: Collection[str]) -> dict[str, str]:
+        """Return the names of a pool by their lower-case forms, computed once for a pool."""
+        cached, size, found = self._pools.get(id(pool), (None, 0, {}))
+        if cached is not pool or size != len(pool):
+            if len(self._pools) >= _MAX_POOLS:
+                self._pools.clear()
+            found = _by_lower_case(pool)
+            self._pools[id(pool)] = pool, len(pool), found
+        return found
+
+
+_limits: ContextVar[LimitedSuggestions | None] = ContextVar("_limits", default=None)
 
 
 def may_suggest() -> bool:
     """Return whether names may still be compared in the `LimitedSuggestions` around; checked before collecting them."""
-    left = _left.get(None)
-    return left is None or left[0] > 0
+    limits = _limits.get()
+    return limits is None or limits.left > 0
 
 
 def similar(name: str, pool: Collection[str], *, count: int = 1, cutoff: float = 0.6) -> list[str]:
     """Return the names of a pool that are most similar to a name, the most similar first.
+
+    In a pool of more than `MAX_CANDIDATES` names, names whose first and last letters differ may be missed.
 
     Args:
         name: the name that the user wrote.
@@ -174,29 +198,65 @@ def similar(name: str, pool: Collection[str], *, count: int = 1, cutoff: float =
     """
     if len(name) > MAX_COMPARED_LENGTH:
         return []
-    left = _left.get(None)
-    if left is not None:
-        if left[0] < len(pool):
-            left[0] = 0
+    limits = _limits.get()
+    if limits is not None:
+        if limits.left < len(pool):
+            limits.left = 0
             return []
-        left[0] -= len(pool)
-    from difflib import get_close_matches
+        limits.left -= len(pool)
+    from difflib import SequenceMatcher
+    from heapq import nlargest
 
-    return get_close_matches(name, [one for one in pool if len(one) <= MAX_COMPARED_LENGTH], n=count, cutoff=cutoff)
+    names: Collection[str] = [one for one in pool if len(one) <= MAX_COMPARED_LENGTH]
+    if len(names) > MAX_CANDIDATES:
+        names = nlargest(MAX_CANDIDATES, names, key=lambda one: _equal_ends(name, one) / (len(name) + len(one) or 1))
+    matcher = SequenceMatcher()
+    matcher.set_seq2(name)
+    estimates = []
+    for one in names:
+        matcher.set_seq1(one)
+        if matcher.real_quick_ratio() >= cutoff and (estimate := matcher.quick_ratio()) >= cutoff:
+            estimates.append((estimate, _equal_ends(name, one), one))
+    found: list[tuple[float, str]] = []
+    for estimate, _, one in sorted(estimates, reverse=True)[: max(MAX_RATED, count)]:
+        if len(found) >= count and estimate < found[-1][0]:  # the estimate is an upper bound
+            break
+        matcher.set_seq1(one)
+        if (ratio := matcher.ratio()) >= cutoff:
+            found = sorted([*found, (ratio, one)], reverse=True)[:count]
+    return [one for _, one in found]
 
 
-def nearest(name: str, candidates: Iterable[str]) -> str | None:
-    """Return the candidate most similar to `name`, ignoring case; None if none is similar.
+def _equal_ends(one: str, other: str) -> int:
+    """Return the number of equal letters at the starts and the ends of two names."""
+    most = min(len(one), len(other))
+    start = 0
+    while start < most and one[start] == other[start]:
+        start += 1
+    end = 0
+    while end < most - start and one[-1 - end] == other[-1 - end]:
+        end += 1
+    return start + end
+
+
+def _by_lower_case(names: Iterable[str]) -> dict[str, str]:
+    return {name.lower(): name for name in names}
+
+
+def nearest(name: str, candidates: Iterable[str], *, cutoff: float = 0.6) -> str | None:
+    """Return the candidate most similar to `name`, or equal except for case; None if none is similar.
 
     Args:
         name: the name the user wrote.
         candidates: the valid names.
+        cutoff: see `similar`.
     """
-    pool = dict.fromkeys(candidates)
-    lowered = {candidate.lower(): candidate for candidate in pool}
+    pool: Collection[str] = candidates if isinstance(candidates, (dict, frozenset)) else dict.fromkeys(candidates)
+    limits = _limits.get()
+    lowered = _by_lower_case(pool) if limits is None or pool is not candidates else limits.by_lower_case(pool)
     if name.lower() in lowered:
         return lowered[name.lower()]
-    return next(iter(similar(name, pool)), None)
+    return next(iter(similar(name, pool, cutoff=cutoff)), None)
 
 
 def did_you_mean(name: str, candidates: Iterable[str]) -> str:

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import re
 
+from urdfkit.errors import nearest as nearest
 from urdfkit.lint.finding import Edit, Fix
 
 TYPE_CHECKING = False
@@ -133,21 +134,6 @@ def more_children(model: Model, element: Element, written: str, safety: Safety, 
     indent = source.line_before(last.start)
     text = f"{source.line_end}{indent}{written}" if not indent.strip() else written
     return Fix(safety, title, (Edit(source.span(last.close_end, last.close_end), text),))
-
-
-def nearest(name: str, candidates: Iterable[str], *, cutoff: float = 0.6) -> str | None:
-    """Return the candidate most similar to a name; None if none is similar enough.
-
-    Args:
-        name: the name in the source.
-        candidates: the valid names.
-        cutoff: minimum similarity, 1 for equal names (`difflib.SequenceMatcher.ratio`).
-    """
-    from urdfkit.errors import similar
-
-    pool = dict.fromkeys(candidates)
-    by_case = {candidate.lower(): candidate for candidate in pool}
-    return by_case.get(name.lower()) or next(iter(similar(name, pool, cutoff=cutoff)), None)
 
 
 def meant(name: str, candidates: Iterable[str]) -> tuple[str | None, str]:

@@ -383,8 +383,14 @@ class Robot:
 
     def roots(self) -> list[Link]:
         """Return the links that are the child of no joint, in document order. A loadable robot has exactly one."""
-        return [link for link in self.link_by_name_in_order() if link.name not in self.parents_of]
+        return list(self.root_by_name.values())
+
+    @cached_property
+    def root_by_name(self) -> dict[str, Link]:
+        """Root links by name, in document order."""
+        return {link.name: link for link in self.link_by_name_in_order() if link.name not in self.parents_of}
 
     def link_by_name_in_order(self) -> list[Link]:
         """Return the links in document order without duplicates."""
-        return [link for link in self.links if self.link_by_name[link.name] is link]
+        first = self.link_by_name
+        return [link for link in self.links if first[link.name] is link]

@@ -6,7 +6,7 @@ import sys
 from contextlib import contextmanager
 
 from urdfkit.description.xml.element import Element
-from urdfkit.errors import DescriptionError
+from urdfkit.errors import DescriptionError, LimitedSuggestions
 from urdfkit.position import Position
 
 TYPE_CHECKING = False
@@ -61,7 +61,7 @@ class _ExceededError(BaseException):
 
 
 class CostLimit:
-    """Ends a block with a `CostError` when it takes more CPU time or memory than permitted.
+    """Ends a block with a `CostError` when it takes more CPU time or memory than permitted; limits suggestions, too.
 
     The limit applies in the main thread of a process that has POSIX timers, and limits do not nest.
 
@@ -76,11 +76,13 @@ class CostLimit:
         self._what = self._phase = ""
         self._position: Position | None = None
         self._is_on = False
+        self._suggestions = LimitedSuggestions()
 
     def __enter__(self) -> None:
         import signal
         import time
 
+        self._suggestions.__enter__()
         if self.seconds <= 0 or sys.platform == "win32":
             return
         self._begin, self._peak = time.process_time() - (_excluded or 0.0), _peak()
@@ -94,6 +96,7 @@ class CostLimit:
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
+        self._suggestions.__exit__()
         if not self._is_on:
             return
         import signal

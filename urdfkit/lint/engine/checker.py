@@ -9,7 +9,6 @@ from pathlib import Path
 from urdfkit.description.packages.resolver import Packages
 from urdfkit.description.xml.element import Element
 from urdfkit.description.xml.source import Origin, Position
-from urdfkit.errors import LimitedSuggestions
 from urdfkit.lint.finding import EntryResult, Finding
 from urdfkit.lint.model.model import Model
 from urdfkit.lint.project.entry_files import Entry, is_nearly_robot
@@ -165,7 +164,7 @@ class Checker:
         """Lint one entry file; return the result and the model."""
         from urdfkit.description.xml.cost_limit import CostLimit
 
-        with LimitedSuggestions(), CostLimit(self.options.time_limit):
+        with CostLimit(self.options.time_limit):
             return self._examine(entry)
 
     def _examine(self, entry: Entry) -> tuple[EntryResult, Model]:

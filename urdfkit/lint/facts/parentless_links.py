@@ -11,6 +11,6 @@ def meant_child(robot: Robot, name: str) -> tuple[str | None, str]:
     """Return the link most similar to an undefined child (or None), and ``; did you mean …``."""
     near, hint = meant(name, robot.link_by_name)
     if near is None:
-        near = nearest(name, (link.name for link in robot.roots()), cutoff=_CUTOFF)
+        near = nearest(name, robot.root_by_name, cutoff=_CUTOFF)
         hint = f"; did you mean `{near}`?" if near is not None else ""
     return near, hint

@@ -49,7 +49,7 @@ class ParentLinkUndefined(RobotRule):
         """Yield a finding for each joint with an undefined parent link."""
         for joint, name, element in dangling(model.robot, "parent"):
             suggestion, hint = meant(name, model.robot.link_by_name)
-            is_outside = not model.robot.roots() and not suggestion and _is_defined_nearby(model, name)
+            is_outside = not model.robot.root_by_name and not suggestion and _is_defined_nearby(model, name)
             finding = self.at(
                 model,
                 element,
