@@ -123,13 +123,15 @@ def test_the_examples_of_a_page_are_true(rule: type[Rule], tmp_path, monkeypatch
     monkeypatch.chdir(tmp_path)
     found = sections(rule)
     for heading, is_bad in (("Example", True), ("Use instead", False)):
-        example = re.fullmatch(r"```(?:xml|yaml|cmake)\n(.*)\n```", found[heading], re.DOTALL)
-        assert example, f"the section {heading} of {rule.code} is one block of XML, YAML or CMake"
+        example = re.fullmatch(r"```(?:xml|yaml|cmake|python)\n(.*)\n```", found[heading], re.DOTALL)
+        assert example, f"the section {heading} of {rule.code} is one block of XML, YAML, CMake or Python"
         is_xacro = "xacro" in example[1] and any((HERE / rule.name).glob("*.xacro"))
         file = tmp_path / ("example.urdf.xacro" if is_xacro else "example.urdf")
         beside = [path for path in (HERE / rule.name).glob("bad.*") if path.suffix in (".launch", ".yaml", ".srdf")]
         if beside:  # A rule on what lies around the description.
             file = tmp_path / f"example{beside[0].suffix}"
+        if "```python" in found[heading]:
+            file = tmp_path / "example.launch.py"
         if (HERE / rule.name / "good.package").is_dir():  # A rule on the files of a package.
             shutil.copytree(HERE / rule.name / "good.package", tmp_path, dirs_exist_ok=True)
             file = tmp_path / ("CMakeLists.txt" if "```cmake" in found[heading] else "package.xml")

@@ -174,6 +174,8 @@ ROBOT: tuple[Row, ...] = (
 )
 
 _LAUNCH = ".launch .launch.xml .launch.py .launch.yaml _launch.xml _launch.py _launch.yaml"
+_XML = ".launch .launch.xml _launch.xml"
+_PYTHON = ".launch.py _launch.py"
 _YAML = ".yaml .yml"
 _SRDF = ".srdf .srdf.xacro"
 
@@ -198,6 +200,10 @@ RELATED_FILES: tuple[Row, ...] = (
     (_LAUNCH, "launch.launch_argument_unknown", "LaunchArgumentUnknown"),
     (_LAUNCH, "launch.executable_unknown", "ExecutableUnknown"),
     (f"{_LAUNCH} {_YAML}", "launch.launch_name_misspelt", "LaunchNameMisspelt"),
+    (_PYTHON, "launch.python_launch_name_undefined", "PythonLaunchNameUndefined"),
+    (_PYTHON, "launch.python_launch_api_misused", "PythonLaunchApiMisused"),
+    (_PYTHON, "launch.launch_action_unused", "LaunchActionUnused"),
+    (_XML, "launch.launch_element_invalid", "LaunchElementInvalid"),
     (_SRDF, "moveit.srdf_not_well_formed", "SrdfNotWellFormed"),
     (_SRDF, "moveit.srdf_element_unknown", "SrdfElementUnknown"),
     (_SRDF, "moveit.srdf_of_other_robot", "SrdfOfOtherRobot"),

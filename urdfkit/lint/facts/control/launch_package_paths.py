@@ -76,7 +76,7 @@ def uncommented(source: Source) -> str:
     return re.sub(pattern, lambda at: re.sub(r"[^\n]", " ", at[0]), source.text)
 
 
-def place(source: Source, node: ast.expr) -> tuple[int, int]:
+def place(source: Source, node: ast.expr | ast.stmt | ast.alias) -> tuple[int, int]:
     """Return start and end offset of a node; the columns of `ast` are UTF-8 bytes."""
 
     def offset(line: int, column: int) -> int:

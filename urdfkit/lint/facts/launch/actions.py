@@ -12,6 +12,7 @@ from urdfkit.lint.facts.control.controller_joints import Named
 from urdfkit.lint.facts.control.launch_package_paths import uncommented
 from urdfkit.lint.facts.control.yaml_tree import Node, documents, start_of
 from urdfkit.lint.facts.launch.records import Call, Declared, Executable, LaunchActions
+from urdfkit.lint.facts.launch.ros_version import reads_ros1
 from urdfkit.lint.model.model import Model
 from urdfkit.lint.model.tags import Document, Tag
 from urdfkit.record import record
@@ -56,7 +57,7 @@ def _actions_of(source: Source) -> LaunchActions:
         return read_python(source)
     text = uncommented(source)
     is_yaml = source.file.endswith((".yaml", ".yml"))
-    is_ros1 = source.file.endswith(".launch") and not re.search(r"\$\(var |find-pkg-share|\bexec\s*=", text)
+    is_ros1 = not is_yaml and reads_ros1(source)
     found = LaunchActions(source, is_ros1)
     roots = tuple(_from_yaml(source)) if is_yaml else tuple(_from_tag(tag) for tag in Document(source).roots)
     for use in re.finditer(_USED, text):

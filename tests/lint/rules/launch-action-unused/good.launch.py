@@ -1,0 +1,18 @@
+from launch import LaunchDescription
+from launch.actions import DeclareLaunchArgument, RegisterEventHandler
+from launch.event_handlers import OnProcessExit
+from launch_ros.actions import Node
+
+
+def generate_launch_description():
+    gui = DeclareLaunchArgument("gui", default_value="true")
+    spawner = Node(package="controller_manager", executable="spawner")
+    other = Node(package="controller_manager", executable="spawner")
+    handler = RegisterEventHandler(OnProcessExit(target_action=spawner, on_exit=[other]))
+    rviz = Node(package="rviz2", executable="rviz2")
+    node = Node(package="joy", executable="joy_node")
+    node = [node, Node(package="joy", executable="joy_node")]
+    description = LaunchDescription([handler, spawner])
+    description.add_action(gui)
+    # description.add_action(rviz)
+    return description

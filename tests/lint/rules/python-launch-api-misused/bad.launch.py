@@ -1,0 +1,21 @@
+import launch
+from lauch.actions import GroupAction  # <!-- expect: L106 -->
+from launch import LaunchDescription
+from launch.action import DeclareLaunchArgument  # <!-- expect: L106 -->
+from launch.actions import LaunchConfiguration  # <!-- expect: L106 -->
+from launch.parameter_descriptions import ParameterValue  # <!-- expect: L106 -->
+from launch_ros.actions import Node, SetParametr  # <!-- expect: L106 -->
+
+
+def generate_launch_description():
+    return LaunchDescription([
+        DeclareLaunchArgument("gui", default_vlaue="true"),  # <!-- expect: L106 -->
+        Node(
+            pkg="rviz2",  # <!-- expect: L106 -->
+            executable="rviz2",
+            arguments="-d x.rviz",  # <!-- expect: L106 -->
+            parameters={"gui": ParameterValue(LaunchConfiguration("gui"))},  # <!-- expect: L106 -->
+        ),
+        launch.actions.ExecuteProcess(cmd="ls", outputs="screen"),  # <!-- expect: L106, L106 -->
+        GroupAction([SetParametr(name="gui", value=True)]),
+    ])

@@ -1,0 +1,113 @@
+"""L107 launch-action-unused."""
+
+from __future__ import annotations
+
+from urdfkit.lint.finding import Finding
+from urdfkit.lint.rule import Findings, Model, RobotRule
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    import ast
+
+    from urdfkit.description.xml.source import Source
+
+_ACTIONS = """
+AppendEnvironmentVariable ComposableNodeContainer DeclareLaunchArgument ExecuteProcess GroupAction
+IncludeLaunchDescription LifecycleNode LoadComposableNodes Node OpaqueFunction PushRosNamespace RegisterEventHandler
+SetEnvironmentVariable SetLaunchConfiguration SetParameter SetParametersFromFile SetRemap TimerAction
+"""
+_TARGETS = frozenset(("target_action", "target_lifecycle_node"))
+_SCOPES = frozenset(("eval", "exec", "globals", "locals", "vars"))
+
+
+class LaunchActionUnused(RobotRule):
+    """A launch file in Python creates an action that it does not add to the launch description.
+
+    ## What it does
+    Checks variables of launch files in Python that hold a node, an argument, an include or another action. An action
+    that is only the target of an event handler is not started either. Names that a comment mentions are left out, since
+    the action is disabled on purpose.
+
+    ## Why is this bad?
+    The node is not started, or the argument is not declared. There is no error message.
+
+    ## Example
+    ```python
+    from launch import LaunchDescription
+    from launch_ros.actions import Node
+
+
+    def generate_launch_description():
+        rviz = Node(package="rviz2", executable="rviz2")
+        return LaunchDescription([])
+    ```
+
+    ## Use instead
+    ```python
+    from launch import LaunchDescription
+    from launch_ros.actions import Node
+
+
+    def generate_launch_description():
+        rviz = Node(package="rviz2", executable="rviz2")
+        return LaunchDescription([rviz])
+    ```
+    """
+
+    code = "L107"
+    name = "launch-action-unused"
+    severity = "warning"
+
+    def check(self, model: Model) -> Findings:
+        """Yield a finding for each action that is not used."""
+        import re
+
+        from urdfkit.lint.facts.launch.python_api import first_slip
+        from urdfkit.lint.facts.launch.python_names import python_files, undefined
+
+        for source, tree in python_files(model):
+            created, used, targets = _names(tree)
+            unknown: dict[str, ast.Name] | None = None
+            for name, (node, kind) in created.items():
+                if name in used or used & _SCOPES or re.search(rf"#.*\b{re.escape(name)}\b", source.text):
+                    continue
+                unknown = undefined(tree) if unknown is None else unknown
+                if first_slip(name, unknown) is None:
+                    yield self._finding(source, node, kind, name in targets)
+
+    def _finding(self, source: Source, node: ast.Name, kind: str, is_target: bool) -> Finding:
+        from urdfkit.lint.facts.control.launch_package_paths import place
+
+        only = "is only the target of an event handler and " if is_target else ""
+        effect = "the argument is not declared" if kind == "DeclareLaunchArgument" else "it has no effect"
+        message = f"{kind} `{node.id}` {only}is not added to the launch description: {effect}"
+        return Finding(self.code, self.name, self.severity, message, source.span(*place(source, node)))
+
+
+def _names(tree: ast.Module) -> tuple[dict[str, tuple[ast.Name, str]], set[str], set[str]]:
+    """Return the variables that only hold actions, the names that are used, and those used as targets of handlers."""
+    import ast
+
+    from urdfkit.lint.facts.launch.python_names import class_called, launch_classes
+
+    classes, actions = launch_classes(tree), _ACTIONS.split()
+    created: dict[str, tuple[ast.Name, str]] = {}
+    targets: set[ast.AST] = set()
+    for node in ast.walk(tree):
+        if isinstance(node, (ast.Assign, ast.AnnAssign)) and node.value is not None:
+            left = node.targets[0] if isinstance(node, ast.Assign) else node.target
+            kind = class_called(node.value, classes)
+            is_one = isinstance(node, ast.AnnAssign) or len(node.targets) == 1
+            if kind in actions and isinstance(left, ast.Name) and is_one:
+                created.setdefault(left.id, (left, kind))
+        elif isinstance(node, ast.Call):
+            targets.update(word.value for word in node.keywords if word.arg in _TARGETS)
+            if class_called(node, classes) == "matches_action":
+                targets.update(node.args)
+    names = [node for node in ast.walk(tree) if isinstance(node, ast.Name)]
+    firsts = {node for node, _ in created.values()}
+    # A name with other values too is more than an action.
+    stored = {node.id for node in names if not isinstance(node.ctx, ast.Load) and node not in firsts}
+    loaded = [node for node in names if isinstance(node.ctx, ast.Load)]
+    used = {node.id for node in loaded if node not in targets} | stored
+    return created, used, {node.id for node in loaded if node in targets}

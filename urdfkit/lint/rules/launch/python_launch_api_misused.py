@@ -1,0 +1,108 @@
+"""L106 python-launch-api-misused."""
+
+from __future__ import annotations
+
+from urdfkit.lint.finding import Finding
+from urdfkit.lint.rule import Findings, Model, RobotRule
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    import ast
+
+    from urdfkit.description.xml.source import Source
+
+
+class PythonLaunchApiMisused(RobotRule):
+    """A launch file in Python imports a name that a launch package does not have, or calls a class wrongly.
+
+    ## What it does
+    Compares imports from ``launch``, ``launch_ros``, ``ament_index_python`` and ``moveit_configs_utils``, and the
+    keywords of common actions, with the names of all releases from Foxy to Rolling. The rule reports misspelt names,
+    names of another module, attributes of XML launch files such as ``pkg``, and lists without brackets. Imports in
+    ``try`` are left out.
+
+    ## Why is this bad?
+    The launch file stops with an ImportError or a TypeError before it starts a node.
+
+    ## Example
+    ```python
+    from launch import LaunchDescription
+    from launch_ros.actions import Node
+
+
+    def generate_launch_description():
+        return LaunchDescription([Node(pkg="rviz2", executable="rviz2")])
+    ```
+
+    ## Use instead
+    ```python
+    from launch import LaunchDescription
+    from launch_ros.actions import Node
+
+
+    def generate_launch_description():
+        return LaunchDescription([Node(package="rviz2", executable="rviz2")])
+    ```
+    """
+
+    code = "L106"
+    name = "python-launch-api-misused"
+
+    def check(self, model: Model) -> Findings:
+        """Yield a finding for each wrong import, keyword and list."""
+        import ast
+
+        from urdfkit.lint.facts.launch.python_names import class_called, launch_classes, python_files
+
+        for source, tree in python_files(model):
+            classes = launch_classes(tree)
+            guarded = {inner for node in ast.walk(tree) if isinstance(node, ast.Try) for inner in ast.walk(node)}
+            for node in ast.walk(tree):
+                if isinstance(node, ast.ImportFrom) and not node.level and node not in guarded:
+                    yield from self._import(source, node)
+                elif isinstance(node, ast.Call) and (kind := class_called(node, classes)):
+                    yield from self._call(source, node, kind)
+
+    def _import(self, source: Source, node: ast.ImportFrom) -> Findings:
+        from urdfkit.lint.facts.control.launch_package_paths import place
+        from urdfkit.lint.facts.launch.python_api import wrong_import, wrong_module
+
+        module = node.module or ""
+        near = wrong_module(module)
+        start, end = place(source, node)
+        if near is not None:
+            at = source.text.find(module, start, end)
+            message = f"unknown module `{module}`; did you mean `{near}`?"
+            yield self._at(source, (at, at + len(module)) if at >= 0 else (start, end), message)
+            return
+        for word in node.names:
+            if (message := wrong_import(module, word.name) or "") and word.name != "*":
+                yield self._at(source, place(source, word), message)
+
+    def _call(self, source: Source, node: ast.Call, kind: str) -> Findings:
+        import ast
+
+        from urdfkit.lint.facts.control.launch_package_paths import place
+        from urdfkit.lint.facts.launch.python_api import LISTS, wrong_keyword
+
+        for word in node.keywords:
+            if word.arg is None:
+                continue
+            start, end = place(source, word.value)
+            before = max(source.text.rfind(word.arg, 0, start), 0)
+            near = wrong_keyword(kind, word.arg)
+            if near is not None:
+                message = f"`{kind}` has no argument `{word.arg}`; did you mean `{near}`?"
+                yield self._at(source, (before, before + len(word.arg)), message)
+            elif word.arg in LISTS and kind.endswith(("Node", "Container", "Process")):
+                is_text = isinstance(word.value, (ast.Constant, ast.JoinedStr)) and not _is_none(word.value)
+                if isinstance(word.value, ast.Dict) or is_text:
+                    message = f"`{word.arg}` of `{kind}` is not a list; write it in brackets"
+                    yield self._at(source, (start, end), message)
+
+    def _at(self, source: Source, place: tuple[int, int], message: str) -> Finding:
+        return Finding(self.code, self.name, self.severity, message, source.span(*place))
+
+
+def _is_none(node: ast.expr) -> bool:
+    return getattr(node, "value", "") is None

@@ -1,0 +1,85 @@
+"""L105 python-launch-name-undefined."""
+
+from __future__ import annotations
+
+from urdfkit.lint.finding import Finding
+from urdfkit.lint.rule import Findings, Model, RobotRule
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    import ast
+
+    from urdfkit.description.xml.source import Source
+
+_FUNCTION = "generate_launch_description"
+
+
+class PythonLaunchNameUndefined(RobotRule):
+    """A launch file in Python uses a name that it neither imports nor defines, or returns no description.
+
+    ## What it does
+    Compares the names that a launch file uses with the names that it imports or defines anywhere, and with the built-in
+    names of Python. Files with ``from ... import *`` are left out. The function ``generate_launch_description`` must
+    have this name and must return a value.
+
+    ## Why is this bad?
+    The launch file stops with an error before it starts a node.
+
+    ## Example
+    ```python
+    def generate_launch_description():
+        return LaunchDescription([])
+    ```
+
+    ## Use instead
+    ```python
+    from launch import LaunchDescription
+
+
+    def generate_launch_description():
+        return LaunchDescription([])
+    ```
+    """
+
+    code = "L105"
+    name = "python-launch-name-undefined"
+
+    def check(self, model: Model) -> Findings:
+        """Yield a finding for the first use of each undefined name, and for a missing description."""
+        from urdfkit.errors import suggestion
+        from urdfkit.lint.facts.control.launch_package_paths import place
+        from urdfkit.lint.facts.launch.python_api import first_slip
+        from urdfkit.lint.facts.launch.python_names import defined, python_files, undefined
+
+        for source, tree in python_files(model):
+            names = defined(tree) or set()
+            for name, node in undefined(tree).items():
+                message = f"name `{name}` is not defined or imported{suggestion(first_slip(name, names))}"
+                yield Finding(self.code, self.name, self.severity, message, source.span(*place(source, node)))
+            yield from self._description(source, tree, _FUNCTION in names)
+
+    def _description(self, source: Source, tree: ast.Module, is_defined: bool) -> Findings:
+        import ast
+
+        from urdfkit.lint.facts.control.launch_package_paths import place
+        from urdfkit.lint.facts.launch.python_api import differs_by_a_letter
+        from urdfkit.lint.facts.launch.python_names import own_nodes
+
+        for function in tree.body:
+            if not isinstance(function, ast.FunctionDef):
+                continue
+            start = place(source, function)[0] + len("def ")
+            span = source.span(start, start + len(function.name))
+            if differs_by_a_letter(function.name, _FUNCTION) and not is_defined:
+                message = f"no function `{_FUNCTION}`, which `ros2 launch` calls; did you mean it by `{function.name}`?"
+                yield Finding(self.code, self.name, self.severity, message, span)
+            elif function.name == _FUNCTION and not any(_ends(node) for node in own_nodes(function)):
+                message = f"`{_FUNCTION}` does not return a LaunchDescription"
+                yield Finding(self.code, self.name, self.severity, message, span)
+
+
+def _ends(node: ast.AST) -> bool:
+    """Return whether a statement returns a value or raises an error."""
+    import ast
+
+    return isinstance(node, ast.Raise) or (isinstance(node, ast.Return) and node.value is not None)
