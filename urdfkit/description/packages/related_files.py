@@ -52,8 +52,8 @@ def name_in(text: str, fallback: str = "") -> str:
 
 
 def dependencies_in(text: str) -> set[str]:
-    """Return the packages that the text of a package.xml depends on in any way."""
-    return set(re.findall(r"<\w*depend\b[^>]*>\s*([\w.-]+)\s*<", text))
+    """Return the packages that the text of a package.xml depends on in any way; misspelt elements are accepted."""
+    return set(re.findall(r"<\w*depend\w*[^>]*>\s*([\w.-]+)\s*(?=<)", text))
 
 
 def neighbours(package: Path) -> dict[str, Path]:

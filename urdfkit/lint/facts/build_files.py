@@ -1,4 +1,4 @@
-"""Build files of packages: CMakeLists.txt, package.xml and setup.py with source positions."""
+"""Build files of packages: CMakeLists.txt, package.xml, setup.py and setup.cfg with source positions."""
 
 from __future__ import annotations
 
@@ -36,6 +36,7 @@ class BuildFiles:
     """The build files of one package; None for each that is missing.
 
     Attributes:
+        config: setup.cfg.
         texts: absolute path → content that replaces a file on disk, also of files that are not on disk yet.
     """
 
@@ -43,6 +44,7 @@ class BuildFiles:
     manifest: Source
     cmake: Source | None
     setup: Source | None
+    config: Source | None = None
     texts: Mapping[str, str] = field(default_factory=dict, repr=False)
 
     def has(self, name: str) -> bool:
@@ -86,8 +88,10 @@ def build_files(model: Model) -> Iterator[BuildFiles]:
     files = {Path(name).absolute(): source for name, source in model.related_files.items()}
     for path, source in files.items():
         if path.name == "package.xml" and _is_well_formed(source):
-            cmake, setup = (files.get(path.with_name(name)) for name in ("CMakeLists.txt", "setup.py"))
-            yield BuildFiles(path.parent, source, cmake, setup, model.texts)
+            cmake, setup, config = (
+                files.get(path.with_name(name)) for name in ("CMakeLists.txt", "setup.py", "setup.cfg")
+            )
+            yield BuildFiles(path.parent, source, cmake, setup, config, model.texts)
 
 
 def _is_well_formed(source: Source) -> bool:

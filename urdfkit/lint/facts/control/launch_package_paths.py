@@ -16,6 +16,10 @@ if TYPE_CHECKING:
 
 _FIND = r"\$\(find(?:-pkg-share)?\s+([\w-]+)\)/([^\s\"'<>$(){}:;,|&*]+)(?=[\s\"'<:;])"
 _USES = r"\$\(find(?:-pkg-share)?\s+([\w-]+)\)|<(?:node|composable_node)\b[^<>]*?\bpkg\s*=\s*[\"']([\w-]+)[\"']"
+_XACRO = r"\bcommand\s*=\s*[\"'](xacro)\s|\$\(command\s+[\"'](xacro)\s"
+_XACRO_WORD = r"[\"']xacro(?:\.py)?[\"'\s]"
+"""Calls of xacro by its name alone."""
+
 _STARTS = frozenset(("Node", "LifecycleNode", "ComposableNode", "ComposableNodeContainer"))
 _EXISTENCE_TESTS = frozenset(("exists", "isfile", "isdir", "is_file", "is_dir"))
 
@@ -50,6 +54,9 @@ def package_paths(source: Source) -> Iterator[PackagePath]:
 def packages_used(source: Source) -> Iterator[tuple[str, int, int]]:
     """Yield name, start and end offset of each package in a launch file whose files or executables are constants."""
     if not source.file.endswith(".py"):
+        for at in re.finditer(_XACRO, uncommented(source)):
+            group = 1 if at[1] is not None else 2
+            yield "xacro", at.start(group), at.end(group)
         for at in re.finditer(_USES, uncommented(source)):
             group = 1 if at[1] is not None else 2
             yield at[group], at.start(group), at.end(group)
@@ -63,6 +70,8 @@ def packages_used(source: Source) -> Iterator[tuple[str, int, int]]:
         if not isinstance(node, ast.Call):
             continue
         name = reader.share(node)
+        if name_of(node.func) == "Command" and re.search(_XACRO_WORD, ast.get_source_segment(source.text, node) or ""):
+            yield "xacro", *place(source, node)
         if name is None and name_of(node.func) in _STARTS:
             package = next((word.value for word in node.keywords if word.arg == "package"), None)
             name = reader.text(package) if package is not None else None

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
 from itertools import pairwise
 
 from urdfkit.description.packages.existence import is_folder
@@ -14,17 +13,14 @@ from urdfkit.lint.rule import Findings, Model, RobotRule
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     from urdfkit.lint.facts.build_files import BuildFiles, CMakeCommand
+    from urdfkit.lint.facts.cmake_defects import BuildDefect
+    from urdfkit.lint.finding import Severity
 
 _COMMANDS = (
     *("cmake_minimum_required", "project", "find_package", "install", "catkin_package", "ament_package"),
     *("add_executable", "add_library", "target_link_libraries", "include_directories", "target_include_directories"),
     *("ament_target_dependencies", "catkin_install_python", "ament_export_dependencies", "add_message_files"),
     *("generate_messages", "add_dependencies", "ament_python_install_package", "catkin_python_setup"),
-)
-_VARIABLES = (
-    *("PROJECT_NAME", "CATKIN_PACKAGE_SHARE_DESTINATION", "CATKIN_PACKAGE_BIN_DESTINATION", "PROJECT_SOURCE_DIR"),
-    *("CATKIN_PACKAGE_LIB_DESTINATION", "CATKIN_PACKAGE_INCLUDE_DESTINATION", "CATKIN_GLOBAL_BIN_DESTINATION"),
-    *("CATKIN_GLOBAL_INCLUDE_DESTINATION", "CMAKE_CURRENT_SOURCE_DIR", "catkin_INCLUDE_DIRS", "catkin_LIBRARIES"),
 )
 _DESTINATIONS = ("share", "lib", "bin", "include", "etc", "libexec", "python", "launch", "config", "meshes")
 
@@ -33,9 +29,10 @@ class BuildFileInconsistent(RobotRule):
     """CMakeLists.txt or setup.py contradicts the package, or lacks the folders that launch files use.
 
     ## What it does
-    Checks the name of the project, misspelt commands, variables and packages, the call of ``ament_package()`` or
-    ``catkin_package()``, files and folders that ``install`` names but that do not exist, and folders with launch files,
-    or that launch files use, but that are not installed. In setup.py it checks the name and the resource marker.
+    Checks the syntax, the name of the project, misspelt commands, variables and packages, the call of
+    ``ament_package()`` or ``catkin_package()``, files and folders that ``install`` names but that do not exist, and
+    folders and scripts that launch files use but that are not installed, or not to the share folder of the package. In
+    setup.py it checks the name, ``data_files`` and the modules of console scripts, in setup.cfg their folder.
 
     ## Why is this bad?
     The build fails, or the installed package lacks files: "file 'cart.launch.py' was not found in the share directory".
@@ -65,14 +62,30 @@ class BuildFileInconsistent(RobotRule):
     def check(self, model: Model) -> Findings:
         """Yield a finding for each defect of the build files."""
         from urdfkit.lint.facts.build_files import build_files, commands
+        from urdfkit.lint.facts.cmake_defects import cmake_defects, misplaced, unbalanced
+        from urdfkit.lint.facts.setup_defects import setup_defects
 
-        used = _used_folders(model)
+        used = _used_paths(model)
         for files in build_files(model):
-            if files.cmake is not None:
-                yield from self._cmake(files, files.cmake, commands(files.cmake))
+            paths = used.get(files.name, {})
+            folders = {path.partition("/")[0]: use for path, use in reversed(paths.items())}
+            folders = {folder: use or "it contains launch files" for folder, use in folders.items()}
+            defects: list[BuildDefect] = []
+            broken = unbalanced(files.cmake) if files.cmake is not None else None
+            if broken is not None:
+                defects = [broken]
+            elif files.cmake is not None:
+                every = commands(files.cmake)
+                defects = [*cmake_defects(files.cmake, every), *misplaced(files, files.cmake, every, {*folders})]
+                yield from self._cmake(files, files.cmake, every)
             elif files.setup is not None:
                 yield from self._setup(files, files.setup)
-            yield from self._folders(files, used.get(files.name, {}))
+                defects = list(setup_defects(files, files.setup, paths))
+            for defect in defects:
+                yield self._at(defect.source, defect.start, defect.text, defect.message, defect.severity)
+            if broken is None:
+                yield from self._folders(files, folders)
+                yield from self._programs(model, files)
 
     def _cmake(self, files: BuildFiles, source: Source, every: list[CMakeCommand]) -> Findings:
         from urdfkit.lint.facts.ros_packages import misspelling_of
@@ -80,9 +93,6 @@ class BuildFileInconsistent(RobotRule):
         from urdfkit.lint.model.masked_names import is_typo
 
         defined = set(re.findall(r"(?i)\b(?:function|macro)\s*\(\s*(\w+)", source.text))
-        assigned = set(
-            re.findall(r"(?i)\b(?:set|foreach|option|list\s*\(\s*\w+|file\s*\(\s*\w+)\s*\(?\s*(\w+)", source.text)
-        )
         project = next((command for command in every if command.name == "project"), None)
         for command in every:
             near = nearest(command.name, _COMMANDS, cutoff=0.85) if command.name not in (*_COMMANDS, *defined) else None
@@ -96,11 +106,6 @@ class BuildFileInconsistent(RobotRule):
                         yield self._at(source, start, word, f"unknown package `{word}`; did you mean `{suggestion}`?")
             if command.name == "install":
                 yield from self._install(files, source, command)
-        for use in re.finditer(r"\$\{(\w+)\}", source.text):
-            near = nearest(use[1], _VARIABLES, cutoff=0.85) if use[1] not in (*_VARIABLES, *assigned) else None
-            if near is not None and is_typo(use[1], near):
-                message = f"unknown variable `{use[1]}`; did you mean `{near}`?"
-                yield self._at(source, use.start(1), use[1], message)
         if project is not None and project.words and "$" not in project.words[0][0]:
             word, start = project.words[0]
             if word != files.name and word == files.folder.name:
@@ -168,38 +173,54 @@ class BuildFileInconsistent(RobotRule):
                 continue
             place = installs[0].start if installs else max(source.text.find("data_files"), 0)
             message = f"folder `{folder}` is not installed, but {use}"
-            severity = "note" if is_catkin else "warning"
+            severity: Severity = "note" if is_catkin else "warning"
             yield self._at(source, place, "install" if installs else "data_files", message, severity)
 
-    def _at(self, source: Source, start: int, text: str, message: str, severity: str = "error") -> Finding:
+    def _programs(self, model: Model, files: BuildFiles) -> Findings:
+        """Yield a finding for each script that launch files start and that CMakeLists.txt does not install."""
+        from urdfkit.lint.facts.build_files import commands
+        from urdfkit.lint.facts.control.launched_nodes import launches, started
+
+        source = files.cmake
+        if source is None or re.search(r"\bforeach\s*\(|\bGLOB\b|ament_auto_package|install_\w+\(", source.text):
+            return
+        installs = [command for command in commands(source) if "install" in command.name]
+        text = " ".join(word for command in installs for word, _ in command.words)
+        if not installs or "$" in re.sub(r"\$\{(PROJECT_NAME|CATKIN_\w+)\}", "", text):
+            return
+        programs = {
+            node.program for launch in launches(model) for node in started(launch) if node.package == files.name
+        }
+        for program in sorted(name for name in programs if name.endswith(".py") and name not in text):
+            folder = next((name for name in ("scripts", "nodes", "src", "bin") if files.has(f"{name}/{program}")), None)
+            if folder is not None and not re.search(rf"(?<![\w.-]){folder}(?![\w.-])", text):
+                message = f"`{folder}/{program}` is not installed, but launch files start it"
+                severity: Severity = "note" if files.build_tool == "catkin" else "warning"
+                yield self._at(source, installs[0].start, installs[0].name, message, severity)
+
+    def _at(self, source: Source, start: int, text: str, message: str, severity: Severity = "error") -> Finding:
         span = source.span(start, min(start + len(text), len(source.text)))
-        return Finding(self.code, self.name, severity, message, span)  # type: ignore[arg-type]
+        return Finding(self.code, self.name, severity, message, span)
 
 
-def _used_folders(model: Model) -> dict[str, dict[str, str]]:
-    """Return package → its folders that launch files use, with the place of the use; folders with launch files too."""
+def _used_paths(model: Model) -> dict[str, dict[str, str]]:
+    """Return package → its paths that launch files use, with the place of the use; launch files with an empty text."""
     from pathlib import Path
 
     from urdfkit.description.packages.related_files import LAUNCH, manifest, name_in, package_of
+    from urdfkit.lint.facts.control.launch_package_paths import package_paths
 
     found: dict[str, dict[str, str]] = {}
     for name, source in model.related_files.items():
         package = package_of(Path(name)) if name.endswith(LAUNCH) else None
         if package is None:
             continue
-        for other, folder, line in _paths(source):
-            found.setdefault(other, {}).setdefault(folder, f"{name}:{line} uses it")
-        folder = Path(name).absolute().relative_to(package).parts[0]
-        if folder == "launch":
+        for path in package_paths(source):
+            if "/" in path.path.strip("/"):
+                line = source.position(path.start).line
+                found.setdefault(path.package, {}).setdefault(path.path.strip("/"), f"{name}:{line} uses it")
+        inner = Path(name).absolute().relative_to(package).as_posix()
+        if inner.startswith("launch/"):
             own = name_in(manifest(package), package.name)
-            found.setdefault(own, {}).setdefault(folder, "it contains launch files")
+            found.setdefault(own, {}).setdefault(inner, "")
     return found
-
-
-def _paths(source: Source) -> Iterator[tuple[str, str, int]]:
-    from urdfkit.lint.facts.control.launch_package_paths import package_paths
-
-    for path in package_paths(source):
-        folder, separator, _ = path.path.strip("/").partition("/")
-        if separator:
-            yield path.package, folder, source.position(path.start).line

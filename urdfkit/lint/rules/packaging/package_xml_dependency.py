@@ -18,8 +18,8 @@ class PackageXmlDependency(RobotRule):
 
     ## What it does
     Compares the packages that the files of the robot's package use, by ``$(find …)`` and ``package://…``, with the
-    dependencies in package.xml. Also compares the packages that launch files start or include with the dependencies of
-    their own package. Each package is reported once; test folders are not checked.
+    dependencies in package.xml. Also compares the packages that launch files start or include, and ``xacro`` where they
+    call it, with the dependencies of their own package. Each package is reported once; test folders are not checked.
 
     ## Why is this bad?
     The package works only where the dependency happens to be installed: rosdep and the ROS build farm do not install

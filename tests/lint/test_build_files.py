@@ -1,0 +1,225 @@
+"""Defects of package.xml, CMakeLists.txt, setup.py and setup.cfg, and correct files next to each of them."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from urdfkit.lint import lint
+
+MANIFEST = """<package format="3">
+  <name>cart</name>
+  <version>1.0.0</version>
+  <description>A cart.</description>
+  <maintainer email="cart@example.com">The maintainers</maintainer>
+  <license>MIT</license>
+  <buildtool_depend>ament_cmake</buildtool_depend>
+  <exec_depend>launch_ros</exec_depend>
+  <export><build_type>ament_cmake</build_type></export>
+</package>
+"""
+CMAKE = """cmake_minimum_required(VERSION 3.8)
+project(cart)
+find_package(ament_cmake REQUIRED)
+install(DIRECTORY launch urdf
+  DESTINATION share/${PROJECT_NAME})
+install(PROGRAMS scripts/wait.py DESTINATION lib/${PROJECT_NAME})
+if(BUILD_TESTING)
+  find_package(ament_cmake_pytest REQUIRED)
+endif()
+ament_package()
+"""
+SETUP = """import os
+from glob import glob
+from setuptools import setup
+
+package_name = "cart"
+
+setup(
+    name=package_name,
+    packages=[package_name],
+    data_files=[
+        ("share/ament_index/resource_index/packages", ["resource/" + package_name]),
+        ("share/" + package_name, ["package.xml"]),
+        (os.path.join("share", package_name, "launch"), glob(os.path.join("launch", "*.launch.*"))),
+        (os.path.join("share", package_name, "config"), glob("config/*.yaml") + glob("config/*.rviz")),
+        (os.path.join("share", package_name, "urdf"), ["urdf/cart.urdf"]),
+    ],
+    entry_points={"console_scripts": ["drive = cart.drive:main"]},
+)
+"""
+CFG = "[develop]\nscript_dir=$base/lib/cart\n[install]\ninstall_scripts=$base/lib/cart\n"
+LAUNCH = """<launch>
+  <let name="settings" value="$(find-pkg-share cart)/config/cart.yaml"/>
+</launch>
+"""
+
+
+def write(folder: Path, files: dict[str, str]) -> None:
+    for name, text in files.items():
+        (folder / name).parent.mkdir(parents=True, exist_ok=True)
+        (folder / name).write_text(text)
+
+
+def found(folder: Path) -> list[str]:
+    return [f"{finding.file}:{finding.line}: {finding.message}" for finding in lint(folder)]
+
+
+@pytest.fixture
+def cmake(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    start = '<launch>\n  <node pkg="cart" exec="wait.py"/>\n</launch>\n'
+    model = '<robot name="cart"><link name="base"/></robot>\n'
+    files = {"package.xml": MANIFEST, "CMakeLists.txt": CMAKE, "urdf/cart.urdf": model}
+    write(tmp_path, {**files, "launch/cart.launch.xml": start, "scripts/wait.py": ""})
+    assert found(tmp_path) == []
+    return tmp_path
+
+
+@pytest.fixture
+def python(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    manifest = MANIFEST.replace("  <buildtool_depend>ament_cmake</buildtool_depend>\n", "")
+    model = '<robot name="cart"><link name="base"/></robot>\n'
+    files = {"package.xml": manifest.replace("ament_cmake", "ament_python"), "setup.py": SETUP, "setup.cfg": CFG}
+    modules = {"cart/__init__.py": "", "cart/drive.py": "def main():\n    pass\n", "resource/cart": ""}
+    write(tmp_path, {**files, **modules, "urdf/cart.urdf": model, "launch/cart.launch.xml": LAUNCH})
+    write(tmp_path, {"config/cart.yaml": "{}\n"})
+    assert found(tmp_path) == []
+    return tmp_path
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "expected"),
+    [
+        (
+            ' format="3"',
+            "",
+            '1: <exec_depend> does not exist in format 1 of package.xml; add `format="3"` to <package>',
+        ),
+        ('format="3"', 'format="4"', "1: unknown format `4` of package.xml; use 1, 2 or 3"),
+        ("<name>cart<", "<name>1cart<", "2: package name `1cart` does not begin with a letter"),
+        ("<name>cart<", "<name>my cart<", "2: package name `my cart` is not made of letters, digits, `_` and `-`"),
+        ("<version>1.0.0<", "<version>1.0.0</version><version>2.0.0<", "3: package.xml has a second <version>"),
+        ("MIT", "", "6: <license> is empty"),
+        ('email="cart@example.com"', "", "5: <maintainer> has no `email`"),
+        ("cart@example.com", "cart@example", "5: `cart@example` is no e-mail address"),
+        (">launch_ros<", ">cart<", "8: package `cart` depends on itself"),
+        ("<buildtool_depend>ament_cmake</buildtool_depend>", "", "1: package.xml has no <buildtool_depend>ament_cmake"),
+    ],
+)
+def test_a_manifest_that_tools_refuse_is_reported(cmake, old, new, expected):
+    assert old in MANIFEST
+    (cmake / "package.xml").write_text(MANIFEST.replace(old, new))
+    assert any(line.startswith(f"package.xml:{expected}") for line in found(cmake)), found(cmake)
+
+
+@pytest.mark.parametrize(
+    ("old", "new"),
+    [
+        ("<exec_depend>launch_ros</exec_depend>", "<depend>launch_ros</depend><test_depend>launch_ros</test_depend>"),
+        ("<buildtool_depend>ament_cmake<", "<buildtool_depend>ament_cmake_auto<"),
+        ("</license>", '</license><license file="LICENSE">BSD</license><author>Nobody</author>'),
+        ("A cart.", "A <em>small</em> cart."),
+    ],
+)
+def test_a_manifest_that_tools_accept_is_silent(cmake, old, new):
+    assert old in MANIFEST
+    (cmake / "package.xml").write_text(MANIFEST.replace(old, new))
+    assert found(cmake) == []
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "expected"),
+    [
+        ("share/${PROJECT_NAME})\n", "share/${PROJECT_NAME}\n", "4: the parenthesis of `install` is not closed"),
+        ("project(cart)", "project(cart))", "2: `)` closes no command"),
+        ("project(cart)\n", "", "1: CMakeLists.txt does not call project()"),
+        ("find_package(ament_cmake REQUIRED)\n", "", "9: ament_package() needs find_package(ament_cmake REQUIRED)"),
+        ("(ament_cmake R", "(ament_cmakes R", "3: unknown package `ament_cmakes`; did you mean `ament_cmake`?"),
+        ("urdf\n  DESTINATION", "urdf\n ", "4: install(DIRECTORY) has no DESTINATION"),
+        ("share/${PROJECT_NAME}", "share/${PROJECT}", "5: variable `PROJECT` does not exist"),
+        ("share/${PROJECT_NAME}", "share", "5: folder `launch` is installed to `share`, but its files are searched in"),
+        ("share/${PROJECT_NAME}", "lib/cart", "5: folder `launch` is installed to `lib/cart`, but its files are"),
+        ("install(PROGRAMS scripts/wait.py DESTINATION lib/${PROJECT_NAME})\n", "", "4: `scripts/wait.py` is not"),
+    ],
+)
+def test_a_defect_of_cmake_is_reported(cmake, old, new, expected):
+    assert old in CMAKE
+    (cmake / "CMakeLists.txt").write_text(CMAKE.replace(old, new, 1))
+    assert any(line.startswith(f"CMakeLists.txt:{expected}") for line in found(cmake)), found(cmake)
+
+
+@pytest.mark.parametrize(
+    ("old", "new"),
+    [
+        ("project(cart)", 'project(cart)\nmessage("a ) and a ( in a text") # and ( here\n#[[ ( ]]\nset(A [=[ ( ]=])'),
+        ("find_package(ament_cmake REQUIRED)", "find_package(ament_cmake_auto REQUIRED)"),
+        ("find_package(ament_cmake REQUIRED)", "find_package(my_cmake REQUIRED)"),
+        ("share/${PROJECT_NAME})\n", "share/cart/)\n"),
+        ("share/${PROJECT_NAME})\n", "${INSTALL_FOLDER})\n"),
+        ("urdf\n  DESTINATION share/${PROJECT_NAME}", "urdf ${WHERE}"),
+        ("install(DIRECTORY launch urdf", "install(DIRECTORY launch DESTINATION share)\ninstall(DIRECTORY launch urdf"),
+        ("install(PROGRAMS scripts/wait.py", "install(DIRECTORY scripts/"),
+    ],
+)
+def test_a_correct_cmake_file_is_silent(cmake, old, new):
+    assert old in CMAKE
+    (cmake / "CMakeLists.txt").write_text(CMAKE.replace(old, new, 1))
+    assert found(cmake) == []
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "expected"),
+    [
+        (
+            '"config/*.yaml"',
+            '"confg/*.yaml"',
+            "14: folder `confg` does not exist in this package; did you mean `config`",
+        ),
+        ('"config/*.yaml"', '"config/*.yml"', "14: `config/cart.yaml` is not installed, but launch/cart.launch.xml:2"),
+        ("*.launch.*", "*.launch.py", "13: launch file `launch/cart.launch.xml` is not installed"),
+        ('"resource/" +', '"resources/" +', "11: `resources/cart` does not exist in this package"),
+        ("cart.drive:", "crt.drive:", "17: module `crt` does not exist in this package; did you mean `cart`?"),
+        ("cart.drive:", "cart.driv:", "17: module `cart.driv` does not exist in this package; did you mean `drive`?"),
+        (":main", ":mian", "17: `cart/drive.py` does not define `mian`; did you mean `main`?"),
+        (":main", ".main", "17: `drive = cart.drive.main` is not of the form `name = module:function`"),
+    ],
+)
+def test_a_defect_of_setup_is_reported(python, old, new, expected):
+    assert old in SETUP
+    (python / "setup.py").write_text(SETUP.replace(old, new, 1))
+    assert any(line.startswith(f"setup.py:{expected}") for line in found(python)), found(python)
+
+
+@pytest.mark.parametrize(
+    ("old", "new"),
+    [
+        ('"config/*.yaml"', '"config/*"'),
+        ('glob("config/*.yaml")', "settings()"),
+        ('"config/*.yaml"', '"config/**/*.yaml", recursive=True'),
+        ("cart.drive:main", "other_package.drive:main"),
+        ("packages=", 'package_dir={"": "src"}, packages='),
+    ],
+)
+def test_a_correct_setup_file_is_silent(python, old, new):
+    assert old in SETUP
+    (python / "setup.py").write_text(SETUP.replace(old, new, 1))
+    assert found(python) == []
+
+
+def test_a_folder_of_executables_that_ros2_run_does_not_search_is_reported(python):
+    (python / "setup.cfg").write_text(CFG.replace("lib/cart", "lib/carts"))
+    message = "executables are installed to `lib/carts`, but `ros2 run` searches `lib/cart`"
+    assert found(python) == [f"setup.cfg:{line}: {message}" for line in (2, 4)]
+    (python / "setup.cfg").unlink()
+    assert found(python) == ["setup.py:17: setup.cfg is missing: `ros2 run` finds executables only in `lib/cart`"]
+    (python / "pyproject.toml").write_text("")
+    assert found(python) == []
+
+
+def test_a_module_that_imports_its_function_is_accepted(python):
+    for text in ("from cart.other import main\n", "from cart.other import *\n", "main = print\n", "def main(:\n"):
+        (python / "cart" / "drive.py").write_text(text)
+        assert found(python) == []

@@ -1,0 +1,174 @@
+"""Defects of a CMakeLists.txt: syntax, commands without their package, and places of the installation."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+
+from urdfkit.record import record
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from urdfkit.description.xml.source import Source
+    from urdfkit.lint.facts.build_files import BuildFiles, CMakeCommand
+    from urdfkit.lint.finding import Severity
+
+_TOKENS = r"#\[(=*)\[(?s:.*?)(?:\]\1\]|\Z)|#[^\n]*|\"(?:\\(?s:.)|[^\"\\])*\"|\[(=*)\[(?s:.*?)(?:\]\2\]|\Z)|\\.|[()]"
+_TOOLS = {
+    "ament_package": ("ament_cmake", "ament_cmake_core", "ament_cmake_auto", "ament_cmake_ros", "ament_cmake_python"),
+    "catkin_package": ("catkin", "catkin_simple"),
+}
+"""Command → packages that define it."""
+
+_CATKIN = {
+    "CATKIN_PACKAGE_SHARE_DESTINATION": "share/{0}",
+    "CATKIN_PACKAGE_ETC_DESTINATION": "etc/{0}",
+    "CATKIN_PACKAGE_BIN_DESTINATION": "lib/{0}",
+    "CATKIN_PACKAGE_LIB_DESTINATION": "lib",
+    "CATKIN_PACKAGE_INCLUDE_DESTINATION": "include/{0}",
+    "CATKIN_PACKAGE_PYTHON_DESTINATION": "lib/python3/dist-packages/{0}",
+    **{f"CATKIN_GLOBAL_{name}_DESTINATION": name.lower() for name in ("SHARE", "BIN", "LIB", "LIBEXEC", "ETC")},
+    "CATKIN_GLOBAL_INCLUDE_DESTINATION": "include",
+    "CATKIN_GLOBAL_PYTHON_DESTINATION": "lib/python3/dist-packages",
+}
+"""Variables of catkin (cmake/catkin_destinations.cmake, all.cmake) and their values; {0} is the package."""
+
+_VARIABLES = (
+    *("PROJECT_NAME", "CATKIN_PACKAGE_SHARE_DESTINATION", "CATKIN_PACKAGE_BIN_DESTINATION", "PROJECT_SOURCE_DIR"),
+    *("CATKIN_PACKAGE_LIB_DESTINATION", "CATKIN_PACKAGE_INCLUDE_DESTINATION", "CATKIN_GLOBAL_BIN_DESTINATION"),
+    *("CATKIN_GLOBAL_INCLUDE_DESTINATION", "CMAKE_CURRENT_SOURCE_DIR", "catkin_INCLUDE_DIRS", "catkin_LIBRARIES"),
+)
+_PROJECT = r"PROJECT_(NAME|(SOURCE|BINARY)_DIR|VERSION\w*|DESCRIPTION|HOMEPAGE_URL|IS_TOP_LEVEL)"
+_FOLDERS = ("launch", "urdf", "meshes", "rviz", "worlds")
+"""Folders whose files are found in the share folder of the package."""
+
+
+@record(eq=False)
+class BuildDefect:
+    """A defect of a build file, with its text and the offset of it."""
+
+    source: Source
+    start: int
+    text: str
+    message: str
+    severity: Severity = "error"
+
+
+def unbalanced(source: Source) -> BuildDefect | None:
+    """Return the first parenthesis of a CMakeLists.txt that is not closed or not opened; None if all are paired."""
+    opened: list[int] = []
+    for at in re.finditer(_TOKENS, source.text):
+        if at[0] == "(":
+            opened.append(at.start())
+        elif at[0] == ")":
+            if not opened:
+                return BuildDefect(source, at.start(), ")", "`)` closes no command")
+            opened.pop()
+    if not opened:
+        return None
+    name = re.search(r"\w*[ \t]*$", source.text[: opened[0]])
+    start = name.start() if name is not None else opened[0]
+    command = source.text[start : opened[0]].strip() or "("
+    return BuildDefect(source, start, command, f"the parenthesis of `{command}` is not closed")
+
+
+def cmake_defects(source: Source, every: list[CMakeCommand]) -> Iterator[BuildDefect]:
+    """Yield the defects of the commands of a CMakeLists.txt without syntax errors."""
+    yield from _calls(source, every)
+    yield from _variables(source, every)
+    for command in every:
+        words = [word for word, _ in command.words]
+        if command.name not in ("install", "catkin_install_python") or words[:1] not in (
+            ["DIRECTORY"],
+            ["FILES"],
+            ["PROGRAMS"],
+        ):
+            continue
+        others = [word for word in words if word.startswith("${") and word[2:-1] not in _CATKIN]
+        if "DESTINATION" not in words and "TYPE" not in words and not others:
+            yield BuildDefect(source, command.start, command.name, f"{command.name}({words[0]}) has no DESTINATION")
+
+
+def _variables(source: Source, every: list[CMakeCommand]) -> Iterator[BuildDefect]:
+    """Yield misspelt variables, and destinations of variables that neither CMake nor catkin defines."""
+    from urdfkit.lint.fix_builders import nearest
+    from urdfkit.lint.model.masked_names import is_typo
+
+    is_whole = not any(command.name == "include" for command in every)
+    assigned = re.findall(r"(?i)\b(?:set|foreach|option|list\s*\(\s*\w+|file\s*\(\s*\w+)\s*\(?\s*(\w+)", source.text)
+    defined = {*_VARIABLES, *_CATKIN, *assigned}
+    for use in re.finditer(r"\$\{(\w+)\}", source.text):
+        name = use[1]
+        if name in defined or re.fullmatch(_PROJECT, name):
+            continue
+        near = nearest(name, _VARIABLES, cutoff=0.85)
+        if near is not None and is_typo(name, near):
+            message = f"unknown variable `{name}`; did you mean `{near}`?"
+            yield BuildDefect(source, use.start(1), name, message)
+            continue
+        is_destination = re.search(r"DESTINATION\s+[^\s()]*\Z", source.text[: use.start()]) is not None
+        if is_whole and is_destination and (name == "PROJECT" or name.startswith(("PROJECT_", "CATKIN_"))):
+            yield BuildDefect(source, use.start(1), name, f"variable `{name}` does not exist")
+
+
+def _calls(source: Source, every: list[CMakeCommand]) -> Iterator[BuildDefect]:
+    """Yield a missing project(), and the calls of a build tool that find_package does not find."""
+    from urdfkit.lint.facts.ros_packages import misspelling_of, names
+    from urdfkit.lint.fix_builders import nearest
+
+    defined = {command.name for command in every}
+    if "include" in defined:
+        return
+    if every and not any(nearest(name, ["project"], cutoff=0.8) for name in defined):
+        yield BuildDefect(source, every[0].start, every[0].name, "CMakeLists.txt does not call project()")
+    found = [command.words[0] for command in every if command.name == "find_package" and command.words]
+    packages = [name for name, _ in found]
+    for command in every:
+        tools = _TOOLS.get(command.name, ())
+        if not tools or any(name in tools for name in packages):
+            continue
+        near = nearest(tools[0], [name for name in packages if name not in names()], cutoff=0.85)
+        if near is None and not any("cmake" in name and name not in names() for name in packages):
+            message = f"{command.name}() needs find_package({tools[0]} REQUIRED)"
+            yield BuildDefect(source, command.start, command.name, message)
+        elif near is not None and misspelling_of(near, ()) is None:  # the rule reports other misspelt packages
+            message = f"unknown package `{near}`; did you mean `{tools[0]}`?"
+            yield BuildDefect(source, dict(found)[near], near, message)
+
+
+def misplaced(files: BuildFiles, source: Source, every: list[CMakeCommand], used: set[str]) -> Iterator[BuildDefect]:
+    """Yield the installations of folders to another place than the share folder of the package.
+
+    Args:
+        files: the build files of the package.
+        source: its CMakeLists.txt.
+        every: the commands of it.
+        used: folders of the package that launch files use.
+    """
+    from urdfkit.lint.facts.build_files import OPTIONS
+
+    share, right, wrong = f"share/{files.name}", set[str](), list[tuple[str, BuildDefect]]()
+    for command in every:
+        words = [word for word, _ in command.words]
+        if command.name != "install" or words[:1] != ["DIRECTORY"] or "DESTINATION" not in words[:-1]:
+            continue
+        written, start = command.words[words.index("DESTINATION") + 1]
+        place = _evaluated(written, files.name)
+        folders = [word.strip("/") for word in words[1 : next(i for i, word in enumerate(words) if word in OPTIONS)]]
+        if place is None or place == share or place.startswith((f"{share}/", "/")):
+            right.update(folders)
+            continue
+        is_elsewhere = place == "share" or place.partition("/")[0] in ("lib", "bin", "include", "etc", "launch")
+        for folder in folders if is_elsewhere else ():
+            if folder.partition("/")[0] in {*used, *_FOLDERS}:
+                message = f"folder `{folder}` is installed to `{place}`, but its files are searched in `{share}`"
+                wrong.append((folder, BuildDefect(source, start, written, message)))
+    yield from (defect for folder, defect in wrong[:1] if folder not in right)
+
+
+def _evaluated(written: str, package: str) -> str | None:
+    """Return a destination without variables; None if it has others than those of the project and of catkin."""
+    values = {"PROJECT_NAME": package, "CMAKE_PROJECT_NAME": package, "CMAKE_INSTALL_PREFIX": "/prefix"}
+    values |= {name: value.format(package) for name, value in _CATKIN.items()}
+    text = re.sub(r"\$\{(\w+)\}", lambda use: values.get(use[1], use[0]), written)
+    return None if "$" in text else text.rstrip("/")

@@ -1,0 +1,208 @@
+"""Defects of setup.py and setup.cfg of ROS 2 packages in Python: installed files, entry points and their folder."""
+
+from __future__ import annotations
+
+import fnmatch
+import re
+from collections.abc import Iterator
+
+from urdfkit.description.launch.python_constants import LaunchReader, name_of, parsed
+from urdfkit.lint.facts.cmake_defects import BuildDefect
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    import ast
+
+    from urdfkit.description.xml.source import Source
+    from urdfkit.lint.facts.build_files import BuildFiles
+
+
+def setup_defects(files: BuildFiles, source: Source, used: dict[str, str]) -> Iterator[BuildDefect]:
+    """Yield the defects of setup.py and setup.cfg.
+
+    Args:
+        files: the build files of the package.
+        source: its setup.py.
+        used: path in the package → the place where a launch file uses it; empty for launch files.
+    """
+    tree = parsed(source)
+    if tree is None:
+        return
+    reader = LaunchReader(tree)
+    keywords = _keywords(tree)
+    yield from _data_files(files, source, reader, keywords.get("data_files"), used)
+    scripts = _scripts(source, reader, keywords.get("entry_points"))
+    if "package_dir" not in keywords:
+        for text, start in scripts:
+            yield from _entry_point(files, source, text, start)
+    yield from _folder(files, source, bool(scripts))
+
+
+def _keywords(tree: ast.Module) -> dict[str, ast.expr]:
+    """Return the arguments of the call of setup()."""
+    import ast
+
+    calls = [node for node in ast.walk(tree) if isinstance(node, ast.Call) and name_of(node.func) == "setup"]
+    return {word.arg: word.value for word in calls[0].keywords if word.arg} if len(calls) == 1 else {}
+
+
+def _text(reader: LaunchReader, node: ast.expr) -> str | None:
+    """Return the text of a constant, of a sum of constants, or of os.path.join of constants."""
+    import ast
+
+    if isinstance(node, ast.BinOp) and isinstance(node.op, ast.Add):
+        left, right = _text(reader, node.left), _text(reader, node.right)
+        return None if left is None or right is None else left + right
+    if isinstance(node, ast.Call) and name_of(node.func) == "join" and not node.keywords:
+        texts = [_text(reader, part) for part in node.args]
+        return None if None in texts or not texts else "/".join(text for text in texts if text is not None)
+    return reader.text(node)
+
+
+def _installed(reader: LaunchReader, data: ast.expr) -> list[tuple[str, ast.expr, bool]] | None:
+    """Return the paths and patterns in data_files, whether each is a pattern; None if one is computed."""
+    import ast
+
+    found = []
+    if not isinstance(data, ast.List):
+        return None
+    for pair in data.elts:
+        if not isinstance(pair, ast.Tuple) or len(pair.elts) != 2:
+            return None
+        parts = [pair.elts[1]]
+        while parts:
+            part = parts.pop(0)
+            if isinstance(part, (ast.List, ast.Tuple)):
+                parts += part.elts
+                continue
+            if isinstance(part, ast.BinOp) and isinstance(part.op, ast.Add) and _text(reader, part) is None:
+                parts += [part.left, part.right]
+                continue
+            is_pattern = isinstance(part, ast.Call) and name_of(part.func) in ("glob", "iglob")
+            inner = part.args[0] if isinstance(part, ast.Call) and is_pattern and part.args else part
+            text = _text(reader, inner)
+            if text is None:
+                return None
+            found.append((text.removeprefix("./"), inner, is_pattern))
+    return found
+
+
+def _data_files(
+    files: BuildFiles, source: Source, reader: LaunchReader, data: ast.expr | None, used: dict[str, str]
+) -> Iterator[BuildDefect]:
+    from urdfkit.description.packages.resolver import near_path
+    from urdfkit.lint.facts.control.launch_package_paths import place
+
+    installed = _installed(reader, data) if data is not None else None
+    if installed is None or data is None:
+        return
+    misspelt = set()
+    for text, node, is_pattern in installed:
+        start, end = place(source, node)
+        folder = text.rpartition("/")[0] if is_pattern else text
+        hint = near_path(files.folder / folder) if folder and "*" not in folder and not files.has(folder) else ""
+        if is_pattern and hint:
+            misspelt.add(folder)
+            message = f"folder `{folder}` does not exist in this package{hint}"
+            yield BuildDefect(source, start, source.text[start:end], message)
+        elif not is_pattern and not files.has(text):
+            yield BuildDefect(source, start, source.text[start:end], f"`{text}` does not exist in this package{hint}")
+    for path, use in used.items():
+        folder = path.rpartition("/")[0]
+        beside = [node for text, node, _ in installed if folder and text.rpartition("/")[0] == folder]
+        if not beside or misspelt or any(fnmatch.fnmatch(path, text.replace("**/", "*")) for text, _, _ in installed):
+            continue
+        start, end = place(source, beside[0])
+        message = f"`{path}` is not installed, but {use}" if use else f"launch file `{path}` is not installed"
+        yield BuildDefect(source, start, source.text[start:end], message, "warning")
+
+
+def _scripts(source: Source, reader: LaunchReader, points: ast.expr | None) -> list[tuple[str, int]]:
+    """Return the constant console scripts with their offsets."""
+    import ast
+
+    from urdfkit.lint.facts.control.launch_package_paths import place
+
+    if not isinstance(points, ast.Dict):
+        return []
+    found = []
+    for key, value in zip(points.keys, points.values, strict=True):
+        if key is not None and reader.text(key) == "console_scripts" and isinstance(value, (ast.List, ast.Tuple)):
+            for node in value.elts:
+                if isinstance(node, ast.Constant) and isinstance(node.value, str):
+                    found.append((node.value, place(source, node)[0] + 1))
+    return found
+
+
+def _entry_point(files: BuildFiles, source: Source, text: str, start: int) -> Iterator[BuildDefect]:
+    """Yield the defect of a console script ``name = module:function``."""
+    from urdfkit.lint.fix_builders import meant
+
+    parts = re.fullmatch(r"(\s*[\w.-]+\s*=\s*)([\w.]+)(?:\s*:\s*([\w.]+))?\s*(?:\[.*\])?", text)
+    if parts is None or parts[3] is None:
+        message = f"`{text}` is not of the form `name = module:function`"
+        yield BuildDefect(source, start, text, message)
+        return
+    top, _, inner = parts[2].partition(".")
+    at = start + parts.start(2)
+    if not (files.has(top) or files.has(f"{top}.py")):
+        near, hint = meant(top, [files.name])
+        if near is not None and files.has(near):  # others are modules of other packages
+            yield BuildDefect(source, at, top, f"module `{top}` does not exist in this package{hint}")
+        return
+    path = parts[2].replace(".", "/")
+    module = next((file for file in (f"{path}.py", f"{path}/__init__.py") if files.has(file)), None)
+    if module is None:
+        folder = files.folder / path.rpartition("/")[0]
+        hint = meant(parts[2].rpartition(".")[2], sorted(file.stem for file in folder.glob("*.py")))[1] if inner else ""
+        yield BuildDefect(source, at, parts[2], f"module `{parts[2]}` does not exist in this package{hint}")
+        return
+    defined = _defined(files, module)
+    if defined is not None and parts[3].partition(".")[0] not in defined:
+        message = f"`{module}` does not define `{parts[3]}`{meant(parts[3], defined)[1]}"
+        yield BuildDefect(source, start + parts.start(3), parts[3], message)
+
+
+def _defined(files: BuildFiles, module: str) -> list[str] | None:
+    """Return the names that a module defines; None if it may define others."""
+    import ast
+    import warnings
+
+    path = files.folder / module
+    try:
+        text = files.texts.get(str(path)) or path.read_text("utf-8", "replace")
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            tree = ast.parse(text)
+    except (OSError, SyntaxError, ValueError, RecursionError, MemoryError):
+        return None
+    found: list[str] = []
+    for node in ast.walk(tree):
+        if isinstance(node, (ast.FunctionDef, ast.AsyncFunctionDef, ast.ClassDef)):
+            found.append(node.name)
+        elif isinstance(node, ast.Name) and isinstance(node.ctx, ast.Store):
+            found.append(node.id)
+        elif isinstance(node, (ast.Import, ast.ImportFrom)):
+            if any(alias.name == "*" for alias in node.names):
+                return None
+            found += [(alias.asname or alias.name).partition(".")[0] for alias in node.names]
+        elif isinstance(node, ast.Name) and node.id in ("globals", "setattr"):
+            return None
+    return found
+
+
+def _folder(files: BuildFiles, source: Source, has_scripts: bool) -> Iterator[BuildDefect]:
+    """Yield a folder of the executables in which ``ros2 run`` does not find them."""
+    config = files.config
+    if config is not None:
+        for at in re.finditer(
+            r"(?m)^\s*(?:script[-_]dir|install[-_]scripts)\s*=\s*\$base/lib/([\w-]+)\s*$", config.text
+        ):
+            if at[1] != files.name:
+                message = f"executables are installed to `lib/{at[1]}`, but `ros2 run` searches `lib/{files.name}`"
+                yield BuildDefect(config, at.start(1), at[1], message)
+        return
+    is_elsewhere = re.search(r"script[-_]dir|install[-_]scripts", source.text) or files.has("pyproject.toml")
+    if has_scripts and not is_elsewhere:
+        message = f"setup.cfg is missing: `ros2 run` finds executables only in `lib/{files.name}`"
+        yield BuildDefect(source, source.text.index("console_scripts"), "console_scripts", message)
