@@ -1,20 +1,29 @@
-"""Forward kinematics of a robot by Pinocchio: configurations by name, frames of all links, transforms between them.
+"""Kinematics of a robot: configurations by name, frames of all links by Pinocchio, and chains with inverse kinematics.
 
-A `Robot` goes in; placements, transforms and the ``pin.Model`` come out.
+A `Robot` goes in; placements, transforms, the ``pin.Model``, Jacobians and joint positions for poses come out.
 """
 
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from urdfkit.kinematics.chain import Chain
     from urdfkit.kinematics.joint_limits import JointLimitError
     from urdfkit.kinematics.mimic import Coupling
     from urdfkit.kinematics.model import Kinematics
+    from urdfkit.kinematics.solutions import Solutions
     from urdfkit.kinematics.tf import TransformTree
 
-__all__ = ["Coupling", "JointLimitError", "Kinematics", "TransformTree"]
+__all__ = ["Chain", "Coupling", "JointLimitError", "Kinematics", "Solutions", "TransformTree"]
 
-_HOMES = {"Coupling": "mimic", "JointLimitError": "joint_limits", "Kinematics": "model", "TransformTree": "tf"}
+_HOMES = {
+    "Chain": "chain",
+    "Coupling": "mimic",
+    "JointLimitError": "joint_limits",
+    "Kinematics": "model",
+    "Solutions": "solutions",
+    "TransformTree": "tf",
+}
 
 
 def __getattr__(name: str) -> Any:

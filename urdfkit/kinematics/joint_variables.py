@@ -10,14 +10,8 @@ import pinocchio as pin
 
 from urdfkit.description.urdf.robot import Robot
 from urdfkit.errors import KinematicsError
+from urdfkit.kinematics.variable_names import PARTS
 from urdfkit.linear_algebra import Array, matmul, vector_norm
-
-PARTS = {
-    "planar": ("x", "y", "theta"),
-    "floating": ("trans_x", "trans_y", "trans_z", "rot_x", "rot_y", "rot_z", "rot_w"),
-}
-"""Joint type → names of its variables where it has more than one (MoveIt: planar_joint_model.cpp and
-floating_joint_model.cpp)."""
 
 
 @dataclass(frozen=True, slots=True)

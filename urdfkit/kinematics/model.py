@@ -19,9 +19,10 @@ from urdfkit.description import Robot, load
 from urdfkit.errors import KinematicsError, did_you_mean
 from urdfkit.kinematics.forward_kinematics import ForwardKinematics
 from urdfkit.kinematics.joint_limits import JointLimitError, position_limits
-from urdfkit.kinematics.joint_variables import PARTS, finite, index_variables, rates, unit_pose
+from urdfkit.kinematics.joint_variables import finite, index_variables, rates, unit_pose
 from urdfkit.kinematics.mimic import Coupling, couplings
 from urdfkit.kinematics.pinocchio_model import build_model, pin
+from urdfkit.kinematics.variable_names import require_independent, unknown_variable
 from urdfkit.linear_algebra import Array, matmul
 
 SMALL = 100
@@ -284,35 +285,12 @@ class Kinematics:
 
     def _joint_id(self, joint: str) -> int:
         if joint not in self._joint_ids:
-            raise KinematicsError(self._unknown(joint))
+            raise KinematicsError(unknown_variable(self.robot, self.couplings, self._variables, joint))
         return self._joint_ids[joint]
 
     def _own(self, name: str) -> str:
         """Return the name if it is a variable that moves on its own."""
-        if (coupling := self.couplings.get(name)) is not None:
-            if coupling.master is None:
-                raise KinematicsError(f"joint `{name}` mimics a fixed joint: it stays at {coupling.offset:g}")
-            law = f"{coupling.multiplier:g} · {coupling.master} + {coupling.offset:g}"
-            raise KinematicsError(f"joint `{name}` mimics another ({law}); set `{coupling.master}` instead")
-        if name not in self._variables:
-            raise KinematicsError(self._unknown(name))
-        return name
-
-    def _unknown(self, name: str) -> str:
-        joint = self.robot.joint_by_name.get(name)
-        if joint is None:
-            return f"no movable joint `{name}` in robot `{self.robot.name}`{self._nearest(name)}"
-        if joint.type in PARTS:
-            parts = ", ".join(f"`{name}/{part}`" for part in PARTS[joint.type])
-            return f"joint `{name}` is {joint.type} and has more than one position: {parts}"
-        return f"joint `{name}` is {joint.type or 'without a type'}: it does not move"
-
-    def _nearest(self, name: str) -> str:
-        """Return a hint; `JOINT/x` of a floating joint is meant for `JOINT/trans_x`."""
-        joint, _, part = name.rpartition("/")
-        if (moved := f"{joint}/trans_{part}") in self._variables:
-            return f"; did you mean `{moved}`?"
-        return did_you_mean(name, self.variable_names)
+        return require_independent(self.robot, self.couplings, self._variables, name)
 
     def _require_floating(self) -> None:
         if not self.floating_base:

@@ -8,7 +8,7 @@ import numpy as np
 from urdfkit.description.urdf.queries import tree_order
 from urdfkit.errors import SimulationError
 from urdfkit.kinematics import Kinematics
-from urdfkit.kinematics.joint_variables import PARTS
+from urdfkit.kinematics.variable_names import PARTS
 from urdfkit.linear_algebra import Array
 from urdfkit.scene import Scene, lowest_point
 from urdfkit.scene.pose_matrices import pose_matrices

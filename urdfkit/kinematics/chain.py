@@ -1,0 +1,335 @@
+"""Chain: forward and inverse kinematics of the joints between two links, for many configurations at once."""
+
+from __future__ import annotations
+
+import math
+import os
+import threading
+from collections.abc import Callable, Mapping
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from urdfkit.description import Robot, load
+from urdfkit.errors import KinematicsError, did_you_mean
+from urdfkit.kinematics.serial.object_cache import Compiling, function
+from urdfkit.kinematics.serial_chain import SerialChain
+from urdfkit.kinematics.solutions import Solutions
+from urdfkit.linear_algebra import Array
+
+TOLERANCE = (1e-3, 1.745e-3)
+"""Distance [m] and angle [rad] within which a target is reached: 1 mm and 0.1°."""
+RESTARTS = 200
+LINEAR = 2.0
+"""Weight of a metre of distance, relative to a radian of angle, while the solver descends."""
+PREFERENCES = {"first": 0, "nearest": 1, "manipulability": 2}
+MORE = 8
+"""Restarts after the first solution that search for a better one."""
+ROW = 5
+"""Numbers after the configuration of a solution: see `serial.search`."""
+FEW = 64
+"""Targets per thread below which a thread takes longer to start than to solve."""
+
+
+class Chain:
+    """Kinematic chain of a robot from a base link to a tip link.
+
+    Configurations are arrays of the last axis n, one number per entry of `joint_names`; results keep the other axes, so
+    one configuration (n,) has one pose (4, 4), and N configurations (N, n) have N poses (N, 4, 4).
+
+    Args:
+        robot: a loaded robot, a file, a package folder or the name of a bundled robot; see `urdfkit.load`.
+        base: name of the link in which poses are expressed; the root link when None.
+        tip: name of the link whose poses are computed.
+        hold: name of a joint of the chain → its position [rad] or [m]; such joints do not move.
+        compiling: called with a message before the kernel is compiled, once per machine and version.
+
+    Raises:
+        UrdfkitError: the robot cannot be loaded.
+        KinematicsError: an unknown link or joint, or no joint moves the tip relative to the base.
+        MissingDependencyError: numba is not installed.
+
+    Attributes:
+        robot: the robot.
+        base: name of the base link.
+        tip: name of the tip link.
+        joint_names: the independent joints in the order from base to tip; a planar joint has ``joint/x``, ``joint/y``
+            and ``joint/theta``.
+        lower: lower limits [rad] or [m], minus infinity without one; shape (n,).
+        upper: upper limits [rad] or [m], infinity without one; shape (n,).
+    """
+
+    def __init__(
+        self,
+        robot: Robot | str | Path,
+        base: str | None,
+        tip: str,
+        *,
+        hold: Mapping[str, float] | None = None,
+        compiling: Compiling | None = None,
+    ) -> None:
+        self.serial = SerialChain(load(robot), base, tip, hold=hold)
+        self.robot, self.base, self.tip = self.serial.robot, self.serial.base, tip
+        self.joint_names = tuple(variable.name for variable in self.serial.variables)
+        self.lower: Array = np.array([variable.lower for variable in self.serial.variables])
+        self.upper: Array = np.array([variable.upper for variable in self.serial.variables])
+        steps, indices, limits = self.serial.steps, self.serial.indices, self.serial.limits
+        self._count, self._size = len(indices), len(self.joint_names)
+        self._chain = (steps.buffer_info()[0], indices.buffer_info()[0], self._count, self._size)
+        self._limits = limits.buffer_info()[0]
+        self._compiling = compiling
+        self._memory = threading.local()
+        self._start = np.array(self.serial.start())
+
+    def __repr__(self) -> str:
+        """Return the links at both ends and the joints."""
+        return f"<Chain {self.base} → {self.tip} of {self.robot.name}: {', '.join(self.joint_names)}>"
+
+    def configuration(self, positions: Mapping[str, float] | None = None) -> Array:
+        """Return the configuration with these positions, other joints in the middle of their limits; shape (n,).
+
+        Args:
+            positions: name of a joint → position [rad] or [m]; joints outside the chain are ignored.
+
+        Raises:
+            KinematicsError: an unknown name, a mimic joint, or a position that is not a finite number.
+        """
+        return np.array(self.serial.start(positions))
+
+    def forward(self, q: ArrayLike) -> Array:
+        """Return the poses of the tip in the base, as homogeneous matrices; shape (N, 4, 4)."""
+        q = self._configurations(q)
+        poses = np.empty((*q.shape[:-1], 4, 4))
+        self._compute(q, poses, None, 1)
+        return poses
+
+    def jacobian(self, q: ArrayLike) -> Array:
+        """Return the Jacobians at the tip in the axes of the base, linear rows first; shape (N, 6, n)."""
+        q = self._configurations(q)
+        jacobians = np.empty((*q.shape[:-1], 6, self._size))
+        self._compute(q, None, jacobians, 2)
+        return jacobians
+
+    def forward_and_jacobian(self, q: ArrayLike) -> tuple[Array, Array]:
+        """Return both `forward` and `jacobian`, in less time than one after the other."""
+        q = self._configurations(q)
+        poses, jacobians = np.empty((*q.shape[:-1], 4, 4)), np.empty((*q.shape[:-1], 6, self._size))
+        self._compute(q, poses, jacobians, 3)
+        return poses, jacobians
+
+    def manipulability(self, q: ArrayLike, *, position_only: bool = False) -> Array:
+        """Return Yoshikawa's measure √det(J·Jᵀ), the product of the singular values of the Jacobian; shape (N,).
+
+        Args:
+            q: configurations.
+            position_only: use the linear rows only.
+        """
+        q = self._configurations(q)
+        values = np.empty(q.shape[:-1])
+        self._compute(q, values, None, 12 if position_only else 4)
+        return values
+
+    def solve(
+        self,
+        targets: ArrayLike,
+        seeds: ArrayLike | None = None,
+        *,
+        position_only: bool = False,
+        tolerance: tuple[float, float] = TOLERANCE,
+        prefer: str = "first",
+        restarts: int = RESTARTS,
+        seed: int = 0,
+        threads: int | None = None,
+    ) -> Solutions:
+        """Find configurations that place the tip at targets, within the limits of the joints.
+
+        The result for a target depends on that target, its seed and the options only: neither on the other targets nor
+        on the number of threads.
+
+        Args:
+            targets: poses of the tip in the base: x y z [m] and a quaternion x y z w, shape (N, 7), or homogeneous
+                matrices, shape (N, 4, 4).
+            seeds: configurations to start from, shape (n,) or (N, n); the middle of the limits when None.
+            position_only: ignore the orientation.
+            tolerance: distance [m] and angle [rad] within which a target is reached.
+            prefer: ``first``: the first solution found; ``nearest``: the one nearest to the seed; ``manipulability``:
+                the one with the largest manipulability. The latter two compare the solutions of several restarts.
+            restarts: maximum number of random starts per target.
+            seed: number of the random stream.
+            threads: number of threads; that of the processors when None.
+
+        Raises:
+            KinematicsError: targets or seeds of another shape, or numbers that are no pose.
+        """
+        if prefer not in PREFERENCES:
+            raise KinematicsError(f"unknown preference `{prefer}`{did_you_mean(prefer, PREFERENCES)}")
+        options = self._options(position_only, tolerance, restarts, PREFERENCES[prefer], 1, seed)
+        shape, rows = self._solve(targets, seeds, options, 1, threads)
+        return self._solutions(rows.reshape(*shape, self._size + ROW))
+
+    def solve_all(
+        self,
+        target: ArrayLike,
+        start: ArrayLike | None = None,
+        *,
+        position_only: bool = False,
+        tolerance: tuple[float, float] = TOLERANCE,
+        restarts: int = RESTARTS,
+        seed: int = 0,
+        most: int = 256,
+    ) -> Solutions:
+        """Find different configurations for one target, with all whole turns that the limits allow, nearest first.
+
+        A chain with more joints than the target has constraints has infinitely many solutions; those of the
+        restarts are returned.
+
+        Args:
+            target: see `solve`; shape (7,) or (4, 4).
+            start: configuration that the solutions are sorted by; the middle of the limits when None.
+            position_only: see `solve`.
+            tolerance: see `solve`.
+            restarts: see `solve`.
+            seed: see `solve`.
+            most: maximum number of solutions.
+
+        Returns:
+            The solutions; the nearest configuration alone if the target cannot be reached.
+
+        Raises:
+            KinematicsError: see `solve`.
+        """
+        options = self._options(position_only, tolerance, restarts, 3, most, seed)
+        shape, rows = self._solve(target, start, options, most, 1)
+        if shape:
+            raise KinematicsError("solve_all needs one target: shape (7,) or (4, 4)")
+        rows = rows.reshape(most, -1)
+        found = rows[rows[:, self._size + 2] > 0.0]
+        if not len(found):
+            return self._solutions(rows[:1])
+        from_ = self._start if start is None else np.asarray(start, dtype=float)
+        found = self._with_whole_turns(found, most)
+        order = np.argsort(((found[:, : self._size] - from_) ** 2).sum(axis=1), kind="stable")
+        return self._solutions(found[order])
+
+    # Memory
+
+    def _configurations(self, q: ArrayLike) -> Array:
+        q = np.ascontiguousarray(q, dtype=np.float64)
+        if q.ndim == 0 or q.shape[-1] != self._size:
+            raise KinematicsError(f"configurations of {self!r} have {self._size} numbers; got shape {q.shape}")
+        return q
+
+    def _compute(self, q: Array, poses: Array | None, jacobians: Array | None, wanted: int) -> None:
+        function("forward", self._compiling)(
+            *self._chain,
+            q.ctypes.data,
+            q.size // self._size,
+            poses.ctypes.data if poses is not None else None,
+            jacobians.ctypes.data if jacobians is not None else None,
+            wanted,
+            self._work(),
+        )
+
+    def _work(self) -> int:
+        """Return the address of memory of this thread."""
+        try:
+            return self._memory.address  # type: ignore[no-any-return]
+        except AttributeError:
+            self._memory.block = block = np.empty(6 * self._count + 10 * self._size + 8)
+            self._memory.address = address = block.ctypes.data
+            return address
+
+    def _options(
+        self, position_only: bool, tolerance: tuple[float, float], restarts: int, prefer: int, rows: int, seed: int
+    ) -> Array:
+        distance, angle = tolerance
+        if not (distance > 0.0 and angle > 0.0):
+            raise KinematicsError(f"the tolerance is {distance:g} m and {angle:g} rad; both must be above zero")
+        angular = 0.0 if position_only else 1.0
+        return np.array([LINEAR, angular, distance, angle, restarts, prefer, rows, MORE, seed])
+
+    def _solve(
+        self, targets: ArrayLike, seeds: ArrayLike | None, options: Array, rows: int, threads: int | None
+    ) -> tuple[tuple[int, ...], Array]:
+        """Return the shape of the targets and the rows that the kernel writes for them."""
+        targets = np.ascontiguousarray(targets, dtype=np.float64)
+        shape = targets.shape
+        if shape[-1:] == (7,):
+            width, shape = 7, shape[:-1]
+        elif shape[-2:] == (4, 4):
+            width, shape = 16, shape[:-2]
+        else:
+            raise KinematicsError(f"targets have the shape (N, 7) or (N, 4, 4); got {shape}")
+        number = targets.size // width
+        stride = 0
+        if seeds is None:
+            seeds = self._start
+        else:
+            seeds = self._configurations(seeds)
+            if seeds.shape[:-1] == shape and shape:
+                stride = self._size
+            elif seeds.ndim != 1:
+                raise KinematicsError(f"seeds have the shape (n,) or that of the targets, (N, n); got {seeds.shape}")
+        result = np.empty((number, rows, self._size + ROW))
+        native = function("solve", self._compiling)
+        at = targets.ctypes.data
+        arguments = (*self._chain, self._limits, at, at, width, seeds.ctypes.data, stride, options.ctypes.data)
+        place = result.ctypes.data
+
+        def part(first: int, last: int) -> int:
+            return native(*arguments, first, last, place, self._work())
+
+        workers = 1 if number < 2 * FEW else min(threads or os.cpu_count() or 1, number // FEW)
+        invalid = part(0, number) if workers == 1 else in_threads(part, number, workers)
+        if invalid:
+            where = f" {invalid - 1}" if shape else ""
+            raise KinematicsError(
+                f"target{where} is no pose: its numbers must be finite, a quaternion not zero, and a matrix a rotation"
+            )
+        return shape, result
+
+    def _solutions(self, rows: Array) -> Solutions:
+        n = self._size
+        return Solutions(rows[..., :n], rows[..., n + 2] > 0.0, rows[..., n], rows[..., n + 1], rows[..., n + 3])
+
+    def _with_whole_turns(self, rows: Array, most: int) -> Array:
+        """Return solutions with all combinations of whole turns that the finite limits of joints allow."""
+        turn = 2.0 * math.pi
+        for j, variable in enumerate(self.serial.variables):
+            if not variable.is_periodic or not math.isfinite(variable.upper - variable.lower):
+                continue
+            least = np.ceil((variable.lower - rows[:, j]) / turn - 1e-12).astype(int)
+            largest = np.floor((variable.upper - rows[:, j]) / turn + 1e-12).astype(int)
+            every = []
+            for row, low, high in zip(rows, least, largest, strict=True):
+                for turns in range(low, high + 1):
+                    moved = row.copy()
+                    moved[j] = min(max(moved[j] + turns * turn, variable.lower), variable.upper)
+                    every.append(moved)
+            rows = np.array(every[: 8 * most])
+        return rows
+
+
+def in_threads(part: Callable[[int, int], int], number: int, workers: int) -> int:
+    """Call a function for ranges of a number of targets in several threads; return the smallest result above zero."""
+    results: list[int] = []
+    block = max(FEW, -(-number // (8 * workers)))
+    starts = iter(range(0, number, block))
+    lock = threading.Lock()
+
+    def work() -> None:
+        while True:
+            with lock:
+                first = next(starts, None)
+            if first is None:
+                return
+            results.append(part(first, min(first + block, number)))
+
+    others = [threading.Thread(target=work) for _ in range(workers - 1)]
+    for thread in others:
+        thread.start()
+    work()
+    for thread in others:
+        thread.join()
+    return min((result for result in results if result), default=0)
