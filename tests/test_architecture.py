@@ -172,7 +172,7 @@ OF_LIBRARIES = {
         *("_check_llvm_bugs", "_engine", "_final_module", "_get_module_for_linking", "_linking_libraries"),
         *("_make_finalizer", "_reload_init", "_reset_overloads"),
     },
-    "scene/meshes/mesh_appearance.py": {"_cache"},
+    "meshes/mesh_appearance.py": {"_cache"},
     "view/server/page_socket.py": {"_abort", "_receive_frame"},
 }
 """Private attributes of argparse, numba, trimesh and tornado, which have no public equivalent."""

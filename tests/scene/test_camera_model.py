@@ -8,9 +8,9 @@ import pytest
 
 from tests.scene.test_ray_renderer import lit, rendering
 from urdfkit.description.urdf.robot import Mesh, Pose
+from urdfkit.meshes.textures import Texture
 from urdfkit.scene import Shape, TriMesh
 from urdfkit.scene.camera_model import Distortion, Lens
-from urdfkit.scene.meshes.textures import Texture
 from urdfkit.scene.pose_matrices import pose_matrix
 
 LENSES = [

@@ -12,9 +12,9 @@ from PIL import Image
 from tests.scene.test_ray_renderer import DOWN, FLOOR, lit, rendering, visual
 from urdfkit.description.sdf import Light
 from urdfkit.description.urdf.robot import Box, Mesh, Pose, Sphere
+from urdfkit.meshes.textures import Texture
 from urdfkit.scene import MeshLoader, Shape, TriMesh
 from urdfkit.scene.camera_model import Lens, spread
-from urdfkit.scene.meshes.textures import Texture
 from urdfkit.scene.pose_matrices import pose_matrix
 from urdfkit.scene.ray_renderer import Picture
 

@@ -3,8 +3,8 @@
 A robot or a world goes in; shapes on bodies come out, and pictures and distances by rays or OpenGL.
 """
 
+from urdfkit.meshes.loader import MeshLoader, TriMesh
 from urdfkit.scene.extent import bounds, lowest_point
-from urdfkit.scene.meshes.loader import MeshLoader, TriMesh
 from urdfkit.scene.scene_table import Role, Scene, Shape, scene_of
 
 __all__ = ["MeshLoader", "Role", "Scene", "Shape", "TriMesh", "bounds", "lowest_point", "scene_of"]

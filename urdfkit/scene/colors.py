@@ -3,7 +3,7 @@
 from urdfkit.description.plugins.gazebo_materials import GAZEBO, Rgba, script_of
 from urdfkit.description.urdf.robot import Material, Robot, Visual
 from urdfkit.description.xml.element import Element
-from urdfkit.scene.specular import MATT, Gloss, gloss_of
+from urdfkit.meshes.specular import MATT, Gloss, gloss_of
 
 __all__ = ["DEFAULT", "GAZEBO", "Palette", "Rgba"]
 

@@ -14,12 +14,12 @@ from urdfkit.description.urdf.robot import Collision, Geometry, Link, Material, 
 from urdfkit.description.xml.element import Element
 from urdfkit.description.xml.source import Position
 from urdfkit.errors import ResourceError
+from urdfkit.meshes.loader import MeshLoader, TriMesh
+from urdfkit.meshes.specular import MATT, Gloss
+from urdfkit.meshes.texture_mapping import Wrapper
 from urdfkit.scene.colors import DEFAULT, Palette, Rgba
-from urdfkit.scene.meshes.loader import MeshLoader, TriMesh
-from urdfkit.scene.meshes.texture_mapping import Wrapper
 from urdfkit.scene.pose_matrices import pose_matrix
 from urdfkit.scene.segmentation_labels import labels_of
-from urdfkit.scene.specular import MATT, Gloss
 
 Role = Literal["visual", "collision"]
 

@@ -11,12 +11,12 @@ from urdfkit.description.sdf.shapes import plugins_of
 from urdfkit.description.urdf.robot import Mesh
 from urdfkit.errors import ResourceError
 from urdfkit.linear_algebra import matmul
+from urdfkit.meshes.loader import MeshLoader
+from urdfkit.meshes.specular import GLOSSY, MATT, Gloss, gloss_of
 from urdfkit.scene.colors import DEFAULT, GAZEBO, Rgba
-from urdfkit.scene.meshes.loader import MeshLoader
 from urdfkit.scene.pose_matrices import pose_matrix
 from urdfkit.scene.scene_table import Role, Shape
 from urdfkit.scene.segmentation_labels import label_of
-from urdfkit.scene.specular import GLOSSY, MATT, Gloss, gloss_of
 
 
 def shapes_of_link(

@@ -123,9 +123,9 @@ def _meshes() -> dict[str, bytes]:
 
 def mesh(folder: Path, rng: random.Random) -> str:
     """Read a mesh or an image and compute the moments of the mesh."""
-    from urdfkit.scene.meshes.loader import MeshLoader
-    from urdfkit.scene.meshes.mesh_moments import moments
-    from urdfkit.scene.meshes.textures import read_texture
+    from urdfkit.meshes.loader import MeshLoader
+    from urdfkit.meshes.mesh_moments import moments
+    from urdfkit.meshes.textures import read_texture
 
     files = dict(_meshes())
     name = rng.choice(list(files))

@@ -10,7 +10,7 @@ import pytest
 import trimesh
 
 from urdfkit.description.meshes.bounds import bounds
-from urdfkit.scene.meshes.loader import MeshLoader
+from urdfkit.meshes.loader import MeshLoader
 
 FLOAT32 = 1e-6
 """Relative rounding of coordinates in the loader's 32-bit numbers."""

@@ -100,8 +100,8 @@ def _moments(geometry: Geometry, model: Model, notes: dict[str, None]) -> Moment
 
     if not isinstance(geometry, Mesh):
         return of_primitive(geometry)
-    from urdfkit.scene.meshes.loader import MeshLoader
-    from urdfkit.scene.meshes.mesh_moments import moments
+    from urdfkit.meshes.loader import MeshLoader
+    from urdfkit.meshes.mesh_moments import moments
 
     path = model.expanded.packages.resolve(geometry.uri.strip(), model.expanded.path)
     found, note = moments(MeshLoader().load(path, geometry.scale), path.name)

@@ -73,7 +73,7 @@ def _corners(path: Path, *, estimated: bool) -> Corners | None:
     from urdfkit.errors import UrdfkitError
 
     try:
-        from urdfkit.scene.meshes.loader import MeshLoader
+        from urdfkit.meshes.loader import MeshLoader
 
         low, high = MeshLoader().load(path).bounds.tolist()
     except (UrdfkitError, ImportError):

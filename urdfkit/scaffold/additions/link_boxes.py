@@ -69,7 +69,7 @@ class Boxes:
 
     def _read(self, mesh: Mesh) -> Bounds | None:
         """Return the bounding box of a mesh in its own frame; None if it cannot be read."""
-        from urdfkit.scene.meshes.loader import MeshLoader
+        from urdfkit.meshes.loader import MeshLoader
 
         entry = self._robot.files[0] if self._robot.files else None
         if entry is None or self._robot.packages is None:

@@ -10,11 +10,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from urdfkit.linear_algebra import Array
-from urdfkit.scene.meshes.loader import TriMesh
+from urdfkit.meshes.loader import TriMesh
+from urdfkit.meshes.specular import MATT, Gloss
 from urdfkit.scene.rays import primitives
 from urdfkit.scene.rays.ray_scene import RayTable
 from urdfkit.scene.rays.shading.surface_attributes import COLORED, COLORS, GLOSS, OPACITY, SMOOTH, TEXTURE, UV
-from urdfkit.scene.specular import MATT, Gloss
 
 AROUND = 64
 """Facets around a cylinder or a sphere."""

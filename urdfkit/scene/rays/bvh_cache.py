@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from urdfkit.atomic import write_bytes
 from urdfkit.errors import ResourceError
-from urdfkit.scene.meshes.loader import TriMesh
+from urdfkit.meshes.loader import TriMesh
 from urdfkit.scene.rays.kernels import builder
 
 LEAF = 4

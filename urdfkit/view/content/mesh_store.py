@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from urdfkit.meshes.unique_rows import unique_rows
 from urdfkit.scene import TriMesh
-from urdfkit.scene.meshes.unique_rows import unique_rows
 
 HEADER = struct.Struct("<III")
 """Number of vertices and triangles, whether the mesh has colours. Then per vertex 3 × float32 position and 3 × float32

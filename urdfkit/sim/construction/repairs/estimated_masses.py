@@ -11,8 +11,8 @@ from urdfkit.description.urdf.massless_links import first_of, has_inertia, has_m
 from urdfkit.description.urdf.repair_record import Repair
 from urdfkit.description.urdf.robot import Geometry, Inertia, Inertial, Joint, Link, Pose, Robot
 from urdfkit.description.urdf.volume_moments import Moments, of_primitive, union
+from urdfkit.meshes.mesh_moments import moments
 from urdfkit.scene import Scene, Shape
-from urdfkit.scene.meshes.mesh_moments import moments
 from urdfkit.sim.construction.repairs.inertia_tensors import repair_at
 
 

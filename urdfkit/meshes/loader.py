@@ -19,11 +19,11 @@ from urdfkit.description.packages.resolver import near_path
 from urdfkit.description.urdf.robot import Vector
 from urdfkit.errors import MissingDependencyError, ResourceError, did_you_mean
 from urdfkit.linear_algebra import matmul
-from urdfkit.scene.meshes.collada_checks import metres_per_unit, rejection_reason
-from urdfkit.scene.meshes.mesh_appearance import colors_in, gloss_in, normals_in, places_in, texture_in
-from urdfkit.scene.meshes.stl import corners_of
-from urdfkit.scene.meshes.textures import Beside, Texture, is_as_read
-from urdfkit.scene.meshes.unique_rows import unique_rows
+from urdfkit.meshes.collada_checks import metres_per_unit, rejection_reason
+from urdfkit.meshes.mesh_appearance import colors_in, gloss_in, normals_in, places_in, texture_in
+from urdfkit.meshes.stl import corners_of
+from urdfkit.meshes.textures import Beside, Texture, is_as_read
+from urdfkit.meshes.unique_rows import unique_rows
 
 FORMATS = (".stl", ".obj", ".dae", ".glb", ".gltf", ".ply")
 """The supported file formats."""

@@ -11,10 +11,10 @@ from tests.scene.test_ray_renderer import DOWN, FLOOR, lit, rendering, visual
 from urdfkit.description import load
 from urdfkit.description.sdf import Light, load_world
 from urdfkit.description.urdf.robot import Pose, Sphere
+from urdfkit.meshes.specular import GLOSSY, MATT, MOST, gloss_from
 from urdfkit.scene import MeshLoader, scene_of
 from urdfkit.scene.camera_model import Lens
 from urdfkit.scene.pose_matrices import pose_matrix
-from urdfkit.scene.specular import GLOSSY, MATT, MOST, gloss_from
 from urdfkit.sim.scene_view import world_scene
 
 BLACK = (0.0, 0.0, 0.0, 1.0)

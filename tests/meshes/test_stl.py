@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 import trimesh
 
+from urdfkit.meshes import loader as mesh_module
+from urdfkit.meshes.stl import corners_of
 from urdfkit.scene import MeshLoader
-from urdfkit.scene.meshes import loader as mesh_module
-from urdfkit.scene.meshes.stl import corners_of
 
 
 @pytest.mark.parametrize("scale", [(1.0, 1.0, 1.0), (0.001, -0.002, 0.0005)])

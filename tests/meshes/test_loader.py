@@ -9,8 +9,8 @@ import pytest
 import trimesh
 
 from urdfkit.errors import MissingDependencyError, ResourceError
+from urdfkit.meshes import loader as mesh_module
 from urdfkit.scene import MeshLoader, TriMesh
-from urdfkit.scene.meshes import loader as mesh_module
 
 SIZE = (1.0, 2.0, 3.0)
 

@@ -12,8 +12,8 @@ import trimesh
 from urdfkit.description.urdf import volume_moments
 from urdfkit.description.urdf.robot import Box, Capsule, Cylinder, Pose, Sphere
 from urdfkit.description.urdf.volume_moments import Moments, of_primitive, placed, union
+from urdfkit.meshes.mesh_moments import moments
 from urdfkit.scene import MeshLoader
-from urdfkit.scene.meshes.mesh_moments import moments
 
 
 def entries(matrix: np.ndarray) -> list[float]:

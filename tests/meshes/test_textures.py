@@ -6,8 +6,8 @@ from pathlib import Path
 
 import pytest
 
-from urdfkit.scene.meshes.loader import MeshLoader
-from urdfkit.scene.meshes.textures import Beside, read_texture
+from urdfkit.meshes.loader import MeshLoader
+from urdfkit.meshes.textures import Beside, read_texture
 
 
 def chunk(kind: bytes, content: bytes) -> bytes:

@@ -6,8 +6,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from urdfkit.linear_algebra import matmul
-from urdfkit.scene.meshes.textures import Texture, texture_of
-from urdfkit.scene.specular import MATT, Gloss, gloss_from
+from urdfkit.meshes.specular import MATT, Gloss, gloss_from
+from urdfkit.meshes.textures import Texture, texture_of
 
 
 def normals_in(part: Any, linear: NDArray[np.float64]) -> NDArray[np.float64] | None:

@@ -12,9 +12,9 @@ from tests.scene.gl.test_same_picture import DEVICE, agree
 from tests.scene.test_paint import QUARTERS
 from tests.scene.test_ray_renderer import lit
 from urdfkit.description.urdf.robot import Box, Capsule, Cylinder, Pose, Sphere
+from urdfkit.meshes.texture_mapping import solid
 from urdfkit.scene import scene_of
 from urdfkit.scene.camera_model import Lens
-from urdfkit.scene.meshes.texture_mapping import solid
 from urdfkit.scene.pose_matrices import pose_matrix
 from urdfkit.scene.ray_renderer import RayRenderer
 from urdfkit.scene.rays import RayTable
