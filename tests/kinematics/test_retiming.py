@@ -8,8 +8,7 @@ from ruckig import InputParameter, Ruckig
 from ruckig import Trajectory as Profile
 
 from urdfkit.errors import KinematicsError
-from urdfkit.kinematics.motion_limits import MotionLimits
-from urdfkit.kinematics.retiming import retime
+from urdfkit.kinematics.retiming import MotionLimits, retime
 
 JOINTS = 5
 

@@ -41,6 +41,9 @@ COMMANDS = {
 }
 """Command → its description. The module ``urdfkit.cli.<command>`` implements it; ``import_`` is ``import``."""
 
+_FOLDERS = {"tf": "kinematics", "retime": "kinematics"}
+"""Command → the package in ``urdfkit.cli`` that its module is in."""
+
 
 def main(argv: Sequence[str] | None = None) -> int:
     """Run one command.
@@ -162,7 +165,8 @@ def parser_of(command: str | None, *, complete: bool = True) -> Parser:
 
 
 def _module(command: str) -> ModuleType:
-    return import_module(f"urdfkit.cli.{command}{'_' if iskeyword(command) else ''}")
+    folder = f"{_FOLDERS[command]}." if command in _FOLDERS else ""
+    return import_module(f"urdfkit.cli.{folder}{command}{'_' if iskeyword(command) else ''}")
 
 
 def _version() -> str:

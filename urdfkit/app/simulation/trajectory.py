@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from urdfkit.errors import SimulationError, UsageError
-from urdfkit.kinematics.path_files import JointPath, read_path
+from urdfkit.kinematics.retiming import JointPath, read_path
 from urdfkit.messages import TRAJECTORY, from_fields
 from urdfkit.sim import Simulator
 

@@ -14,8 +14,7 @@ from urdfkit.cli.unused_arguments import note_unused
 from urdfkit.errors import UsageError, did_you_mean
 
 if TYPE_CHECKING:
-    from urdfkit.kinematics.motion_limits import MotionLimits
-    from urdfkit.kinematics.retiming import Trajectory
+    from urdfkit.kinematics.retiming import MotionLimits, TimedPath
 
 _FILES = (".csv", ".npz", ".json")
 
@@ -89,9 +88,7 @@ def run(arguments: argparse.Namespace) -> int:
     from urdfkit.resources import find_model
 
     require_pinocchio("retime")
-    from urdfkit.kinematics.motion_limits import find_joint_limits, motion_limits
-    from urdfkit.kinematics.path_files import read_path
-    from urdfkit.kinematics.retiming import retime
+    from urdfkit.kinematics.retiming import find_joint_limits, motion_limits, read_path, retime
 
     path = read_path(file)
     found = with_macro(find_model(model, package_path=arguments.package_path), arguments)
@@ -158,7 +155,7 @@ def _scale(text: str) -> tuple[float, float]:
     return velocity, acceleration
 
 
-def _values(motion: Trajectory, limits: MotionLimits) -> dict[str, Any]:
+def _values(motion: TimedPath, limits: MotionLimits) -> dict[str, Any]:
     return {
         "joints": list(motion.joints),
         "duration": motion.duration,
@@ -175,7 +172,7 @@ def _values(motion: Trajectory, limits: MotionLimits) -> dict[str, Any]:
     }
 
 
-def _csv(motion: Trajectory) -> str:
+def _csv(motion: TimedPath) -> str:
     import numpy as np
 
     names = ["time", *motion.joints]
@@ -185,7 +182,7 @@ def _csv(motion: Trajectory) -> str:
     return "\n".join([",".join(names), *rows]) + "\n"
 
 
-def _write(file: Path, motion: Trajectory, limits: MotionLimits) -> None:
+def _write(file: Path, motion: TimedPath, limits: MotionLimits) -> None:
     from urdfkit.atomic import write_bytes
 
     if file.suffix.lower() == ".npz":

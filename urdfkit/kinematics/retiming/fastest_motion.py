@@ -20,7 +20,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from urdfkit.errors import KinematicsError, MissingDependencyError
-from urdfkit.kinematics.motion_limits import MotionLimits
+from urdfkit.kinematics.retiming.motion_limits import MotionLimits
 from urdfkit.linear_algebra import Array
 
 SAMPLES = 500
@@ -37,7 +37,7 @@ TOLERANCE = 1e-9
 
 
 @dataclass(frozen=True)
-class Trajectory:
+class TimedPath:
     """A timed motion of joints, from rest to rest.
 
     Attributes:
@@ -66,7 +66,7 @@ _Progress = Callable[[Array], tuple[Array, Array, Array, Array]]
 """Times → s and its first three derivatives."""
 
 
-def retime(waypoints: ArrayLike, limits: MotionLimits, *, rate: float = 100.0) -> Trajectory:
+def retime(waypoints: ArrayLike, limits: MotionLimits, *, rate: float = 100.0) -> TimedPath:
     """Return the fastest motion through waypoints, from rest to rest.
 
     Args:
@@ -108,7 +108,7 @@ def retime(waypoints: ArrayLike, limits: MotionLimits, *, rate: float = 100.0) -
     time = np.append(np.arange(0.0, end - 1e-9 * end, 1.0 / rate), end)
     position, velocity, acceleration, _ = _motion(path, progress, time / slowing)
     passed = np.interp(knots, progress(dense)[0], dense) * slowing
-    return Trajectory(limits.joints, time, position, velocity / slowing, acceleration / slowing**2, passed[index])
+    return TimedPath(limits.joints, time, position, velocity / slowing, acceleration / slowing**2, passed[index])
 
 
 def _check_waypoints(waypoints: Array, limits: MotionLimits) -> None:
