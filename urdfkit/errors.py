@@ -37,11 +37,13 @@ class UrdfkitError(Exception):
     Args:
         message: the defect and the valid alternative, without the position.
         position: the position in the source file, if there is one.
+        code: code of the lint rule that reports the same defect; None if unknown.
     """
 
-    def __init__(self, message: str, *, position: Position | None = None) -> None:
+    def __init__(self, message: str, *, position: Position | None = None, code: str | None = None) -> None:
         self.message = message
         self.position = position
+        self.code = code
         super().__init__(f"{position}: {message}" if position is not None else message)
 
     def __str__(self) -> str:

@@ -141,7 +141,7 @@ ROBOT: tuple[Row, ...] = (
     ("plugin", "gazebo.plugin_name_case", "PluginNameCase"),
     ("plugin", "gazebo.plugin_filename_malformed", "PluginFilenameMalformed"),
     ("plugin", "gazebo.plugin_unknown", "PluginUnknown"),
-    ("output_type remapping", "gazebo.plugin_value_unknown", "PluginValueUnknown"),
+    ("plugin", "gazebo.plugin_value_unknown", "PluginValueUnknown"),
     ("gazebo", "gazebo.gazebo_unknown_tag", "GazeboUnknownTag"),
     ("gazebo", "gazebo.value_attribute_in_sdf", "ValueAttributeInSdf"),
     ("fdir1", "gazebo.friction_direction_zero", "FrictionDirectionZero"),

@@ -135,7 +135,7 @@ def joint_states(plugin: Plugin, spec: PluginSpec, setup: Setup) -> JointStates:
     """
     read = Parameters(plugin, spec, setup.names)
     topics = Topics(plugin, spec, namespace=setup.model)
-    joints = tuple(setup.joint(name, read.place("joints")) for name in read.texts("joints"))
+    joints = tuple(setup.joint(name, read.place("joints", i)) for i, name in enumerate(read.texts("joints")))
     if not joints and spec.generation == "gz":
         joints = (*setup.kinematics.joint_names, *setup.kinematics.mimic_names)
     topic = setup.bus.advertise(topics.resolve(read.text("topic", "joint_states")), JOINT_STATE)

@@ -148,7 +148,10 @@ def _choose(plugin: Plugin, setup: Setup, classes: tuple[type[Drive | Sensor | C
     for warning in not_read(plugin, spec) if spec is not None and not bare else ():
         setup.note(warning)
     if spec is not None and spec.kind == "joint_state_publisher":
-        return Simulated(joint_states(plugin, spec, setup))
+        try:
+            return Simulated(joint_states(plugin, spec, setup))
+        except SimulationError as error:
+            return _leave_out(plugin, error, setup)
     name = stem(plugin.filename or "")
     for each in classes:
         own: PluginSpec | None = next((table for table in each.specs if name in table.filenames), None)
@@ -174,12 +177,21 @@ def _configure(made: Drive | Sensor | Controller | JointStates, setup: Setup) ->
         made.configure(setup)
     except UrdfkitError as error:
         if not isinstance(made, Sensor):
-            effect = f"plugin `{made.plugin.name or made.plugin.filename}` is left out"
-            setup.repairs.leave_out(error, effect, "plugin", position=made.plugin.element.origin.position)
-            return Needless()
+            return _leave_out(made.plugin, error, setup)
         if not isinstance(error, (SimulationError, UsageError)):
             raise
         place = "" if error.position is not None else f"{made.plugin.element.origin.position}: "
         name = setup.sensor.name if setup.sensor is not None else made.plugin.name
         return LeftOut(place + with_effect(str(error), f"sensor `{name}` is left out"))
     return Simulated(made)
+
+
+def _leave_out(plugin: Plugin, error: UrdfkitError, setup: Setup) -> Needless:
+    """Record that a plugin with a wrong parameter is left out.
+
+    Raises:
+        UrdfkitError: the error, if robots that need a repair are refused.
+    """
+    effect = f"plugin `{plugin.name or plugin.filename}` is left out"
+    setup.repairs.leave_out(error, effect, "plugin", position=plugin.element.origin.position)
+    return Needless()

@@ -1,13 +1,10 @@
 """Parameters of a plugin by meaning; errors contain the position of the invalid parameter."""
 
-from math import isfinite
-
 from urdfkit.description.plugins import PluginSpec, read_all, values
+from urdfkit.description.plugins.parameter_values import FLAGS, expected, expected_number, vector
 from urdfkit.description.urdf.robot import Plugin
 from urdfkit.description.xml.source import Position
 from urdfkit.errors import SimulationError
-
-_TRUTHS = {"true": True, "1": True, "false": False, "0": False}
 
 
 class Parameters:
@@ -30,14 +27,17 @@ class Parameters:
         """Generation of the plugin: ``ros1``, ``ros2`` or ``gz``."""
         return self._spec.generation
 
-    def place(self, meaning: str) -> Position:
-        """Return the position of a parameter; the position of the plugin if the parameter is missing."""
+    def place(self, meaning: str, index: int = 0) -> Position:
+        """Return the position of a value of a parameter; the position of the plugin if the parameter is missing."""
         parameter = self._spec.by_meaning(meaning)
-        if parameter is not None:
-            for text, element in values(self._plugin, parameter):
-                if text:
-                    return element.origin.position
-        return self._plugin.element.origin.position
+        written = () if parameter is None else values(self._plugin, parameter)
+        places = [element.origin.position for text, element in written if text]
+        return places[index] if index < len(places) else self._plugin.element.origin.position
+
+    def is_written(self, meaning: str) -> bool:
+        """Return whether the plugin has a value for a parameter, not only a default."""
+        parameter = self._spec.by_meaning(meaning)
+        return parameter is not None and any(text for text, _ in values(self._plugin, parameter))
 
     def tag(self, meaning: str) -> str:
         """Return the tag of a parameter in this generation."""
@@ -62,35 +62,29 @@ class Parameters:
         found = self.texts(meaning)
         return found[0] if found else default
 
-    def number(self, meaning: str, default: float = 0.0, *, positive: bool = False, unsigned: bool = False) -> float:
+    def number(self, meaning: str, default: float = 0.0, *, unsigned: bool = False) -> float:
         """Return the first value as a number.
 
         Raises:
-            SimulationError: it is not a finite number, or negative or not positive where it must not be.
+            SimulationError: a value is not a finite number, or out of range; see `numbers`.
         """
-        found = self.numbers(meaning, positive=positive, unsigned=unsigned)
+        found = self.numbers(meaning, unsigned=unsigned)
         return found[0] if found else default
 
-    def numbers(self, meaning: str, *, positive: bool = False, unsigned: bool = False) -> tuple[float, ...]:
+    def numbers(self, meaning: str, *, unsigned: bool = False) -> tuple[float, ...]:
         """Return every value as a number.
 
+        Args:
+            meaning: meaning of the parameter, which decides whether zero and negative numbers are valid.
+            unsigned: refuse negative numbers in any case.
+
         Raises:
-            SimulationError: a value is not a finite number, or negative or not positive where it must not be.
+            SimulationError: a value is not a finite number, or out of range.
         """
-        found = []
-        for text in self.texts(meaning):
-            try:
-                value = float(text)
-            except ValueError:
-                value = float("nan")
-            if not isfinite(value) or (positive and value <= 0) or (unsigned and value < 0):
-                wanted = "a number, zero or greater" if unsigned else "a finite number"
-                wanted = "a number greater than zero" if positive else wanted
-                raise SimulationError(
-                    f"<{self.tag(meaning)}> is `{text}`; it must be {wanted}", position=self.place(meaning)
-                )
-            found.append(value)
-        return tuple(found)
+        texts = self.texts(meaning)
+        for index, text in enumerate(texts):
+            self._check(meaning, text, expected_number(meaning, text, unsigned=unsigned), index)
+        return tuple(map(float, texts))
 
     def vector(self, meaning: str, length: int) -> tuple[float, ...]:
         """Return the first value as `length` numbers separated by blanks; zeros if the parameter is missing.
@@ -99,15 +93,19 @@ class Parameters:
             SimulationError: it is not `length` finite numbers.
         """
         text = self.text(meaning)
-        try:
-            found = tuple(float(word) for word in text.split()) or (0.0,) * length
-        except ValueError:
-            found = ()
-        if len(found) != length or not all(isfinite(part) for part in found):
-            raise SimulationError(
-                f"<{self.tag(meaning)}> is `{text}`; it must be {length} finite numbers", position=self.place(meaning)
-            )
-        return found
+        found = vector(text, length)
+        self._check(meaning, text, "" if found is not None else f"{length} finite numbers")
+        return found or ()
+
+    def choice(self, meaning: str, default: str = "") -> str:
+        """Return the first value, one of the choices of its parameter.
+
+        Raises:
+            SimulationError: the value is not a choice.
+        """
+        text, parameter = self.text(meaning, default), self._spec.by_meaning(meaning)
+        self._check(meaning, text, "" if parameter is None else expected(parameter, text))
+        return text.strip()
 
     def flag(self, meaning: str) -> bool:
         """Return the first value as true or false.
@@ -116,8 +114,11 @@ class Parameters:
             SimulationError: it is neither true nor false.
         """
         text = self.text(meaning, "false")
-        if text.lower() not in _TRUTHS:
-            raise SimulationError(
-                f"<{self.tag(meaning)}> is `{text}`; it must be true or false", position=self.place(meaning)
-            )
-        return _TRUTHS[text.lower()]
+        self._check(meaning, text, "" if text.lower() in FLAGS else "true or false")
+        return FLAGS[text.lower()]
+
+    def _check(self, meaning: str, text: str, expected: str, index: int = 0) -> None:
+        """Raise an error if a value is not as expected."""
+        if expected:
+            message = f"<{self.tag(meaning)}> is `{text}`; it must be {expected}"
+            raise SimulationError(message, position=self.place(meaning, index), code="Z832")

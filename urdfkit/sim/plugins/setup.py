@@ -69,8 +69,10 @@ class Setup:
         robot = self.kinematics.robot
         if name in robot.joint_by_name:
             raise SimulationError(
-                f"joint `{name}` is {robot.joint_by_name[name].type}: nothing can drive it", position=position
+                f"joint `{name}` is {robot.joint_by_name[name].type}: nothing can drive it",
+                position=position,
+                code="Z802",
             )
         raise SimulationError(
-            f"no joint `{name}` in robot `{robot.name}`{did_you_mean(name, names)}", position=position
+            f"no joint `{name}` in robot `{robot.name}`{did_you_mean(name, names)}", position=position, code="Z802"
         )

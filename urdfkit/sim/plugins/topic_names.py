@@ -1,14 +1,10 @@
 """Resolution of a plugin's topic names: namespaces, remappings and defaults of the three generations."""
 
-import re
-
 from urdfkit.bus import absolute
 from urdfkit.description.plugins import PluginSpec
+from urdfkit.description.plugins.parameter_values import TOPIC
 from urdfkit.description.urdf.robot import Plugin
 from urdfkit.errors import SimulationError
-
-_TOPIC = re.compile(r"^/[A-Za-z0-9_./:~-]*$")
-"""Valid topic names. ROS allows fewer characters; gz sim makes topics of entity names with any of these."""
 
 
 class Topics:
@@ -48,11 +44,13 @@ class Topics:
         """
         full = self._below(name)
         found = self._remappings.get(full, full)
-        if not _TOPIC.match(found):
-            written = (each for each in self._element.walk() if each.text and found.endswith(each.text.strip()))
+        if not TOPIC.fullmatch(found):
+            texts = ((each.text.rpartition(":=")[2].strip(), each) for each in self._element.walk())
+            written = (each for text, each in texts if text in found and not TOPIC.fullmatch(text))
             raise SimulationError(
                 f"`{found}` is not a valid topic name: use letters, digits, _ and /",
                 position=next(written, self._element).origin.position,
+                code="Z830",
             )
         return found
 

@@ -103,7 +103,7 @@ def test_velocity_by_force(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("kind", "parameters", "message"),
     [
-        ("position", "<p_gain>-1</p_gain>", "<p_gain> is -1; a negative gain"),
+        ("position", "<p_gain>-1</p_gain>", "<p_gain> is `-1`; it must be a number, zero or greater"),
         (
             "position",
             "<cmd_max>-1</cmd_max><cmd_min>1</cmd_min>",

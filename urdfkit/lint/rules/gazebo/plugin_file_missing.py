@@ -1,17 +1,24 @@
 """Z828 plugin-file-missing."""
 
+from __future__ import annotations
+
+import re
 from pathlib import Path
 
-from urdfkit.lint.facts.gazebo.plugins import plugins
+from urdfkit.lint.facts.gazebo.plugins import plugins, specs
 from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from urdfkit.lint.finding import Severity
 
 
 class PluginFileMissing(RobotRule):
     """The parameter file of a Gazebo plugin does not exist.
 
     ## What it does
-    Checks the file in ``<parameters>`` of gz_ros2_control and gazebo_ros2_control if ``$(find …)`` resolves to an
-    existing package. Files that the build generates, and files of missing packages, are not checked.
+    Checks that the file in ``<parameters>`` of gz_ros2_control and gazebo_ros2_control exists. Files outside of known
+    packages, and files that the build may generate, are a note: a simulation with urdfkit leaves the plugin out.
 
     ## Why is this bad?
     The controller manager starts without controllers, or crashes the simulator.
@@ -47,21 +54,33 @@ class PluginFileMissing(RobotRule):
     not_for = NOT_GAZEBO
 
     def check(self, model: Model) -> Findings:
-        """Yield a finding for each parameter file that does not exist."""
-        from urdfkit.description.packages.related_files import package_of
-        from urdfkit.description.packages.resolver import near_path
+        """Yield a finding for each parameter file that does not exist; a note if it may be installed elsewhere."""
+        from urdfkit.description.control.parameter_files import parameter_file
+        from urdfkit.errors import ResourceError
 
+        folder = model.expanded.path.absolute().parent
         for plugin, _, _ in plugins(model.robot):
             for element in plugin.element.find_all("parameters"):
                 text = element.text.strip()
-                if not text.startswith("/") or "$" in text or model.is_unresolved(element):
+                if not text or re.search(r"\$(?!\(find)", text) or model.is_unresolved(element):
                     continue
-                path = Path(text)
-                package = package_of(path)
-                if package is None or model.expanded.packages.whereabouts(path):
-                    continue
-                build_files = [file for name in ("CMakeLists.txt", "setup.py") if (file := package / name).is_file()]
-                if any(path.name in file.read_text("utf-8", "replace") for file in build_files):
-                    continue
-                shown = path.relative_to(package)
-                yield self.at(model, element, f"`{shown}` does not exist in package {package.name}{near_path(path)}")
+                try:
+                    parameter_file(text, model.expanded.packages, folder)
+                except ResourceError as error:
+                    message, severity = _described(Path(text)) or (error.message, "note")
+                    if severity == "warning" or any(spec.kind == "ros2_control" for spec in specs(plugin)):
+                        yield self.at(model, element, message, severity=severity)
+
+
+def _described(path: Path) -> tuple[str, Severity] | None:
+    """Return the message about a missing file of a package in the workspace; None for other files."""
+    from urdfkit.description.packages.related_files import package_of
+    from urdfkit.description.packages.resolver import near_path
+
+    package = package_of(path) if path.is_absolute() else None
+    if package is None:
+        return None
+    build_files = [file for name in ("CMakeLists.txt", "setup.py") if (file := package / name).is_file()]
+    is_generated = any(path.name in file.read_text("utf-8", "replace") for file in build_files)
+    message = f"`{path.relative_to(package)}` does not exist in package {package.name}{near_path(path)}"
+    return message, "note" if is_generated else "warning"

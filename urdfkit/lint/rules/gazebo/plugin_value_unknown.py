@@ -1,5 +1,6 @@
 """Z832 plugin-value-unknown."""
 
+from urdfkit.description.urdf.robot import Plugin
 from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
 
 _OUTPUTS = ("sensor_msgs/LaserScan", "sensor_msgs/PointCloud", "sensor_msgs/PointCloud2", "sensor_msgs/Range")
@@ -7,14 +8,17 @@ _OUTPUTS = ("sensor_msgs/LaserScan", "sensor_msgs/PointCloud", "sensor_msgs/Poin
 
 
 class PluginValueUnknown(RobotRule):
-    """A Gazebo plugin has an unknown output type or a malformed remapping.
+    """A Gazebo plugin has a value that it cannot read.
 
     ## What it does
-    Checks ``<output_type>`` of the ray sensor plugin of gazebo_ros, and that each ``<remapping>`` has the form
+    Checks the parameters of drives, joint controllers and joint state publishers: numbers that are not numbers,
+    negative or zero where the plugin divides by them, vectors of another length, flags that are neither true nor
+    false. Checks ``<output_type>`` of the ray sensor plugin of gazebo_ros, and that each ``<remapping>`` has the form
     ``from:=to``.
 
     ## Why is this bad?
-    The plugin publishes nothing: "Invalid <output_type>", or keeps the default topic.
+    The plugin ignores the value, keeps the default, or publishes nothing ("Invalid <output_type>"). A simulation with
+    urdfkit leaves the plugin out.
 
     ## Example
     ```xml
@@ -52,21 +56,31 @@ class PluginValueUnknown(RobotRule):
     not_for = NOT_GAZEBO
 
     def check(self, model: Model) -> Findings:
-        """Yield a finding for each unknown value."""
+        """Yield a finding for each invalid value."""
+        from urdfkit.description.plugins import match
+        from urdfkit.description.plugins.controller_plugins import CONTROL
+        from urdfkit.description.plugins.drives.table import DRIVES
+        from urdfkit.description.plugins.parameter_values import invalid_values
+        from urdfkit.lint.facts.gazebo.plugins import plugins
+
+        for plugin, _, sensor in plugins(model.robot):
+            spec = match(plugin)
+            if spec is not None and sensor is None and spec in (*DRIVES, *CONTROL):
+                for element, message in invalid_values(plugin, spec):
+                    if not model.is_unresolved(element):
+                        yield self.at(model, element, message, severity="warning")
+            if (plugin.filename or "").startswith("libgazebo_ros"):
+                yield from self._texts(plugin, model)
+
+    def _texts(self, plugin: Plugin, model: Model) -> Findings:
         from urdfkit.lint.fix_builders import meant
 
-        blocks = model.robot.gazebo
-        plugins = [plugin for block in blocks for plugin in block.plugins]
-        plugins += [plugin for block in blocks for sensor in block.sensors for plugin in sensor.plugins]
-        for plugin in plugins:
-            if not (plugin.filename or "").startswith("libgazebo_ros"):
+        for child in plugin.element.walk():
+            text = child.text.strip()
+            if "$" in text or child.children:
                 continue
-            for child in plugin.element.walk():
-                text = child.text.strip()
-                if "$" in text or child.children:
-                    continue
-                if child.tag == "output_type" and text not in _OUTPUTS:
-                    message = f"unknown output type `{text}`{meant(text, _OUTPUTS)[1]}"
-                    yield self.at(model, child, message, help=f"use one of {', '.join(_OUTPUTS)}")
-                elif child.tag == "remapping" and ":=" not in text:
-                    yield self.at(model, child, f"remapping `{text}` is not of the form `from:=to`")
+            if child.tag == "output_type" and text not in _OUTPUTS:
+                message = f"unknown output type `{text}`{meant(text, _OUTPUTS)[1]}"
+                yield self.at(model, child, message, help=f"use one of {', '.join(_OUTPUTS)}")
+            elif child.tag == "remapping" and ":=" not in text:
+                yield self.at(model, child, f"remapping `{text}` is not of the form `from:=to`")

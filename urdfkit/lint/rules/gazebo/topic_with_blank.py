@@ -3,6 +3,7 @@
 import re
 from collections.abc import Iterator
 
+from urdfkit.description.plugins.parameter_values import TOPIC
 from urdfkit.description.xml.element import Element
 from urdfkit.lint.facts.gazebo.plugins import references
 from urdfkit.lint.fix_builders import new_text
@@ -12,10 +13,11 @@ _TAGS = ("topic", "camera_info_topic")
 
 
 class TopicWithBlank(RobotRule):
-    """A topic name contains white space.
+    """A topic name contains white space or another invalid character.
 
     ## What it does
-    Checks the topics of sensors and known plugins, and remappings. White space around a name is ignored.
+    Checks the topics of sensors and known plugins, remappings and namespaces for white space. White space around a
+    name is ignored. Letters, digits, ``_``, ``/``, ``.``, ``:``, ``~`` and ``-`` are valid.
 
     ## Why is this bad?
     ROS throws "invalid topic name" and Gazebo does not advertise the topic, so nothing receives the data of the sensor.
@@ -52,10 +54,15 @@ class TopicWithBlank(RobotRule):
     not_for = NOT_GAZEBO
 
     def check(self, model: Model) -> Findings:
-        """Yield a finding for each topic with white space."""
+        """Yield a finding for each invalid topic."""
         seen: set[int] = set()
         for text, element in self._topics(model):
-            if id(element) in seen or not re.search(r"\s", text) or "$" in text:
+            if id(element) in seen or "$" in text or model.is_unresolved(element):
+                continue
+            if not re.search(r"\s", text):
+                if invalid := TOPIC.sub("", text.replace(":=", "")):
+                    seen.add(id(element))
+                    yield self.at(model, element, f"invalid topic name `{text}`: it contains `{invalid[0]}`")
                 continue
             seen.add(id(element))
             corrected = re.sub(r"\s+", "_", re.sub(r"\s*(/|:=)\s*", r"\1", text.strip()))
@@ -68,6 +75,8 @@ class TopicWithBlank(RobotRule):
                 inner = (sensor.element, *sensor.element.find_all("camera")[:1])
                 yield from ((child.text, child) for part in inner for child in part.children if child.tag in _TAGS)
             for plugin in (*block.plugins, *(plugin for sensor in block.sensors for plugin in sensor.plugins)):
+                for tag in ("robotNamespace", "controller_manager_name"):
+                    yield from ((child.text, child) for child in plugin.element.find_all(tag))
                 ros = plugin.element.find("ros")
                 for remapping in ros.children if ros is not None else ():
                     if ":=" in remapping.text or remapping.tag == "namespace":

@@ -65,4 +65,4 @@ class Repairs:
         """
         if self.strict:
             raise error
-        self.add(Repair(kind, code, with_effect(error.message, effect), error.position or position))
+        self.add(Repair(kind, error.code or code, with_effect(error.message, effect), error.position or position))

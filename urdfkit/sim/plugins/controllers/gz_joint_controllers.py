@@ -34,7 +34,9 @@ class _GzJoint:
         names = read.texts("joints")
         if not names:
             raise SimulationError(
-                f"<{read.tag('joints')}> is missing: it names the joint to control", position=read.place("joints")
+                f"<{read.tag('joints')}> is missing: it names the joint to control",
+                position=read.place("joints"),
+                code="Z831",
             )
         place = read.place("joints")
         joints = setup.kinematics.robot.joint_by_name
@@ -46,12 +48,6 @@ class _GzJoint:
             read.number("p_gain"), read.number("i_gain"), read.number("d_gain"),
             read.number("i_min"), read.number("i_max"), True,
         )  # fmt: skip
-        for meaning in ("p_gain", "i_gain", "d_gain"):
-            if read.number(meaning) < 0.0:
-                raise SimulationError(
-                    f"<{read.tag(meaning)}> is {read.number(meaning):g}; a negative gain drives the joint away",
-                    position=read.place(meaning),
-                )
         self.joint_pids = [JointPid(handle, gains) for handle in self.handles]
         self.least, self.most = read.number("min_command"), read.number("max_command")
         self.offset = read.number("command_offset")
@@ -59,7 +55,8 @@ class _GzJoint:
             raise SimulationError(
                 f"<{read.tag('min_command')}> is {self.least:g} and <{read.tag('max_command')}> is {self.most:g}; "
                 "the minimum must not exceed the maximum",
-                position=read.place("max_command"),
+                position=read.place("max_command") if read.is_written("max_command") else read.place("min_command"),
+                code="Z832",
             )
         topics = Topics(plugin, spec)
         topic = read.text("command_topic").replace("{joint}", names[0])

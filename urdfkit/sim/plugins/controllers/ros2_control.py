@@ -3,11 +3,10 @@
 Sources: gz_ros2_control, gz_ros2_control_plugin.cpp and gz_system.cpp; gazebo_ros2_control, gazebo_system.cpp.
 """
 
-import re
 from pathlib import Path
 
 from urdfkit.description.control import Settings, node_settings, read_settings
-from urdfkit.description.packages.resolver import near_path
+from urdfkit.description.control.parameter_files import parameter_file
 from urdfkit.description.plugins.controller_plugins import GAZEBO_ROS2_CONTROL
 from urdfkit.description.xml.element import Element
 from urdfkit.description.xml.numbers import number
@@ -44,8 +43,6 @@ MOCKS = ("mock_components/GenericSystem", "fake_components/GenericSystem")
 UPDATE_RATE = 100.0
 """Default update rate of the controller manager [Hz]."""
 
-_FIND = re.compile(r"\$\(\s*(?:find|find-pkg-share)\s+([^()\s]+)\s*\)")
-
 
 class Ros2Control(ControlLoopPlugin):
     """Plugin that runs the controllers of the parameter files on the joints of the ``<ros2_control>`` blocks."""
@@ -81,7 +78,10 @@ class Ros2Control(ControlLoopPlugin):
     def _parameters(self, setup: Setup, read: Parameters) -> Settings:
         position = read.place("configuration")
         found = Settings("", position)
-        paths = setup.parameter_files or tuple(_path(t, setup, position) for t in read.texts("configuration"))
+        paths = setup.parameter_files or tuple(
+            _path(text, setup, read.place("configuration", index))
+            for index, text in enumerate(read.texts("configuration"))
+        )
         for path in paths:
             more = read_settings(path, separator=".")
             found = found.merged(more) if found.children else more
@@ -169,23 +169,7 @@ def _path(text: str, setup: Setup, position: Position) -> Path:
         SimulationError: file or package not found; with the position of the element and the nearest file.
     """
     robot = setup.kinematics.robot
-    packages, folder = robot.packages, (robot.files[0].parent if robot.files else Path())
     try:
-        if packages is not None:
-            text = _FIND.sub(lambda match: str(packages.find(match[1])), text.strip())
-            if "://" in text:
-                return packages.resolve(text, folder)
+        return parameter_file(text, robot.packages, robot.files[0].parent if robot.files else Path())
     except ResourceError as error:
-        raise SimulationError(error.message, position=position) from None
-    path = folder / text.strip()
-    if path.is_file():
-        return path
-    moved = packages.relocate(path) if packages is not None else None
-    if moved is not None:
-        return moved
-    # A file that is installed to <share>/config may be in another folder of the sources, such as bringup/config.
-    for package in (folder for folder in path.parents if (folder / "package.xml").is_file()):
-        found = sorted(package.glob(f"*/{path.relative_to(package)}"))
-        if len(found) == 1:
-            return found[0]
-    raise SimulationError(f"no file {text.strip()}{near_path(path)}", position=position)
+        raise SimulationError(error.message, position=position, code="Z828") from None

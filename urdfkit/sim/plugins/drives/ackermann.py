@@ -107,9 +107,9 @@ class Ackermann(VelocityDrive):
         self._radius = wheel_radius(
             setup.kinematics.robot, self._joints["rear_right_joint"], read.place("rear_right_joint")
         )
-        self._fastest = read.number("max_speed", positive=True)
-        self._steepest = read.number("max_steer", positive=True)
-        self._ratio = self._steepest / read.number("max_steering_angle", positive=True)
+        self._fastest = read.number("max_speed")
+        self._steepest = read.number("max_steer")
+        self._ratio = self._steepest / read.number("max_steering_angle")
         written = setup.kinematics.robot.joint_by_name
         self._strengths = {meaning: effort_limit(written[joint]) for meaning, joint in self._joints.items()}
 

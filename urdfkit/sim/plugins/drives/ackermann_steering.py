@@ -54,9 +54,9 @@ class AckermannSteering(VelocityDrive):
             )
         self._left_steering = joints_of(setup, read, "left_steering_joint")
         self._right_steering = joints_of(setup, read, "right_steering_joint")
-        self._separation = read.number("wheel_separation", positive=True)
-        self._base = read.number("wheel_base", positive=True)
-        self._steepest = read.number("max_steer", positive=True)
+        self._separation = read.number("wheel_separation")
+        self._base = read.number("wheel_base")
+        self._steepest = read.number("max_steer")
         gains = Gains(
             read.number("steer_p"), read.number("steer_i"), read.number("steer_d"),
             read.number("steer_i_min"), read.number("steer_i_max"),
@@ -67,8 +67,8 @@ class AckermannSteering(VelocityDrive):
         self._subscribe(setup, read, topics)
         if not self._only_steers:
             self._left, self._right = joints_of(setup, read, "left_joint"), joints_of(setup, read, "right_joint")
-            self._radius = read.number("wheel_radius", positive=True)
-            self._kingpin = read.number("kingpin_width", positive=True)
+            self._radius = read.number("wheel_radius")
+            self._kingpin = read.number("kingpin_width")
             self.topics = odometry_topics(setup, read, topics, published=True, with_tf=True)
             self.odometry = BicycleOdometry(self._base)
         self.read_rate = read.number("odometry_rate")

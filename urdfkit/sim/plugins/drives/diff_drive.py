@@ -8,6 +8,7 @@ for these distributions only.
 from typing import Any
 
 from urdfkit.description.plugins import PluginSpec
+from urdfkit.description.plugins.parameter_values import unpaired_wheels
 from urdfkit.description.urdf.robot import Plugin
 from urdfkit.errors import SimulationError
 from urdfkit.messages import BOOL
@@ -52,8 +53,8 @@ class DiffDrive(VelocityDrive):
         self._setup = setup
         self._read_wheels(setup, read)
         # gz sim has no torque parameter: the joints' <limit effort> applies.
-        self._torque = None if self._gz else read.number("max_wheel_torque", unsigned=True)
-        self._acceleration = read.number("max_wheel_acceleration", unsigned=True)
+        self._torque = None if self._gz else read.number("max_wheel_torque")
+        self._acceleration = read.number("max_wheel_acceleration")
         self._instructed = [0.0] * (2 * len(self._pairs))
         if self._gz:
             self.read_rate = read.number("odometry_rate")
@@ -72,24 +73,18 @@ class DiffDrive(VelocityDrive):
     def _read_wheels(self, setup: Setup, read: Parameters) -> None:
         """Read the joints, the separation and the radius of each pair."""
         left, right = read.texts("left_joint"), read.texts("right_joint")
-        pairs = int(read.number("wheel_pairs", len(left), positive=True)) if left and right else 0
-        if not pairs or len(left) != pairs or len(right) != pairs:
-            place = read.place("wheel_pairs" if read.has("wheel_pairs") else "left_joint")
-            wanted = f"{pairs} of each" if pairs else "as many of one as of the other, at least one"
-            raise SimulationError(
-                f"{len(left)} <{read.tag('left_joint')}> and {len(right)} <{read.tag('right_joint')}>; "
-                f"this drive needs {wanted}",
-                position=place,
-            )
-        names = {meaning: [setup.joint(n, read.place(meaning)) for n in texts]
+        pairs = int(read.number("wheel_pairs", len(left)))
+        if (fault := unpaired_wheels(self.plugin, self.spec)) is not None:
+            raise SimulationError(fault[1], position=fault[0].origin.position, code="Z831")
+        names = {meaning: [setup.joint(n, read.place(meaning, i)) for i, n in enumerate(texts)]
                  for meaning, texts in (("left_joint", left), ("right_joint", right))}  # fmt: skip
         self._pairs = tuple(zip(names["left_joint"], names["right_joint"], strict=True))
         self._swapped = self._legacy(setup, read)
-        separations = read.numbers("wheel_separation", positive=True)
+        separations = read.numbers("wheel_separation")
         if self._gz:
-            radii: tuple[float, ...] = read.numbers("wheel_radius", positive=True)
+            radii: tuple[float, ...] = read.numbers("wheel_radius")
         else:
-            radii = tuple(diameter / 2 for diameter in read.numbers("wheel_diameter", positive=True))
+            radii = tuple(diameter / 2 for diameter in read.numbers("wheel_diameter"))
         # Defaults of missing values: the first value in gz sim, the parameter's default in ROS 2.
         rest = (separations[0], radii[0]) if self._gz else (0.34, 0.075)
         self._separations = (separations + (rest[0],) * pairs)[:pairs]

@@ -37,9 +37,9 @@ class MecanumDrive(VelocityDrive):
         topics = Topics(self.plugin, self.spec)
         self._setup = setup
         self._joints = {corner: joints_of(setup, read, corner) for corner in CORNERS}
-        separation = read.number("wheel_separation", positive=True)
-        self._reach = (separation + read.number("wheel_base", positive=True)) / 2
-        self._radius = read.number("wheel_radius", positive=True)
+        separation = read.number("wheel_separation")
+        self._reach = (separation + read.number("wheel_base")) / 2
+        self._radius = read.number("wheel_radius")
         # The longitudinal and the lateral velocity have equal limits, but separate limiters.
         self.limits = SpeedLimits(limiter(read, "linear"), limiter(read, "linear"), limiter(read, "angular"))
         self.read_rate = read.number("odometry_rate")

@@ -1,6 +1,5 @@
 """Common odometry parameters of drives: topics, frames, covariances and the source of the pose."""
 
-from urdfkit.errors import SimulationError
 from urdfkit.sim.plugins.odometry import OdometryTopics
 from urdfkit.sim.plugins.parameters import Parameters
 from urdfkit.sim.plugins.setup import Setup
@@ -54,11 +53,4 @@ def by_encoder(read: Parameters) -> bool:
     Raises:
         SimulationError: unknown odometry source.
     """
-    source = read.text("odometry_source", "encoder").strip()
-    if source not in ("encoder", "world", "0", "1"):
-        raise SimulationError(
-            f"<{read.tag('odometry_source')}> is `{source}`; it must be "
-            + ("`encoder` or `world`" if read.generation == "ros1" else "0 (encoder) or 1 (world)"),
-            position=read.place("odometry_source"),
-        )
-    return source in ("encoder", "0")
+    return read.choice("odometry_source", "encoder") in ("encoder", "0")

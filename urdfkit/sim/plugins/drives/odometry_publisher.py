@@ -4,7 +4,6 @@ Source: gz-sim main, src/systems/odometry_publisher/OdometryPublisher.cc. Gazebo
 steps; urdfkit publishes the velocity of the present state.
 """
 
-from urdfkit.errors import SimulationError
 from urdfkit.sim.plugins.base import Drive
 from urdfkit.sim.plugins.odometry import Estimate, OdometryTopics, Pose, from_world
 from urdfkit.sim.plugins.parameters import Parameters
@@ -30,17 +29,12 @@ class OdometryPublisher(Drive):
         read = Parameters(self.plugin, self.spec, setup.names)
         topics = Topics(self.plugin, self.spec)
         self.read_rate = read.number("odometry_rate")
-        dimensions = read.text("dimensions")
-        if dimensions not in ("2", "3"):
-            raise SimulationError(
-                f"<{read.tag('dimensions')}> is `{dimensions}`; it must be 2 or 3", position=read.place("dimensions")
-            )
-        self._flat = dimensions == "2"
+        self._flat = read.choice("dimensions") == "2"
         x, y, z = read.vector("xyz_offset", 3)
         self._offset = (x, y, z)
         roll, pitch, yaw = read.vector("rpy_offset", 3)
         self._turn = from_rpy(roll, pitch, yaw)
-        self._noise = read.number("gaussian_noise", unsigned=True)
+        self._noise = read.number("gaussian_noise")
         self._random = setup.random
         frame, child = read.text("odometry_frame"), read.text("base_frame")
         variances = (self._noise**2,) * 6

@@ -30,8 +30,8 @@ class SkidSteer(DiffDrive):
             return setup.joint(read.text(meaning), read.place(meaning))
 
         self._pairs = tuple((joint(f"left_{end}_joint"), joint(f"right_{end}_joint")) for end in ("front", "rear"))
-        self._separations = (read.number("wheel_separation", positive=True),) * 2
-        self._radii = (read.number("wheel_diameter", positive=True) / 2,) * 2
+        self._separations = (read.number("wheel_separation"),) * 2
+        self._radii = (read.number("wheel_diameter") / 2,) * 2
         self._swapped = False
 
     def _advertise(self, setup: Setup, read: Parameters, topics: Topics) -> None:

@@ -41,18 +41,18 @@ class Tricycle(VelocityDrive):
             setup.joint(read.text(meaning), read.place(meaning))
             for meaning in ("steering_joint", "actuated_joint", "left_joint", "right_joint")
         )
-        self._radius = read.number("actuated_diameter", positive=True) / 2
-        self._encoder_radius = read.number("encoder_diameter", positive=True) / 2
-        self._torque = read.number("max_wheel_torque", unsigned=True)
-        self._faster = read.number("max_wheel_acceleration", unsigned=True)
-        self._slower = read.number("max_wheel_deceleration", self._faster, unsigned=True)
-        self._wheel_tolerance = read.number("wheel_tolerance", unsigned=True)
-        self._steering_speed = read.number("steering_speed", unsigned=True)
-        self._steering_tolerance = read.number("steering_tolerance", unsigned=True)
+        self._radius = read.number("actuated_diameter") / 2
+        self._encoder_radius = read.number("encoder_diameter") / 2
+        self._torque = read.number("max_wheel_torque")
+        self._faster = read.number("max_wheel_acceleration")
+        self._slower = read.number("max_wheel_deceleration", self._faster)
+        self._wheel_tolerance = read.number("wheel_tolerance")
+        self._steering_speed = read.number("steering_speed")
+        self._steering_tolerance = read.number("steering_tolerance")
         self.write_rate = self.read_rate = read.number("update_rate")
         self._period = PeriodicSteps(self.write_rate, setup.dt).period
         self.subscribe(setup, topics.resolve(read.text("command_topic", "cmd_vel")))
-        separation = read.number("wheel_separation", positive=True)
+        separation = read.number("wheel_separation")
         self.odometry = DifferentialOdometry(separation) if by_encoder(read) else None
         published = self.spec.generation == "ros1" or read.flag("publish_odometry")
         self.topics = odometry_topics(setup, read, topics, published=published, with_tf=published)

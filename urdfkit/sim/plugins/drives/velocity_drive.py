@@ -136,5 +136,6 @@ def joints_of(setup: Setup, read: Parameters, meaning: str) -> tuple[str, ...]:
     """
     names = read.texts(meaning)
     if not names:
-        raise SimulationError(f"no <{read.tag(meaning)}>; this drive needs at least one", position=read.place(meaning))
-    return tuple(setup.joint(name, read.place(meaning)) for name in names)
+        message = f"no <{read.tag(meaning)}>; this drive needs at least one"
+        raise SimulationError(message, position=read.place(meaning), code="Z831")
+    return tuple(setup.joint(name, read.place(meaning, index)) for index, name in enumerate(names))

@@ -197,7 +197,7 @@ class GzTouch(Sensor):
                 position=self.plugin.element.origin.position,
             )
         self.name = self.plugin.name or "touch"
-        self._target, self._time = read.text("target"), read.number("time", unsigned=True)
+        self._target, self._time = read.text("target"), read.number("time")
         self._starts_enabled = self._enabled = read.flag("enabled")
         self._since: float | None = None
         self._surroundings, self._watch = setup.surroundings, Watch(setup, sensors)

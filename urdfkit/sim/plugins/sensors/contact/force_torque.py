@@ -188,7 +188,7 @@ class JointForceTorque(ForceTorque):
         self._read_joint(setup, read.text("joint"), read.place("joint"))
         self.rate = rate_of(None, read)
         self.frame = self._child
-        self._noises = (Noise(deviation=read.number("gaussian_noise", unsigned=True)),) * 6
+        self._noises = (Noise(deviation=read.number("gaussian_noise")),) * 6
         name = Topics(self.plugin, self.spec).resolve(read.text("topic") or "wrench")
         self.topics = (setup.bus.advertise(name, WRENCH),)
 

@@ -40,7 +40,7 @@ class BlockLaser(Lidar):
     kind = "block_laser"
 
     def _advertise(self, setup: Setup, read: Parameters, topics: Topics) -> None:
-        self._deviation = read.number("gaussian_noise", unsigned=True)
+        self._deviation = read.number("gaussian_noise")
         self.topics = (setup.bus.advertise(topics.resolve(read.text("topic")), POINT_CLOUD),)
 
     def messages(self) -> Messages:
@@ -61,8 +61,8 @@ class Range(Lidar):
     kind = "range"
 
     def _advertise(self, setup: Setup, read: Parameters, topics: Topics) -> None:
-        self._deviation = read.number("gaussian_noise", unsigned=True)
-        self._field_of_view = read.number("field_of_view", unsigned=True)
+        self._deviation = read.number("gaussian_noise")
+        self._field_of_view = read.number("field_of_view")
         self._ultrasound = self.is_ultrasound(setup, read)
         self.topics = (setup.bus.advertise(topics.resolve(read.text("topic")), RANGE),)
 

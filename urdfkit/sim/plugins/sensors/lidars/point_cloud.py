@@ -79,7 +79,7 @@ class Velodyne(Lidar):
         self._nearest = max(self.scan.range_min, read.number("min_range"))
         self._farthest = min(self.scan.range_max, read.number("max_range", np.inf))
         self._min_intensity = read.number("min_intensity", -np.inf)
-        self._deviation = read.number("gaussian_noise", unsigned=True)
+        self._deviation = read.number("gaussian_noise")
         self._organized = read.flag("organize_cloud")
         ros1 = self.spec.generation == "ros1"
         self._layout = cloud_messages.VELODYNE_ROS_1 if ros1 else cloud_messages.VELODYNE_ROS_2

@@ -156,7 +156,7 @@ class ImuSensor(PlainImu):
         self._gyro, self._accelerometer = _written(element, setup.random)
         self._set_variances()
         if self.spec.generation == "ros1":
-            self._compass = read.number("gaussian_noise", unsigned=True)
+            self._compass = read.number("gaussian_noise")
             self._plugin = Noise(deviation=self._compass)
             self._variances = (np.full(3, self._compass**2),) * 3
 
@@ -187,7 +187,7 @@ class BodyImu(PlainImu):
                 f"gazebo_ros_imu lacks its <{read.tag('body')}>", position=self.plugin.element.origin.position
             )
         self._gravity = np.zeros(3)
-        deviation = read.number("gaussian_noise", unsigned=True)
+        deviation = read.number("gaussian_noise")
         self._gyro = self._accelerometer = (Noise(deviation=deviation),) * 3
         self._set_variances()
         self._variances = np.full(3, deviation**2), *self._variances[1:]
@@ -211,7 +211,7 @@ class HectorImu(Imu):
             (self._heading, np.array([yaw_offset])),
         ):
             error.offset = np.where(error.offset == 0.0, offset, error.offset)
-        if old := read.number("gaussian_noise", unsigned=True):
+        if old := read.number("gaussian_noise"):
             self._accelerometer.noise = self._gyro.noise = np.full(3, old)
         level = self._accelerometer.noise**2 / max(matmul(self._gravity, self._gravity), 1e-12)
         self._variances = (

@@ -57,7 +57,7 @@ class P3d(Sensor):
         self._offset = np.array(read.vector("xyz_offset", 3))
         roll, pitch, yaw = read.vector("rpy_offset", 3)
         self._turn = from_rpy(roll, pitch, yaw)
-        self._noise = read.number("gaussian_noise", unsigned=True)
+        self._noise = read.number("gaussian_noise")
         self._key = int(setup.random.integers(1 << 62))
         self._kinematics = setup.kinematics
         self.topics = (setup.bus.advertise(Topics(self.plugin, self.spec).resolve(name), ODOMETRY),)
