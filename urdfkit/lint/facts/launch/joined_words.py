@@ -1,0 +1,75 @@
+"""Words of commands in launch files in Python that lack a blank or a comma between them."""
+
+from __future__ import annotations
+
+import ast
+import re
+from collections.abc import Iterator
+from itertools import pairwise
+
+from urdfkit.description.launch.python_constants import LaunchReader, name_of
+from urdfkit.description.xml.source import Source
+from urdfkit.lint.facts.control.launch_package_paths import place
+
+_LISTS = frozenset(("arguments", "cmd", "ros_arguments"))
+_OPTION = r"--?[A-Za-z][\w-]*"
+_LITERAL = r"[rRbBuU]?(\"[^\"\n]*\"|'[^'\n]*')"
+
+
+def joined_words(source: Source, tree: ast.Module) -> Iterator[tuple[tuple[int, int], str]]:
+    """Yield start and end offset and the message for each word that runs into the one before."""
+    reader = LaunchReader(tree)
+    for node in ast.walk(tree):
+        if not isinstance(node, ast.Call):
+            continue
+        if name_of(node.func) == "Command" and node.args and isinstance(node.args[0], (ast.List, ast.Tuple)):
+            yield from _in_command(source, node.args[0].elts, reader)
+        for word in node.keywords:
+            if word.arg in _LISTS and isinstance(word.value, ast.List):
+                yield from _in_list(source, word.value.elts)
+
+
+def _in_command(source: Source, parts: list[ast.expr], reader: LaunchReader) -> Iterator[tuple[tuple[int, int], str]]:
+    parts = [part for part in parts if not (isinstance(part, ast.Constant) and part.value == "")]
+    for before, after in pairwise(parts):
+        texts = [reader.text(part) for part in (before, after)]
+        if (texts[0] or "").endswith(tuple(" \t\n")) or (texts[1] or "").startswith(tuple(" \t\n")):
+            continue
+        if _is_xacro(before, texts[0]) and (texts[1] is not None or _is_word(after, reader)):
+            yield place(source, after), "no blank between `xacro` and its file: the command is not found"
+            continue
+        argument = re.match(r"[\w.-]+:=", texts[1] or "")
+        if argument is not None and (texts[0] is not None or _is_word(before, reader)):
+            yield place(source, after), f"no blank before `{argument[0]}`: it becomes part of the word before it"
+
+
+def _is_xacro(node: ast.expr, text: str | None) -> bool:
+    """Return whether an expression is the xacro program, without a file or arguments."""
+    if text is not None:
+        return re.fullmatch(r"\s*(?:\S*/)?xacro(?:\.py)?", text) is not None
+    calls = [inner for inner in ast.walk(node) if isinstance(inner, ast.Call)]
+    return any(name_of(call.func) == "FindExecutable" and "'xacro'" in ast.unparse(call) for call in calls)
+
+
+def _is_word(node: ast.expr, reader: LaunchReader) -> bool:
+    """Return whether an expression is a path or a launch argument, so that it has no blanks at its ends."""
+    for _ in range(4):
+        if isinstance(node, ast.Name) and (value := reader.assigned.get(node.id)) is not None:
+            node = value
+    names = ("PathJoinSubstitution", "LaunchConfiguration", "join", "get_package_share_directory", "FindExecutable")
+    return (isinstance(node, ast.Call) and name_of(node.func) in names) or reader.path(node) is not None
+
+
+def _in_list(source: Source, words: list[ast.expr]) -> Iterator[tuple[tuple[int, int], str]]:
+    for word in words:
+        if not isinstance(word, ast.Constant) or not isinstance(word.value, str):
+            continue
+        start, end = place(source, word)
+        pieces = [piece[1][1:-1] for piece in re.finditer(_LITERAL, source.text[start:end])]
+        if len(pieces) < 2 or "".join(pieces) != word.value:
+            continue
+        for first, second in pairwise(pieces):
+            # An option that ends a literal, or begins the next one, is a word.
+            if re.fullmatch(_OPTION, first) or re.fullmatch(_OPTION, second):
+                yield (start, end), f"no comma between `{first}` and `{second}`: they become one word"
+                break

@@ -1,0 +1,118 @@
+"""L110 launch-value-invalid."""
+
+from __future__ import annotations
+
+from urdfkit.lint.finding import Finding
+from urdfkit.lint.rule import Findings, Model, RobotRule
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from urdfkit.lint.model.tags import Attribute, Tag
+
+_BOOLEANS = {
+    1: ("respawn", "required", "clear_params", "pass_all_args", "subst_value"),
+    2: ("respawn", "shell", "scoped", "forwarding", "emulate_tty", "allow_substs"),
+}
+_XACRO = r"\s*(?:\$\(find xacro\)/)?xacro(?:\.py)?\s"
+_FILE = r"\s*'?\$\(find [^()]*\)/[^\s']*\.(?:urdf|srdf|xacro|yaml|xml)'?\s*"
+
+
+class LaunchValueInvalid(RobotRule):
+    """An attribute of a launch file in XML has a value that the launch cannot use.
+
+    ## What it does
+    Checks conditions and other truth values without substitutions, the command of ``<rosparam>``, and whether the
+    description is a file (``textfile``), a command (``command``) or a value (``value``).
+
+    ## Why is this bad?
+    The launch stops with "invalid bool value" or a similar error, or the nodes read a wrong description. A dump
+    overwrites the file that the package should load.
+
+    ## Example
+    ```xml
+    <launch>
+      <node name="rviz" pkg="rviz" type="rviz" if="yes"/>
+    </launch>
+    ```
+
+    ## Use instead
+    ```xml
+    <launch>
+      <node name="rviz" pkg="rviz" type="rviz" if="true"/>
+    </launch>
+    ```
+    """
+
+    code = "L110"
+    name = "launch-value-invalid"
+
+    def check(self, model: Model) -> Findings:
+        """Yield a finding for each unusable value."""
+        from urdfkit.lint.facts.launch.ros_version import reads_ros1, ros_version
+        from urdfkit.lint.model.tags import Document
+
+        for name, source in model.related_files.items():
+            if not name.endswith((".launch", ".launch.xml", "_launch.xml")):
+                continue
+            roots = [tag for tag in Document(source).roots if tag.name == "launch"]
+            version = ros_version(source) or (1 if reads_ros1(source) else 2)
+            for tag in (tag for root in roots for tag in root.walk()):
+                for attribute, message in _invalid(tag, version, model):
+                    span = source.span(attribute.value_start, attribute.value_end)
+                    yield Finding(self.code, self.name, self.severity, message, span)
+
+
+def _invalid(tag: Tag, version: int, model: Model) -> Iterator[tuple[Attribute, str]]:
+    attributes = tag.attributes
+    for name in ("if", "unless", *_BOOLEANS[version]):
+        attribute = attributes.get(name)
+        if attribute is None or "$(" in attribute.value:
+            continue
+        is_condition = name in ("if", "unless")
+        words = ("true", "false", "1", "0") if is_condition or version == 2 else ("true", "false")
+        if attribute.value.strip().lower() not in words:
+            what = "condition" if is_condition else f"`{name}`"
+            yield attribute, f"{what} `{attribute.value}` is neither true nor false"
+    if version == 1 and tag.name == "rosparam" and "command" in attributes:
+        yield from _parameter_command(attributes, model)
+    elif version == 1 and tag.name == "param":
+        yield from _parameter(attributes)
+
+
+def _parameter_command(attributes: dict[str, Attribute], model: Model) -> Iterator[tuple[Attribute, str]]:
+    from urdfkit.description.packages.existence import is_file
+    from urdfkit.description.packages.related_files import neighbours
+    from urdfkit.errors import did_you_mean
+    from urdfkit.lint.facts.launch.actions import share_of
+
+    command = attributes["command"]
+    if "$(" not in command.value and command.value not in ("load", "dump", "delete"):
+        hint = did_you_mean(command.value, ("load", "dump", "delete"))
+        yield command, f"unknown command `{command.value}` of <rosparam>{hint}"
+    elif command.value == "dump" and "file" in attributes and model.package is not None:
+        package, path = share_of(attributes["file"].value)
+        folder = neighbours(model.package).get(package)
+        if folder is not None and is_file(folder / path):
+            yield command, f"`dump` overwrites `{path}` of package `{package}`; use `load` to read it"
+
+
+def _parameter(attributes: dict[str, Attribute]) -> Iterator[tuple[Attribute, str]]:
+    import re
+
+    for name in ("value", "textfile", "command"):
+        attribute = attributes.get(name)
+        if attribute is None:
+            continue
+        if name != "command" and re.match(_XACRO, attribute.value):
+            yield attribute, f"`{name}` is a command; use the attribute `command`"
+        elif name == "command" and re.fullmatch(_FILE, attribute.value):
+            yield attribute, "`command` is a file and not a program; use the attribute `textfile`, or run xacro"
+        elif name == "value" and re.fullmatch(_FILE, attribute.value) and _is_description(attributes):
+            yield attribute, "`value` is the path and not the text of the file; use the attribute `textfile`"
+
+
+def _is_description(attributes: dict[str, Attribute]) -> bool:
+    name = attributes["name"].value if "name" in attributes else ""
+    return name.endswith(("robot_description", "robot_description_semantic", "_semantic"))

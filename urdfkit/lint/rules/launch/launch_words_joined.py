@@ -1,0 +1,46 @@
+"""L108 launch-words-joined."""
+
+from urdfkit.lint.finding import Finding
+from urdfkit.lint.rule import Findings, Model, RobotRule
+
+
+class LaunchWordsJoined(RobotRule):
+    """A launch file in Python joins two words of a command.
+
+    ## What it does
+    Checks the parts of ``Command([...])``, which are joined without blanks, and the texts in ``arguments`` and ``cmd``,
+    which Python joins if no comma is between them.
+
+    ## Why is this bad?
+    The command is not found, or the program reads an option with the wrong name or value.
+
+    ## Example
+    ```python
+    from launch.substitutions import Command, PathJoinSubstitution
+    from launch_ros.substitutions import FindPackageShare
+
+    path = PathJoinSubstitution([FindPackageShare("cart_description"), "cart.urdf"])
+    description = Command(["xacro", path])
+    ```
+
+    ## Use instead
+    ```python
+    from launch.substitutions import Command, PathJoinSubstitution
+    from launch_ros.substitutions import FindPackageShare
+
+    path = PathJoinSubstitution([FindPackageShare("cart_description"), "cart.urdf"])
+    description = Command(["xacro ", path])
+    ```
+    """
+
+    code = "L108"
+    name = "launch-words-joined"
+
+    def check(self, model: Model) -> Findings:
+        """Yield a finding for each word that runs into the one before."""
+        from urdfkit.lint.facts.launch.joined_words import joined_words
+        from urdfkit.lint.facts.launch.python_names import python_files
+
+        for source, tree in python_files(model):
+            for place, message in joined_words(source, tree):
+                yield Finding(self.code, self.name, self.severity, message, source.span(*place))

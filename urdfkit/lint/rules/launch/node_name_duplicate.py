@@ -1,0 +1,76 @@
+"""L111 node-name-duplicate."""
+
+from __future__ import annotations
+
+from urdfkit.lint.finding import Finding
+from urdfkit.lint.rule import Findings, Model, RobotRule
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from urdfkit.lint.model.tags import Tag
+
+
+class NodeNameDuplicate(RobotRule):
+    """A launch file in XML starts two nodes with the same name in the same namespace.
+
+    ## What it does
+    Compares the names of all nodes in a launch file that have no conditions and no substitutions in their names.
+
+    ## Why is this bad?
+    roslaunch stops with "multiple nodes named". In ROS 2, both nodes run, and parameters and services reach either one.
+
+    ## Example
+    ```xml
+    <launch>
+      <node name="view" pkg="rviz" type="rviz"/>
+      <node name="view" pkg="rviz" type="rviz"/>
+    </launch>
+    ```
+
+    ## Use instead
+    ```xml
+    <launch>
+      <node name="view" pkg="rviz" type="rviz"/>
+      <node name="rear_view" pkg="rviz" type="rviz"/>
+    </launch>
+    ```
+    """
+
+    code = "L111"
+    name = "node-name-duplicate"
+
+    def check(self, model: Model) -> Findings:
+        """Yield a finding for each node whose name another node has."""
+        from urdfkit.lint.facts.launch.ros_version import reads_ros1
+        from urdfkit.lint.model.tags import Document
+
+        for file, source in model.related_files.items():
+            if not file.endswith((".launch", ".launch.xml", "_launch.xml")):
+                continue
+            first: dict[str, Tag] = {}
+            for tag in (tag for root in Document(source).roots for tag in root.walk()):
+                name = _full_name(tag) if tag.name == "node" else None
+                if name is None:
+                    continue
+                other = first.setdefault(name, tag)
+                if other is not tag:
+                    written = tag.attributes["name"]
+                    line = source.position(other.start).line
+                    message = f"the node in line {line} has the name `{written.value}` too"
+                    severity = self.severity if reads_ros1(source) else "warning"
+                    span = source.span(written.value_start, written.value_end)
+                    yield Finding(self.code, self.name, severity, message, span)
+
+
+def _full_name(tag: Tag) -> str | None:
+    """Return name and namespace of a node; None if they depend on substitutions, conditions or other elements."""
+    parts: list[str] = []
+    for each in (tag, *tag.ancestors()):
+        attributes = each.attributes
+        if "if" in attributes or "unless" in attributes or each.name not in ("node", "group", "launch"):
+            return None
+        if any("namespace" in child.name for child in each.children):  # push-ros-namespace
+            return None
+        parts += [attributes[name].value for name in ("ns", "namespace") if name in attributes]
+    own = tag.attributes.get("name")
+    return "/".join([*reversed(parts), own.value]) if own is not None and "$" not in f"{own.value}{parts}" else None
