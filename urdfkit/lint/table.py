@@ -207,6 +207,8 @@ RELATED_FILES: tuple[Row, ...] = (
     (_XML, "launch.launch_element_invalid", "LaunchElementInvalid"),
     (_XML, "launch.launch_value_invalid", "LaunchValueInvalid"),
     (_XML, "launch.node_name_duplicate", "NodeNameDuplicate"),
+    (_LAUNCH, "launch.controller_parameters_missing", "ControllerParametersMissing"),
+    (_LAUNCH, "launch.robot_description_missing", "RobotDescriptionMissing"),
     (_SRDF, "moveit.srdf_not_well_formed", "SrdfNotWellFormed"),
     (_SRDF, "moveit.srdf_element_unknown", "SrdfElementUnknown"),
     (_SRDF, "moveit.srdf_of_other_robot", "SrdfOfOtherRobot"),

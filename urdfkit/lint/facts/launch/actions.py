@@ -95,7 +95,8 @@ def _read(action: LaunchAction, found: LaunchActions) -> None:
         found.nodes.append(Executable(*literal))
     for one in at.values():
         if "xacro" in one.name and (command := re.search(_XACRO, one.name, re.DOTALL)) is not None:
-            package, path = next((share_of(word) for word in _words(command[1]) if ":=" not in word), ("", ""))
+            shares = (share_of(word) for word in _words(command[1]) if ":=" not in word)
+            package, path = next((share for share in shares if share[0]), ("", ""))
             start = one.start + command.start(1)
             passed = [Named(word[1], start + word.start(1)) for word in re.finditer(_PASSED, command[1])]
             found.xacro.append(Call(package, path, start, start + len(command[1]), tuple(passed)))

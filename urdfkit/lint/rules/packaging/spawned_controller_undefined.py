@@ -30,6 +30,7 @@ class SpawnedControllerUndefined(RobotRule):
     ## Example
     ```xml
     <launch>
+      <rosparam command="load" file="$(find cart_description)/config/controllers.yaml"/>
       <node name="spawner" pkg="controller_manager" type="spawner" args="arm_controler"/>
     </launch>
     ```
@@ -37,6 +38,7 @@ class SpawnedControllerUndefined(RobotRule):
     ## Use instead
     ```xml
     <launch>
+      <rosparam command="load" file="$(find cart_description)/config/controllers.yaml"/>
       <node name="spawner" pkg="controller_manager" type="spawner" args="arm_controller"/>
     </launch>
     ```

@@ -1,0 +1,116 @@
+"""L112 controller-parameters-missing."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from urdfkit.lint.finding import Finding
+from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from urdfkit.description.xml.source import Source
+    from urdfkit.lint.facts.launch.spawned_controllers import Spawner
+
+_OTHER_WAYS = r"--?param-file|--?controller-type|[\"' ]-[pt][\"' ]|load_controller"
+
+
+class ControllerParametersMissing(RobotRule):
+    """A launch file starts controllers without their parameters.
+
+    ## What it does
+    In ROS 1, compares the controllers that the launch files spawn with the YAML files that define them: a launch file
+    must load the file, into the namespace of the spawner. MoveIt's simple controller manager needs a file with
+    ``controller_list``. In ROS 2, ``ros2_control_node`` needs parameters unless the spawners pass them.
+
+    ## Why is this bad?
+    The spawner fails, since the controller has no type, and the robot does not move.
+
+    ## Example
+    ```xml
+    <launch>
+      <rosparam command="load" file="$(find cart_description)/config/controllers.yaml"/>
+      <node name="spawner" pkg="controller_manager" type="spawner" ns="cart" args="wheel_controller"/>
+    </launch>
+    ```
+
+    ## Use instead
+    ```xml
+    <launch>
+      <rosparam command="load" file="$(find cart_description)/config/controllers.yaml" ns="cart"/>
+      <node name="spawner" pkg="controller_manager" type="spawner" ns="cart" args="wheel_controller"/>
+    </launch>
+    ```
+
+    ## References
+    In the package of this example, config/controllers.yaml defines ``wheel_controller`` without a namespace.
+    """
+
+    code = "L112"
+    name = "controller-parameters-missing"
+    severity = "warning"
+    not_for = NOT_GAZEBO
+
+    def check(self, model: Model) -> Findings:
+        """Yield a finding for each spawner, controller manager and MoveIt setting without parameters."""
+        from urdfkit.lint.facts.launch.spawned_controllers import definitions, ros1_files, spawners
+
+        files = ros1_files(model)
+        defined = definitions(model) if files else {}
+        for spawner in spawners(files):
+            message = _message(spawner, files, defined)
+            if message:
+                span = spawner.source.span(spawner.tag.start, spawner.tag.end)
+                yield Finding(self.code, self.name, self.severity, message, span)
+        yield from self._controller_list(model, files)
+        yield from self._controller_manager(model)
+
+    def _controller_list(self, model: Model, files: list[Source]) -> Findings:
+        from urdfkit.description.packages.related_files import package_of
+        from urdfkit.lint.facts.control.yaml_tree import documents, yamls
+        from urdfkit.lint.facts.launch.spawned_controllers import loaders, tags
+
+        for source, tag in tags(files, "param"):
+            value = tag.attributes.get("value")
+            if value is None or value.value != "moveit_simple_controller_manager/MoveItSimpleControllerManager":
+                continue
+            lists = [file for file in yamls(model) if any(root.find("controller_list") for root in documents(file)[0])]
+            own = [file for file in lists if package_of(Path(file.file)) == package_of(Path(source.file))]
+            if own and all(loaders(files, file) == [] for file in lists):
+                message = f"no launch file loads {Path(own[0].file).name}, which defines `controller_list`"
+                yield Finding(self.code, self.name, self.severity, message, source.span(tag.start, tag.end))
+
+    def _controller_manager(self, model: Model) -> Findings:
+        import re
+
+        from urdfkit.description.packages.related_files import LAUNCH
+        from urdfkit.lint.facts.launch.started_nodes import started_nodes
+
+        texts = [source.text for name, source in model.related_files.items() if name.endswith(LAUNCH)]
+        if any(re.search(_OTHER_WAYS, text) for text in texts):
+            return
+        for node in started_nodes(model):
+            if node.program == "ros2_control_node" and node.parameters == () and not node.has_arguments:
+                message = "`ros2_control_node` has no parameters, so its controllers have no types"
+                yield Finding(self.code, self.name, self.severity, message, node.source.span(node.start, node.end))
+
+
+def _message(spawner: Spawner, files: list[Source], defined: dict[str, list[tuple[Source, str]]]) -> str:
+    """Return the message for a spawner whose controllers lack parameters; empty for the others."""
+    from urdfkit.lint.facts.launch.spawned_controllers import loaders
+
+    for name in spawner.names:
+        of_name = defined.get(name, [])
+        if len(of_name) != 1:
+            continue
+        source, inner = of_name[0]
+        namespaces = loaders(files, source)
+        if namespaces == []:
+            return f"no launch file loads {Path(source.file).name}, which defines `{name}`"
+        if namespaces is not None and len(namespaces) == 1:
+            there = f"{namespaces[0]}/{inner}".strip("/")
+            if there != spawner.namespace:
+                here = f"namespace `{spawner.namespace}`" if spawner.namespace else "no namespace"
+                there = f"namespace `{there}`" if there else "no namespace"
+                return f"`{name}` is spawned in {here}, but its parameters are in {there}"
+    return ""
