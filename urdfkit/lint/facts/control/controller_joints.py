@@ -48,7 +48,7 @@ TYPES = (
 )
 """Controller types of ros_controllers (Noetic) and ros2_controllers (Rolling)."""
 
-_WRITTEN_TYPE = r"(?m)(?:^|[{,])[ \t]*type[ \t]*:[ \t]*[\"']?([\w]+/[\w]+)[\"']?[ \t]*(?=\r?$|[},])"
+_WRITTEN_TYPE = r"(?m)(?:^|[{,])[ \t]*type[ \t]*:[ \t]*[\"']?([\w-]+/[\w-]+)[\"']?[ \t]*(?=\r?$|[},])"
 
 
 @record

@@ -51,7 +51,8 @@ _OF_TYPES = {
 """Controller type → its parameters in any release: ros_controllers (Noetic), ros2_controllers (from Humble)."""
 
 _LIMITS = [f"{kind}_{name}" for kind in ("max", "min") for name in ("velocity", "acceleration", "deceleration", "jerk")]
-_NESTED = {
+_NESTED: dict[str, tuple[str, ...]] = {
+    "velocity_ff": (),
     "gains": (
         "p",
         "i",

@@ -43,6 +43,13 @@ KEYS = (
     *("publisher_queue", "lazy", "direction", "service_name", "gz_req_type_name", "gz_rep_type_name", "qos_profile"),
     *("ign_topic_name", "ign_type_name"),
 )
+REQUIRED = {
+    "ros_type_name": ("service_name",),
+    "gz_type_name": ("ign_type_name", "service_name"),
+    "ros_topic_name": ("topic_name", "gz_topic_name", "ign_topic_name", "service_name"),
+}
+"""Required key → keys that stand for it."""
+
 DIRECTIONS = ("BIDIRECTIONAL", "GZ_TO_ROS", "ROS_TO_GZ", "IGN_TO_ROS", "ROS_TO_IGN")
 """Directions in the YAML files of ros_gz_bridge (Humble to Rolling)."""
 

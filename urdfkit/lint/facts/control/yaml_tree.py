@@ -80,6 +80,18 @@ def span_of(source: Source, node: Node) -> Span:
     return source.span(start, start + max(len(node.text) if "\n" not in node.text else 1, 1))
 
 
+def not_a_number(node: Node) -> str:
+    """Return the description of a value that is not a number; empty for numbers and computed values."""
+    if node.kind != "text":
+        return "" if node.kind == "group" else "a list, not a number"
+    try:
+        float(node.text.replace("_", "").removeprefix(".") if node.text in (".inf", ".nan") else node.text)
+    except ValueError:
+        is_computed = "$" in node.text or node.text.startswith(("rad(", "deg(", "-.inf", "+.inf"))
+        return "" if is_computed or not node.text else f"`{node.text}`, which is not a number"
+    return "" if node.is_plain else f'"{node.text}", a text in quotes'
+
+
 def walk(node: Node, depth: int = 0) -> Iterator[Node]:
     """Yield a node and all nodes below it."""
     yield node

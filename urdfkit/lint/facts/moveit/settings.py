@@ -79,7 +79,7 @@ def moveit_yamls(model: Model) -> Iterator[tuple[Source, Element]]:
 def entries(source: Source) -> Iterator[MoveitEntry]:
     """Yield the groups, joints and controllers that a YAML file of MoveIt configures."""
     for document in documents(source)[0]:
-        for top in _unwrapped(document):
+        for top in unwrapped(document):
             for key, value in top.entries:
                 if key.text == "joint_limits":
                     yield from (
@@ -99,16 +99,16 @@ def entries(source: Source) -> Iterator[MoveitEntry]:
 def controller_names(source: Source) -> Iterator[tuple[list[Node], list[Node]]]:
     """Yield the names in ``controller_names`` of moveit_simple_controller_manager, and the names of its sections."""
     for document in documents(source)[0]:
-        for top in _unwrapped(document):
+        for top in unwrapped(document):
             value = top.find("moveit_simple_controller_manager")
             names = value.find("controller_names") if value is not None else None
             if value is not None and names is not None:
                 yield list(names.items), [name for name, each in value.entries if each.kind == "group"]
 
 
-def _unwrapped(document: Node) -> Iterator[Node]:
+def unwrapped(document: Node) -> Iterator[Node]:
     """Yield the mappings of a document without the names of the node and of ``ros__parameters``."""
     yield document
     for key, value in document.entries:
         if key.text in _WRAPPERS or value.find("ros__parameters") is not None:
-            yield from _unwrapped(value)
+            yield from unwrapped(value)

@@ -21,7 +21,8 @@ class MoveitNameUndefined(RobotRule):
     ## What it does
     Checks YAML files in packages with an SRDF of the robot: groups with a kinematics solver against the groups of the
     SRDF, the joints in ``joint_limits`` and of controllers against the robot, ``controller_names`` against the sections
-    of the controllers, and misspelt controllers against the controllers in the YAML files of these packages.
+    of the controllers, and misspelt controllers, or in ROS 1 controllers without their namespace, against the
+    controllers in the YAML files of these packages.
 
     ## Why is this bad?
     MoveIt ignores settings of unknown groups and joints: "No kinematics plugins defined". It refuses to execute a
@@ -68,6 +69,8 @@ class MoveitNameUndefined(RobotRule):
                     name = entry.name.text.strip("/").rpartition("/")[2]
                     if name not in started:
                         yield from self._near(source, entry.name, f"unknown controller `{name}`", name, started)
+                    elif "controller_list" in source.text:
+                        yield from self._namespace(source, entry.name, model)
             for names, sections in controller_names(source):
                 defined_names = [node.text for node in sections]
                 for node in names:
@@ -100,6 +103,20 @@ class MoveitNameUndefined(RobotRule):
         near = nearest(name, defined, cutoff=0.8)
         if near is not None and is_typo(name, near):
             yield self._at(source, node, message, [near])
+
+    def _namespace(self, source: Source, node: Node, model: Model) -> Findings:
+        """Yield a finding if the parameters of a controller of ROS 1 are in a namespace that its name lacks."""
+        from urdfkit.lint.facts.control.launched_nodes import launches
+        from urdfkit.lint.facts.control.spawned_namespaces import paths_of_controllers
+        from urdfkit.lint.facts.control.yaml_tree import yamls
+
+        name = node.text.strip("/")
+        paths = ["/".join(key.text for key in path) for other in yamls(model) for path in paths_of_controllers(other)]
+        longer = [path for path in paths if path.endswith(f"/{name}")]
+        package = source.file.rpartition("/config/")[0]
+        in_group = any(re.search(r"\bns\s*=", launch.text) for launch in launches(model) if package in launch.file)
+        if name not in paths and longer and not in_group:
+            yield self._at(source, node, f"controller `{name}` is in a namespace: its name is `{longer[0]}`", ())
 
     def _at(self, source: Source, node: Node, message: str, names: object) -> Finding:
         from urdfkit.lint.facts.control.yaml_tree import span_of

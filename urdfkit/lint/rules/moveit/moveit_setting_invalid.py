@@ -14,15 +14,18 @@ if TYPE_CHECKING:
 
 
 class MoveitSettingInvalid(RobotRule):
-    """A solver, joint limit or controller of MoveIt has a misspelt name or an impossible value.
+    """A solver, planner, joint limit or controller of MoveIt has a misspelt name or an impossible value.
 
     ## What it does
-    Checks YAML files in packages with an SRDF of the robot for misspelt parameters, solvers and controller types, for
-    limits that are negative or zero while ``has_…_limits`` is true, for ``has_…_limits`` without a limit or that is not
-    a boolean, and for solver timeouts that are not positive.
+    Checks YAML files in packages with an SRDF of the robot for misspelt parameters, solvers, planners, plugins, actions
+    and controller types, for limits that are negative or zero while ``has_…_limits`` is true, or far beyond those of
+    the robot, for ``has_…_limits`` without a limit or that is not a boolean, for values of the wrong type, for solver
+    timeouts that are not positive, for groups and controllers without a required parameter, and for joints of a group
+    that no controller moves.
 
     ## Why is this bad?
-    MoveIt ignores misspelt parameters. With a limit of zero, time parameterisation of trajectories fails.
+    MoveIt ignores misspelt parameters. With a limit of zero, time parameterisation of trajectories fails. A trajectory
+    for a joint without a controller is not executed.
 
     ## Example
     ```yaml
@@ -47,13 +50,39 @@ class MoveitSettingInvalid(RobotRule):
 
     def check(self, model: Model) -> Findings:
         """Yield a finding for each invalid parameter."""
+        from urdfkit.lint.facts.control.ros2_controllers import PARAMETERS
         from urdfkit.lint.facts.control.yaml_tree import span_of
+        from urdfkit.lint.facts.moveit.planning import incomplete_entries, planning_defects, uncontrolled_joints
         from urdfkit.lint.facts.moveit.settings import entries, moveit_yamls
+        from urdfkit.lint.facts.moveit.srdf import groups
 
-        for source, _ in moveit_yamls(model):
-            for entry in entries(source):
-                for node, message in _DEFECTS[entry.kind](entry):
-                    yield Finding(self.code, self.name, self.severity, message, span_of(source, node))
+        texts = {name: source.text for name, source in model.related_files.items()}
+        for source, root in moveit_yamls(model):
+            is_ros2 = "moveit_simple_controller_manager:" in source.text or PARAMETERS in source.text
+            has_manager = any(
+                "moveit_controller_manager" in text for name, text in texts.items() if name != source.file
+            )
+            defects = [
+                *(defect for entry in entries(source) for defect in _defects(entry, model)),
+                *planning_defects(source, groups(root)),
+                *incomplete_entries(source, is_ros2, has_manager),
+                *(uncontrolled_joints(source, root, model.robot) if not model.is_incomplete else ()),
+            ]
+            for node, message in defects:
+                yield Finding(self.code, self.name, self.severity, message, span_of(source, node))
+
+
+def _defects(entry: MoveitEntry, model: Model) -> Iterator[tuple[Node, str]]:
+    from urdfkit.lint.facts.moveit.planning import controller_defects, limit_defects
+
+    if entry.kind == "group":
+        yield from _group(entry)
+    elif entry.kind == "joint":
+        yield from _joint(entry)
+        yield from limit_defects(entry, model.robot.joint_by_name.get(entry.name.text))
+    else:
+        yield from _controller(entry)
+        yield from controller_defects(entry)
 
 
 def _misspelt(entry: MoveitEntry, names: tuple[str, ...]) -> Iterator[tuple[Node, str]]:
@@ -75,6 +104,7 @@ def _number(node: Node | None) -> float | None:
 
 
 def _group(entry: MoveitEntry) -> Iterator[tuple[Node, str]]:
+    from urdfkit.lint.facts.control.yaml_tree import not_a_number
     from urdfkit.lint.facts.moveit.settings import SOLVER_KEYS, SOLVERS
     from urdfkit.lint.fix_builders import nearest
 
@@ -86,7 +116,9 @@ def _group(entry: MoveitEntry) -> Iterator[tuple[Node, str]]:
     for name in ("kinematics_solver_timeout", "kinematics_solver_search_resolution"):
         node = entry.settings.find(name)
         value = _number(node)
-        if node is not None and value is not None and value <= 0.0:
+        if node is not None and (problem := not_a_number(node)):
+            yield node, f"`{name}` of group `{entry.name.text}` is {problem}"
+        elif node is not None and value is not None and value <= 0.0:
             yield node, f"`{name}` of group `{entry.name.text}` is {value:g}; it must be positive"
 
 
@@ -105,8 +137,6 @@ def _joint(entry: MoveitEntry) -> Iterator[tuple[Node, str]]:
             value = _number(limit)
             if limit is None and key.text in LIMIT_KEYS:
                 yield key, f"`{key.text}` of joint `{joint}` is true, but `max_{quantity}` is missing"
-            elif limit is not None and value is None:
-                yield limit, f"`max_{quantity}` of joint `{joint}` is `{limit.text}`, which is not a number"
             elif limit is not None and value is not None and value <= 0.0 and quantity != "position":
                 yield limit, f"`max_{quantity}` of joint `{joint}` is {value:g}; it must be positive"
         elif key.text.startswith("max_") and settings.find(f"has_{key.text[4:]}_limits") is None:
@@ -129,6 +159,3 @@ def _controller(entry: MoveitEntry) -> Iterator[tuple[Node, str]]:
         near = nearest(kind.text, CONTROLLER_TYPES, cutoff=0.75)
         if near is not None:
             yield kind, f"unknown type `{kind.text}` of controller `{entry.name.text}`; did you mean `{near}`?"
-
-
-_DEFECTS = {"group": _group, "joint": _joint, "controller": _controller}

@@ -57,7 +57,7 @@ class BridgeMisspelt(RobotRule):
         sources = [source for source in model.related_files.values() if any(word in source.text for word in _BRIDGES)]
         if not sources:
             return
-        from urdfkit.lint.facts.control.ros_gz_bridges import KEYS, in_launch, in_yaml
+        from urdfkit.lint.facts.control.ros_gz_bridges import KEYS, REQUIRED, in_launch, in_yaml
         from urdfkit.lint.facts.control.yaml_tree import span_of
         from urdfkit.lint.fix_builders import nearest
 
@@ -68,6 +68,11 @@ class BridgeMisspelt(RobotRule):
                 continue
             for bridge, keys in in_yaml(source):
                 bridges.append((source, bridge))
+                names = [key.text for key in keys]
+                for parameter, others in REQUIRED.items():
+                    if not any(nearest(each, names, cutoff=0.85) for each in (parameter, *others)):
+                        message = f"bridge has no `{parameter}`"
+                        yield Finding(self.code, self.name, self.severity, message, span_of(source, keys[0]))
                 for key in keys:
                     suggestion = nearest(key.text, KEYS, cutoff=0.7) if key.text not in KEYS else None
                     if suggestion is not None:

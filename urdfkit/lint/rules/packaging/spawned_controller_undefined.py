@@ -22,7 +22,8 @@ class SpawnedControllerUndefined(RobotRule):
 
     ## What it does
     Checks for controllers passed to the spawner in launch files that are misspellings of a controller with a type in
-    the YAML files of these packages. Python launch files are parsed, not executed.
+    the YAML files of these packages, and in ROS 1 for controllers that the same launch file loads in another namespace
+    than that of the spawner. Python launch files are parsed, not executed.
 
     ## Why is this bad?
     The spawner waits for the controller and then fails, and the robot does not move.
@@ -60,6 +61,8 @@ class SpawnedControllerUndefined(RobotRule):
             return
         defined = [name for file in parameter_files for name in controllers(file)]
         for source in launches:
+            if source.file.endswith(".launch"):
+                yield from self._namespaces(source, model)
             for reference in _spawned(source):
                 key_pattern = rf"(?<![\w-]){re.escape(reference.name)}[\"']?\s*:"
                 hint = did_you_mean(reference.name, defined)
@@ -76,6 +79,15 @@ class SpawnedControllerUndefined(RobotRule):
                     f"unknown controller `{reference.name}`{hint}",
                     source.span(reference.start, reference.start + len(reference.name)),
                 )
+
+    def _namespaces(self, source: Source, model: Model) -> Findings:
+        from urdfkit.lint.facts.control.spawned_namespaces import misplaced_controllers
+        from urdfkit.lint.facts.control.yaml_tree import span_of
+
+        for one in misplaced_controllers(source, model):
+            found, expected = (f"namespace `{name}`" if name else "no namespace" for name in (one.found, one.expected))
+            message = f"`{one.controller}` is in {found}, but its spawner in {source.file} has {expected}"
+            yield Finding(self.code, self.name, self.severity, message, span_of(one.source, one.key))
 
 
 def _spawned(source: Source) -> Iterator[Named]:

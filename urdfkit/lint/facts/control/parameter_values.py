@@ -1,0 +1,250 @@
+"""Values of parameters of controllers that their nodes refuse: types, ranges, missing types and parameters.
+
+Sources: ros2_controllers, *_parameters.yaml (Humble to Rolling), ros_controllers (Noetic).
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+
+from urdfkit.lint.facts.control.controller_settings import ControllerSettings, settings
+from urdfkit.lint.facts.control.ros2_controllers import PARAMETERS, declared
+from urdfkit.lint.facts.control.yaml_tree import Node, documents, not_a_number, walk
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from urdfkit.description.urdf.robot import Robot
+    from urdfkit.description.xml.source import Source
+
+_POSITIVE = frozenset(
+    (
+        *("update_rate", "publish_rate", "state_publish_rate", "action_monitor_rate", "wheelbase"),
+        *("wheels_per_side", "front_wheel_track", "rear_wheel_track", "traction_wheels_radius"),
+        *("traction_track_width", "steering_track_width", "wheel_separation_multiplier", "wheel_radius_multiplier"),
+    )
+)
+_POSITIVE_IN_ROS2 = frozenset(("wheel_separation", "wheel_radius"))
+"""Zero stands for the value in the URDF in ros_controllers."""
+
+_NOT_NEGATIVE = frozenset(
+    (
+        *("goal_time", "stopped_velocity_tolerance", "cmd_vel_timeout", "cmd_timeout", "max_velocity", "trajectory"),
+        *("max_acceleration", "max_jerk", "max_deceleration", "velocity_rolling_window_size", "goal", "max_effort"),
+        *("wheel_separation", "wheel_radius"),
+    )
+)
+_NUMBERS = frozenset(("goal_tolerance", "stall_timeout", "stall_velocity_threshold", "stop_trajectory_duration"))
+_LISTS_TOO = frozenset(("max_velocity", "max_acceleration", "max_deceleration", "max_jerk", "goal", "trajectory"))
+"""Numbers in controllers that are lists in other nodes."""
+
+_TRUTHS = frozenset(
+    (
+        *("allow_partial_joints_goal", "open_loop", "open_loop_control", "enable_odom_tf", "position_feedback"),
+        *("use_stamped_vel", "publish_limited_velocity", "allow_stalling", "use_sim_time", "angle_wraparound"),
+        *("allow_nonzero_velocity_at_trajectory_end", "allow_integration_in_goal_trajectories", "use_local_topics"),
+        *(f"has_{name}_limits" for name in ("velocity", "acceleration", "jerk", "position", "deceleration")),
+    )
+)
+_LISTS = frozenset(("joints", "command_interfaces", "state_interfaces", "left_wheel_names", "right_wheel_names"))
+
+_TRAJECTORIES = {
+    f"{kind}_controllers/JointTrajectoryController": ("joints", "gains") for kind in ("velocity", "effort")
+}
+_REQUIRED = {
+    **_TRAJECTORIES,
+    "position_controllers/JointTrajectoryController": ("joints",),
+    "joint_trajectory_controller/JointTrajectoryController": ("joints", "command_interfaces", "state_interfaces"),
+    "forward_command_controller/ForwardCommandController": ("joints", "interface_name"),
+    "parallel_gripper_action_controller/GripperActionController": ("joint",),
+    **{f"{kind}_controllers/GripperActionController": ("joint",) for kind in ("position", "effort")},
+    **{
+        f"{kind}_controllers/JointGroup{kind.title()}Controller": ("joints",)
+        for kind in ("position", "velocity", "effort")
+    },
+    **{
+        f"{kind}_controllers/Joint{name}Controller": ("joint",)
+        for kind in ("position", "velocity", "effort")
+        for name in ("Position", "Velocity", "Effort")
+    },
+}
+"""Controller type → parameters without a default."""
+
+_INTERFACES = frozenset(("command_interfaces", "state_interfaces"))
+_WHEELS = (("left_wheel_names", "right_wheel_names"), ("left_wheel", "right_wheel"))
+Defects = Iterator[tuple[Node, str]]
+
+
+def value_defects(node: Node, is_ros2: bool) -> Defects:
+    """Yield the values of one mapping, in a file with controllers, that have the wrong type or range."""
+    values = {key.text: value for key, value in node.entries if "$" not in value.text}
+    for name, value in values.items():
+        yield from _of_number(name, value, is_ros2)
+        if name in _TRUTHS and value.kind == "text" and value.text.lower() in ("true", "false") and not value.is_plain:
+            yield value, f'`{name}` is "{value.text}", a text in quotes; write {value.text.lower()}'
+        elif name in _TRUTHS and value.kind == "text" and value.is_plain and value.text in ("0", "1"):
+            yield value, f"`{name}` is {value.text}; write {'true' if value.text == '1' else 'false'}"
+        if name in _LISTS and value.kind == "text" and value.text:
+            yield value, f"`{name}` is a text; write a list"
+        for inner in value.entries if name == "velocity_ff" else ():
+            if problem := not_a_number(inner[1]):
+                yield inner[1], f"`{inner[0].text}` in `velocity_ff` is {problem}"
+    if {"p", "i", "d"} <= values.keys():
+        for name in "pid":
+            gain = _number(values[name])
+            if problem := not_a_number(values[name]):
+                yield values[name], f"gain `{name}` is {problem}"
+            elif gain is not None and gain < 0.0:
+                yield values[name], f"gain `{name}` is {gain:g}; it must not be negative"
+    for name, value in values.items():
+        prefix, _, last = name.rpartition(".")
+        if not last.startswith("min_"):
+            continue
+        above = f"{prefix}.max_{last[4:]}" if prefix else f"max_{last[4:]}"
+        lower, upper = _number(value), _number(values.get(above))
+        if lower is not None and upper is not None and lower > upper and (upper >= 0.0 or last == "min_velocity"):
+            yield value, f"`{name}` {lower:g} is greater than `{above}` {upper:g}"
+    for key, value in node.entries:
+        listed: set[str] = set()
+        for item in value.items if key.text in ("joints", "left_wheel_names", "right_wheel_names") else ():
+            if item.text and item.text in listed:
+                yield item, f"`{item.text}` occurs twice in `{key.text}`"
+            listed.add(item.text)
+    for left, right in _WHEELS:
+        names = values[left].texts() if left in values and right in values else []
+        opposite = [values[right], *values[right].items] if names else []
+        for item in opposite:
+            if item.text and item.text in names:
+                yield item, f"wheel `{item.text}` is in `{left}` and in `{right}`"
+
+
+def _of_number(name: str, value: Node, is_ros2: bool) -> Defects:
+    last = name.rpartition(".")[2]
+    if last not in _POSITIVE | _NOT_NEGATIVE | _NUMBERS:
+        return
+    if value.kind != "text" and (value.kind == "group" or last in _LISTS_TOO):
+        return
+    if problem := not_a_number(value):
+        yield value, f"`{name}` is {problem}"
+        return
+    number = _number(value)
+    is_positive = last in _POSITIVE or (is_ros2 and last in _POSITIVE_IN_ROS2)
+    is_with_minimum = "." in name and last == "max_velocity"
+    if number is not None and (number < 0.0 or (number == 0.0 and is_positive)) and not is_with_minimum:
+        yield value, f"`{name}` is {number:g}; it must {'be positive' if is_positive else 'not be negative'}"
+
+
+def _number(node: Node | None) -> float | None:
+    try:
+        return float(node.text) if node is not None else None
+    except ValueError:
+        return None
+
+
+def incomplete_controllers(source: Source, is_typed_at_start: bool) -> Defects:
+    """Yield controllers without a type or a required parameter, and parameters at the level of controllers.
+
+    Args:
+        source: a YAML file of controllers.
+        is_typed_at_start: whether a launch file passes types of controllers to the spawner.
+    """
+    names: dict[int, list[Node]] = {}
+    for root in documents(source)[0]:
+        for node in walk(root):
+            for key, value in node.entries:
+                inner = value.find(PARAMETERS)
+                names.setdefault(id(inner if inner is not None else value), []).append(key)
+            if not is_typed_at_start:
+                yield from _untyped(root, node)
+            yield from _misplaced(root, node)
+    for one in _with_parameters(source):
+        written = {key.text for key, _ in one.group.entries}
+        name = next(iter(names.get(id(one.group), ())), None)
+        for parameter in _REQUIRED.get(one.kind, ()) if "<<" not in written else ():
+            # Without both interfaces, another file or the spawner sets them.
+            is_elsewhere = parameter in _INTERFACES and not written & _INTERFACES
+            if name is not None and parameter not in written and not is_elsewhere and not _is_near(parameter, one):
+                yield name, f"controller `{one.name}` has no `{parameter}`"
+
+
+def _with_parameters(source: Source) -> Iterator[ControllerSettings]:
+    """Yield the settings of the controllers whose parameters the file has."""
+    if PARAMETERS not in source.text:
+        yield from settings(source)
+        return
+    for one in declared(source):
+        if one.settings is not None:
+            yield ControllerSettings(one.name, one.kind.text, one.settings)
+
+
+def _is_near(parameter: str, one: ControllerSettings) -> bool:
+    """Return whether a parameter is missing because it is misspelt, or written as `command_joints` or with dots."""
+    from urdfkit.lint.fix_builders import nearest
+
+    written = [key.text for key, _ in one.group.entries]
+    if any(name.startswith(f"{parameter}.") for name in written):
+        return True
+    others = [name for name in written if name not in ("joints", "joint", "command_interfaces", "state_interfaces")]
+    return nearest(parameter, others, cutoff=0.8) is not None
+
+
+def _has_type(node: Node | None) -> bool:
+    kind = node.find("type") if node is not None else None
+    return kind is not None and re.fullmatch(r"[\w-]+(/|::)[\w-]+", kind.text) is not None
+
+
+def _untyped(root: Node, node: Node) -> Defects:
+    """Yield the controllers without a type next to controllers with a type."""
+    typed = [key for key, value in node.entries if _has_type(value)]
+    if not typed:
+        return
+    sections = {key.text: value.find(PARAMETERS) for key, value in root.entries if value.find(PARAMETERS) is not None}
+    is_manager = any(value is node for value in sections.values())
+    for key, value in node.entries:
+        section = sections.get(key.text)
+        if value.find("type") is not None or not re.search(r"_(controller|broadcaster)$", key.text):
+            continue
+        is_empty = value.kind == "group" or (value.is_plain and not value.text)
+        parameters = {inner.text for inner, _ in value.entries}
+        near = any(re.fullmatch(r"t\w{2,4}e?", name) for name in parameters - {"tf"})
+        if is_manager:
+            has_type = section is not None and section.find("type") is not None
+            if is_empty and not has_type and not near and (section is not None or not parameters):
+                yield key, f"controller `{key.text}` has no `type`"
+        elif parameters & {"joints", "joint", "publish_rate", "gains", "constraints", "left_wheel"} and not near:
+            yield key, f"controller `{key.text}` has no `type`"
+
+
+_OF_CONTROLLERS = frozenset(
+    (
+        *("constraints", "gains", "velocity_ff", "publish_rate", "action_monitor_rate"),
+        *("command_interfaces", "state_interfaces", "allow_partial_joints_goal", "left_wheel_names", "goal_tolerance"),
+        *("right_wheel_names", "wheel_separation", "wheel_radius", "allow_stalling", "open_loop_control"),
+    )
+)
+
+
+def _misplaced(root: Node, node: Node) -> Defects:
+    """Yield parameters of a controller next to controllers, and ``ros__parameters`` without a node."""
+    has_sections = any(value.find(PARAMETERS) is not None for _, value in root.entries)
+    is_of_types = any(_has_type(value) for _, value in node.entries)
+    for key, _ in node.entries:
+        if key.text in _OF_CONTROLLERS and (is_of_types or (node is root and has_sections)):
+            yield key, f"`{key.text}` is next to the controllers, not in one; indent it"
+        elif key.text == PARAMETERS and node is root and has_sections:
+            yield key, f"`{PARAMETERS}` belongs to no node; indent it below the name of a node"
+
+
+def contradictions(source: Source, robot: Robot) -> Defects:
+    """Yield tolerances of grippers that are larger than the range of their joint."""
+    for one in settings(source):
+        joint, tolerance = one.group.find("joint"), one.group.find("goal_tolerance")
+        moved = robot.joint_by_name.get(joint.text) if joint is not None else None
+        value = _number(tolerance)
+        if moved is None or moved.limit is None or tolerance is None or value is None or moved.type == "continuous":
+            continue
+        stroke = (moved.limit.upper or 0.0) - (moved.limit.lower or 0.0)
+        if 0.0 < stroke <= value:
+            unit = "m" if moved.type == "prismatic" else "rad"
+            message = f"`goal_tolerance` is {value:g} {unit}, but joint `{moved.name}` moves only {stroke:g} {unit}"
+            yield tolerance, message

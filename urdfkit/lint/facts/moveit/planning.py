@@ -1,0 +1,249 @@
+"""Defects of MoveIt's YAML files: planners, plugins, required parameters, limits and joints without a controller.
+
+Sources: moveit_planners/ompl (planning_context_manager.cpp), moveit_plugins/moveit_simple_controller_manager,
+moveit_ros/planning (request and response adapters), Noetic to Rolling.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Iterator
+
+from urdfkit.lint.facts.control.yaml_tree import Node, documents, not_a_number, walk
+from urdfkit.lint.facts.moveit.settings import CONTROLLER_TYPES, MoveitEntry, entries, unwrapped
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from collections.abc import Collection
+
+    from urdfkit.description.urdf.robot import Joint, Robot
+    from urdfkit.description.xml.element import Element
+    from urdfkit.description.xml.source import Source
+
+_PLANNERS = """
+AITstar ABITstar AnytimePathShortening BFMT BITstar BKPIECE BiEST BiTRRT EST FMT KPIECE LBKPIECE LBTRRT LazyPRM
+LazyPRMstar LazyRRT PDST PRM PRMstar ProjEST RRT RRTConnect RRTstar SBL SPARS SPARStwo STRIDE TRRT
+"""
+_PLUGINS = """
+default_planner_request_adapters/AddIterativeSplineParameterization default_planner_request_adapters/FixWorkspaceBounds
+default_planner_request_adapters/AddRuckigTrajectorySmoothing default_planner_request_adapters/FixStartStateBounds
+default_planner_request_adapters/AddTimeOptimalParameterization default_planner_request_adapters/FixStartStateCollision
+default_planner_request_adapters/AddTimeParameterization default_planner_request_adapters/FixStartStatePathConstraints
+default_planner_request_adapters/ResolveConstraintFrames default_planning_request_adapters/ResolveConstraintFrames
+default_planner_request_adapters/SetMaxCartesianEndEffectorSpeed default_planning_request_adapters/CheckStartStateBounds
+default_planning_request_adapters/ValidateWorkspaceBounds default_planning_request_adapters/CheckStartStateCollision
+default_planning_request_adapters/CheckForStackedConstraints default_planning_response_adapters/ValidateSolution
+default_planning_response_adapters/AddTimeOptimalParameterization default_planning_response_adapters/DisplayMotionPath
+default_planning_response_adapters/AddRuckigTrajectorySmoothing ompl_interface/OMPLPlanner stomp_moveit/StompPlanner
+pilz_industrial_motion_planner/CommandPlanner chomp_interface/CHOMPPlanner
+moveit_simple_controller_manager/MoveItSimpleControllerManager moveit_ros_control_interface/Ros2ControlManager
+moveit_ros_control_interface/Ros2ControlMultiManager moveit_fake_controller_manager/MoveItFakeControllerManager
+moveit_ros_control_interface::MoveItControllerManager moveit_ros_control_interface::MoveItMultiControllerManager
+"""
+_MANAGERS = ("moveit_simple_controller_manager", "moveit_ros_control_interface")
+_ACTIONS = ("follow_joint_trajectory", "gripper_cmd", "gripper_action")
+_DEGREES = 180.0 / math.pi
+Defects = Iterator[tuple[Node, str]]
+
+
+def planning_defects(source: Source, groups: Collection[str]) -> Defects:
+    """Yield misspelt planners and plugins, and planners and groups that do not exist.
+
+    Args:
+        source: a YAML file of MoveIt.
+        groups: the names of the groups of the SRDF.
+    """
+    for document in documents(source)[0]:
+        yield from _plugins(document)
+        for top in unwrapped(document):
+            for key, value in top.entries:
+                if key.text == "planner_configs" or value.kind != "group":
+                    continue
+                configs = value.find("planner_configs")
+                is_of_group = configs is not None and configs.kind != "group"
+                if is_of_group and groups and key.text not in groups:
+                    yield key, f"group `{key.text}` does not exist in the SRDF{_hint(key.text, groups)}"
+                if configs is not None and configs.kind == "text" and configs.text:
+                    yield configs, f"`planner_configs` of group `{key.text}` is a text; write a list"
+                if is_of_group:
+                    yield from _planners(key, value, top.find("planner_configs"))
+
+
+def _hint(name: str, names: Iterable[str]) -> str:
+    from urdfkit.lint.fix_builders import meant
+
+    return meant(name, names)[1]
+
+
+def _plugins(document: Node) -> Defects:
+    from urdfkit.lint.fix_builders import nearest
+
+    names = {*_PLUGINS.split(), *(f"geometric::{name}" for name in _PLANNERS.split())}
+    for node in walk(document):
+        values = [value for key, value in node.entries if key.text not in ("description", "name")]
+        for value in (*values, *node.items):
+            is_name = value.kind == "text" and ("/" in value.text or "::" in value.text) and value.text not in names
+            near = nearest(value.text, names, cutoff=0.9) if is_name else None
+            if near is not None and abs(len(near) - len(value.text)) <= 1:
+                kind = "planner" if near.startswith("geometric::") else "plugin"
+                yield value, f"unknown {kind} `{value.text}`; did you mean `{near}`?"
+
+
+def _planners(group: Node, settings: Node, defined: Node | None) -> Defects:
+    """Yield the planners of a group that the file does not define, and a fraction that is no number."""
+    names = [key.text for key, _ in defined.entries] if defined is not None else []
+    lists = (settings.find("planner_configs"), settings.find("default_planner_config"))
+    for node in [each for value in lists if value is not None for each in (*value.items, value)]:
+        if names and node.text and node.text not in names and "::" not in node.text:
+            yield node, f"`planner_configs` does not define planner `{node.text}`{_hint(node.text, names)}"
+    fraction = settings.find("longest_valid_segment_fraction")
+    if fraction is not None and (problem := not_a_number(fraction)):
+        yield fraction, f"`longest_valid_segment_fraction` of group `{group.text}` is {problem}"
+
+
+def incomplete_entries(source: Source, is_ros2: bool, has_manager: bool) -> Defects:
+    """Yield groups without a solver and controllers without a required parameter.
+
+    Args:
+        source: a YAML file of MoveIt.
+        is_ros2: whether MoveIt 2 reads it.
+        has_manager: whether another file names the controller manager of MoveIt.
+    """
+    for entry in entries(source):
+        name, found = entry.name.text, {key.text for key, _ in entry.settings.entries}
+        if entry.kind == "group" and "kinematics_solver" not in found and "<<" not in found:
+            if _is_misspelt("kinematics_solver", found):
+                continue
+            yield entry.name, f"group `{name}` has no `kinematics_solver`"
+        elif entry.kind == "controller" and "<<" not in found:
+            kind = entry.settings.find("type")
+            if "joints" not in found and not _is_misspelt("joints", found):
+                yield entry.name, f"controller `{name}` has no `joints`"
+            if "action_ns" in found if kind is None else kind.text in CONTROLLER_TYPES:
+                for parameter in ("type", *(() if "ns" in found else ("action_ns",))):
+                    if parameter not in found and not _is_misspelt(parameter, found):
+                        yield entry.name, f"controller `{name}` has no `{parameter}`"
+    for document in documents(source)[0]:
+        for top in unwrapped(document):
+            lists = top.find("controller_list")
+            for item in lists.items if lists is not None else ():
+                if item.find("name") is None and item.find("joints") is not None:
+                    yield item, "controller of `controller_list` has no `name`"
+            for key, value in top.entries:
+                if key.text != "moveit_simple_controller_manager":
+                    continue
+                names = [each.text for each, _ in value.entries]
+                if "controller_names" not in names and not _is_misspelt("controller_names", names):
+                    yield key, "`moveit_simple_controller_manager` has no `controller_names`; MoveIt uses no controller"
+                written = [each.text for each, _ in top.entries]
+                if (
+                    is_ros2
+                    and not has_manager
+                    and not {"moveit_controller_manager", "moveit_manage_controllers"} & {*written}
+                    and not _is_misspelt("moveit_controller_manager", written)
+                ):
+                    yield key, "no file sets `moveit_controller_manager`; MoveIt uses no controller"
+
+
+def _is_misspelt(name: str, found: Iterable[str]) -> bool:
+    from urdfkit.lint.fix_builders import nearest
+
+    return (
+        nearest(name, [each for each in found if each not in _MANAGERS], cutoff=0.75 if len(name) < 8 else 0.85)
+        is not None
+    )
+
+
+def limit_defects(entry: MoveitEntry, joint: Joint | None) -> Defects:
+    """Yield values of ``joint_limits`` that are no numbers, and limits in degrees or beyond those of the robot."""
+    limits = joint.limit if joint is not None else None
+    for key, node in entry.settings.entries:
+        side, _, quantity = key.text.partition("_")
+        if side not in ("min", "max"):
+            if key.text.startswith("has_") and node.text.lower() in ("true", "false") and not node.is_plain:
+                yield node, f'`{key.text}` is "{node.text}", a text in quotes; write true or false'
+            continue
+        if problem := not_a_number(node):
+            yield node, f"`{key.text}` of joint `{entry.name.text}` is {problem}"
+            continue
+        if (
+            limits is None
+            or joint is None
+            or joint.type not in ("revolute", "prismatic", "continuous")
+            or not node.text
+        ):
+            continue
+        value = float(node.text)
+        bounds = {"min_position": limits.lower, "max_position": limits.upper, "max_velocity": limits.velocity}
+        bound = bounds.get(key.text)
+        if bound is None or not bound or (quantity == "position" and joint.type == "continuous"):
+            continue
+        unit = "m" if joint.type == "prismatic" else "rad"
+        unit += "/s" if quantity == "velocity" else ""
+        ratio = value / bound
+        if joint.type != "prismatic" and abs(ratio / _DEGREES - 1.0) < 0.005:
+            message = f"`{key.text}` of joint `{entry.name.text}` is {value:g}: the limit {bound:g} {unit} in degrees"
+            yield node, f"{message}; write {bound:g}"
+        elif ratio > 10.0:
+            yield (
+                node,
+                f"`{key.text}` of joint `{entry.name.text}` is {value:g} {unit}, but its limit is {bound:g} {unit}",
+            )
+
+
+def uncontrolled_joints(source: Source, root: Element, robot: Robot) -> Defects:
+    """Yield controllers that lack one joint of the group that they move."""
+    from urdfkit.lint.facts.moveit.srdf import groups, joints_of
+
+    passive = {element.get("name") for element in root.find_all("passive_joint")}
+    controllers = [entry for entry in entries(source) if entry.kind == "controller"]
+    controlled = {node.text for entry in controllers for node in _joints(entry)}
+    active: list[tuple[str, set[str]]] = []
+    for name in groups(root):
+        found = {
+            robot.joint_by_name[each] for each in joints_of(name, root, robot) or () if each in robot.joint_by_name
+        }
+        moving = {
+            joint.name
+            for joint in found
+            if joint.type in ("revolute", "prismatic", "continuous")
+            and joint.mimic is None
+            and joint.name not in passive
+        }
+        active.append((name, moving))
+    for entry in controllers:
+        kind, joints = entry.settings.find("type"), {node.text for node in _joints(entry)}
+        whole = any(moving and moving <= joints for _, moving in active)
+        if kind is None or kind.text != "FollowJointTrajectory" or not joints or whole:
+            continue
+        for group, moving in active:
+            lacking = moving - controlled
+            if len(lacking) == 1 and joints < moving and len(joints) == len(moving) - 1:
+                key = next(key for key, _ in entry.settings.entries if key.text == "joints")
+                message = f"no controller moves joint `{lacking.pop()}` of group `{group}`; add it to `joints`"
+                yield key, message
+                break
+
+
+def _joints(entry: MoveitEntry) -> tuple[Node, ...]:
+    node = entry.settings.find("joints")
+    return node.items if node is not None else ()
+
+
+def controller_defects(entry: MoveitEntry) -> Defects:
+    """Yield values of a controller of MoveIt that have the wrong type, and misspelt actions."""
+    from urdfkit.lint.fix_builders import nearest
+
+    name, seen = entry.name.text, set[str]()
+    joints, action, default = (entry.settings.find(key) for key in ("joints", "action_ns", "default"))
+    if joints is not None and joints.kind == "text" and joints.text:
+        yield joints, f"`joints` of controller `{name}` is a text; write a list"
+    for node in joints.items if joints is not None else ():
+        if node.text and node.text in seen:
+            yield node, f"`{node.text}` occurs twice in `joints` of controller `{name}`"
+        seen.add(node.text)
+    near = nearest(action.text, _ACTIONS, cutoff=0.85) if action is not None else None
+    if action is not None and near is not None and action.text not in _ACTIONS:
+        yield action, f"unknown action `{action.text}` of controller `{name}`; did you mean `{near}`?"
+    if default is not None and default.kind == "text" and not default.is_plain:
+        yield default, f'`default` of controller `{name}` is "{default.text}", a text in quotes; write true or false'
