@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from urdfkit.sim import Simulator
+from urdfkit.sim.engine.simulation_memory import FOUND_ROWS
 
 ROBOT = """<robot name="arm" version="1.2"><link name="base"/>
   <link name="arm"><inertial><mass value="1"/>
@@ -64,3 +65,61 @@ def test_without_limits_of_acceleration_the_speed_is_reached_at_once(tmp_path: P
     )
     simulator.motors.hold("turn", pi)
     assert _velocities(simulator, 0.05)[-1] == pytest.approx(2.0, abs=1e-6)
+
+
+CHAIN = """<robot name="chain"><link name="base"/>{links}</robot>"""
+LINK = """<link name="link{k}"><inertial><origin xyz="0.01 0.02 0.1"/><mass value="1"/>
+    <inertia ixx="0.004" iyy="0.0044" izz="0.001" ixy="0" ixz="0" iyz="0"/></inertial></link>
+  <joint name="joint{k}" type="revolute"><parent link="{parent}"/><child link="link{k}"/><origin xyz="0 0 0.2"/>
+    <axis xyz="{axis}"/><dynamics friction="{friction}"/>
+    <limit lower="-2.9" upper="2.9" effort="{effort}" velocity="1.5"/></joint>"""
+POSE = (0.3, 0.8, -0.4, 1.0, 0.2)
+
+
+def _chain(folder: Path, *, effort: float, friction: float = 0.0) -> Simulator:
+    """Return five links about z and y in turn, with position goals."""
+    parents = ("base", *(f"link{k}" for k in range(len(POSE))))
+    links = "".join(
+        LINK.format(k=k, parent=parents[k], axis="0 1 0" if k % 2 else "0 0 1", effort=effort, friction=friction)
+        for k in range(len(POSE))
+    )
+    path = folder / f"chain{effort}_{friction}.urdf"
+    path.write_text(CHAIN.format(links=links))
+    simulator = Simulator(path, fixed_base=True, dt=DT)
+    for k, goal in enumerate(POSE):
+        simulator.motors.hold(f"joint{k}", goal)
+    return simulator
+
+
+def test_joints_rest_exactly_at_their_goals_and_carry_their_weight_without_rows(tmp_path: Path) -> None:
+    simulator = _chain(tmp_path, effort=200)
+    engine = simulator.world.builder.engine
+    simulator.run(0.3)
+    assert simulator.state.velocity("joint3") == pytest.approx(1.5, abs=1e-11)
+    simulator.run(4.7)
+    assert engine.arrays["counts"][FOUND_ROWS] == 0
+    assert np.array([simulator.state.position(f"joint{k}") for k in range(5)]) == pytest.approx(POSE, abs=1e-11)
+    assert np.abs(simulator.state.v).max() < 1e-12
+    assert engine.effort == pytest.approx(engine.bias_forces(), abs=1e-9)
+    assert np.abs(engine.effort).max() > 5.0
+
+
+def test_overloaded_motors_move_as_rows_of_the_solver_do(tmp_path: Path) -> None:
+    # Dry friction, however small, makes a motor a row of the solver.
+    weak, rows = _chain(tmp_path, effort=9), _chain(tmp_path, effort=9, friction=1e-13)
+    limited = 0
+    for _ in range(200):
+        weak.run(PERIOD)
+        rows.run(PERIOD)
+        assert weak.state.v == pytest.approx(rows.state.v, abs=1e-6)
+        assert np.abs(weak.state.tau).max() <= 9 * (1 + 1e-9)
+        limited += np.abs(weak.state.tau).max() > 8.99
+    assert 20 < limited < 180
+
+
+def test_a_goal_survives_a_change_of_the_world(tmp_path: Path) -> None:
+    simulator = _chain(tmp_path, effort=200)
+    simulator.run(0.1)
+    simulator.world.spawn("unit_box", (3.0, 0.0, 0.5))
+    simulator.run(4.9)
+    assert simulator.state.position("joint3") == pytest.approx(POSE[3], abs=1e-11)

@@ -116,7 +116,7 @@ def test_nothing_is_missed(tmp_path: Path, robot: str, act: Callable[[Simulator]
     assert told(robot, act, asking=False) == told(robot, act, asking=True)
 
 
-@pytest.mark.parametrize(("robot", "act"), [("rrbot", switch), ("mybot", hold), ("simpleton", call), ("rrbot", gains)])
+@pytest.mark.parametrize(("robot", "act"), [("rrbot", switch), ("simpleton", call), ("rrbot", gains)])
 def test_what_may_be_due_sooner_is_looked_at(robot: str, act: Callable[[Simulator], None]) -> None:
     simulator = Simulator(robot, note=lambda text: None)
     simulator.step(WHEN)

@@ -39,6 +39,11 @@ class Articulation:
         antiwindup: 1 if the integral itself is limited, 0 if only its effort is; shape (nv,).
         feedforward: effort added to the servo's, within its limit [N·m or N]; shape (nv,).
         integral: of the error [rad·s, m·s, rad or m]; shape (nv,).
+        approach_rate: rate at which the velocity motor approaches `position_target` [1/s]; 0: it has no goal, and keeps
+            `motor_velocity`, which is otherwise computed in every step; shape (nv,).
+        fastest: maximum speed of a motor with a goal [rad/s or m/s]; initially infinite; shape (nv,).
+        acceleration: maximum acceleration of a motor with a goal [rad/s² or m/s²]; initially infinite; shape (nv,).
+        deceleration: maximum deceleration of a motor with a goal [rad/s² or m/s²]; initially infinite; shape (nv,).
     """
 
     def __init__(self, kinematics: Kinematics, arrays: Arrays, tree: int) -> None:
@@ -52,6 +57,8 @@ class Articulation:
         self.kp, self.kd, self.servo_effort = a["kp"], a["kd"], a["servo_effort"]
         self.ki, self.i_min, self.i_max, self.antiwindup = a["ki"], a["i_min"], a["i_max"], a["antiwindup"]
         self.feedforward, self.integral = a["feedforward"], a["integral"]
+        self.approach_rate, self.fastest = a["approach_rate"], a["fastest"]
+        self.acceleration, self.deceleration = a["acceleration"], a["deceleration"]
         self._own_v, self._own_effort, self._own_tau = a["v"], a["effort"], a["tau"]
         self._v, self._effort, self._tau = _read_only(a["v"]), _read_only(a["effort"]), _read_only(a["tau"])
         self._set_twist: tuple[int, Array] | None = None
@@ -159,6 +166,10 @@ _PER_DOF = (
     "kp",
     "kd",
     "servo_effort",
+    "approach_rate",
+    "fastest",
+    "acceleration",
+    "deceleration",
     "ki",
     "i_min",
     "i_max",

@@ -17,6 +17,7 @@ KERNEL_MODULES = (
     "constraints/contact_rows",
     "constraints/limit_crossings",
     "constraints/joint_servos",
+    "constraints/position_goals",
     "contacts/midstep_contact_points",
     "contacts/anisotropic_friction",
     "contacts/ground_contacts",

@@ -44,6 +44,7 @@ FLOATS = _sizes(
     "shape_radius:k shape_mu:k floor_mu:k vertices:p,3 extreme:9 base:t,3 gravity:3 numbers:4",
     # targets
     "motor_velocity:d motor_effort:d applied:d position_target:d velocity_target:d kp:d kd:d servo_effort:d",
+    "approach_rate:d fastest:d acceleration:d deceleration:d",
     # state
     "s:s v:d memory:a last:a",
     # results of a step
@@ -55,7 +56,7 @@ FLOATS = _sizes(
     f"displaced:t,6 targets_at_sleep:d,8 gravity_last_step:3 pair_numbers:n pair_work:{memory.WORK} found_point:24",
     "found_normal:24 found_gap:8 Y:y columns:y row_bias:r g:r low:r high:r mu:r before:r slip:r x:r y:r A:q B:q",
     "row_stiffness:r near_x:r ahead:r velocity:r shape_mu2:k floor_mu2:k shape_along:k,3 ki:d i_min:d i_max:d",
-    "antiwindup:d feedforward:d integral:d i_part:d turn:b,2",
+    "antiwindup:d feedforward:d integral:d i_part:d rigid_kd:d turn:b,2",
 )
 
 INTEGERS = _sizes(
@@ -67,7 +68,7 @@ INTEGERS = _sizes(
     "dof_row:d mimic_dof:m mimic_master:m shape_kind:k shape_body:k shape_feature:k shape_vertex:k+1",
     "shape_owner:k shape_meets:k shape_data:k contact_body:c contact_other:c contact_shape:c contact_against:c",
     "contact_next:c contact_feature:c contact_row:c slot:r row_a:r row_b:r at_a:r at_b:r of_a:r of_b:r state:r",
-    "index:r redundant:r extreme_vertex:9 saturated:d pressed:d counts:12 along_body:k",
+    "index:r redundant:r extreme_vertex:9 saturated:d pressed:d motor_row:d counts:12 along_body:k",
 )
 
 # Where in the head of the block of integers the kernel finds sizes and the start of each field.

@@ -36,23 +36,19 @@ class Timed(Periodic):
     Args:
         ticks: steps at which the call is due.
         call: function to call.
-        resting: returns whether the call can be skipped at present; None to call at every tick.
     """
 
-    def __init__(
-        self, ticks: PeriodicSteps, call: Callable[[State], object], resting: Callable[[], bool] | None = None
-    ) -> None:
-        self._ticks, self._call, self._resting = ticks, call, resting
+    def __init__(self, ticks: PeriodicSteps, call: Callable[[State], object]) -> None:
+        self._ticks, self._call = ticks, call
 
     def next(self, step: int) -> int:
         """Return the first step from `step` on at which the call is due."""
-        return NEVER if self._resting is not None and self._resting() else self._ticks.next(step)
+        return self._ticks.next(step)
 
     def act(self, state: State) -> None:
         """Make the call."""
         self._call(state)
-        if self._resting is None:
-            self.due = self._ticks.after(state.step)
+        self.due = self._ticks.after(state.step)
 
     def reset(self) -> None:
         """Restart at step 0."""

@@ -2,8 +2,7 @@
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from math import copysign, inf, isfinite, sqrt
-from typing import Any
+from math import inf, isfinite
 
 import numpy as np
 
@@ -20,10 +19,12 @@ APPROACH = 10.0
 
 @dataclass(frozen=True)
 class Servos:
-    """The engine's servos. They are implicit, hence stable at any stiffness. All arrays have the shape (nv,).
+    """The engine's servos and position goals. All arrays have the shape (nv,).
+
+    Servos are implicit, hence stable at any stiffness. A goal sets the velocity of a joint's motor in every step.
 
     Attributes:
-        position: targets [rad] or [m].
+        position: targets and goals [rad] or [m].
         velocity: targets [rad/s] or [m/s].
         stiffness: [N·m/rad] or [N/m].
         damping: [N·m·s/rad] or [N·s/m].
@@ -34,6 +35,10 @@ class Servos:
         antiwindup: 1 to stop integrating at these bounds.
         feedforward: effort added to the servo's.
         integral: integral of the error so far.
+        approach_rate: rate of the approach to a goal [1/s]; zero for a joint without a goal.
+        fastest: speed limits of approaches [rad/s] or [m/s].
+        acceleration: acceleration limits of approaches [rad/s²] or [m/s²].
+        deceleration: deceleration limits of approaches [rad/s²] or [m/s²].
     """
 
     position: Array
@@ -47,6 +52,10 @@ class Servos:
     antiwindup: Array
     feedforward: Array
     integral: Array
+    approach_rate: Array
+    fastest: Array
+    acceleration: Array
+    deceleration: Array
 
 
 class Motors:
@@ -59,9 +68,6 @@ class Motors:
         applied: the engine's applied efforts, added to those of motors [N·m] or [N]; shape (nv,).
         servos: the engine's servos.
         set_base_velocity: sets the twist of the floating base in the base frame, linear first.
-
-    Attributes:
-        invalidate: called when a joint gets a position target, so that `approach` is called in the following steps.
     """
 
     def __init__(
@@ -78,8 +84,6 @@ class Motors:
         names = (*kinematics.joint_names, *kinematics.mimic_names)
         self._index = {name: kinematics.velocity_index(name) for name in names}
         self._limits = {name: effort_limit(joint) for name, joint in kinematics.robot.joint_by_name.items()}
-        self._goals: dict[str, float] = {}
-        self.invalidate: Callable[[], None] = lambda: None
 
     def attach(
         self,
@@ -105,7 +109,6 @@ class Motors:
         Raises:
             SimulationError: unknown joint, or a value is not finite.
         """
-        self._goals.pop(joint, None)
         self._set(joint, velocity, self.limit(joint) if effort is None else effort)
 
     def hold(self, joint: str, position: float, effort: float | None = None) -> None:
@@ -116,7 +119,8 @@ class Motors:
         Raises:
             SimulationError: unknown joint, or a value is not finite or outside the joint's limits.
         """
-        before = self._velocity[self._checked(joint)]
+        index, servos = self._checked(joint), self._servos
+        before = self._velocity[index] if servos.approach_rate[index] else 0.0
         self._set(joint, 0.0, self.limit(joint) if effort is None else effort)
         unit = "m" if self._kinematics.robot.joint_by_name[joint].type == "prismatic" else "rad"
         if not isfinite(position):
@@ -127,10 +131,13 @@ class Motors:
                 f"joint `{joint}` cannot go to {position:g} {unit}: its limits are {lower:g} … {upper:g} {unit}"
             )
         limit = self._kinematics.robot.joint_by_name[joint].limit
-        if joint in self._goals and limit is not None and (limit.acceleration or limit.deceleration):
-            self._velocity[self._index[joint]] = before  # a new target does not stop the joint
-        self._goals[joint] = position
-        self.invalidate()
+        self._velocity[index] = before  # a new target does not stop the joint
+        servos.position[index], servos.approach_rate[index] = position, APPROACH
+        servos.fastest[index] = servos.acceleration[index] = servos.deceleration[index] = inf
+        if limit is not None:
+            servos.fastest[index] = limit.velocity or inf
+            servos.acceleration[index] = limit.acceleration or inf
+            servos.deceleration[index] = limit.deceleration or limit.acceleration or inf
 
     def exert(self, joint: str, effort: float) -> None:
         """Apply an effort [N·m] or [N] to a joint, in addition to its motor, until the next call.
@@ -179,9 +186,8 @@ class Motors:
         values = (stiffness, damping, position, velocity)
         if not all(map(isfinite, values)) or stiffness < 0 or damping < 0 or not effort >= 0:
             raise SimulationError(f"joint `{joint}`: no servo can do {values} with effort {effort}")
-        self._goals.pop(joint, None)
-        self._velocity[index] = self._effort[index] = 0.0
         servos = self._servos
+        self._velocity[index] = self._effort[index] = servos.approach_rate[index] = 0.0
         servos.position[index], servos.velocity[index] = position, velocity
         servos.stiffness[index], servos.damping[index], servos.effort[index] = stiffness, damping, effort
         servos.feedforward[index] = feedforward
@@ -210,39 +216,20 @@ class Motors:
 
     def release(self, joint: str) -> None:
         """Disable the motor, servo and applied effort of a joint, so that it moves freely."""
-        self._goals.pop(joint, None)
         self._set(joint, 0.0, 0.0)
         self._applied[self._index[joint]] = 0.0
 
     def release_all(self) -> None:
         """Disable the motors, servos and applied efforts of all joints, so that they move freely."""
-        self._goals.clear()
         for values in (self._velocity, self._effort, self._applied):
             np.asarray(values)[:] = 0.0
-        self._servos.stiffness[:] = self._servos.damping[:] = self._servos.integral_gain[:] = 0.0
+        servos = self._servos
+        servos.stiffness[:] = servos.damping[:] = servos.integral_gain[:] = servos.approach_rate[:] = 0.0
 
     @property
     def has_goals(self) -> bool:
         """Whether a joint has a position target."""
-        return bool(self._goals)
-
-    def approach(self, positions: Any, period: float) -> None:
-        """Set the motor velocities of joints with a position target from their present positions.
-
-        Args:
-            positions: function that returns the position of a joint [rad] or [m] for its name.
-            period: time until the next call [s].
-        """
-        for joint, goal in self._goals.items():
-            limit, index = self._kinematics.robot.joint_by_name[joint].limit, self._index[joint]
-            fastest = limit.velocity if limit is not None and limit.velocity else inf
-            error = goal - positions(joint)
-            if limit is None or not (limit.acceleration or limit.deceleration):
-                self._velocity[index] = max(-fastest, min(fastest, APPROACH * error))
-                continue
-            rates = limit.acceleration or inf, limit.deceleration or limit.acceleration or inf
-            wanted = max(-fastest, min(fastest, _braked(error, rates[1])))
-            self._velocity[index] = _gradual(wanted, self._velocity[index], *rates, period)
+        return bool(self._servos.approach_rate.any())
 
     def _set(self, joint: str, velocity: float, effort: float) -> None:
         index = self._checked(joint)
@@ -250,7 +237,9 @@ class Motors:
             raise SimulationError(f"joint `{joint}`: invalid motor target: velocity {velocity} with effort {effort}")
         self._velocity[index] = velocity
         self._effort[index] = effort
-        self._servos.stiffness[index] = self._servos.damping[index] = self._servos.integral_gain[index] = 0.0
+        servos = self._servos
+        servos.stiffness[index] = servos.damping[index] = servos.integral_gain[index] = 0.0
+        servos.approach_rate[index] = 0.0
 
     def _checked(self, joint: str) -> int:
         index = self._index.get(joint)
@@ -258,30 +247,6 @@ class Motors:
             self._kinematics.velocity_index(joint)  # raises, with the nearest name
             raise SimulationError(f"joint `{joint}` has more than one degree of freedom: it has no motor")
         return index
-
-
-def _braked(error: float, deceleration: float) -> float:
-    """Return the velocity of an approach to a target that stops there with a limited deceleration.
-
-    Far from the target the deceleration is constant; near it the velocity is `APPROACH` times the error, as without a
-    limit. Velocity and deceleration are continuous where both meet.
-
-    Args:
-        error: distance to the target, with its sign [rad] or [m].
-        deceleration: limit [rad/s²] or [m/s²].
-    """
-    near = deceleration / APPROACH**2
-    if not abs(error) > near:
-        return APPROACH * error
-    return copysign(sqrt(deceleration * (2.0 * abs(error) - near)), error)
-
-
-def _gradual(wanted: float, before: float, acceleration: float, deceleration: float, period: float) -> float:
-    """Return the velocity that follows `before` within the limits of its change."""
-    up, down = (acceleration, deceleration) if before >= 0.0 else (deceleration, acceleration)
-    if before == 0.0:
-        down = acceleration
-    return max(before - down * period, min(before + up * period, wanted))
 
 
 def effort_limit(joint: Joint) -> float:

@@ -213,7 +213,7 @@ class LiveWorld:
             self._install(robot)
 
     def _install(self, robot: SimulatedRobot) -> None:
-        invalidate = robot.motors.invalidate = self.scheduler.invalidate
+        invalidate = self.scheduler.invalidate
         assert self._setup is not None
         if robot is self.builder.robot_list[0]:
             robot.install(self._setup, seed=self._seed, invalidate=invalidate)

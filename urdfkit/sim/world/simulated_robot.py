@@ -30,11 +30,9 @@ from urdfkit.sim.state.robot_state import State
 SERVO_ARRAYS = (
     "position_target", "velocity_target", "kp", "kd", "servo_effort",
     "ki", "i_min", "i_max", "antiwindup", "feedforward", "integral",
+    "approach_rate", "fastest", "acceleration", "deceleration",
 )  # fmt: skip
 """Arrays of the engine for `Servos`, in the order of its fields."""
-
-APPROACH_RATE = 100.0
-"""Rate at which the velocity of joints with position goals is updated [Hz]."""
 
 
 class SimulatedRobot:
@@ -68,7 +66,7 @@ class SimulatedRobot:
         plugins: its drives, sensors and controllers; after `install`.
         controllers: lists, loads, starts, stops and switches controllers; after `install`.
         articulation: the engine's handle of the robot; after `attach`.
-        writes: work before a step: drives, controllers, joints with position goals.
+        writes: work before a step: drives, controllers.
         reads: work after a step: drives, sensors, publishers; then the publishers of each control loop.
     """
 
@@ -154,10 +152,6 @@ class SimulatedRobot:
             self.state = State(self.kinematics, engine, None if floats else self.base, articulation)
             self.state.step = engine.steps
             self.motors = Motors(self.kinematics, *handles)
-            motors, ticks = self.motors, PeriodicSteps(APPROACH_RATE, engine.dt)
-            self.writes = [
-                Timed(ticks, lambda state: motors.approach(state.position, ticks.period), lambda: not motors.has_goals)
-            ]
 
     def install(self, setup: Setup, *, seed: int, invalidate: Callable[[], None]) -> None:
         """Install its plugins, and the publications that every robot has.
@@ -183,7 +177,7 @@ class SimulatedRobot:
             drive.schedule(setup.dt, motors)
         for controller in self.plugins.controllers:
             controller.schedule(setup.dt, motors)
-        self.writes = [*drives, *self.plugins.controllers, *self.writes]
+        self.writes = [*drives, *self.plugins.controllers]
         transforms = Transforms(bus, setup.dt, self.kinematics, setup.namespace)
         self._own_publishers = [*self.plugins.sensors, *self.plugins.joint_states, transforms]
         self._drive_reads = [Timed(PeriodicSteps(drive.read_rate, setup.dt), drive.read) for drive in drives]

@@ -8,6 +8,7 @@ import math
 from typing import Any
 
 from urdfkit.sim.engine.compilation import inlined
+from urdfkit.sim.engine.constraints.position_goals import has_rigid_motor
 from urdfkit.sim.engine.kernel_world import KernelWorld
 
 RECOVERY = 0.2
@@ -55,6 +56,8 @@ def joint_rows(w: KernelWorld, rows: int, tree: int, dofs: int, width: int, dt: 
             w.Y[rows * width + m - first] = -factor
         rows += 1
     for d in range(first, beyond):
+        if has_rigid_motor(w, d):
+            continue
         effort, rub = w.motor_effort[d], w.friction[d]
         if effort > 0.0 and (rub == 0.0 or (effort > rub and w.motor_velocity[d] != 0.0)):
             hold = effort

@@ -2,10 +2,13 @@
 
 from urdfkit.sim.engine.compilation import inlined
 from urdfkit.sim.engine.constraints.constraint_rows import friction_with_motor
+from urdfkit.sim.engine.constraints.position_goals import RIGIDITY, has_rigid_motor
 from urdfkit.sim.engine.dynamics.mass_matrix import factor, solve_transposed
 from urdfkit.sim.engine.kernel_world import KernelWorld
 from urdfkit.sim.engine.math.elementary_functions import exponential
 
+NO_SERVO, RIGID_MOTORS, SERVOS = range(3)
+"""Result of `smooth_motion`: what acts on a tree without rows. `SERVOS` also if rigid motors move all its joints."""
 SERVO_ATTEMPTS = 8
 """How often servos taken to be at their limit are released again within a step."""
 
@@ -22,6 +25,12 @@ def servo_effort_at(w: KernelWorld, d: int, position: float, velocity: float, dt
 def is_servo(w: KernelWorld, d: int) -> bool:
     """Return whether a dof has a servo."""
     return bool(w.kp[d] != 0.0 or w.kd[d] != 0.0 or w.ki[d] != 0.0)
+
+
+@inlined
+def rigid_effort(w: KernelWorld, d: int) -> float:
+    """Return the effort of a rigid motor if the step changes the velocity by ``u`` [N·m or N]."""
+    return float(w.i_part[d] + w.rigid_kd[d] * ((w.motor_velocity[d] - w.v_start[d]) - w.u[d]))
 
 
 @inlined
@@ -67,13 +76,13 @@ def late_share(z: float) -> float:
 
 
 @inlined
-def smooth_motion(w: KernelWorld, first: int, beyond: int, dt: float) -> bool:
+def smooth_motion(w: KernelWorld, first: int, beyond: int, dt: float) -> int:
     """Factor M + dt·D + dt²·K = LᵀL and leave L⁻ᵀ·(impulse) in u; the change of v without rows is L⁻¹·u.
 
-    Damping and servos act on the velocity at the end of the step, so no stiffness makes them unstable. Returns whether
-    there is a servo.
+    Damping and servos act on the velocity at the end of the step, so no stiffness makes them unstable. Returns
+    `NO_SERVO`, `RIGID_MOTORS` or `SERVOS`.
     """
-    has_servo = False
+    servos = rigid = 0
     for d in range(first, beyond):
         row = w.dof_row[d]
         for e in range(first, d + 1):
@@ -83,8 +92,15 @@ def smooth_motion(w: KernelWorld, first: int, beyond: int, dt: float) -> bool:
         if w.damping[d] != 0.0:
             effort -= w.damping[d] * w.v_start[d]
             softness = w.damping[d] * late_share(dt * w.damping[d] / w.M[row + d])
-        if is_servo(w, d):
-            has_servo = True
+        if has_rigid_motor(w, d):
+            rigid += 1
+            # It balances all other efforts on the joint, which leaves little to the difference of velocities.
+            w.i_part[d] = -effort
+            w.rigid_kd[d] = RIGIDITY * w.M[row + d] / dt
+            effort = w.rigid_kd[d] * (w.motor_velocity[d] - w.v_start[d])
+            softness += w.rigid_kd[d]
+        elif is_servo(w, d):
+            servos += 1
             set_integral_part(w, d, dt)
             if w.saturated[d] == 0:
                 effort += servo_effort_at(w, d, w.s[w.dof_s[d]], w.v_start[d], dt)
@@ -95,7 +111,9 @@ def smooth_motion(w: KernelWorld, first: int, beyond: int, dt: float) -> bool:
         w.u[d] = dt * effort
     factor(w, first, beyond)
     solve_transposed(w, first, beyond, w.u, 0)
-    return has_servo
+    if servos > 0 or (rigid > 0 and rigid == beyond - first):
+        return SERVOS
+    return RIGID_MOTORS if rigid > 0 else NO_SERVO
 
 
 @inlined
@@ -113,8 +131,17 @@ def overloaded(w: KernelWorld, first: int, beyond: int, dt: float, release: bool
 
     The effort of a servo decreases with the velocity at the end of the step, so this is Newton's method on a monotone
     law. Without `release`, servos once marked stay so, and repeating it comes to an end.
+
+    Where a rigid motor is overloaded, all of the tree become rows, which bound their efforts, see `account`.
     """
     changed = False
+    for d in range(first, beyond):
+        if has_rigid_motor(w, d) and abs(rigid_effort(w, d)) > w.motor_effort[d]:
+            changed = True
+    if changed:
+        for d in range(first, beyond):
+            w.motor_row[d] = 1
+        return True
     for d in range(first, beyond):
         if is_servo(w, d):
             needed = servo_effort_at(w, d, w.s[w.dof_s[d]], w.v[d], dt)
@@ -130,7 +157,11 @@ def overloaded(w: KernelWorld, first: int, beyond: int, dt: float, release: bool
 
 @inlined
 def account(w: KernelWorld, first: int, beyond: int, dt: float) -> None:
-    """Write what motors and servos exerted (`effort`), and with damping, friction and `applied` (`tau`)."""
+    """Write what motors and servos exerted (`effort`), and with damping, friction and `applied` (`tau`).
+
+    Motors with goals that became rows in this step or before stay so as long as one of them is at its limit.
+    """
+    at_limit = False
     for d in range(first, beyond):
         row = w.memory[d] / dt
         most = w.motor_effort[d]
@@ -142,7 +173,9 @@ def account(w: KernelWorld, first: int, beyond: int, dt: float) -> None:
         else:
             motor = min(most, max(-most, row))
         servo = 0.0
-        if is_servo(w, d):
+        if has_rigid_motor(w, d):
+            motor, servo = 0.0, rigid_effort(w, d)
+        elif is_servo(w, d):
             if w.saturated[d] != 0:
                 servo = w.saturated[d] * w.servo_effort[d]
             else:
@@ -151,3 +184,7 @@ def account(w: KernelWorld, first: int, beyond: int, dt: float) -> None:
                 grow_integral(w, d, dt)
         w.effort[d] = motor + servo
         w.tau[d] = row + beside + servo + w.applied[d] - w.damping[d] * w.v[d]
+        at_limit = at_limit or (w.motor_row[d] != 0 and abs(row) > most * (1.0 - 1e-9))
+    if not at_limit:
+        for d in range(first, beyond):
+            w.motor_row[d] = 0

@@ -82,7 +82,8 @@ def fill(
     arrays["tree_dof"][1:] = np.cumsum(dofs)
     arrays["tree_s"][1:] = np.cumsum(widths)
     arrays["tree_mimic"][1:] = np.cumsum(mimics)
-    arrays["servo_effort"][:] = np.inf
+    for name in ("servo_effort", "fastest", "acceleration", "deceleration"):
+        arrays[name][:] = np.inf
     arrays["sleeps"][:] = sleep
     arrays["gravity_last_step"][:] = gravity
     arrays["tree_order"][:] = np.arange(len(joints))

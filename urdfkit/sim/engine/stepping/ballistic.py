@@ -22,8 +22,8 @@ def is_ballistic(w: KernelWorld, first: int, beyond: int, rows: int) -> bool:
     """Return whether no row, effort, friction or damping acts on a tree without contacts and servos."""
     if rows > 0:
         return False
-    for d in range(first, beyond):  # noqa: SIM110
-        if w.damping[d] != 0.0 or w.applied[d] != 0.0:
+    for d in range(first, beyond):
+        if w.damping[d] != 0.0 or w.applied[d] != 0.0 or w.approach_rate[d] != 0.0:
             return False
     return True
 

@@ -9,8 +9,17 @@ from typing import Any
 
 from urdfkit.sim.engine.constraints.constraint_rows import joint_rows
 from urdfkit.sim.engine.constraints.contact_rows import contact_rows
-from urdfkit.sim.engine.constraints.joint_servos import SERVO_ATTEMPTS, account, limited, overloaded, smooth_motion
+from urdfkit.sim.engine.constraints.joint_servos import (
+    NO_SERVO,
+    SERVO_ATTEMPTS,
+    SERVOS,
+    account,
+    limited,
+    overloaded,
+    smooth_motion,
+)
 from urdfkit.sim.engine.constraints.limit_crossings import passes_limits, whirls
+from urdfkit.sim.engine.constraints.position_goals import approach_goals
 from urdfkit.sim.engine.contacts.anisotropic_friction import orient_friction
 from urdfkit.sim.engine.contacts.ground_contacts import collide_with_plane, near_plane
 from urdfkit.sim.engine.dynamics.integration import move
@@ -63,14 +72,18 @@ def advance(floats: Any, integers: Any, steps: int, only_terms: bool) -> int:
         for d in range(dofs):
             w.v_start[d] = w.v[d]
             w.saturated[d] = w.pressed[d] = 0
+        if not only_terms:
+            approach_goals(w, 0, dofs, dt)
         contacts = rows = 0
         # Without contacts and servos, the velocity is computed twice, the second time from the velocity at half the
         # step, unless a limit is near and all joints are slow; ballistic trees use RK4. If servos saturate, or limits
         # are near, the second part is repeated.
         halfway = False
         attempt = 0
+        moved = True
         while True:
-            if attempt == 0:
+            if moved:
+                moved = False
                 for k in range(3):
                     w.P[k] = w.s[k] if floating else w.base[k]
                 place(w, 0, w.s, False)
@@ -88,9 +101,9 @@ def advance(floats: Any, integers: Any, steps: int, only_terms: bool) -> int:
                         w.contact_origin[k] = w.P[k]
                     contacts = collide_with_plane(w, 0, 0, shapes, most_contacts, floor - w.P[2], dt)
                     orient_friction(w, contacts, first_contact_slot, 0, w.memory, dt)
-            has_servo = smooth_motion(w, 0, dofs, dt)
+            servos = smooth_motion(w, 0, dofs, dt)
             rows = joint_rows(w, 0, 0, dofs, dofs, dt, ALONE)
-            free = not halfway and contacts == 0 and not has_servo
+            free = not halfway and contacts == 0 and servos != SERVOS
             if free and limited(w, rows, dofs):
                 free = whirls(w, 0, dofs, dt)
             if free and is_ballistic(w, 0, dofs, rows):
@@ -109,10 +122,10 @@ def advance(floats: Any, integers: Any, steps: int, only_terms: bool) -> int:
             for d in range(dofs):
                 w.v[d] = w.v_start[d] + (0.5 * w.u[d] if free else w.u[d])
             if free:
-                halfway = True
+                halfway = moved = True
                 continue
             attempt += 1
-            again = has_servo and overloaded(w, 0, dofs, dt, attempt < SERVO_ATTEMPTS)
+            again = servos != NO_SERVO and overloaded(w, 0, dofs, dt, attempt < SERVO_ATTEMPTS)
             if not passes_limits(w, 0, dofs, dt) and not again:
                 break
         for k in range(slots):

@@ -3,7 +3,14 @@
 from urdfkit.sim.engine.compilation import compiled
 from urdfkit.sim.engine.constraints.constraint_rows import joint_rows
 from urdfkit.sim.engine.constraints.contact_rows import contact_rows
-from urdfkit.sim.engine.constraints.joint_servos import SERVO_ATTEMPTS, limited, overloaded, smooth_motion
+from urdfkit.sim.engine.constraints.joint_servos import (
+    NO_SERVO,
+    SERVO_ATTEMPTS,
+    SERVOS,
+    limited,
+    overloaded,
+    smooth_motion,
+)
 from urdfkit.sim.engine.constraints.limit_crossings import passes_limits, whirls
 from urdfkit.sim.engine.dynamics.mass_matrix import solve_forward
 from urdfkit.sim.engine.dynamics.tree_motion import evaluate
@@ -60,18 +67,17 @@ def solve_island(w: KernelWorld, root: int) -> int:
     swept = False
     resist_rolling(w, root, dt)
     while True:
-        has_servo = False
+        servos = NO_SERVO
         rows = island_dofs = 0
         tree = root
         while tree >= 0:
             first, beyond = tree_dof[tree], tree_dof[tree + 1]
-            if smooth_motion(w, first, beyond, dt):
-                has_servo = True
+            servos = max(servos, smooth_motion(w, first, beyond, dt))
             island_dofs += beyond - first
             rows = joint_rows(w, rows, tree, dofs, width, dt, False)
             tree = w.island_next[tree]
         # An island without contacts is one tree.
-        free = not halfway and w.island_contact[root] < 0 and not has_servo
+        free = not halfway and w.island_contact[root] < 0 and servos != SERVOS
         if free and limited(w, rows, dofs):
             free = whirls(w, tree_dof[root], tree_dof[root + 1], dt)
         if free and is_ballistic(w, tree_dof[root], tree_dof[root + 1], rows):
@@ -114,7 +120,7 @@ def solve_island(w: KernelWorld, root: int) -> int:
                 solve_forward(w, first, beyond)
             for d in range(first, beyond):
                 w.v[d] = w.v_start[d] + (0.5 * w.u[d] if free else w.u[d])
-            if has_servo and overloaded(w, first, beyond, dt, attempt < SERVO_ATTEMPTS):
+            if servos != NO_SERVO and overloaded(w, first, beyond, dt, attempt < SERVO_ATTEMPTS):
                 again = True
             if not free and passes_limits(w, first, beyond, dt):
                 again = True

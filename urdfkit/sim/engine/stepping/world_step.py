@@ -4,6 +4,7 @@ import math
 from typing import Any
 
 from urdfkit.sim.engine.constraints.joint_servos import account
+from urdfkit.sim.engine.constraints.position_goals import approach_goals
 from urdfkit.sim.engine.contacts.contact_search import find_candidate_pairs, find_contacts
 from urdfkit.sim.engine.contacts.warm_start import store_impulses, store_pair_impulses
 from urdfkit.sim.engine.dynamics.tree_motion import begin_step, evaluate, integrate_tree, predict_poses
@@ -46,6 +47,7 @@ def advance(floats: Any, integers: Any, steps: int, only_terms: bool) -> int:
                 awake += 1
                 integrate_tree(w, tree, 0.5 * dt)
                 begin_step(w, tree)
+                approach_goals(w, w.tree_dof[tree], w.tree_dof[tree + 1], dt)
         if awake == 0:
             # Nothing will happen before the next call.
             counts[FOUND_CONTACTS] = counts[FOUND_ROWS] = counts[FOUND_PAIRS] = 0
