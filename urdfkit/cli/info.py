@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 from urdfkit.cli.parser import add_model
 from urdfkit.cli.robot_arguments.macro_option import add_macro, with_macro, xacro_arguments
 from urdfkit.cli.robot_arguments.robot_loading import add_strict, load_robot, print_repairs
-from urdfkit.cli.unused_arguments import note_unused
+from urdfkit.cli.robot_arguments.unused_arguments import note_unused
 from urdfkit.description.urdf.version import RATES
 from urdfkit.errors import MissingDependencyError, UrdfkitError
 

@@ -11,7 +11,7 @@ from urdfkit.cli.robot_arguments.launch_arguments import add_launch_arguments, w
 from urdfkit.cli.robot_arguments.macro_option import add_macro, with_macro, xacro_arguments
 from urdfkit.cli.robot_arguments.required_arguments import listing_required_arguments
 from urdfkit.cli.robot_arguments.robot_loading import add_strict
-from urdfkit.cli.unused_arguments import note_unused
+from urdfkit.cli.robot_arguments.unused_arguments import note_unused
 
 
 def configure(parser: argparse.ArgumentParser) -> None:

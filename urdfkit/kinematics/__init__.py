@@ -11,7 +11,7 @@ if TYPE_CHECKING:
     from urdfkit.kinematics.joint_limits import JointLimitError
     from urdfkit.kinematics.mimic import Coupling
     from urdfkit.kinematics.model import Kinematics
-    from urdfkit.kinematics.solutions import Solutions
+    from urdfkit.kinematics.serial.solutions import Solutions
     from urdfkit.kinematics.tf import TransformTree
 
 __all__ = ["Chain", "Coupling", "JointLimitError", "Kinematics", "Solutions", "TransformTree"]
@@ -21,7 +21,7 @@ _HOMES = {
     "Coupling": "mimic",
     "JointLimitError": "joint_limits",
     "Kinematics": "model",
-    "Solutions": "solutions",
+    "Solutions": "serial.solutions",
     "TransformTree": "tf",
 }
 

@@ -12,22 +12,15 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from urdfkit.description import Robot, load
-from urdfkit.errors import KinematicsError, did_you_mean
-from urdfkit.kinematics.serial.object_cache import Compiling, function
-from urdfkit.kinematics.serial_chain import SerialChain
-from urdfkit.kinematics.solutions import Solutions
+from urdfkit.errors import KinematicsError
+from urdfkit.kinematics.serial.kernel.object_cache import Compiling, function
+from urdfkit.kinematics.serial.serial_chain import SerialChain
+from urdfkit.kinematics.serial.serial_solver import ROW, SolverOptions
+from urdfkit.kinematics.serial.solutions import Solutions
 from urdfkit.linear_algebra import Array
 
 TOLERANCE = (1e-3, 1.745e-3)
 """Distance [m] and angle [rad] within which a target is reached: 1 mm and 0.1°."""
-RESTARTS = 200
-LINEAR = 2.0
-"""Weight of a metre of distance, relative to a radian of angle, while the solver descends."""
-PREFERENCES = {"first": 0, "nearest": 1, "manipulability": 2}
-MORE = 8
-"""Restarts after the first solution that search for a better one."""
-ROW = 5
-"""Numbers after the configuration of a solution: see `serial.search`."""
 FEW = 64
 """Targets per thread below which a thread takes longer to start than to solve."""
 
@@ -138,9 +131,10 @@ class Chain:
         position_only: bool = False,
         tolerance: tuple[float, float] = TOLERANCE,
         prefer: str = "first",
-        restarts: int = RESTARTS,
+        restarts: int = 200,
         seed: int = 0,
         threads: int | None = None,
+        approach: bool = True,
     ) -> Solutions:
         """Find configurations that place the tip at targets, within the limits of the joints.
 
@@ -158,13 +152,13 @@ class Chain:
             restarts: maximum number of random starts per target.
             seed: number of the random stream.
             threads: number of threads; that of the processors when None.
+            approach: compute the nearest configuration for targets that cannot be reached, by distance first, then by
+                angle; otherwise any configuration with a small error is returned, in a fifth of the time.
 
         Raises:
-            KinematicsError: targets or seeds of another shape, or numbers that are no pose.
+            KinematicsError: an unknown preference, targets or seeds of another shape, or numbers that are no pose.
         """
-        if prefer not in PREFERENCES:
-            raise KinematicsError(f"unknown preference `{prefer}`{did_you_mean(prefer, PREFERENCES)}")
-        options = self._options(position_only, tolerance, restarts, PREFERENCES[prefer], 1, seed)
+        options = SolverOptions(position_only, *tolerance, prefer, restarts, seed, approach)
         shape, rows = self._solve(targets, seeds, options, 1, threads)
         return self._solutions(rows.reshape(*shape, self._size + ROW))
 
@@ -175,7 +169,7 @@ class Chain:
         *,
         position_only: bool = False,
         tolerance: tuple[float, float] = TOLERANCE,
-        restarts: int = RESTARTS,
+        restarts: int = 200,
         seed: int = 0,
         most: int = 256,
     ) -> Solutions:
@@ -199,7 +193,7 @@ class Chain:
         Raises:
             KinematicsError: see `solve`.
         """
-        options = self._options(position_only, tolerance, restarts, 3, most, seed)
+        options = SolverOptions(position_only, *tolerance, "all", restarts, seed)
         shape, rows = self._solve(target, start, options, most, 1)
         if shape:
             raise KinematicsError("solve_all needs one target: shape (7,) or (4, 4)")
@@ -240,17 +234,8 @@ class Chain:
             self._memory.address = address = block.ctypes.data
             return address
 
-    def _options(
-        self, position_only: bool, tolerance: tuple[float, float], restarts: int, prefer: int, rows: int, seed: int
-    ) -> Array:
-        distance, angle = tolerance
-        if not (distance > 0.0 and angle > 0.0):
-            raise KinematicsError(f"the tolerance is {distance:g} m and {angle:g} rad; both must be above zero")
-        angular = 0.0 if position_only else 1.0
-        return np.array([LINEAR, angular, distance, angle, restarts, prefer, rows, MORE, seed])
-
     def _solve(
-        self, targets: ArrayLike, seeds: ArrayLike | None, options: Array, rows: int, threads: int | None
+        self, targets: ArrayLike, seeds: ArrayLike | None, options: SolverOptions, rows: int, threads: int | None
     ) -> tuple[tuple[int, ...], Array]:
         """Return the shape of the targets and the rows that the kernel writes for them."""
         targets = np.ascontiguousarray(targets, dtype=np.float64)
@@ -273,8 +258,9 @@ class Chain:
                 raise KinematicsError(f"seeds have the shape (n,) or that of the targets, (N, n); got {seeds.shape}")
         result = np.empty((number, rows, self._size + ROW))
         native = function("solve", self._compiling)
+        numbers = options.numbers(rows)
         at = targets.ctypes.data
-        arguments = (*self._chain, self._limits, at, at, width, seeds.ctypes.data, stride, options.ctypes.data)
+        arguments = (*self._chain, self._limits, at, at, width, seeds.ctypes.data, stride, numbers.buffer_info()[0])
         place = result.ctypes.data
 
         def part(first: int, last: int) -> int:

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from urdfkit.cli.robot_arguments.macro_option import add_macro, with_macro, xacro_arguments
 from urdfkit.cli.robot_arguments.robot_loading import add_strict, load_robot, print_repairs
-from urdfkit.cli.unused_arguments import note_unused
+from urdfkit.cli.robot_arguments.unused_arguments import note_unused
 from urdfkit.errors import UsageError, did_you_mean
 
 if TYPE_CHECKING:

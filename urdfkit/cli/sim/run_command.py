@@ -18,13 +18,13 @@ from urdfkit.cli.robot_arguments.file_name_case import warn_of_file_names
 from urdfkit.cli.robot_arguments.launch_arguments import add_launch_arguments, with_launch_arguments
 from urdfkit.cli.robot_arguments.macro_option import add_macro, with_macro, xacro_arguments
 from urdfkit.cli.robot_arguments.robot_loading import load_robot
+from urdfkit.cli.robot_arguments.unused_arguments import note_unused
 from urdfkit.cli.sim import option_values
 from urdfkit.cli.sim.controllers_option import add_controllers
 from urdfkit.cli.sim.record_option import NEW_TOPIC_PERIOD, add_record, check_record, recording
 from urdfkit.cli.sim.renderer_option import add_renderer
 from urdfkit.cli.sim.repair_options import add_repair_options, print_warning
 from urdfkit.cli.sim.ros_distro_option import add_distro
-from urdfkit.cli.unused_arguments import note_unused
 from urdfkit.errors import SimulationError, UsageError, suggestion
 
 if TYPE_CHECKING:

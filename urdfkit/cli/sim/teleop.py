@@ -9,12 +9,12 @@ from urdfkit.cli.robot_arguments.file_name_case import warn_of_file_names
 from urdfkit.cli.robot_arguments.launch_arguments import add_launch_arguments, with_launch_arguments
 from urdfkit.cli.robot_arguments.macro_option import add_macro, with_macro, xacro_arguments
 from urdfkit.cli.robot_arguments.robot_loading import load_robot
+from urdfkit.cli.robot_arguments.unused_arguments import note_unused
 from urdfkit.cli.sim.controllers_option import add_controllers
 from urdfkit.cli.sim.record_option import add_record, check_record, recording
 from urdfkit.cli.sim.renderer_option import add_renderer
 from urdfkit.cli.sim.repair_options import add_repair_options, print_warning
 from urdfkit.cli.sim.ros_distro_option import add_distro
-from urdfkit.cli.unused_arguments import note_unused
 
 KEYS = """\
 Drive with W A S D, the arrow keys, i j k l u o m , . or the pad; the robot stops when you release them.

@@ -1,4 +1,4 @@
-"""The compiled kernel of serial chains: forward kinematics, Jacobians and inverse kinematics.
+"""Serial chains: the joints between two links, and inverse kinematics of single targets without numpy.
 
-The constants of a chain go in as numbers; placements, Jacobians and configurations come out. Python's lock is released.
+A robot and two links go in; constants of the compiled kernel and joint positions come out.
 """

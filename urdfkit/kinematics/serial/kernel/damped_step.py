@@ -2,7 +2,7 @@
 
 import math
 
-from urdfkit.kinematics.serial.compilation import Floats, inlined, stack
+from urdfkit.kinematics.serial.kernel.compilation import Floats, inlined, stack
 
 
 @inlined

@@ -6,8 +6,8 @@ variable, so one row of numbers describes a revolute, a prismatic and a mimic jo
 
 import math
 
-from urdfkit.kinematics.serial.compilation import Floats, Integers, inlined, stack
-from urdfkit.kinematics.serial.trigonometry import sines_cosines
+from urdfkit.kinematics.serial.kernel.compilation import Floats, Integers, inlined, stack
+from urdfkit.kinematics.serial.kernel.trigonometry import sines_cosines
 
 STEP = 16
 """Numbers of a step: rotation (9, by rows), translation (3), multiplier and offset of the turn, and of the slide."""

@@ -11,7 +11,7 @@ from urdfkit.description.urdf.robot import Joint, Robot
 from urdfkit.errors import KinematicsError, did_you_mean
 from urdfkit.kinematics.joint_limits import position_limits
 from urdfkit.kinematics.mimic import Coupling, couplings
-from urdfkit.kinematics.rigid_placement import (
+from urdfkit.kinematics.serial.rigid_placement import (
     IDENTITY,
     Placement,
     compose,
@@ -80,9 +80,9 @@ class SerialChain:
         base: name of the base link.
         tip: name of the tip link.
         variables: the variables in the order of the joints from base to tip; mimic joints are moved by their leader.
-        steps: see `serial.chain_forward.place`.
+        steps: see `serial.kernel.chain_forward.place`.
         indices: index of the variable of each step.
-        limits: see `serial.descent.LIMIT`.
+        limits: see `serial.kernel.descent.LIMIT`.
     """
 
     def __init__(self, robot: Robot, base: str | None, tip: str, *, hold: Mapping[str, float] | None = None) -> None:

@@ -13,8 +13,8 @@ from numba.core.cpu import CPUTargetOptions
 from numba.core.registry import cpu_target
 
 from urdfkit.compilation.load import TESTED_VERSIONS
-from urdfkit.kinematics.serial import kernel
-from urdfkit.kinematics.serial.compilation import FLOATS, INTEGERS, OPTIONS
+from urdfkit.kinematics.serial.kernel import entry_functions
+from urdfkit.kinematics.serial.kernel.compilation import FLOATS, INTEGERS, OPTIONS
 
 TYPES = {"floats": FLOATS, "integers": INTEGERS, "count": types.int64, "number": types.float64}
 """Type of an argument → its type in numba."""
@@ -26,10 +26,10 @@ def compile_to_object(name: str, arguments: tuple[str, ...]) -> tuple[str, bytes
     The function has numba's calling convention: addresses for its result and for an exception come first.
 
     Args:
-        name: a function of `kernel`.
+        name: a function of `entry_functions`.
         arguments: types of its arguments.
     """
-    function = getattr(kernel, name)
+    function = getattr(entry_functions, name)
     flags = Flags()
     options: dict[str, Any] = {**OPTIONS, "nopython": True, "no_cpython_wrapper": True, "no_cfunc_wrapper": True}
     CPUTargetOptions.parse_as_flags(flags, options)

@@ -1,8 +1,8 @@
 """Levenberg-Marquardt within joint limits, from one configuration to the nearest minimum of the pose error."""
 
-from urdfkit.kinematics.serial.chain_forward import AXIS, geometric_jacobian, place, rotation_vector
-from urdfkit.kinematics.serial.compilation import Floats, Integers, compiled, inlined, shifted, stack
-from urdfkit.kinematics.serial.damped_step import damped_step
+from urdfkit.kinematics.serial.kernel.chain_forward import AXIS, geometric_jacobian, place, rotation_vector
+from urdfkit.kinematics.serial.kernel.compilation import Floats, Integers, compiled, inlined, shifted, stack
+from urdfkit.kinematics.serial.kernel.damped_step import damped_step
 
 LIMIT = 6
 """Numbers of a variable: lower and upper limit, lower and upper end of random samples, whether these are relative to
@@ -10,8 +10,8 @@ the seed, and whether whole turns change nothing."""
 DAMPING = 0.1
 """Initial ratio of the damping λ to the cost."""
 LEAST_DAMPING = 1e-12
-POLISH = 3
-"""Further iterations of a descent that is within the tolerance: each about squares the error."""
+POLISH = 8
+"""Maximum number of further iterations within the tolerance, each of which reduces the cost to less than a quarter."""
 
 
 @inlined
@@ -91,11 +91,13 @@ def descend(
     growth = 2.0
     moved = True
     polished = 0
+    before = cost
     for _ in range(iterations):
         if distance2 <= distance * distance and (angular == 0.0 or angle2 <= angle * angle):
-            if cost < 1e-18 or polished == POLISH:
+            if cost < 1e-20 or polished == POLISH or (cost > 0.25 * before and polished > 0):
                 break
             polished += 1
+            before = cost
         elif since == patience:
             if cost > fall * marked:
                 break

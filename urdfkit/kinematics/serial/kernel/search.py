@@ -1,12 +1,13 @@
 """Search for configurations that reach a target: descents from the seed, then from random configurations."""
 
 import math
+from typing import Any
 
-from urdfkit.kinematics.serial.chain_forward import AXIS, geometric_jacobian, place
-from urdfkit.kinematics.serial.compilation import Floats, Integers, inlined, shifted, stack
-from urdfkit.kinematics.serial.damped_step import volume
-from urdfkit.kinematics.serial.descent import LIMIT, descend
-from urdfkit.kinematics.serial.random_stream import first_state, next_state, uniform
+from urdfkit.kinematics.serial.kernel.chain_forward import AXIS, geometric_jacobian, place
+from urdfkit.kinematics.serial.kernel.compilation import Floats, Integers, compiled, inlined, shifted, stack
+from urdfkit.kinematics.serial.kernel.damped_step import volume
+from urdfkit.kinematics.serial.kernel.descent import LIMIT, descend
+from urdfkit.kinematics.serial.kernel.random_stream import first_state, next_state, uniform
 
 FIRST, NEAREST, MANIPULABILITY, EVERY = 0, 1, 2, 3
 """Which solution is kept: the first, that nearest to the seed, that with the largest manipulability, or all."""
@@ -17,6 +18,10 @@ TURN = 2.0 * math.pi
 DIFFERENT = 1e-2
 """Difference [rad or m] of a variable from which two configurations are two solutions."""
 ITERATIONS, PATIENCE, FALL = 40, 5, 0.5
+HEAVY = 30.0
+"""Weight of a metre of distance, relative to a radian, on the way to the nearest configuration."""
+SLACK = 1e-5
+"""Distance [m] for which the nearest configuration is nearer by a radian."""
 
 
 @inlined
@@ -76,6 +81,79 @@ def rank(
 
 
 @inlined
+def start(attempt: int, state: Any, seed: Floats, size: int, limits: Floats, q: Floats) -> Any:
+    """Write the start of a descent: the seed, within the limits, then random ones; return the next random state."""
+    for j in range(size):
+        if attempt == 0:
+            q[j] = seed[j]
+            if limits[LIMIT * j + 5] > 0.0:
+                q[j] = nearest_turn(q[j], q[j], limits[LIMIT * j], limits[LIMIT * j + 1])
+            q[j] = min(max(q[j], limits[LIMIT * j]), limits[LIMIT * j + 1])
+        else:
+            state = next_state(state)
+            lower = limits[LIMIT * j + 2]
+            q[j] = lower + uniform(state) * (limits[LIMIT * j + 3] - lower)
+            if limits[LIMIT * j + 4] > 0.0:
+                q[j] += seed[j]
+    return state
+
+
+@compiled
+def approach(
+    steps: Floats,
+    variables: Integers,
+    count: int,
+    size: int,
+    limits: Floats,
+    goal: Floats,
+    state: Any,
+    seed: Floats,
+    angular: float,
+    starts: int,
+    row: Floats,
+    work: Floats,
+) -> None:
+    """Write the configuration nearest to a target that cannot be reached: by distance first, then by angle.
+
+    Each descent ends with the distance alone, so that its weight does not shift the minimum.
+
+    Args:
+        steps: see `chain_forward.place`.
+        variables: see `chain_forward.place`.
+        count: number of steps.
+        size: number of variables.
+        limits: see `descent.LIMIT`.
+        goal: see `descent.pose_error`.
+        state: random state of the target.
+        seed: see `search`.
+        angular: weight of the angle; 0 if it does not matter.
+        starts: number of descents.
+        row: written: see `search`.
+        work: memory for ``AXIS * count + 10 * size`` numbers.
+    """
+    q = work
+    memory = shifted(work, size)
+    best = math.inf
+    for attempt in range(starts):
+        state = start(attempt, state, seed, size, limits, q)
+        chain = (steps, variables, count, size, limits, goal, q, memory)
+        descend(*chain, 2.0, angular, 0.0, 0.0, ITERATIONS, PATIENCE, FALL)
+        if angular > 0.0:
+            descend(*chain, HEAVY, angular, 0.0, 0.0, 2 * ITERATIONS, 10, 0.99)
+        distance2, angle2, _ = descend(*chain, 1.0, 0.0, 0.0, 0.0, 2 * ITERATIONS, PATIENCE, 1.0 - 1e-9)
+        value = math.sqrt(distance2) + (SLACK * math.sqrt(angle2) if angular > 0.0 else 0.0)
+        if value < best:
+            best = value
+            near_seed(q, seed, size, limits)
+            for j in range(size):
+                row[j] = q[j]
+            row[size] = math.sqrt(distance2)
+            row[size + 1] = math.sqrt(angle2)
+            row[size + 2] = 0.0
+            row[size + 4] = value
+
+
+@inlined
 def search(
     steps: Floats,
     variables: Integers,
@@ -105,7 +183,8 @@ def search(
         width: number of its numbers.
         seed: configuration of the first descent.
         options: weights of distance and angle, their tolerances, number of restarts, which solution is kept, number of
-            rows, number of restarts after the first solution, number of the random stream.
+            rows, number of restarts after the first solution, number of the random stream,
+            number of descents to the configuration nearest to a target that is not reached.
         rows: written: ``size + ROW`` numbers per solution.
         work: memory for ``AXIS * count + 10 * size`` numbers.
     """
@@ -128,19 +207,7 @@ def search(
     last = restarts
     attempt = 0
     while attempt <= last:
-        if attempt == 0:
-            for j in range(size):
-                q[j] = seed[j]
-                if limits[LIMIT * j + 5] > 0.0:
-                    q[j] = nearest_turn(q[j], q[j], limits[LIMIT * j], limits[LIMIT * j + 1])
-                q[j] = min(max(q[j], limits[LIMIT * j]), limits[LIMIT * j + 1])
-        else:
-            for j in range(size):
-                state = next_state(state)
-                lower = limits[LIMIT * j + 2]
-                q[j] = lower + uniform(state) * (limits[LIMIT * j + 3] - lower)
-                if limits[LIMIT * j + 4] > 0.0:
-                    q[j] += seed[j]
+        state = start(attempt, state, seed, size, limits, q)
         distance2, angle2, cost = descend(
             *(steps, variables, count, size, limits, goal, q, memory, linear, angular, distance, angle),
             *(ITERATIONS, PATIENCE, FALL),
@@ -180,4 +247,9 @@ def search(
             break
         attempt += 1
     if found == 0:
+        if options[9] > 0.0:
+            state = first_state(options[8], bits, first, width)
+            approach(
+                *(steps, variables, count, size, limits, goal, state, seed, angular, int(options[9]), rows, work),
+            )
         rows[size + 3] = float(restarts)

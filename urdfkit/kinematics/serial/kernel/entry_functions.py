@@ -2,10 +2,10 @@
 
 import math
 
-from urdfkit.kinematics.serial.chain_forward import AXIS, geometric_jacobian, place
-from urdfkit.kinematics.serial.compilation import Floats, Integers, inlined, shifted, stack
-from urdfkit.kinematics.serial.damped_step import volume
-from urdfkit.kinematics.serial.search import ROW, search
+from urdfkit.kinematics.serial.kernel.chain_forward import AXIS, geometric_jacobian, place
+from urdfkit.kinematics.serial.kernel.compilation import Floats, Integers, inlined, shifted, stack
+from urdfkit.kinematics.serial.kernel.damped_step import volume
+from urdfkit.kinematics.serial.kernel.search import ROW, search
 
 POSE, MATRIX = 7, 16
 """Numbers of a target: x y z and a quaternion x y z w, or a homogeneous matrix by rows."""

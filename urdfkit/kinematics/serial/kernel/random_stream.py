@@ -7,7 +7,7 @@ from typing import Any
 
 from numba import uint64
 
-from urdfkit.kinematics.serial.compilation import Integers, inlined
+from urdfkit.kinematics.serial.kernel.compilation import Integers, inlined
 
 
 @inlined

@@ -5,7 +5,7 @@ The polynomials are those of FreeBSD's msun (k_sin.c, k_cos.c, e_rem_pio2.c), wi
 
 import math
 
-from urdfkit.kinematics.serial.compilation import Floats, inlined
+from urdfkit.kinematics.serial.kernel.compilation import Floats, inlined
 
 S = (
     -1.66666666666666324348e-01,
