@@ -8,6 +8,7 @@ from launch_ros.actions import Node, SetParametr  # <!-- expect: L106 -->
 
 
 def generate_launch_description():
+    simulated = {"use_sim_time": True}
     return LaunchDescription([
         DeclareLaunchArgument("gui", default_vlaue="true"),  # <!-- expect: L106 -->
         Node(
@@ -16,6 +17,7 @@ def generate_launch_description():
             arguments="-d x.rviz",  # <!-- expect: L106 -->
             parameters={"gui": ParameterValue(LaunchConfiguration("gui"))},  # <!-- expect: L106 -->
         ),
+        Node(package="rviz2", executable="rviz2", parameters=simulated),  # <!-- expect: L106 -->
         launch.actions.ExecuteProcess(cmd="ls", outputs="screen"),  # <!-- expect: L106, L106 -->
         GroupAction([SetParametr(name="gui", value=True)]),
     ])

@@ -7,16 +7,35 @@ import re
 from urdfkit.lint.finding import Finding
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from urdfkit.description.xml.source import Source
+    from urdfkit.lint.facts.control.controller_joints import Named
+
 _NAMES = ("use_sim_time", "robot_description")
-_QUOTED = r"(?<=[\"'])[A-Za-z]\w{8,20}(?=[\"'])"
+_TOPICS = (*_NAMES, "joint_states", "controller_manager")
+_QUOTED = r"[\"'](?:[\w~/]*/)?(?P<name>[A-Za-z]\w{8,20})[\"']"
+_KEY = r"(?m)(?<=[\s{,])(?P<name>[A-Za-z]\w{8,20})(?=[ \t]*:)"
+_SUBSCRIBED = {
+    "controller_manager": "robot_description",
+    "joint_state_publisher": "joint_states",
+    "joint_state_publisher_gui": "joint_states",
+    "moveit_ros_move_group": "joint_states",
+    "robot_state_publisher": "joint_states",
+}
+"""Package → the topic that its node publishes or reads, which remappings name."""
 
 
 class LaunchNameMisspelt(RobotRule):
-    """A launch file or YAML file misspells ``use_sim_time`` or ``robot_description``.
+    """A launch file or YAML file misspells ``use_sim_time``, ``robot_description`` or another common name.
 
     ## What it does
-    Compares quoted words in launch files and keys in YAML files with these two names. Words that differ by more than
-    one letter, or that the file declares as a launch argument, are accepted.
+    Compares quoted words in launch files with ``use_sim_time``, ``robot_description``, ``joint_states`` and
+    ``controller_manager``, keys in YAML files with the first two, and the topics that remappings of well-known nodes
+    replace with the topics of these nodes. Words that differ by more than one letter, or that the file declares as a
+    launch argument, are accepted.
 
     ## Why is this bad?
     The node does not use the simulated time, or waits for a description that is never published.
@@ -50,12 +69,39 @@ class LaunchNameMisspelt(RobotRule):
             is_launch = source.file.endswith(LAUNCH)
             if not is_launch and not source.file.endswith((".yaml", ".yml")):
                 continue
-            pattern = _QUOTED if is_launch else r"(?m)(?<=[\s{,])[A-Za-z]\w{8,20}(?=[ \t]*:)"
-            for word in re.finditer(pattern, uncommented(source)):
-                near = next((name for name in _NAMES if word[0] != name and is_slip(word[0], name)), None)
-                before = source.text[max(word.start() - 25, 0) : word.start()]
+            names = _TOPICS if is_launch else _NAMES
+            for word in re.finditer(_QUOTED if is_launch else _KEY, uncommented(source)):
+                written, start = word["name"], word.start("name")
+                near = next((name for name in names if written != name and is_slip(written, name)), None)
+                before = source.text[max(word.start() - 25, 0) : word.start() + 1]
                 if near is None or re.search(r"-(?:topic|param)\b", before):  # spawn-argument-misspelt reports these
                     continue
-                if not (is_launch and word[0] in actions_of(source).declared):
-                    message = f"unknown name `{word[0]}`; did you mean `{near}`?"
-                    yield Finding(self.code, self.name, self.severity, message, source.span(*word.span()))
+                if not (is_launch and written in actions_of(source).declared):
+                    yield self._at(source, written, start, near)
+            if is_launch and not source.file.endswith(".py"):
+                for topic, near in _remapped(source):
+                    yield self._at(source, topic.name, topic.start, near)
+
+    def _at(self, source: Source, written: str, start: int, near: str) -> Finding:
+        message = f"unknown name `{written}`; did you mean `{near}`?"
+        return Finding(self.code, self.name, self.severity, message, source.span(start, start + len(written)))
+
+
+def _remapped(source: Source) -> Iterator[tuple[Named, str]]:
+    """Yield the topics in remappings of nodes in XML that differ from a topic by a final ``s`` or by ``-``."""
+    from urdfkit.lint.facts.control.controller_joints import Named
+    from urdfkit.lint.model.tags import Document
+
+    for tag in (tag for root in Document(source).roots for tag in root.walk() if tag.name == "remap"):
+        for value in tag.attributes.values():
+            last = value.value.rpartition("/")[2]
+            if "-" in last and last.replace("-", "_") in _TOPICS:
+                yield Named(last, value.value_start + len(value.value) - len(last)), last.replace("-", "_")
+        node, replaced = tag.parent, tag.attributes.get("from")
+        package = node.attributes.get("pkg") if node is not None else None
+        topic = _SUBSCRIBED.get(package.value) if package is not None else None
+        if replaced is None or topic is None:
+            continue
+        written = replaced.value.rpartition("/")[2]
+        if {written, topic} in ({topic, f"{topic}s"}, {topic, topic[:-1]}) and written != topic:
+            yield Named(written, replaced.value_start + len(replaced.value) - len(written)), topic

@@ -14,7 +14,8 @@ class NodeNameDuplicate(RobotRule):
     """A launch file in XML starts two nodes with the same name in the same namespace.
 
     ## What it does
-    Compares the names of all nodes in a launch file that have no conditions and no substitutions in their names.
+    Compares the names of all nodes in a launch file. Names with substitutions are left out, and so are two nodes that
+    both have conditions.
 
     ## Why is this bad?
     roslaunch stops with "multiple nodes named". In ROS 2, both nodes run, and parameters and services reach either one.
@@ -50,10 +51,8 @@ class NodeNameDuplicate(RobotRule):
             first: dict[str, Tag] = {}
             for tag in (tag for root in Document(source).roots for tag in root.walk()):
                 name = _full_name(tag) if tag.name == "node" else None
-                if name is None:
-                    continue
-                other = first.setdefault(name, tag)
-                if other is not tag:
+                other = first.setdefault(name, tag) if name is not None else tag
+                if other is not tag and not (_has_condition(other) and _has_condition(tag)):
                     written = tag.attributes["name"]
                     line = source.position(other.start).line
                     message = f"the node in line {line} has the name `{written.value}` too"
@@ -63,14 +62,17 @@ class NodeNameDuplicate(RobotRule):
 
 
 def _full_name(tag: Tag) -> str | None:
-    """Return name and namespace of a node; None if they depend on substitutions, conditions or other elements."""
+    """Return name and namespace of a node; None if they depend on substitutions or other elements."""
     parts: list[str] = []
     for each in (tag, *tag.ancestors()):
         attributes = each.attributes
-        if "if" in attributes or "unless" in attributes or each.name not in ("node", "group", "launch"):
-            return None
-        if any("namespace" in child.name for child in each.children):  # push-ros-namespace
+        is_moved = any("namespace" in child.name for child in each.children)  # push-ros-namespace
+        if is_moved or each.name not in ("node", "group", "launch"):
             return None
         parts += [attributes[name].value for name in ("ns", "namespace") if name in attributes]
     own = tag.attributes.get("name")
     return "/".join([*reversed(parts), own.value]) if own is not None and "$" not in f"{own.value}{parts}" else None
+
+
+def _has_condition(tag: Tag) -> bool:
+    return any("if" in each.attributes or "unless" in each.attributes for each in (tag, *tag.ancestors()))

@@ -9,6 +9,7 @@ TYPE_CHECKING = False
 if TYPE_CHECKING:
     import ast
 
+    from urdfkit.description.launch.python_constants import LaunchReader
     from urdfkit.description.xml.source import Source
 
 
@@ -52,16 +53,17 @@ class PythonLaunchApiMisused(RobotRule):
         """Yield a finding for each wrong import, keyword and list."""
         import ast
 
+        from urdfkit.description.launch.python_constants import LaunchReader
         from urdfkit.lint.facts.launch.python_names import class_called, launch_classes, python_files
 
         for source, tree in python_files(model):
-            classes = launch_classes(tree)
+            classes, reader = launch_classes(tree), LaunchReader(tree)
             guarded = {inner for node in ast.walk(tree) if isinstance(node, ast.Try) for inner in ast.walk(node)}
             for node in ast.walk(tree):
                 if isinstance(node, ast.ImportFrom) and not node.level and node not in guarded:
                     yield from self._import(source, node)
                 elif isinstance(node, ast.Call) and (kind := class_called(node, classes)):
-                    yield from self._call(source, node, kind)
+                    yield from self._call(source, node, kind, reader)
 
     def _import(self, source: Source, node: ast.ImportFrom) -> Findings:
         from urdfkit.lint.facts.control.launch_package_paths import place
@@ -79,9 +81,7 @@ class PythonLaunchApiMisused(RobotRule):
             if (message := wrong_import(module, word.name) or "") and word.name != "*":
                 yield self._at(source, place(source, word), message)
 
-    def _call(self, source: Source, node: ast.Call, kind: str) -> Findings:
-        import ast
-
+    def _call(self, source: Source, node: ast.Call, kind: str, reader: LaunchReader) -> Findings:
         from urdfkit.lint.facts.control.launch_package_paths import place
         from urdfkit.lint.facts.launch.python_api import LISTS, wrong_keyword
 
@@ -94,15 +94,23 @@ class PythonLaunchApiMisused(RobotRule):
             if near is not None:
                 message = f"`{kind}` has no argument `{word.arg}`; did you mean `{near}`?"
                 yield self._at(source, (before, before + len(word.arg)), message)
-            elif word.arg in LISTS and kind.endswith(("Node", "Container", "Process")):
-                is_text = isinstance(word.value, (ast.Constant, ast.JoinedStr)) and not _is_none(word.value)
-                if isinstance(word.value, ast.Dict) or is_text:
-                    message = f"`{word.arg}` of `{kind}` is not a list; write it in brackets"
-                    yield self._at(source, (start, end), message)
+            elif word.arg in LISTS and _has_lists(kind) and _is_no_list(word.value, reader):
+                yield self._at(source, (start, end), f"`{word.arg}` of `{kind}` is not a list; write it in brackets")
 
     def _at(self, source: Source, place: tuple[int, int], message: str) -> Finding:
         return Finding(self.code, self.name, self.severity, message, source.span(*place))
 
 
-def _is_none(node: ast.expr) -> bool:
-    return getattr(node, "value", "") is None
+def _has_lists(kind: str) -> bool:
+    return kind.endswith(("Node", "Container", "Process"))
+
+
+def _is_no_list(node: ast.expr, reader: LaunchReader) -> bool:
+    """Return whether an expression is a dictionary or a text."""
+    import ast
+
+    if isinstance(node, ast.Name):
+        node = reader.assigned.get(node.id) or node
+    if isinstance(node, ast.Call) and isinstance(node.func, ast.Attribute):
+        return node.func.attr == "to_dict"
+    return isinstance(node, (ast.Dict, ast.JoinedStr)) or (isinstance(node, ast.Constant) and node.value is not None)

@@ -37,8 +37,8 @@ class SpawnArgumentMisspelt(RobotRule):
 
     ## What it does
     Checks the arguments of ``create`` (ros_gz_sim), ``spawn_entity.py`` and ``spawn_model`` (gazebo_ros) for misspelt
-    options, for options of another spawner, and for misspellings of the topic or parameter ``robot_description``.
-    Python launch files are parsed, not executed.
+    options, for options of another spawner, and for misspellings of the topic or parameter ``robot_description`` and of
+    joints. Python launch files are parsed, not executed.
 
     ## Why is this bad?
     The spawner fails, or waits forever for a description, and the robot does not appear in the world.
@@ -71,7 +71,7 @@ class SpawnArgumentMisspelt(RobotRule):
                 continue
             for node in started(source):
                 if node.package in _PACKAGES and node.program in _OPTIONS:
-                    for start, text, message in _invalid_arguments(node):
+                    for start, text, message in (*_invalid_arguments(node), *_unknown_joints(node, model)):
                         span = source.span(start, start + len(text))
                         yield Finding(self.code, self.name, self.severity, message, span)
 
@@ -96,6 +96,19 @@ def _invalid_arguments(node: Started) -> Iterator[tuple[int, str, str]]:
                 kind = "topic" if previous == "topic" else "parameter"
                 yield word.start, text, f"unknown {kind} `{text}`; did you mean `{_DESCRIPTION}`?"
         previous = option[1] if option is not None else ""
+
+
+def _unknown_joints(node: Started, model: Model) -> Iterator[tuple[int, str, str]]:
+    """Yield the offset, text and message of each misspelt joint after ``-J``."""
+    from urdfkit.lint.facts.launch.python_api import first_slip
+
+    names = {joint.name for joint in model.robot.joints}
+    for option, word in zip(node.arguments, node.arguments[1:], strict=False):
+        if option is None or option.name != "-J" or word is None or word.name in names:
+            continue
+        near = first_slip(word.name, names)
+        if near is not None:
+            yield word.start, word.name, f"unknown joint `{word.name}`; did you mean `{near}`?"
 
 
 def _nearest_option(option: str, options: tuple[str, ...]) -> str | None:
