@@ -218,6 +218,7 @@ RELATED_FILES: tuple[Row, ...] = (
     (_SRDF, "moveit.srdf_state_invalid", "SrdfStateInvalid"),
     (_SRDF, "moveit.moveit_name_undefined", "MoveitNameUndefined"),
     (_SRDF, "moveit.moveit_setting_invalid", "MoveitSettingInvalid"),
+    (_SRDF, "moveit.srdf_adjacent_pair_missing", "SrdfAdjacentPairMissing"),
 )
 """Robot rules that run if the package has files with one of the suffixes."""
 

@@ -14,8 +14,8 @@ class SrdfGroupInconsistent(RobotRule):
     """A chain, subgroup, end effector or virtual joint of an SRDF contradicts the tree of the robot.
 
     ## What it does
-    Checks that the tip of a chain is below its base, that groups do not contain themselves, that the parent link of an
-    end effector is outside its group, and that a virtual joint ends at the root link.
+    Checks that the tip of a chain is below its base, that groups do not contain themselves, that parent link and parent
+    group of an end effector are not its own group, and that a virtual joint ends at the root link.
 
     ## Why is this bad?
     The group lacks its joints, and planning fails; MoveIt skips a virtual joint whose child is not the root link.
@@ -72,6 +72,9 @@ class SrdfGroupInconsistent(RobotRule):
             for effector in root.find_all("end_effector"):
                 name, parent = effector.get("group") or "", effector.get("parent_link") or ""
                 links = by_name[name].find_all("link") if name in by_name else []
+                if name and name == effector.get("parent_group"):
+                    message = f"group `{name}` of end effector `{effector.get('name')}` is its own parent group"
+                    yield self.at(model, effector, message, attribute="parent_group", severity=severity)
                 if any(link.get("name") == parent for link in links):
                     message = f"parent link `{parent}` of end effector `{effector.get('name')}` is in group `{name}`"
                     help = "write the link of the arm that carries the group"

@@ -1,0 +1,87 @@
+"""M110 srdf-adjacent-pair-missing."""
+
+from __future__ import annotations
+
+from urdfkit.lint.rule import Findings, Model, RobotRule
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from urdfkit.description.xml.element import Element
+
+_MIN_SHARE = 2
+"""Number of adjacent pairs that an SRDF disables for each missing one, at least."""
+
+
+class SrdfAdjacentPairMissing(RobotRule):
+    """An SRDF disables the collisions of adjacent links, except for one pair.
+
+    ## What it does
+    Checks links with collision geometry that a joint connects, in an SRDF that disables most of these pairs. Both links
+    must occur in disabled pairs. SRDFs with ``enable_collisions`` or ``disable_default_collisions`` are left out.
+
+    ## Why is this bad?
+    The shapes of adjacent links often overlap at the joint. MoveIt then reports every state as a collision and finds no
+    plan.
+
+    ## Example
+    ```xml
+    <robot name="arm">
+      <group name="arm">
+        <chain base_link="base" tip_link="hand"/>
+      </group>
+      <disable_collisions link1="base" link2="upper" reason="Adjacent"/>
+      <disable_collisions link1="base" link2="lower" reason="Never"/>
+      <disable_collisions link1="lower" link2="hand" reason="Adjacent"/>
+    </robot>
+    ```
+
+    ## Use instead
+    ```xml
+    <robot name="arm">
+      <group name="arm">
+        <chain base_link="base" tip_link="hand"/>
+      </group>
+      <disable_collisions link1="base" link2="upper" reason="Adjacent"/>
+      <disable_collisions link1="base" link2="lower" reason="Never"/>
+      <disable_collisions link1="upper" link2="lower" reason="Adjacent"/>
+      <disable_collisions link1="lower" link2="hand" reason="Adjacent"/>
+    </robot>
+    ```
+    """
+
+    code = "M110"
+    name = "srdf-adjacent-pair-missing"
+    severity = "warning"
+
+    def check(self, model: Model) -> Findings:
+        """Yield a finding for each pair of adjacent links that is missing."""
+        from urdfkit.lint.facts.moveit.srdf import semantics_of, severity_for
+
+        if model.is_incomplete:
+            return
+        for root in semantics_of(model):
+            if root.find_all("enable_collisions") or root.find_all("disable_default_collisions"):
+                continue
+            disabled = {frozenset(_links(pair)): pair for pair in root.find_all("disable_collisions")}
+            mentioned = {link for pair in disabled for link in pair}
+            solid = {link.name for link in model.robot.links if link.collisions} & mentioned
+            adjacent = [
+                (joint, frozenset((joint.parent, joint.child)))
+                for joint in model.robot.joints
+                if joint.parent in solid and joint.child in solid
+            ]
+            missing = [(joint, pair) for joint, pair in adjacent if pair not in disabled]
+            if len(adjacent) < (1 + _MIN_SHARE) * len(missing):
+                continue
+            for joint, pair in missing:
+                near = next((element for links, element in disabled.items() if links & pair), root)
+                message = (
+                    f"links `{joint.parent}` and `{joint.child}` are adjacent, but their collisions are not disabled"
+                )
+                written = f'<disable_collisions link1="{joint.parent}" link2="{joint.child}" reason="Adjacent"/>'
+                severity = severity_for(root, model)
+                yield self.at(model, near, message, help=f"add {written}", severity=severity)
+
+
+def _links(pair: Element) -> tuple[str, str]:
+    return pair.get("link1") or "", pair.get("link2") or ""
