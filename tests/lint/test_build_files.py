@@ -122,6 +122,7 @@ def test_a_manifest_that_tools_refuse_is_reported(cmake, old, new, expected):
         ("<buildtool_depend>ament_cmake<", "<buildtool_depend>ament_cmake_auto<"),
         ("</license>", '</license><license file="LICENSE">BSD</license><author>Nobody</author>'),
         ("A cart.", "A <em>small</em> cart."),
+        ("launch_ros", "python3-pil"),
     ],
 )
 def test_a_manifest_that_tools_accept_is_silent(cmake, old, new):
@@ -162,6 +163,7 @@ def test_a_defect_of_cmake_is_reported(cmake, old, new, expected):
         ("urdf\n  DESTINATION share/${PROJECT_NAME}", "urdf ${WHERE}"),
         ("install(DIRECTORY launch urdf", "install(DIRECTORY launch DESTINATION share)\ninstall(DIRECTORY launch urdf"),
         ("install(PROGRAMS scripts/wait.py", "install(DIRECTORY scripts/"),
+        ("share/${PROJECT_NAME})\n", "${CATKIN_DEVEL_PREFIX}/share)\n"),
     ],
 )
 def test_a_correct_cmake_file_is_silent(cmake, old, new):

@@ -291,6 +291,7 @@ def test_a_defect_of_ros2_is_reported(ros2, file, old, new, expected):
     [
         ("arm", "update_rate: 100", "update_rate: $(var rate)"),
         ("arm", "goal_time: 0.5", "goal_time: .inf"),
+        ("arm", "goal_time: 0.5", "goal_time: .NAN"),
         ("arm", "goal_tolerance: 0.002", "goal_tolerance: 1e-3"),
         ("arm", "    command_interfaces: [position]\n    state_interfaces: [position]\n", ""),
         ("arm", "joint_state_broadcaster:\n", "other:\n      ros_parameter: 1\n    joint_state_broadcaster:\n"),

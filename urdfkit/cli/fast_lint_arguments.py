@@ -15,6 +15,7 @@ if TYPE_CHECKING:
 _SWITCHES = (
     "fix",
     "unsafe_fixes",
+    "fix_generated",
     "diff",
     "statistics",
     "watch",

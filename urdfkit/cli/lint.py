@@ -45,6 +45,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     )
     add("--fix", action="store_true", help="apply safe fixes")
     add("--unsafe-fixes", action="store_true", help="with --fix or --diff: apply unsafe fixes too")
+    add("--fix-generated", action="store_true", help="with --fix or --diff: change generated files too")
     add("--diff", action="store_true", help="print the changes of --fix without writing them")
     add(
         "--select",
@@ -118,6 +119,8 @@ def _check(arguments: argparse.Namespace) -> None:
     changes = arguments.fix or arguments.diff
     if arguments.unsafe_fixes and not changes:
         raise UsageError("--unsafe-fixes requires --fix or --diff")
+    if arguments.fix_generated and not changes:
+        raise UsageError("--fix-generated requires --fix or --diff")
     if arguments.watch and (changes or arguments.write_baseline):
         raise UsageError("--watch cannot be combined with --fix, --diff or --write-baseline")
     if arguments.write_baseline and changes:
@@ -280,7 +283,8 @@ class _Run:
         arguments = self.arguments
         within = editable_folders(Path(path) for path in self.paths)
         only = self._is_wanted if self.settings is not None else None
-        fixed = fix(entries, self.options, within=within, unsafe=arguments.unsafe_fixes, only=only)
+        unsafe, generated = arguments.unsafe_fixes, arguments.fix_generated
+        fixed = fix(entries, self.options, within=within, unsafe=unsafe, generated=generated, only=only)
         for note in () if arguments.quiet else fixed.notes:
             print(f"urdfkit: {note}", file=sys.stderr)
         if arguments.diff:

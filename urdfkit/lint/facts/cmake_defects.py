@@ -107,7 +107,7 @@ def _variables(source: Source, every: list[CMakeCommand]) -> Iterator[BuildDefec
             yield BuildDefect(source, use.start(1), name, message)
             continue
         is_destination = re.search(r"DESTINATION\s+[^\s()]*\Z", source.text[: use.start()]) is not None
-        if is_whole and is_destination and (name == "PROJECT" or name.startswith(("PROJECT_", "CATKIN_"))):
+        if is_whole and is_destination and re.fullmatch(r"PROJECT(_\w+)?|CATKIN_(PACKAGE|GLOBAL)_\w+", name):
             yield BuildDefect(source, use.start(1), name, f"variable `{name}` does not exist")
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable
 from functools import cache
 
@@ -73,14 +74,14 @@ def names() -> frozenset[str]:
 def misspelling_of(name: str, others: Iterable[str]) -> str | None:
     """Return the package that a name misspells by one letter or two swapped letters; None if it misspells none.
 
-    Names that differ by a digit or a final ``s`` can be two packages.
+    Names that differ by a digit or a final ``s`` can be two packages, as can short names of Python modules.
 
     Args:
         name: the name in the file.
         others: further valid names, such as the packages of the workspace.
     """
     valid = names() | set(others)
-    if name in valid or len(name) < 4:
+    if name in valid or len(name) < 4 or re.fullmatch(r"python3?-\w{1,4}", name):
         return None
     from urdfkit.errors import similar
 

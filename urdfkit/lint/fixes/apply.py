@@ -15,6 +15,7 @@ from urdfkit.description.xml.source import Overlay, Source, Span
 from urdfkit.errors import ResourceError
 from urdfkit.lint.engine.run import Outcome, run
 from urdfkit.lint.finding import Edit, Finding
+from urdfkit.lint.fixes.generated_files import reason_if_generated
 from urdfkit.lint.fixes.regressions import WrittenText, new_findings, unmatched
 from urdfkit.lint.project.entry_files import Entry
 from urdfkit.lint.project.options import Options
@@ -91,6 +92,7 @@ def fix(
     *,
     within: Iterable[Path],
     unsafe: bool = False,
+    generated: bool = False,
     only: Callable[[Finding], bool] | None = None,
 ) -> Fixed:
     """Compute all fixes in memory; `FileChange.write` writes them.
@@ -100,13 +102,14 @@ def fix(
         options: lint options.
         within: folders (or files) whose files may be changed.
         unsafe: apply unsafe fixes too.
+        generated: change files that a program wrote too (see `generated_files`).
         only: predicate that selects the findings to fix; None for all.
 
     Raises:
         UsageError: a code or the target is unknown.
         ResourceError: an entry cannot be read.
     """
-    return _Fixer(entries, options, tuple(path.resolve() for path in within), unsafe, only).fix()
+    return _Fixer(entries, options, tuple(path.resolve() for path in within), unsafe, generated, only).fix()
 
 
 def editable_folders(paths: Iterable[Path]) -> list[Path]:
@@ -198,9 +201,11 @@ class _Fixer:
         options: Options,
         within: tuple[Path, ...],
         unsafe: bool,
+        generated: bool,
         only: Callable[[Finding], bool] | None = None,
     ) -> None:
-        self.entries, self.options, self.within, self.unsafe, self.only = entries, options, within, unsafe, only
+        self.entries, self.options, self.within, self.only = entries, options, within, only
+        self.unsafe, self.generated = unsafe, generated
         self.originals: dict[Path, _Text] = {}
         self.contents: dict[Path, bytes] = {}
         self.shown: dict[Path, str] = {}
@@ -297,6 +302,10 @@ class _Fixer:
             text = _Text(content)
             if not text.agrees_with(outcome.sources[file]):
                 self.notes[f"{file} was not fixed: its encoding is not UTF-8 or UTF-16"] = None
+                return False
+            reason = "" if self.generated else reason_if_generated(path, text.text)
+            if reason:
+                self.notes[f"{file} was not fixed: {reason}; fix its source, or use --fix-generated"] = None
                 return False
             self.contents[path], self.originals[path], self.shown[path] = content, text, file
         return True

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from functools import lru_cache
 
 from urdfkit.record import record
@@ -85,10 +86,13 @@ def not_a_number(node: Node) -> str:
     if node.kind != "text":
         return "" if node.kind == "group" else "a list, not a number"
     try:
-        float(node.text.replace("_", "").removeprefix(".") if node.text in (".inf", ".nan") else node.text)
+        float(node.text)
     except ValueError:
-        is_computed = "$" in node.text or node.text.startswith(("rad(", "deg(", "-.inf", "+.inf"))
-        return "" if is_computed or not node.text else f"`{node.text}`, which is not a number"
+        # rad(…) and deg(…) are expressions of rosparam.
+        is_number = re.fullmatch(r"[-+]?\.(inf|nan)|(rad|deg)\(.*\)", node.text, re.IGNORECASE)
+        if is_number or "$" in node.text or not node.text:
+            return ""
+        return f"`{node.text}`, which is not a number"
     return "" if node.is_plain else f'"{node.text}", a text in quotes'
 
 

@@ -54,13 +54,14 @@ class RoundedPi(SourceRule):
     ```
 
     ## Fix safety
-    Safe: the rotation changes by less than 2 mrad. Definitions of π are not changed, because other files may use them.
+    Unsafe: the rotation changes by up to 2 mrad, which may have been measured. Definitions of π are not changed,
+    because other files may use them.
     """
 
     code = "X112"
     name = "redundant-pi-definition"
     severity = "note"
-    fix = "safe"
+    fix = "unsafe"
 
     def check(self, document: Document, model: Model) -> Findings:
         """Yield a finding for each rounded angle, and for each property that defines π."""
@@ -86,7 +87,7 @@ class RoundedPi(SourceRule):
                 f"angle {first} rad is a rounded multiple of π",
                 attribute="rpy",
                 help=f'write rpy="{corrected}"',
-                fix=Fix("safe", "Write the exact angle", (Edit(span, corrected),)),
+                fix=Fix("unsafe", "Write the exact angle", (Edit(span, corrected),)),
             )
         if ":property" not in text and "<property" not in text:
             return
