@@ -17,17 +17,21 @@ SLIPPERY = Surface(0.0, 0.0)
 
 
 class InUrdfkit(Running):
-    """A scene in our engine: its robots or, where they are loose, bodies of the world."""
+    """A scene in our engine: robots, and things without joints as bodies of the world.
 
-    def __init__(self, scene: Scene) -> None:
+    Args:
+        scene: what to run.
+        sleep: whether robots and bodies at rest may sleep.
+    """
+
+    def __init__(self, scene: Scene, *, sleep: bool = True) -> None:
         super().__init__(scene)
         self._servos: list[tuple[NDArray[np.int64], NDArray[np.float64]]] = []
-        if scene.loose:
-            bodies = [_body(f"box{k}", thing) for k, thing in enumerate(scene.things)]
-            self.engine = Engine(Kinematics(read(NOBODY)), (), dt=DT, gravity=GRAVITY, ground=Ground(), bodies=bodies)
-            self._loose = [self.engine.bodies[body.name] for body in bodies]
-            return
-        first, *others = [_member(f"robot{k}", thing) for k, thing in enumerate(scene.things)]
+        robots = [thing for thing in scene.things if "<joint" in thing.urdf and not scene.loose]
+        bodies = {k: _body(f"box{k}", thing) for k, thing in enumerate(scene.things) if thing not in robots}
+        if not robots:
+            robots = [Thing(NOBODY, (0.0, 0.0, 0.0), bolted=True)]
+        first, *others = [_member(f"robot{k}", thing) for k, thing in enumerate(robots)]
         self.engine = Engine(
             first.kinematics,
             first.shapes,
@@ -37,8 +41,11 @@ class InUrdfkit(Running):
             surfaces=first.surfaces,
             base=first.base,
             others=others,
+            bodies=list(bodies.values()),
+            sleep=sleep,
         )
-        for part, thing in zip(self.engine.robots, scene.things, strict=True):
+        self._loose = {k: self.engine.bodies[body.name] for k, body in bodies.items() if not body.static}
+        for part, thing in zip(self.engine.robots, robots, strict=True):
             part.put(_start(part.kinematics, thing))
             index = part.kinematics.velocity_index
             for joint, (speed, effort) in thing.motors.items():
@@ -63,7 +70,7 @@ class InUrdfkit(Running):
 
     def base(self, k: int) -> Pose:
         """Return where the root link of a thing is."""
-        if self.scene.loose:
+        if k in self._loose:
             return self._loose[k].pose
         return tuple(self.engine.robots[k].q[:7].tolist())
 
@@ -86,7 +93,7 @@ class InUrdfkit(Running):
         """Return how many boxes sleep; robots whose motors run never do."""
         if not self.scene.loose:
             return None
-        return sum(box.asleep for box in self._loose)
+        return sum(box.asleep for box in self._loose.values())
 
 
 def _member(name: str, thing: Thing) -> Member:
@@ -112,6 +119,7 @@ def _body(name: str, thing: Thing) -> Body:
         name,
         (*thing.at, 0.0, 0.0, 0.0, 1.0),
         [Piece(shape) for shape in scene_of(robot).with_role("collision")],
+        static=thing.bolted,
         mass=inertia.mass,
         centre=inertia.lever.tolist(),
         inertia=inertia.inertia.tolist(),

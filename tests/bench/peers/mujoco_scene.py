@@ -202,8 +202,9 @@ class InMujoco(Running):
             actuators = [self.model.actuator(prefix(k) + joint).id for joint in thing.servos]
             self._servos.append((actuators, [[pose[joint] for joint in thing.servos] for pose in thing.poses]))
         free = self.model.jnt_type == mujoco.mjtJoint.mjJNT_FREE
-        self._bases = self.model.jnt_qposadr[free].tolist()
-        self._freedoms = self.model.jnt_dofadr[free].tolist()
+        loose = [k for k, thing in enumerate(built.scene.things) if not thing.bolted]
+        self._bases = dict(zip(loose, self.model.jnt_qposadr[free].tolist(), strict=True))
+        self._freedoms = dict(zip(loose, self.model.jnt_dofadr[free].tolist(), strict=True))
         self.pose(0)
 
     def many(self, steps: int) -> None:
