@@ -33,6 +33,11 @@ class Topic:
             self._latest, self._build = self._build(), None
         return self._latest
 
+    def restore(self, count: int) -> None:
+        """Set the message count; unless it is the same, there is no last message until the next one."""
+        if count != self.count:
+            self.count, self._latest, self._build = count, None, None
+
     def publish(self, message: Any) -> None:
         """Hand a message to every subscriber, in the order they subscribed."""
         self.count += 1

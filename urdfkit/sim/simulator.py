@@ -1,5 +1,7 @@
 """Simulator: load, step, run, pause, reset; the whole loop on one screen."""
 
+from __future__ import annotations
+
 import logging
 from collections.abc import Callable, Mapping, Sequence
 from math import isfinite
@@ -26,11 +28,12 @@ from urdfkit.sim.plugins.builtin_publishers import Clock
 from urdfkit.sim.plugins.ros_distro import Distro
 from urdfkit.sim.plugins.setup import Setup
 from urdfkit.sim.scene_view import Surroundings
+from urdfkit.sim.snapshots.snapshot import Snapshots
 from urdfkit.sim.state.arguments import number, three
 from urdfkit.sim.state.notes import Notes
 from urdfkit.sim.state.periodic_steps import PeriodicSteps
 from urdfkit.sim.world.gazebo_services import ModelStates, listen
-from urdfkit.sim.world.live_world import LiveWorld
+from urdfkit.sim.world.live_world import LiveWorld, SpawnCall
 from urdfkit.sim.world.scheduler import Scheduler
 from urdfkit.sim.world.simulated_robot import SimulatedRobot
 from urdfkit.sim.world.world_builder import WorldBuilder
@@ -110,6 +113,11 @@ class Simulator:
         read = load if strict else load_repaired
         self.robot = robot if isinstance(robot, Robot) else read(robot, package_path=package_path)
         found = world_with_gravity(world, gravity, package_path)
+        self._arguments: dict[str, Any] = {
+            "robot": self.robot, "world": found, "dt": dt, "seed": seed, "spawn": spawn, "name": name,
+            "fixed_base": fixed_base, "sleep": sleep, "ros_distro": ros_distro, "controllers": tuple(controllers),
+            "package_path": tuple(package_path), "renderer": renderer, "strict": strict, "density": density,
+        }  # fmt: skip
         self.dt = dt = found.physics.max_step_size if dt is None else number(dt, "the step", "s")
         if not 1e-6 <= dt <= 0.1:
             raise SimulationError(f"the time step is {dt:g} s; it must be from 1e-6 to 0.1 s, such as 0.001")
@@ -136,7 +144,7 @@ class Simulator:
             scene=scene,
             repairs=self._repairs,
         )
-        self.kinematics, self.scene = first.kinematics, first.scene
+        self.kinematics, self.scene, self._scene = first.kinematics, first.scene, scene
         builder = WorldBuilder(first, found, dt=dt, note=self.note, package_path=package_path, sleep=sleep)
         self.state, self.motors = first.state, first.motors
         self._scheduler = Scheduler(builder, self.state, dt)
@@ -153,10 +161,22 @@ class Simulator:
             self.note(f"robot `{self.name}` has no plugin that runs controllers: {controllers[0]} configures nothing")
         self._scheduler.publications = Clock(self.bus, dt), ModelStates(self.bus, dt, self.world)
         self.world.reset()
+        self._snapshots = Snapshots(self.world, self.bus)
         for each in builder.robot_list:
             each.publish_fixed()
         listen(self.bus, self.world, self.at, self.note)
         note_overlaps(builder.engine, self.kinematics.link_names, self.note)
+
+    def __deepcopy__(self, memo: dict[int, Any]) -> Simulator:
+        """Return a simulator in the same state, with its own bus and without subscriptions and scheduled calls."""
+        return _copy({**self._arguments, "scene": self._scene, "note": self.note}, *self._copied())
+
+    def __reduce__(self) -> Any:
+        """Pickle the descriptions and the state, without subscriptions and scheduled calls."""
+        return _copy, (self._arguments, *self._copied())
+
+    def _copied(self) -> tuple[tuple[str, ...], tuple[SpawnCall, ...], bytes, bool]:
+        return self.world.removed, tuple(self.world.spawned.values()), self._snapshots.take(calls=False), self.paused
 
     def __repr__(self) -> str:
         """Return the names of robot and world, and the simulated time."""
@@ -206,6 +226,31 @@ class Simulator:
             world.advance(stop - step)  # 2 the engine advances; 3 frames: computed on first access
             if stop >= scheduler.read_due:
                 scheduler.read()  # 4 sensors that are due measure; 5 joint states, transforms, clock
+
+    # Snapshots
+
+    def snapshot(self) -> bytes:
+        """Return the state of the whole simulation, for `restore` in this or another process.
+
+        It contains robots, bodies, the memory of the contact solver, drives, controllers, sensors with their noise,
+        and the times of scheduled calls. It does not contain subscriptions and functions.
+
+        Raises:
+            SimulationError: the state of a plugin cannot be saved.
+        """
+        return self._snapshots.take()
+
+    def restore(self, snapshot: bytes) -> None:
+        """Restore a state; the same calls then give the same bytes as after `snapshot`.
+
+        Args:
+            snapshot: from a simulator of the same robots in the same world, with the same step. Calls scheduled with
+                `at` and `every` must be scheduled here in the same order.
+
+        Raises:
+            SimulationError: the bytes are not such a snapshot.
+        """
+        self._snapshots.restore(snapshot)
 
     def reset(self) -> None:
         """Reset robots, bodies and time; subscriptions and message counts are kept, scheduled calls are dropped.
@@ -317,3 +362,17 @@ class Simulator:
             for frame, pose in estimate(self.state).items():
                 found.setdefault(frame, pose)
         return found
+
+
+def _copy(
+    arguments: dict[str, Any], removed: tuple[str, ...], spawned: tuple[SpawnCall, ...], snapshot: bytes, paused: bool
+) -> Simulator:
+    """Return a simulator with these arguments, after these changes of its entities, in the state of a snapshot."""
+    simulator = Simulator(**arguments)
+    for name in removed:
+        simulator.world.remove(name)
+    for request, start, fixed_base in spawned:
+        simulator.world.spawn(request, start, fixed_base=fixed_base)
+    simulator.restore(snapshot)
+    simulator.paused = paused
+    return simulator

@@ -57,6 +57,15 @@ class Packages:
         self.answers: dict[tuple[str, ...], str] = {}
         """Query → its result, for each query so far; a cached result is valid as long as `answer` returns the same."""
 
+    def __getstate__(self) -> dict[str, object]:
+        """Return the attributes, without the environment of this process: a copy uses that of its own process."""
+        return {name: None if each is os.environ else each for name, each in vars(self).items()}
+
+    def __setstate__(self, state: dict[str, object]) -> None:
+        """Set the attributes."""
+        environment = {name: os.environ for name in ("_environment", "variables") if state[name] is None}
+        vars(self).update({**state, **environment})
+
     def answer(self, question: tuple[str, ...]) -> str:
         """Return the current result of a query in `answers`: a path, or the error message after ``!``."""
         kind, *words = question

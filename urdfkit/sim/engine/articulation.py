@@ -44,6 +44,7 @@ class Articulation:
         fastest: maximum speed of a motor with a goal [rad/s or m/s]; initially infinite; shape (nv,).
         acceleration: maximum acceleration of a motor with a goal [rad/s² or m/s²]; initially infinite; shape (nv,).
         deceleration: maximum deceleration of a motor with a goal [rad/s² or m/s²]; initially infinite; shape (nv,).
+        set_twist: step and twist of the last `set_base_velocity`; None before the first.
     """
 
     def __init__(self, kinematics: Kinematics, arrays: Arrays, tree: int) -> None:
@@ -61,7 +62,7 @@ class Articulation:
         self.acceleration, self.deceleration = a["acceleration"], a["deceleration"]
         self._own_v, self._own_effort, self._own_tau = a["v"], a["effort"], a["tau"]
         self._v, self._effort, self._tau = _read_only(a["v"]), _read_only(a["effort"]), _read_only(a["tau"])
-        self._set_twist: tuple[int, Array] | None = None
+        self.set_twist: tuple[int, Array] | None = None
         self._counts, self._against = numbers(arrays["counts"]), numbers(arrays["contact_against"])
 
     @property
@@ -114,7 +115,7 @@ class Articulation:
         if len(twist) != 6 or not all(math.isfinite(part) for part in twist):
             raise SimulationError(f"a twist is six finite numbers, not {tuple(twist)}")
         v = np.array(twist, dtype=float)
-        step, previous = self._counts[STEPS], self._set_twist
+        step, previous = self._counts[STEPS], self.set_twist
         if previous is not None and previous[0] == step - 1 and self._met_something():
             dt = float(self.arrays["numbers"][DT])
             # Linear velocities stay constant in space while the base turns.
@@ -122,7 +123,7 @@ class Articulation:
             taken = np.concatenate([linear, previous[1][3:]]) - self._own_v[:6]
             self._shift_base(-0.5 * dt * taken)
         self._own_v[:6] = v
-        self._set_twist = step, v
+        self.set_twist = step, v
 
     def _met_something(self) -> bool:
         """Return whether the robot touched anything but the ground in the last step."""

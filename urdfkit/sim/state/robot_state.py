@@ -52,6 +52,10 @@ class Snapshot:
         kept: Any = {name: self._arrays[name] for name in ("tree_body", "first_s")} | {"s": self.coordinates}
         return configuration(self._kinematics.model, kept, self._tree)
 
+    def __getstate__(self) -> dict[str, Any]:
+        """Return the copy without the engine's arrays."""
+        return {**vars(self), "q": self.q, "_arrays": None}
+
     def link_poses(self) -> Array:
         """Return x y z [m] and quaternion x y z w of every link in the world, read-only; shape (n_links, 7)."""
         if self._poses is None:

@@ -30,6 +30,9 @@ from urdfkit.sim.world.simulated_robot import SimulatedRobot
 from urdfkit.sim.world.spawn_requests import SpawnRequest, spawn_request
 from urdfkit.sim.world.world_builder import WorldBuilder
 
+SpawnCall = tuple[SpawnRequest, Spawn | None, bool]
+"""Spawned entity with its name and pose; the start of a robot, and whether its base is fixed."""
+
 
 class LiveWorld:
     """World of a running simulation, its robots and bodies.
@@ -45,6 +48,9 @@ class LiveWorld:
         builder: the entities and their engine.
         scheduler: of the simulation.
         package_path: folders that are searched first for packages.
+        forces: the forces that act on bodies and links.
+        removed: names of the entities of the initial world that were removed.
+        spawned: name → arguments, of the entities that were spawned and not removed.
     """
 
     def __init__(
@@ -59,7 +65,9 @@ class LiveWorld:
         self.builder, self.scheduler, self.package_path = builder, scheduler, tuple(package_path)
         self._note, self._seed = note, seed
         self._setup: Setup | None = None
-        self._forces = ExternalForces(builder)
+        self.forces = ExternalForces(builder)
+        self.removed: tuple[str, ...] = ()
+        self.spawned: dict[str, SpawnCall] = {}
 
     def __repr__(self) -> str:
         """Return the name of the world and its entities."""
@@ -93,7 +101,7 @@ class LiveWorld:
     @property
     def bodies(self) -> Mapping[str, RigidBody]:
         """Rigid bodies by name."""
-        return ByName("body", {name: RigidBody(self.builder, self._forces, name) for name in self.builder.body_names})
+        return ByName("body", {name: RigidBody(self.builder, self.forces, name) for name in self.builder.body_names})
 
     def body_poses(self) -> dict[str, tuple[float, ...]]:
         """Return name → x y z [m] and quaternion x y z w of all bodies but the simulation's own robot and the ground.
@@ -185,6 +193,7 @@ class LiveWorld:
                 start = Spawn(*placed.xyz, *placed.rpy)
             start = start or Spawn()
         entity = self.builder.add(source, robot, start, fixed_base=fixed_base)
+        self.spawned[source.name] = SpawnRequest(source, robot), start, fixed_base
         for each in entity.robots:
             self._install(each)
             each.begin()
@@ -204,7 +213,9 @@ class LiveWorld:
         """
         entity = self.builder.entity(name)
         self.builder.remove(name)
-        self._forces.forget(entity)
+        self.forces.forget(entity)
+        if self.spawned.pop(name, None) is None:
+            self.removed = (*self.removed, name)
 
     def install(self, setup: Setup) -> None:
         """Install the plugins of all robots, and from now on those of spawned ones."""
@@ -219,6 +230,7 @@ class LiveWorld:
             robot.install(self._setup, seed=self._seed, invalidate=invalidate)
             return
         if not robot.has_plugins:
+            robot.register()
             return
         seed = crc32(robot.name.encode(), self._seed & 0xFFFFFFFF)
         random = np.random.default_rng(seed)
@@ -298,7 +310,7 @@ class LiveWorld:
         Raises:
             SimulationError: unknown name, the body cannot move, or a number is invalid.
         """
-        self._forces.push(name, force, torque, at=at, for_seconds=for_seconds)
+        self.forces.push(name, force, torque, at=at, for_seconds=for_seconds)
 
     def release(self, name: str) -> None:
         """End all pushes on a body or link.
@@ -306,11 +318,11 @@ class LiveWorld:
         Raises:
             UnknownNameError: unknown name.
         """
-        self._forces.release(name)
+        self.forces.release(name)
 
     def pushes_on(self, robot: str, links: Sequence[str]) -> tuple[tuple[Array, Array, Array], ...]:
         """Return force [N], torque [N·m] and point of attack [m], in the world, of each push on links of a robot."""
-        return self._forces.on(self.robots[robot], links)
+        return self.forces.on(self.robots[robot], links)
 
     # Time
 
@@ -321,8 +333,8 @@ class LiveWorld:
             SimulationError: the simulation diverged.
         """
         left, engine = steps, self.builder.engine
-        while left > 0 and self._forces.acting:
-            self._forces.step(engine)
+        while left > 0 and self.forces.acting:
+            self.forces.step(engine)
             left -= 1
         if left:
             engine.step(left)
@@ -331,11 +343,17 @@ class LiveWorld:
 
     def reset(self) -> None:
         """Put everything where it started, at t = 0, without pushes."""
-        self._forces.acting = []
+        self.forces.acting = []
         self.builder.engine.reset(*self.builder.robot_list[0].start())
         for robot in self.builder.robot_list:
             robot.state.advance(-robot.state.step)
             robot.begin()
+
+    def restore_gravity(self) -> None:
+        """Set the gravity of the description to that of the engine."""
+        x, y, z = self.builder.engine.arrays["gravity"].tolist()
+        if (x, y, z) != tuple(self.description.gravity):
+            self.builder.description = replace(self.description, gravity=(x, y, z))
 
     # Saving
 

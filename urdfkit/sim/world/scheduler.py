@@ -1,12 +1,16 @@
 """Scheduler: calls, drives, controllers, sensors and publications between the steps of the engine."""
 
 import heapq
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 
+from urdfkit.errors import SimulationError
 from urdfkit.sim.plugins.builtin_publishers import Publication
 from urdfkit.sim.state.periodic_steps import NEVER
 from urdfkit.sim.state.robot_state import State
 from urdfkit.sim.world.world_builder import WorldBuilder
+
+ScheduledCall = tuple[int, int, float]
+"""Step of a call, its number in the order of scheduling, and its period [s]; zero for one call."""
 
 
 class Scheduler:
@@ -32,6 +36,7 @@ class Scheduler:
         self._builder, self._state, self._dt = builder, state, dt
         self._calls: list[tuple[int, int, float, Callable[[], None]]] = []
         self._number = 0
+        self._saved: dict[int, Callable[[], None]] = {}
 
     def invalidate(self) -> None:
         """Check all work again, before and after the next step."""
@@ -41,6 +46,30 @@ class Scheduler:
         """Call `call` before a step, and then every `period` [s] if that is not zero."""
         self._number += 1
         heapq.heappush(self._calls, (step, self._number, period, call))
+        self.invalidate()
+
+    def save(self) -> tuple[int, tuple[ScheduledCall, ...]]:
+        """Return the number of calls scheduled so far and the pending calls, as arguments of `restore`."""
+        self._saved |= {number: call for _, number, _, call in self._calls}
+        return self._number, tuple(sorted((step, number, period) for step, number, period, _ in self._calls))
+
+    def restore(self, number: int, pending: Sequence[ScheduledCall]) -> None:
+        """Schedule pending calls again, as `save` returned them; the calls are identified by their numbers.
+
+        Raises:
+            SimulationError: this simulation has not scheduled one of the calls.
+        """
+        calls = self._saved | {number: call for _, number, _, call in self._calls}
+        if missing := [(step, period) for step, number, period in pending if number not in calls]:
+            step, period = missing[0]
+            every = f" every {period:g} s" if period else ""
+            raise SimulationError(
+                f"the snapshot has a call at t = {step * self._dt:g} s{every}; functions cannot be saved: "
+                "schedule the same calls in the same order before `restore`"
+            )
+        self._calls = [(step, number, period, calls[number]) for step, number, period in pending]
+        heapq.heapify(self._calls)
+        self._number = number
         self.invalidate()
 
     def reset(self) -> None:

@@ -20,6 +20,7 @@ from urdfkit.sim.engine.articulation import Articulation
 from urdfkit.sim.plugins.builtin_publishers import Transforms, publish_fixed
 from urdfkit.sim.plugins.controllers.controller_switching import Controllers
 from urdfkit.sim.plugins.installer import Installed, install
+from urdfkit.sim.plugins.live_objects import LiveObjects
 from urdfkit.sim.plugins.namespaced_bus import OwnBus
 from urdfkit.sim.plugins.periodic import Periodic, Publisher, Timed
 from urdfkit.sim.plugins.setup import Setup
@@ -64,6 +65,7 @@ class SimulatedRobot:
         state: positions and velocities, read-only; after `attach`.
         motors: velocity and position targets by joint; after `attach`.
         plugins: its drives, sensors and controllers; after `install`.
+        live: the objects of its plugins that hold state; after `install`.
         controllers: lists, loads, starts, stops and switches controllers; after `install`.
         articulation: the engine's handle of the robot; after `attach`.
         writes: work before a step: drives, controllers.
@@ -107,6 +109,7 @@ class SimulatedRobot:
         self.self_collide = self_colliding(robot) if self_collide is None else self_collide
         self.weightless = weightless_links(robot) if weightless is None else weightless
         self.plugins = Installed()
+        self.live = LiveObjects()
         self.controllers = Controllers([])
         self._bus: OwnBus | None = None
         self._own_publishers: list[Publisher] = []
@@ -184,6 +187,21 @@ class SimulatedRobot:
         self.reads = ([*self._drive_reads, *self._own_publishers], *self.controllers.each_publications)
         for publisher in self._publishers:
             publisher.schedule(setup.dt, self.state.step)
+        self.register()
+
+    def register(self) -> None:
+        """Register all objects that hold state; those of each controller under its own name."""
+        live = self.live
+        live.add("robot", self)
+        live.add("state", self.state)
+        live.add("kinematics", self.kinematics)
+        live.follow("motors", self.motors)
+        loops = [each.loop for each in self.plugins.controllers if each.loop is not None]
+        for loop in loops:
+            live.follow_loop(loop)
+        installed = self.plugins
+        live.follow_plugins("plugins", [*installed.drives, *installed.sensors, *installed.controllers])
+        live.follow("publishers", [*self._own_publishers, *self._drive_reads, *self.writes])
 
     @property
     def _publishers(self) -> Sequence[Publisher]:

@@ -1,6 +1,6 @@
 """ControlLoop: loads, starts and stops the controllers of one robot and updates them in every control period."""
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from math import ceil, inf
 
@@ -46,6 +46,9 @@ class ControlLoop:
         configured: name → parameters of each configured controller.
         hardware: joints and command interfaces of the robot.
         hold: hold the position of joints that no controller commands; otherwise these joints move freely.
+
+    Attributes:
+        changed: called with each controller that was loaded or unloaded.
     """
 
     def __init__(
@@ -57,6 +60,7 @@ class ControlLoop:
         self.controllers: dict[str, RosController] = {}
         self.publications: list[Publication] = []
         self.halted = False
+        self.changed: Callable[[RosController], None] = lambda controller: None
         self._hold = hold
         self._state: State | None = None
         self._ticks = PeriodicSteps(1.0 / hardware.period, hardware.setup.dt)
@@ -157,6 +161,7 @@ class ControlLoop:
             return False
         self.controllers[name] = controller
         self.publications += controller.publications
+        self.changed(controller)
         return True
 
     def unload(self, name: str) -> None:
@@ -171,6 +176,7 @@ class ControlLoop:
         for publication in controller.publications:
             self.publications.remove(publication)
         del self.controllers[name]
+        self.changed(controller)
 
     def switch(self, start: Iterable[str] = (), stop: Iterable[str] = ()) -> None:
         """Stop some controllers and start others; after an error, all controllers are as before.
