@@ -185,7 +185,7 @@ def test_all_solutions_of_a_six_joint_arm_with_all_whole_turns() -> None:
     assert ((found.q >= chain.lower) & (found.q <= chain.upper)).all()
     np.testing.assert_allclose(found.q[0], q, rtol=0, atol=1e-6)
     differences = np.linalg.norm(found.q - q, axis=1)
-    assert (np.diff(differences) >= 0.0).all()
+    assert (np.diff(differences) >= -1e-12).all()
     # Eight branches within a turn; all joints but the elbow have limits of two turns.
     within = np.unique(np.round(np.mod(found.q, 2.0 * np.pi), 3), axis=0)
     assert len(within) == 8

@@ -34,6 +34,8 @@ COMMANDS = {
     "inertia": "compute masses and inertias from shapes and compare them with the file",
     "view": "show a robot in the browser",
     "tf": "compute a transform, or draw the frame tree",
+    "ik": "compute joint positions that place a link at a pose: inverse kinematics",
+    "jacobian": "compute the Jacobian of a link, its singular values and the direction that is lost",
     "retime": "compute the fastest motion through waypoints within the limits of the joints",
     "sim": "simulate a robot: teleop, run, warmup",
     "topic": "inspect and publish topics of a running simulation: list, info, echo, hz, bw, pub",
@@ -41,7 +43,7 @@ COMMANDS = {
 }
 """Command → its description. The module ``urdfkit.cli.<command>`` implements it; ``import_`` is ``import``."""
 
-_FOLDERS = {"tf": "kinematics", "retime": "kinematics"}
+_FOLDERS = dict.fromkeys(("tf", "ik", "jacobian", "retime"), "kinematics")
 """Command → the package in ``urdfkit.cli`` that its module is in."""
 
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 import os
 import threading
 from collections.abc import Callable, Mapping
@@ -15,7 +14,7 @@ from urdfkit.description import Robot, load
 from urdfkit.errors import KinematicsError
 from urdfkit.kinematics.serial.kernel.object_cache import Compiling, function
 from urdfkit.kinematics.serial.serial_chain import SerialChain
-from urdfkit.kinematics.serial.serial_solver import ROW, SolverOptions
+from urdfkit.kinematics.serial.serial_solver import ROW, SerialSolver, SolverOptions
 from urdfkit.kinematics.serial.solutions import Solutions
 from urdfkit.linear_algebra import Array
 
@@ -185,7 +184,7 @@ class Chain:
             tolerance: see `solve`.
             restarts: see `solve`.
             seed: see `solve`.
-            most: maximum number of solutions.
+            most: maximum number of solutions, before whole turns.
 
         Returns:
             The solutions; the nearest configuration alone if the target cannot be reached.
@@ -194,17 +193,21 @@ class Chain:
             KinematicsError: see `solve`.
         """
         options = SolverOptions(position_only, *tolerance, "all", restarts, seed)
-        shape, rows = self._solve(target, start, options, most, 1)
-        if shape:
-            raise KinematicsError("solve_all needs one target: shape (7,) or (4, 4)")
-        rows = rows.reshape(most, -1)
-        found = rows[rows[:, self._size + 2] > 0.0]
-        if not len(found):
-            return self._solutions(rows[:1])
-        from_ = self._start if start is None else np.asarray(start, dtype=float)
-        found = self._with_whole_turns(found, most)
-        order = np.argsort(((found[:, : self._size] - from_) ** 2).sum(axis=1), kind="stable")
-        return self._solutions(found[order])
+        numbers = np.asarray(target, dtype=np.float64)
+        if numbers.shape not in ((7,), (4, 4)):
+            raise KinematicsError(f"solve_all needs one target of shape (7,) or (4, 4); got {numbers.shape}")
+        from_ = (self._start if start is None else self._configurations(start)).ravel().tolist()
+        solver = SerialSolver(self.serial, self._compiling)
+        found = solver.solve(numbers.ravel().tolist(), from_, options, rows=most)
+        if found[0].reached:
+            found = solver.with_whole_turns(found, from_)
+        return Solutions(
+            np.array([solution.q for solution in found]),
+            np.array([solution.reached for solution in found]),
+            np.array([solution.position_error for solution in found]),
+            np.array([solution.rotation_error for solution in found]),
+            np.array([float(solution.restarts) for solution in found]),
+        )
 
     # Memory
 
@@ -278,23 +281,6 @@ class Chain:
     def _solutions(self, rows: Array) -> Solutions:
         n = self._size
         return Solutions(rows[..., :n], rows[..., n + 2] > 0.0, rows[..., n], rows[..., n + 1], rows[..., n + 3])
-
-    def _with_whole_turns(self, rows: Array, most: int) -> Array:
-        """Return solutions with all combinations of whole turns that the finite limits of joints allow."""
-        turn = 2.0 * math.pi
-        for j, variable in enumerate(self.serial.variables):
-            if not variable.is_periodic or not math.isfinite(variable.upper - variable.lower):
-                continue
-            least = np.ceil((variable.lower - rows[:, j]) / turn - 1e-12).astype(int)
-            largest = np.floor((variable.upper - rows[:, j]) / turn + 1e-12).astype(int)
-            every = []
-            for row, low, high in zip(rows, least, largest, strict=True):
-                for turns in range(low, high + 1):
-                    moved = row.copy()
-                    moved[j] = min(max(moved[j] + turns * turn, variable.lower), variable.upper)
-                    every.append(moved)
-            rows = np.array(every[: 8 * most])
-        return rows
 
 
 def in_threads(part: Callable[[int, int], int], number: int, workers: int) -> int:

@@ -7,11 +7,11 @@ import json
 import shutil
 import subprocess
 import sys
-from collections.abc import Iterable
 from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from urdfkit.cli.robot_arguments.joint_positions import joint_positions
 from urdfkit.cli.robot_arguments.macro_option import add_macro, with_macro, xacro_arguments
 from urdfkit.cli.robot_arguments.robot_loading import add_strict, load_robot, print_repairs
 from urdfkit.cli.robot_arguments.unused_arguments import note_unused
@@ -79,7 +79,7 @@ def run(arguments: argparse.Namespace) -> int:
         if arguments.output.suffix.lower() not in _DRAWINGS:
             hint = did_you_mean(arguments.output.suffix, _DRAWINGS)
             raise UsageError(f"tf: -o {arguments.output}: unsupported file type; use {', '.join(_DRAWINGS)}{hint}")
-    positions = _positions(arguments.joint)
+    positions = joint_positions(arguments.joint, "tf: --joint")
 
     from urdfkit.description.xml.cost_limit import loading_limit
     from urdfkit.kinematics.pinocchio_requirement import require_pinocchio
@@ -116,28 +116,6 @@ def _split(words: list[str]) -> tuple[list[str], list[str]]:
     """Split the words into the model with its arguments and the frames."""
     plain = [word for word in words if ":=" not in word]
     return [*plain[:1], *(word for word in words if ":=" in word)], plain[1:]
-
-
-def _positions(words: Iterable[str]) -> dict[str, float]:
-    """Parse ``name=value`` words; one word may hold several, separated by commas.
-
-    Raises:
-        UsageError: a word has another form, a name occurs twice, or a value is not a finite number.
-    """
-    values: dict[str, float] = {}
-    for word in (part for words_of_one in words for part in words_of_one.split(",") if part):
-        name, separator, text = word.partition("=")
-        if not separator or not name:
-            raise UsageError(f"tf: --joint expects name=value, got `{word}`")
-        if name in values:
-            raise UsageError(f"tf: --joint {name} occurs twice")
-        try:
-            values[name] = float(text)
-        except ValueError:
-            raise UsageError(f"tf: --joint {name}: `{text}` is not a number [rad or m]") from None
-        if values[name] - values[name] != 0.0:  # NaN or infinite
-            raise UsageError(f"tf: --joint {name}: {text} is not a finite number")
-    return values
 
 
 def _warn_of_limits(tree: TransformTree, positions: dict[str, float]) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from array import array
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
@@ -22,6 +23,7 @@ ROW = 5
 """Numbers after the configuration of a solution: see `serial.kernel.search`."""
 STEP, AXIS, LIMIT = 16, 6, 6
 """Numbers of a step, of its axis and origin, and of the limits of a variable: see `serial.kernel`."""
+TURN = 2.0 * math.pi
 AT_LIMIT = 1e-6
 """Distance to a limit [rad or m] from which a joint counts as being at it."""
 
@@ -152,6 +154,22 @@ class SerialSolver:
         found = [_solution(result[k : k + length], size) for k in range(0, len(result), length)]
         return [solution for solution in found if solution.reached] or found[:1]
 
+    def with_whole_turns(self, solutions: Sequence[Solution], start: Sequence[float]) -> list[Solution]:
+        """Return solutions with all combinations of whole turns that finite limits allow, nearest to `start` first."""
+        found = list(solutions)
+        for k, variable in enumerate(self.chain.variables):
+            if not variable.is_periodic or not math.isfinite(variable.upper - variable.lower):
+                continue
+            found = [
+                replace(solution, q=(*solution.q[:k], solution.q[k] + turns * TURN, *solution.q[k + 1 :]))
+                for solution in found
+                for turns in range(
+                    math.ceil((variable.lower - solution.q[k]) / TURN),
+                    math.floor((variable.upper - solution.q[k]) / TURN) + 1,
+                )
+            ]
+        return sorted(found, key=lambda solution: math.dist(solution.q, start))
+
     def at_limits(self, q: Sequence[float]) -> list[str]:
         """Return the variables that are at a limit."""
         return [
@@ -174,7 +192,7 @@ class SerialSolver:
         limits = array("d", self.chain.limits)
         for k, variable in enumerate(self.chain.variables):
             if variable.is_periodic:
-                limits[LIMIT * k : LIMIT * (k + 1)] = array("d", (-INFINITE, INFINITE, -HALF_TURN, HALF_TURN, 1.0, 1.0))
+                limits[LIMIT * k : LIMIT * (k + 1)] = array("d", (-math.inf, math.inf, -math.pi, math.pi, 1.0, 1.0))
         free = replace(options, position_only=options.position_only or not is_near, prefer="first", approach=False)
         wide = self.solve(target, solution.q, free, limits=limits)[0]
         if wide.reached:
@@ -188,9 +206,6 @@ class SerialSolver:
         if is_near:
             return f"orientation: {solution.rotation_error:.3g} rad off"
         return f"beyond reach by {solution.position_error:.3g} m"
-
-
-INFINITE, HALF_TURN = float("inf"), 3.141592653589793
 
 
 def _solution(row: Sequence[float], size: int) -> Solution:

@@ -36,7 +36,10 @@ Compiling = Callable[[str], None]
 """Called with a message before a compilation starts."""
 
 
-@lru_cache
+_functions: dict[str, tuple[Callable[..., int], Any]] = {}
+"""Function → its code, and the engine that keeps the code in memory."""
+
+
 def function(name: str, compiling: Compiling | None = None) -> Callable[..., int]:
     """Return a function of the kernel; its arrays are passed as addresses.
 
@@ -47,27 +50,16 @@ def function(name: str, compiling: Compiling | None = None) -> Callable[..., int
     Raises:
         MissingDependencyError: numba is not installed.
     """
+    if name not in _functions:
+        _functions[name] = _loaded(name, compiling)
+    return _functions[name][0]
+
+
+def _loaded(name: str, compiling: Compiling | None) -> tuple[Callable[..., int], Any]:
+    """Load the object code of a function or compile it, and link it into this process."""
     if find_spec("llvmlite") is None or find_spec("numba") is None:
-        raise MissingDependencyError("ik needs numba: pip install 'urdfkit[sim]'")
+        raise MissingDependencyError("ik and jacobian need numba: pip install 'urdfkit[sim]'")
     symbol, code = _stored(name) or _compiled(name, compiling)
-    native = ctypes.CFUNCTYPE(
-        ctypes.c_int32, ctypes.c_void_p, ctypes.c_void_p, *(KINDS[kind] for kind in SIGNATURES[name])
-    )(_linked(name, code, symbol))
-
-    def call(*arguments: Any) -> int:
-        result, error = ctypes.c_int64(), ctypes.c_void_p()
-        native(ctypes.byref(result), ctypes.byref(error), *arguments)
-        return result.value
-
-    return call
-
-
-_engines: dict[str, Any] = {}
-"""Linked code by function: it lives as long as its engine."""
-
-
-def _linked(name: str, code: bytes, symbol: str) -> int:
-    """Return the address of a symbol of an object file, linked into this process."""
     from llvmlite import binding
 
     binding.initialize_native_target()
@@ -77,8 +69,16 @@ def _linked(name: str, code: bytes, symbol: str) -> int:
     engine = binding.create_mcjit_compiler(binding.parse_assembly(""), machine, use_lmm=True)
     engine.add_object_file(binding.ObjectFileRef.from_data(code))
     engine.finalize_object()
-    _engines[name] = engine
-    return int(engine.get_function_address(symbol))
+    native = ctypes.CFUNCTYPE(
+        ctypes.c_int32, ctypes.c_void_p, ctypes.c_void_p, *(KINDS[kind] for kind in SIGNATURES[name])
+    )(engine.get_function_address(symbol))
+
+    def call(*arguments: Any) -> int:
+        result, error = ctypes.c_int64(), ctypes.c_void_p()
+        native(ctypes.byref(result), ctypes.byref(error), *arguments)
+        return result.value
+
+    return call, (engine, code)
 
 
 def _stored(name: str) -> tuple[str, bytes] | None:

@@ -1,0 +1,253 @@
+"""`urdfkit ik`: what it prints and writes, its exit codes, and how it refuses."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from tests.kinematics.arms import Reference, errors, random_configurations
+from tests.kinematics.conftest import ARM
+from urdfkit import load
+from urdfkit.cli import main
+from urdfkit.kinematics import Chain
+
+
+@pytest.fixture
+def arm_file(tmp_path: Path) -> str:
+    path = tmp_path / "arm.urdf"
+    path.write_text(ARM, encoding="utf-8")
+    return str(path)
+
+
+def ran(capsys: pytest.CaptureFixture[str], *words: str) -> tuple[int, str, str]:
+    """Return exit code, standard output and standard error of ``urdfkit ik -q WORDS``."""
+    code = main(["ik", "-q", *words])
+    out, err = capsys.readouterr()
+    return code, out, err
+
+
+def pose_words(matrix: np.ndarray) -> list[str]:
+    """Return the options for a pose."""
+    import pinocchio as pin
+
+    x, y, z, *quaternion = pin.SE3ToXYZQUAT(pin.SE3(matrix)).tolist()
+    return ["--xyz", f"{x!r},{y!r},{z!r}", "--quat", ",".join(map(repr, quaternion))]
+
+
+def test_one_pose_as_json(capsys: pytest.CaptureFixture[str], arm_file: str) -> None:
+    chain = Chain(load(arm_file), None, "finger_a")
+    target = chain.forward(np.array([0.3, 0.1, 1.2, 0.02]))
+    code, out, err = ran(capsys, arm_file, "finger_a", *pose_words(target), "--json")
+    assert (code, err) == (0, "")
+    found = json.loads(out)
+    assert list(found) == ["base", "tip", "joints", "targets", "reached", "solutions"]
+    assert (found["base"], found["tip"], found["joints"]) == ("world", "finger_a", ["turn", "slide", "bend", "grip"])
+    assert (found["targets"], found["reached"]) == (1, 1)
+    (solution,) = found["solutions"]
+    assert list(solution["positions"]) == found["joints"]
+    assert solution["reached"] is True
+    assert solution["reason"] is None
+    assert solution["at_limits"] == []
+    q = np.array(list(solution["positions"].values()))
+    distance, angle = errors(Reference(chain).pose(q)[None], target[None])
+    assert distance[0] == pytest.approx(solution["position_error"], abs=1e-12)
+    assert distance[0] < 1e-3
+    assert angle[0] < 1.745e-3
+
+
+def test_roll_pitch_yaw_is_the_orientation(capsys: pytest.CaptureFixture[str], arm_file: str) -> None:
+    import pinocchio as pin
+
+    chain = Chain(load(arm_file), None, "finger_a")
+    target = chain.forward(np.array([0.3, 0.1, 1.2, 0.02]))
+    rpy = ",".join(map(repr, pin.rpy.matrixToRpy(target[:3, :3]).tolist()))
+    xyz = ",".join(map(repr, target[:3, 3].tolist()))
+    code, out, _ = ran(capsys, arm_file, "finger_a", f"--xyz={xyz}", "--rpy", rpy, "--json")
+    assert code == 0
+    assert json.loads(out)["solutions"][0]["rotation_error"] < 1e-6
+
+
+def test_a_pose_beyond_reach(capsys: pytest.CaptureFixture[str], arm_file: str) -> None:
+    code, out, _ = ran(capsys, arm_file, "finger_a", "--xyz", "-3,0,0.5", "--json")
+    found = json.loads(out)
+    (solution,) = found["solutions"]
+    assert (code, found["reached"], solution["reached"]) == (1, 0, False)
+    assert solution["reason"] == f"beyond reach by {solution['position_error']:.3g} m"
+    chain = Chain(load(arm_file), None, "finger_a")
+    pose = Reference(chain).pose(np.array(list(solution["positions"].values())))
+    assert np.linalg.norm(pose[:3, 3] - [-3, 0, 0.5]) == pytest.approx(solution["position_error"], abs=1e-9)
+    code, out, _ = ran(capsys, arm_file, "finger_a", "--xyz", "-3,0,0.5")
+    assert code == 1
+    assert out.startswith(f"finger_a in world: not reached: {solution['reason']}; the nearest configuration is ")
+
+
+def test_the_limit_that_prevents_a_pose_is_named(capsys: pytest.CaptureFixture[str], arm_file: str) -> None:
+    beyond = Chain(load(arm_file), None, "elbow", hold={"slide": 0.1, "turn": 0.0}).forward(np.array([2.4]))
+    hold = ["--hold", "slide=0.1,turn=0"]
+    code, out, _ = ran(capsys, arm_file, "finger_a", *pose_words(beyond), *hold, "--json")
+    assert code == 1
+    code, out, _ = ran(capsys, arm_file, "elbow", *pose_words(beyond), *hold, "--json")
+    (solution,) = json.loads(out)["solutions"]
+    assert (code, solution["reason"], solution["at_limits"]) == (1, "limit of joint `bend`", ["bend"])
+    assert solution["positions"] == {"bend": 2.0}
+
+
+def test_an_orientation_that_cannot_be_reached(capsys: pytest.CaptureFixture[str], arm_file: str) -> None:
+    target = Chain(load(arm_file), None, "finger_a").forward(np.array([0.3, 0.1, 0.4, 0.02]))
+    target[:3, :3] = target[:3, :3] @ np.diag([-1.0, -1.0, 1.0])
+    code, out, _ = ran(capsys, arm_file, "finger_a", *pose_words(target), "--json")
+    (solution,) = json.loads(out)["solutions"]
+    assert code == 1
+    assert solution["position_error"] < 1e-3
+    assert solution["reason"] == f"orientation: {solution['rotation_error']:.3g} rad off"
+    assert ran(capsys, arm_file, "finger_a", *pose_words(target), "--position-only")[0] == 0
+
+
+@pytest.mark.parametrize("suffix", [".npy", ".npz", ".csv"])
+def test_poses_of_files(capsys: pytest.CaptureFixture[str], tmp_path: Path, arm_file: str, suffix: str) -> None:
+    import pinocchio as pin
+
+    chain = Chain(load(arm_file), "world", "finger_a")
+    matrices = chain.forward(random_configurations(chain, 20, 3))
+    matrices[4, 0, 3] += 5.0
+    poses = np.array([pin.SE3ToXYZQUAT(pin.SE3(matrix)) for matrix in matrices])
+    path, output = tmp_path / f"poses{suffix}", tmp_path / "solutions.npz"
+    if suffix == ".npy":
+        np.save(path, matrices)
+    elif suffix == ".npz":
+        np.savez(path, other=np.zeros(3), targets=poses)
+    else:
+        path.write_text("x,y,z,qx,qy,qz,qw\n" + "".join(",".join(map(repr, row.tolist())) + "\n" for row in poses))
+    code, out, _ = ran(capsys, arm_file, "finger_a", "--targets", str(path), "-o", str(output))
+    assert (code, out) == (1, "finger_a in world: 19 of 20 poses reached\n     1 not reached: beyond reach\n")
+    with np.load(output) as arrays:
+        assert set(arrays) == {"joints", "q", "reached", "position_error", "rotation_error", "restarts"}
+        assert arrays["joints"].tolist() == list(chain.joint_names)
+        assert arrays["reached"].tolist() == [k != 4 for k in range(20)]
+        distance, _ = errors(Reference(chain).poses(arrays["q"]), matrices)
+        np.testing.assert_allclose(arrays["position_error"], distance, rtol=0, atol=1e-9)
+    code, out, _ = ran(capsys, arm_file, "finger_a", "--targets", str(path), "--json")
+    found = json.loads(out)
+    assert (code, found["targets"], found["reached"], len(found["solutions"])) == (1, 20, 19, 20)
+
+
+def test_one_pose_is_written_as_arrays(capsys: pytest.CaptureFixture[str], tmp_path: Path, arm_file: str) -> None:
+    output = tmp_path / "one.npz"
+    words = [arm_file, "finger_a", "--xyz", "0.28,0.16,0.59", "--position-only"]
+    assert ran(capsys, *words, "-o", str(output))[0] == 0
+    with np.load(output) as arrays:
+        assert arrays["q"].shape == (1, 4)
+        assert arrays["restarts"].dtype == np.int64
+
+
+def test_all_solutions(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
+    joints = "".join(
+        f'<joint name="j{k}" type="revolute"><parent link="l{k}"/><child link="l{k + 1}"/><origin xyz="{x} 0 0"/>'
+        '<axis xyz="0 0 1"/><limit lower="-6.2" upper="6.2" effort="1" velocity="1"/></joint>'
+        for k, x in enumerate((0.0, 0.5))
+    )
+    path = tmp_path / "two.urdf"
+    links = "".join(f'<link name="l{k}"/>' for k in range(4))
+    fixed = '<joint name="end" type="fixed"><parent link="l2"/><child link="l3"/><origin xyz="0.5 0 0"/></joint>'
+    path.write_text(f'<robot name="two">{links}{joints}{fixed}</robot>')
+    words = [str(path), "l3", "--xyz", "0.5,0.5,0", "--position-only", "--all"]
+    code, out, _ = ran(capsys, *words, "--json")
+    solutions = json.loads(out)["solutions"]
+    found = {tuple(round(value, 6) for value in solution["positions"].values()) for solution in solutions}
+    right = round(np.pi / 2, 6)
+    branches = [(0.0, right), (right, -right)]
+    expected = {
+        (round(a + i * 2 * np.pi, 6), round(b + j * 2 * np.pi, 6))
+        for a, b in ((0.0, np.pi / 2), (np.pi / 2, -np.pi / 2))
+        for i in (-1, 0, 1)
+        for j in (-1, 0, 1)
+    }
+    expected = {pair for pair in expected if max(map(abs, pair)) <= 6.2}
+    assert code == 0
+    assert found == expected
+    assert set(branches) < found
+    assert len(solutions) == len(expected) == 6
+    code, out, _ = ran(capsys, *words)
+    assert out.splitlines()[0].startswith("l3 in l0: reached, 6 solutions, nearest first; ")
+
+
+def test_the_solution_nearest_to_the_start(capsys: pytest.CaptureFixture[str], arm_file: str) -> None:
+    words = [arm_file, "finger_a", "--xyz", "0.28,0.16,0.59", "--position-only", "--json"]
+    for turn in (0.0, 12.5):
+        _, out, _ = ran(capsys, *words, "--from", f"turn={turn},bend=0.3", "--from", "slide=0.1")
+        assert abs(json.loads(out)["solutions"][0]["positions"]["turn"] - turn) <= np.pi
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        (["finger_a"], "ik: pass one of --xyz X,Y,Z and --targets FILE"),
+        (["finger_a", "--xyz", "1,2"], "ik: --xyz expects 3 finite numbers separated by commas, got `1,2`"),
+        (["finger_a", "--xyz", "1,2,nan"], "ik: --xyz expects 3 finite numbers separated by commas, got `1,2,nan`"),
+        (["finger_a", "--xyz", "1,2,3", "--quat", "0,0,0,0"], "ik: --quat 0,0,0,0: the quaternion must not be zero"),
+        (["finger_a", "--xyz", "1,2,3", "--quat", "0,0,0,1", "--rpy", "0,0,0"], "ik: pass one of --quat and --rpy"),
+        (
+            ["finger_a", "--xyz", "1,2,3", "--tolerance", "0,1"],
+            "the tolerance is 0 m and 1 rad; both must be above zero",
+        ),
+        (["finger_a", "--xyz", "1,2,3", "--restarts", "-1"], "ik: --restarts -1: the number must not be negative"),
+        (["finger_a", "--xyz", "1,2,3", "--threads", "0"], "ik: --threads 0: at least one thread is needed"),
+        (
+            ["finger_a", "--xyz", "1,2,3", "--from", "bent=1"],
+            "no movable joint `bent` in robot `arm`; did you mean `bend`?",
+        ),
+        (["finger_a", "--xyz", "1,2,3", "--from", "bend"], "ik: --from expects name=value, got `bend`"),
+        (["finger", "--xyz", "1,2,3"], "no frame `finger` in robot `arm`; did you mean `finger_b`?"),
+        (["finger_a", "--xyz", "1,2,3", "--base", "wrld"], "no frame `wrld` in robot `arm`; did you mean `world`?"),
+        (["--xyz", "1,2,3"], "such as finger_a, finger_b, camera_optical"),
+        (["finger_a", "--targets", "poses.npy", "--all"], "ik: --all needs one pose: use --xyz instead of --targets"),
+        (["finger_a", "--targets", "none.npy"], "ik: --targets none.npy: No such file or directory"),
+        (
+            ["finger_a", "--targets", "none.txt"],
+            "ik: --targets none.txt: unsupported file type; use .npy, .npz or .csv",
+        ),
+        (["finger_a", "--xyz", "1,2,3", "-o", "a.txt"], "ik: -o a.txt: unsupported file type; use .npz"),
+        (["finger_a", "--targets", "wide.npy"], "expected an array of shape (N, 7) or (N, 4, 4), got (2, 6)"),
+        (["finger_a", "--targets", "no_array.npz"], "no array `targets`; its arrays: a, b"),
+        (["finger_a", "--targets", "broken.npy"], "not readable as .npy"),
+        (["finger_a", "--targets", "words.csv"], "words.csv:2: `1,2,3,0,0,0,one` are not numbers"),
+        (["finger_a", "--targets", "short.csv"], "short.csv:1: expected 7 numbers x,y,z,qx,qy,qz,qw, got 3"),
+        (["finger_a", "--targets", "zero.npy"], "target 1 is no pose"),
+    ],
+)
+def test_refusals(
+    capsys: pytest.CaptureFixture[str],
+    monkeypatch: pytest.MonkeyPatch,
+    tmp_path: Path,
+    arm_file: str,
+    words: list[str],
+    message: str,
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    np.save("wide.npy", np.zeros((2, 6)))
+    np.save("zero.npy", [[0, 0, 0, 0, 0, 0, 1], [0] * 7])
+    np.savez("no_array.npz", a=np.zeros(3), b=np.zeros(3))
+    Path("broken.npy").write_bytes(b"nothing")
+    Path("words.csv").write_text("0,0,0,0,0,0,1\n1,2,3,0,0,0,one\n")
+    Path("short.csv").write_text("1,2,3\n")
+    code, out, err = ran(capsys, arm_file, *words)
+    assert (code, out) == (2, "")
+    assert message in err
+    assert len(err.splitlines()) == 1
+
+
+def test_one_pose_is_solved_without_numpy_and_numba(arm_file: str) -> None:
+    import subprocess
+    import sys
+
+    words = ["ik", arm_file, "finger_a", "--xyz", "0.28,0.16,0.59", "--position-only"]
+    assert main(words) == 0  # the kernel is compiled
+    code = (
+        f"import sys\nfrom urdfkit.cli import main\nassert main({words!r}) == 0\n"
+        "print([name for name in ('numpy', 'numba', 'pinocchio') if name in sys.modules])"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert done.stdout.splitlines()[-1] == "[]"

@@ -1,0 +1,73 @@
+"""The arguments ``ROBOT TIP`` and ``--base LINK`` of commands on a kinematic chain."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+
+from urdfkit.cli.robot_arguments.macro_option import add_macro, with_macro, xacro_arguments
+from urdfkit.cli.robot_arguments.robot_loading import add_strict, load_robot, print_repairs
+from urdfkit.errors import UsageError
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from urdfkit.description import Robot
+
+
+def add_tip(parser: argparse.ArgumentParser) -> None:
+    """Add the arguments."""
+    parser.add_argument(
+        "words",
+        nargs="*",
+        metavar="ROBOT TIP",
+        help="a .urdf or .xacro file, a package folder or a robot name; key:=value xacro arguments; then the link at "
+        "the tip of the chain",
+    )
+    parser.add_argument("--base", metavar="LINK", help="the link that poses are expressed in (default: the root link)")
+    add_macro(parser)
+    add_strict(parser, "a second root link")
+    parser.add_argument(
+        "--package-path",
+        action="append",
+        default=[],
+        metavar="DIR",
+        help="search this folder for packages too (repeatable)",
+    )
+
+
+def announce(message: str) -> None:
+    """Print a message on standard error, such as the one before the kernel is compiled."""
+    print(message, file=sys.stderr, flush=True)
+
+
+def robot_and_tip(arguments: argparse.Namespace, command: str) -> tuple[Robot, str]:
+    """Load the robot and return it with the name of the tip.
+
+    Args:
+        arguments: with those of `add_tip`.
+        command: name of the command, for messages.
+
+    Raises:
+        UsageError: the robot or the tip is missing.
+        UrdfkitError: the robot cannot be loaded.
+    """
+    from urdfkit.description.xml.cost_limit import loading_limit
+    from urdfkit.resources import find_model
+
+    plain = [word for word in arguments.words if ":=" not in word]
+    xacro_words = [word for word in arguments.words if ":=" in word]
+    if not plain or len(plain) > 2:
+        raise UsageError(f"{command}: expected ROBOT and TIP, got {len(plain)} words: {' '.join(plain) or 'none'}")
+    found = with_macro(find_model([plain[0], *xacro_words], package_path=arguments.package_path), arguments)
+    with loading_limit():
+        robot = load_robot(found, arguments)
+    if xacro_arguments(found):
+        from urdfkit.cli.robot_arguments.unused_arguments import note_unused
+
+        note_unused(xacro_arguments(found), robot.files, quiet=arguments.quiet)
+    print_repairs(robot, quiet=arguments.quiet)
+    if len(plain) == 1:
+        ends = [link.name for link in robot.links if not robot.children_of.get(link.name)]
+        some = ", ".join([*ends[:6], *("…" for _ in ends[6:7])])
+        raise UsageError(f"{command}: add the link at the tip of the chain after `{plain[0]}`, such as {some}")
+    return robot, plain[1]
