@@ -61,8 +61,8 @@ class ResourceError(UrdfkitError):
     Args:
         message: see `UrdfkitError`.
         position: see `UrdfkitError`.
-        kind: ``package`` or ``file`` for a missing one, ``format`` for an unsupported format of a file, otherwise
-            empty.
+        kind: ``name`` for an empty one, ``package`` or ``file`` for a missing one, ``format`` for an unsupported format
+            of a file, otherwise empty.
     """
 
     def __init__(self, message: str, *, position: Position | None = None, kind: str = "") -> None:

@@ -11,6 +11,7 @@ from urdfkit.description.packages.resolver import Packages
 from urdfkit.description.structure_defects import repaired_structure
 from urdfkit.description.urdf.parser import parse
 from urdfkit.description.urdf.robot import Robot
+from urdfkit.description.value_defects import repaired_values, require_valid_values
 from urdfkit.description.xacro.declared_arguments import unused_arguments
 from urdfkit.description.xacro.evaluation.failures import chain_words
 from urdfkit.description.xacro.expand import expand as expand_file
@@ -58,19 +59,21 @@ def load(
     package_path = tuple(package_path)
     if isinstance(robot, Robot) and not arguments and not package_path and macro is None:
         return robot
-    loaded = load_valid(model_argument(robot, arguments=arguments, package_path=package_path, macro=macro))
+    loaded = _load(model_argument(robot, arguments=arguments, package_path=package_path, macro=macro), check)
     if macro is None:
         refuse_unused(arguments, loaded.files)
     return loaded
 
 
 def load_valid(model: ModelArgument) -> Robot:
-    """Load a robot that is one tree of links and joints, and accept xacro arguments that no file uses.
+    """Load a robot that needs no repair, and accept xacro arguments that no file uses.
 
     Raises:
-        UrdfkitError: see `load`.
+        UrdfkitError: see `load`, or a value needs a repair (`repaired_values`).
     """
-    return _load(model, check)
+    robot = _load(model, check)
+    require_valid_values(robot)
+    return robot
 
 
 def refuse_unused(arguments: Mapping[str, str] | None, files: Iterable[Path]) -> None:
@@ -101,7 +104,8 @@ def load_repaired(
         package_path: folders to search for packages first.
 
     Returns:
-        A robot that is one valid tree, with the `repairs` that it needed; see `repaired_structure`.
+        A robot that is one valid tree, with the `repairs` that it needed; see `repaired_structure` and
+            `repaired_values`.
 
     Raises:
         UsageError: see `load`.
@@ -132,7 +136,9 @@ def repaired_robot_of_text(text: str, *, package_path: Iterable[str | Path] = ()
 
 def _repaired(robot: Robot) -> Robot:
     repaired, defects = repaired_structure(robot)
-    return replace(repaired, repairs=tuple([defect.repair for defect in defects])) if defects else repaired
+    repaired, values = repaired_values(repaired)
+    repairs = (*(defect.repair for defect in defects), *values)
+    return replace(repaired, repairs=repairs) if repairs else repaired
 
 
 def _load(model: ModelArgument, check: Callable[[Robot], None], text: str | None = None) -> Robot:

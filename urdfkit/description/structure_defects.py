@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from urdfkit.description.urdf.queries import cycles, repeated
+from urdfkit.description.urdf.queries import cycles, owners, repeated
 from urdfkit.description.urdf.repair_record import Repair
 from urdfkit.description.urdf.robot import Joint, Link, Pose, Problem, Robot
 from urdfkit.description.xacro.evaluation.failures import chain_words
@@ -16,11 +16,10 @@ TYPE_CHECKING = False
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
 
+    from urdfkit.description.urdf.queries import Owner
     from urdfkit.position import Position
 
-    Owner = tuple[str | None, str | None]
-
-_HARMLESS = frozenset({"unknown-value", "missing"})
+_HARMLESS = frozenset({"unknown-value", "missing", "zero", "version"})
 _NEEDED = {("joint", "type"), ("parent", "link"), ("child", "link"), ("mimic", "joint")}
 _UNREAD = frozenset({"mechanicalReduction"})
 """Elements whose text neither urdfkit nor urdfdom uses; only the linter checks them."""
@@ -81,8 +80,8 @@ def repaired_structure(robot: Robot) -> tuple[Robot, list[Defect]]:
         robot: a robot with at least one link.
     """
     unusable = [problem for problem in robot.problems if _is_unusable(problem)]
-    owners = _owners(robot) if unusable else {}
-    defects = [_unusable(problem, owners) for problem in unusable]
+    by_element = owners(robot) if unusable else {}
+    defects = [_unusable(problem, by_element) for problem in unusable]
     structure = _Structure(robot, defects)
     structure.name_parts()
     structure.connect_joints()
@@ -101,12 +100,14 @@ def _is_unusable(problem: Problem) -> bool:
         return False
     if problem.kind not in _HARMLESS:
         return True
+    if problem.kind in ("zero", "version"):
+        return False  # see `repaired_values`
     if problem.kind == "unknown-value":
         return tag == "joint"
     return tag in ("limit", "inertia", "mass") or (tag, problem.attribute) in _NEEDED
 
 
-def _unusable(problem: Problem, owners: Mapping[Element, Owner]) -> Defect:
+def _unusable(problem: Problem, by_element: Mapping[Element, Owner]) -> Defect:
     element = problem.element
     code, effect = _CODES.get(problem.kind, "E014"), "the value is ignored"
     if element.tag == "joint":
@@ -119,18 +120,8 @@ def _unusable(problem: Problem, owners: Mapping[Element, Owner]) -> Defect:
         code, effect = ("E014", "it is 0") if problem.attribute in ("lower", "upper") else ("J404", effect)
     elif element.tag in _SHAPES:
         effect = "the shape is unknown"
-    link, joint = owners.get(element, (None, None))
+    link, joint = by_element.get(element, (None, None))
     return Defect(problem.message, effect, code, element, link, joint)
-
-
-def _owners(robot: Robot) -> dict[Element, Owner]:
-    """Return element → the names of the link and the joint that it belongs to."""
-    found: dict[Element, Owner] = {}
-    for link in robot.links:
-        found.update((element, (link.name, None)) for element in link.element.walk())
-    for joint in robot.joints:
-        found.update((element, (None, joint.name)) for element in joint.element.walk())
-    return found
 
 
 class _Structure:

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from urdfkit.description.sdf import Cone, Ellipsoid, Plane
+from urdfkit.description.urdf.parser import EMPTY_NAME
 from urdfkit.description.urdf.robot import Collision, Geometry, Link, Material, Mesh, Robot, Visual
 from urdfkit.description.xml.element import Element
 from urdfkit.description.xml.source import Position
@@ -59,7 +60,7 @@ class Shape:
     is_placeholder: bool = False
 
 
-_CODES = {"package": "G602", "file": "G601", "format": "G606"}
+_CODES = {"name": "E014", "package": "G602", "file": "G601", "format": "G606"}
 """Kind of the error of a mesh → code of the lint rule that reports it."""
 
 
@@ -191,6 +192,8 @@ def _load(
     Raises:
         ResourceError: with the position of the ``<mesh>`` element.
     """
+    if not geometry.uri.strip():
+        raise ResourceError(EMPTY_NAME, position=_mesh_position(item), kind="name")
     try:
         return meshes.load(_resolve(robot, geometry.uri), geometry.scale, places=places)
     except ResourceError as error:

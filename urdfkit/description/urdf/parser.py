@@ -34,7 +34,7 @@ from urdfkit.description.urdf.robot import (
     Visual,
 )
 from urdfkit.description.urdf.values import Reader
-from urdfkit.description.urdf.version import RATE_LIMITS, RATES, version_of
+from urdfkit.description.urdf.version import CAPSULE, RATE_LIMITS, RATES, version_of
 from urdfkit.description.xml.element import Element
 from urdfkit.errors import did_you_mean
 
@@ -45,6 +45,8 @@ if TYPE_CHECKING:
 
 SHAPES = ("box", "cylinder", "sphere", "capsule", "mesh")
 """Shapes allowed in a ``<geometry>``."""
+
+EMPTY_NAME = "the file name of <mesh> is empty"
 
 _TENSOR = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
 
@@ -171,12 +173,16 @@ def _geometry(reader: Reader, parent: Element) -> Geometry | None:
 def _shape(reader: Reader, element: Element) -> Geometry | None:
     if element.tag == "mesh":
         uri = reader.text(element, "filename")
+        if uri is not None and not uri.strip():
+            reader.note("missing", EMPTY_NAME, element, "filename")
         scale = reader.vector(element, "scale")
         return None if uri is None else Mesh(uri, scale or (1.0, 1.0, 1.0))
     if element.tag == "box":
         reader.text(element, "size")
         size = reader.vector(element, "size")
         return None if size is None else Box(size)
+    if element.tag == "capsule" and reader.version < CAPSULE:
+        reader.note("version", "<capsule> in URDF 1.0", element)
     radius = reader.number(element, "radius", required=True)
     if element.tag == "sphere":
         return None if radius is None else Sphere(radius)
@@ -251,6 +257,9 @@ def _limit(reader: Reader, element: Element | None, kind: str | None) -> Limit |
     needed = not has_rates and kind in ("revolute", "prismatic", "continuous")
     lower, upper = (reader.number(element, name, required=ends, infinite=True) for name in ("lower", "upper"))
     effort, velocity = (reader.number(element, name, required=needed, infinite=True) for name in ("effort", "velocity"))
+    for name in () if has_rates else RATES:
+        if name in element.attributes:
+            reader.note("version", f"`{name}` before URDF 1.2", element, name)
     rates = [reader.number(element, name, infinite=True) if has_rates else None for name in RATES]
     return Limit(lower, upper, effort, velocity, element, *rates)
 

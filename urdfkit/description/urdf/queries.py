@@ -12,6 +12,8 @@ if TYPE_CHECKING:
     from typing import Literal, TypeVar
 
     Named = TypeVar("Named", Link, Joint)
+    Owner = tuple[str | None, str | None]
+    """Name of the link, or of the joint, that an element belongs to."""
 
 
 def cycles(robot: Robot) -> list[list[Joint]]:
@@ -72,3 +74,13 @@ def dangling(robot: Robot, end: Literal["parent", "child"]) -> Iterator[tuple[Jo
         name = joint.parent if end == "parent" else joint.child
         if name is not None and name not in robot.link_by_name:
             yield joint, name, joint.element.find(end) or joint.element
+
+
+def owners(robot: Robot) -> dict[Element, Owner]:
+    """Return element → the names of the link and the joint that it belongs to."""
+    found: dict[Element, Owner] = {}
+    for link in robot.links:
+        found.update((element, (link.name, None)) for element in link.element.walk())
+    for joint in robot.joints:
+        found.update((element, (None, joint.name)) for element in joint.element.walk())
+    return found

@@ -21,7 +21,9 @@ if TYPE_CHECKING:
     from urdfkit.description.packages.resolver import Packages
     from urdfkit.description.urdf.repair_record import Repair
 
-    ProblemKind = Literal["bad-number", "wrong-arity", "not-finite", "missing", "unknown-value", "conflict"]
+    ProblemKind = Literal[
+        "bad-number", "wrong-arity", "not-finite", "missing", "unknown-value", "conflict", "zero", "version"
+    ]
 
 Vector = tuple[float, float, float]
 

@@ -167,8 +167,10 @@ class Reader:
         origin = parent.find("origin")
         if origin is None:
             return Pose()
-        if "quat_xyzw" in origin.attributes and self.version >= QUATERNION:
-            return self._pose_of_quaternion(origin)
+        if "quat_xyzw" in origin.attributes:
+            if self.version >= QUATERNION:
+                return self._pose_of_quaternion(origin)
+            self.note("version", "`quat_xyzw` in URDF 1.0", origin, "quat_xyzw")
         texts = origin.attributes.get("xyz"), origin.attributes.get("rpy")
         found = self._poses.get(texts)
         if found is None:
@@ -198,6 +200,8 @@ class Reader:
             return None
         largest = max(map(abs, q))
         if largest == 0.0:
+            message = f'quat_xyzw="{_short(origin.attributes["quat_xyzw"])}" is no rotation'
+            self.note("zero", message, origin, "quat_xyzw")
             return ZERO
         x, y, z, w = (value / largest for value in q)
         return rpy_of_quaternion(x, y, z, w)

@@ -26,6 +26,9 @@ RATE_LIMITS: Version = (1, 2)
 RATES = ("acceleration", "deceleration", "jerk")
 """Attributes of ``<limit>`` since `RATE_LIMITS`."""
 
+FIRST_VERSIONS = {"quat_xyzw": QUATERNION, "capsule": CAPSULE, **dict.fromkeys(RATES, RATE_LIMITS)}
+"""Attributes and elements of later versions → the first version that has them."""
+
 
 def written_version(root: Element) -> Version | None:
     """Return the version of a robot as in its attribute, 1.0 without attribute; None if it is not of the form x.y."""

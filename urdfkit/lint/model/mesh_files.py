@@ -18,7 +18,7 @@ LFS = b"version https://git-lfs.github.com/spec/"
 
 
 def meshes(robot: Robot) -> Iterator[tuple[Mesh, Element, Link]]:
-    """Yield every mesh with its ``<mesh>`` element and link."""
+    """Yield every mesh that has a file name, with its ``<mesh>`` element and link."""
     from urdfkit.description.urdf.robot import Mesh
     from urdfkit.lint.model.placement import shapes_of
 
@@ -26,7 +26,7 @@ def meshes(robot: Robot) -> Iterator[tuple[Mesh, Element, Link]]:
         for item in shapes_of(link):
             geometry = item.element.find("geometry")
             element = geometry.find("mesh") if geometry is not None else None
-            if isinstance(item.geometry, Mesh) and element is not None:
+            if isinstance(item.geometry, Mesh) and element is not None and item.geometry.uri.strip():
                 yield item.geometry, element, link
 
 

@@ -1,13 +1,13 @@
 """Validation of masses, inertias, sizes and limits before anything is computed with them."""
 
 from collections.abc import Iterator
-from math import isfinite
 from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
-from urdfkit.description.urdf.robot import Collision, Joint, Link, Mesh, Robot
+from urdfkit.description.urdf.robot import Collision, Link, Mesh, Robot
+from urdfkit.description.value_defects import invalid_values
 from urdfkit.description.xacro.evaluation.failures import chain_words
 from urdfkit.description.xml.element import Element
 from urdfkit.errors import SimulationError
@@ -105,30 +105,3 @@ def invalid_sizes(link: Link, collision: Collision) -> Iterator[Problem]:
                 kind = type(shape).__name__.lower()
                 written = element.find(kind) or element
                 yield f"the {kind} of link `{link.name}` has a {name} of {length:g} m; it must be positive", written
-
-
-def invalid_values(joint: Joint) -> Iterator[tuple[str, str, Element]]:
-    """Yield the attribute, a message and the element for each limit and each coefficient that no joint can have."""
-    if not joint.is_movable:
-        return
-    unit, force = ("m", "N") if joint.type == "prismatic" else ("rad", "N·m")
-    limit, dynamics = joint.limit, joint.dynamics
-    if limit is not None and joint.type in ("revolute", "prismatic"):
-        lower, upper = limit.lower or 0.0, limit.upper or 0.0
-        if lower > upper:
-            yield (
-                "lower",
-                f"joint `{joint.name}`: its lower limit {lower:g} {unit} is above its upper limit {upper:g} {unit}",
-                limit.element,
-            )
-    if limit is not None:
-        for name, value, its in (("effort", limit.effort, force), ("velocity", limit.velocity, f"{unit}/s")):
-            if value is not None and value < 0.0:
-                message = f"joint `{joint.name}`: {name} limit {value:g} {its}; it must not be negative"
-                yield name, message, limit.element
-    if dynamics is not None:
-        damping = ("damping", dynamics.damping, f"{force}·s/{unit}")
-        for name, value, its in (damping, ("friction", dynamics.friction, force)):
-            if not (isfinite(value) and value >= 0.0):
-                message = f"joint `{joint.name}`: {name} {value:g} {its}; it must not be negative"
-                yield name, message, dynamics.element

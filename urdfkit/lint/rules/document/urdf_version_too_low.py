@@ -1,15 +1,9 @@
 """E021 urdf-version-too-low."""
 
-from urdfkit.description.urdf.version import CAPSULE, QUATERNION, RATE_LIMITS, RATES, Version, shown, written_version
-from urdfkit.description.xml.element import Element
+from urdfkit.description.urdf.version import FIRST_VERSIONS, RATES, shown, version_of
+from urdfkit.description.value_defects import later_feature, later_features
 from urdfkit.lint.fix_builders import more_attributes, new_value
 from urdfkit.lint.rule import Findings, Model, RobotRule
-
-_ADDED: tuple[tuple[str, str, Version], ...] = (
-    ("origin", "quat_xyzw", QUATERNION),
-    *(("limit", rate, RATE_LIMITS) for rate in RATES),
-)
-"""Element, attribute, and the version that added it."""
 
 
 class UrdfVersionTooLow(RobotRule):
@@ -18,8 +12,7 @@ class UrdfVersionTooLow(RobotRule):
     ## What it does
     Checks for ``quat_xyzw`` and ``<capsule>``, which need ``version="1.1"`` in ``<robot>``, and for limits of
     ``acceleration``, ``deceleration`` and ``jerk``, which need ``version="1.2"``. A robot without the attribute is URDF
-    1.0. The first use of each is reported. The limits are notes, because readers only ignore them, and so are capsules
-    in a robot without target outside of a package, which urdfdom may never read.
+    1.0. The first use of each is reported. The limits are notes, because readers only ignore them.
 
     ## Why is this bad?
     Readers ignore attributes of a later version: without ``quat_xyzw`` the part has no rotation. urdfdom drops the
@@ -62,36 +55,27 @@ class UrdfVersionTooLow(RobotRule):
     def check(self, model: Model) -> Findings:
         """Yield a finding at the first use of each attribute and element of a later version."""
         root = model.robot.element
-        declared = written_version(root)
-        if declared is None or declared >= RATE_LIMITS:
+        declared = version_of(root)
+        uses = later_features(model.robot)
+        if model.target == "mujoco":
+            uses.pop("capsule", None)
+        if not uses or model.is_unresolved(root, "version"):
             return
-        uses: dict[str, list[Element]] = {}
-        is_for_ros = model.target is not None or model.package is not None
-        needs: dict[str, Version] = {}
-        for element in model.elements:
-            if element.tag == "capsule" and declared < CAPSULE and model.target != "mujoco":
-                uses.setdefault("<capsule>", []).append(element)
-                needs["<capsule>"] = CAPSULE
-            for tag, attribute, version in _ADDED:
-                if element.tag == tag and attribute in element.attributes and declared < version:
-                    uses.setdefault(attribute, []).append(element)
-                    needs[attribute] = version
-        title = f"Declare version {shown(max(needs.values()))}" if needs else ""
+        needed = shown(max(FIRST_VERSIONS[name] for name in uses))
+        title = f"Declare version {needed}"
+        if "version" in root.attributes:
+            fix = new_value(model, root, "version", needed, "unsafe", title)
+        else:
+            fix = more_attributes(model, root, f'version="{needed}"', "unsafe", title)
         for name, elements in uses.items():
-            is_capsule = name == "<capsule>"
-            if "version" in root.attributes:
-                fix = new_value(model, root, "version", shown(max(needs.values())), "unsafe", title)
-            else:
-                fix = more_attributes(model, root, f'version="{shown(max(needs.values()))}"', "unsafe", title)
             more = f" ({len(elements) - 1} more)" if len(elements) > 1 else ""
-            effect = "urdfdom drops the shape" if is_capsule else "it is ignored"
+            effect = "urdfdom drops the shape" if name == "capsule" else "it is ignored"
             yield self.at(
                 model,
                 elements[0],
-                f"{name if is_capsule else f'`{name}`'} needs URDF {shown(needs[name])}, but the robot is URDF"
-                f" {shown(declared)}: {effect}{more}",
-                attribute=None if is_capsule else name,
-                help=f'write version="{shown(max(needs.values()))}" in <robot>, if all readers of the robot support it',
+                f"{later_feature(name, declared)}: {effect}{more}",
+                attribute=name,
+                help=f'write version="{needed}" in <robot>, if all readers of the robot support it',
                 fix=fix,
-                severity="error" if name == "quat_xyzw" else None if is_capsule and is_for_ros else "note",
+                severity="error" if name == "quat_xyzw" else "note" if name in RATES else None,
             )

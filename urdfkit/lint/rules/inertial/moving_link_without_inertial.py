@@ -16,8 +16,8 @@ class MovingLinkWithoutInertial(RobotRule):
     Checks for links that move, because a joint moves them or the robot has no root link ``world``, where neither the
     link nor any link fixed to it has a mass and a tensor. The finding is an error for simulators: with ``--target gz``,
     ``classic``, ``mujoco``, ``isaac`` or ``drake``, or if the robot contains Gazebo plugins. For other robots it is a
-    note. A robot without any ``<inertial>`` is reported once if joints move its shapes, and with these targets also if
-    it has joints that move or shapes. Other robots describe kinematics only.
+    warning. A robot without any ``<inertial>`` is reported once if joints move its shapes, and with these targets also
+    if it has joints that move or shapes. Other robots describe kinematics only.
 
     ## Why is this bad?
     Gazebo silently drops the link and all links attached to it; MuJoCo rejects the model. `urdfkit sim` estimates the
@@ -70,7 +70,7 @@ class MovingLinkWithoutInertial(RobotRule):
 
     code = "I511"
     name = "moving-link-without-inertial"
-    severity = "note"
+    severity = "warning"
     not_for = frozenset(("moveit",))
 
     def check(self, model: Model) -> Findings:
@@ -78,7 +78,7 @@ class MovingLinkWithoutInertial(RobotRule):
         robot = model.robot
         if model.is_incomplete:
             return
-        severity: Severity = "error" if is_simulated(model) else "note"
+        severity: Severity = "error" if is_simulated(model) else "warning"
         found = massless(robot, floating=is_free(robot))
         if not found:
             return

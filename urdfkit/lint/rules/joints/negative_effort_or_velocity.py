@@ -1,6 +1,6 @@
 """J410 negative-effort-or-velocity."""
 
-from urdfkit.description.urdf.robot import Robot
+from urdfkit.description.value_defects import is_minus_one_everywhere
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
 _UNITS = {
@@ -58,7 +58,7 @@ class NegativeEffortOrVelocity(RobotRule):
 
     def check(self, model: Model) -> Findings:
         """Yield a finding for each negative limit."""
-        unlimited = {name for name in _UNITS if _is_minus_one_everywhere(model.robot, name)}
+        unlimited = {name for name in _UNITS if is_minus_one_everywhere(model.robot, name)}
         for joint in model.robot.joints:
             for name in _UNITS if joint.limit is not None and joint.is_movable else ():
                 value = getattr(joint.limit, name)
@@ -73,9 +73,3 @@ class NegativeEffortOrVelocity(RobotRule):
                         help="remove the sign, or write a large value if the joint has no limit",
                         severity="note" if name in unlimited else None,
                     )
-
-
-def _is_minus_one_everywhere(robot: Robot, name: str) -> bool:
-    """Return whether all movable joints with limits, at least two, have the limit -1."""
-    limits = [joint.limit for joint in robot.joints if joint.limit is not None and joint.is_movable]
-    return len(limits) > 1 and all(getattr(limit, name) == -1.0 for limit in limits)

@@ -7,6 +7,7 @@ from dataclasses import replace
 from urdfkit.description.urdf.massless_links import first_massless, massless
 from urdfkit.description.urdf.repair_record import Repair
 from urdfkit.description.urdf.robot import Robot
+from urdfkit.description.value_defects import repaired_values, require_valid_values
 from urdfkit.errors import ModelError
 from urdfkit.kinematics.mimic import without_impossible_mimics
 from urdfkit.scene import Scene, scene_of
@@ -14,7 +15,6 @@ from urdfkit.sim.construction.repairs.collector import Repairs
 from urdfkit.sim.construction.repairs.collision_shapes import with_substitutes, without_empty_shapes
 from urdfkit.sim.construction.repairs.estimated_masses import with_estimates
 from urdfkit.sim.construction.repairs.inertia_tensors import possible, repair_at
-from urdfkit.sim.construction.repairs.joint_values import with_possible_values
 from urdfkit.sim.construction.repairs.least_masses import with_least_masses
 
 _SHOWN = 6
@@ -37,7 +37,9 @@ def repaired(robot: Robot, scene: Scene | None, repairs: Repairs, *, floating: b
     """
     if repairs.strict:
         for repair in robot.repairs:
-            raise ModelError(repair.message, position=repair.position)
+            if repair.severity == "warning":
+                raise ModelError(repair.message, position=repair.position)
+        require_valid_values(robot)
         return robot, scene or scene_of(robot, strict=False)
     written = robot = without_impossible_mimics(robot)
     for repair in robot.repairs:
@@ -48,10 +50,8 @@ def repaired(robot: Robot, scene: Scene | None, repairs: Repairs, *, floating: b
     found += missing + [repair for _, repair in pairs if repair is not None]
     if any(repair is not None for _, repair in pairs):
         robot = replace(robot, links=tuple([link for link, _ in pairs]))
-    joints = [with_possible_values(joint) for joint in robot.joints]
-    if changed := [repair for _, repairs_of_joint in joints for repair in repairs_of_joint]:
-        found += changed
-        robot = replace(robot, joints=tuple([joint for joint, _ in joints]))
+    robot, values = repaired_values(robot)
+    found += values
     robot, estimated = with_estimates(robot, scene, floating=floating, density=repairs.density)
     robot, least = with_least_masses(robot, floating=floating)
     masses = _of_whole_robot(written, robot, [*estimated, *least], repairs.density, floating=floating)
