@@ -38,10 +38,11 @@ def test_a_typo_is_found_among_thousands_of_similar_names_with_few_comparisons(m
     rated, ratio = [], difflib.SequenceMatcher.ratio
     monkeypatch.setattr(difflib.SequenceMatcher, "ratio", lambda self: rated.append(1) or ratio(self))
     for number in (0, 17, 333, 4_321):
-        for wrong in (f"link_abcdefg_{number:05d}", f"lnk_abcdefgh_{number:05d}", f"link_abcdefgh_{number:05d}x"):
-            rated.clear()
-            assert errors.nearest(wrong, names) == f"link_abcdefgh_{number:05d}"
-            assert len(rated) <= errors.MAX_RATED
+        for wrong in (f"link_abcdefg_{number:05d}", f"lnk_abcdefgh_{number:05d}", f"link_abcdefg_{number:05d}x"):
+            for pool in (names, names[::-1]):
+                rated.clear()
+                assert errors.nearest(wrong, pool) == f"link_abcdefgh_{number:05d}"
+                assert len(rated) <= errors.MAX_RATED
 
 
 def test_names_in_lower_case_are_computed_once_for_a_pool(monkeypatch) -> None:

@@ -122,6 +122,13 @@ def one_line(text: str) -> str:
     return "".join(letter if letter.isprintable() else repr(letter)[1:-1] for letter in text)
 
 
+def kind_of(message: str) -> str:
+    """Return a message without its names, tags and numbers, which is the same for messages with one cause."""
+    import re
+
+    return re.sub(r"`[^`]*`|<[^>]*>|-?\d[\d.e+-]*", "…", message.partition("; did you mean ")[0])
+
+
 def bug(error: BaseException, package: str = "urdfkit") -> str:
     """Return one line about an unexpected error: the package at fault, its message, and where it was raised.
 
@@ -230,15 +237,23 @@ def similar(name: str, pool: Collection[str], *, count: int = 1, cutoff: float =
 
 
 def _equal_ends(one: str, other: str) -> int:
-    """Return the number of equal letters at the starts and the ends of two names."""
-    most = min(len(one), len(other))
-    start = 0
-    while start < most and one[start] == other[start]:
-        start += 1
-    end = 0
-    while end < most - start and one[-1 - end] == other[-1 - end]:
-        end += 1
-    return start + end
+    """Return the number of equal letters at the starts and the ends of two names; one more letter does not count."""
+    if one == other:
+        return len(one)
+    start = max(_equal(one, other), _equal(one[1:], other), _equal(one, other[1:]))
+    one, other = one[::-1], other[::-1]
+    end = max(_equal(one, other), _equal(one[1:], other), _equal(one, other[1:]))
+    return min(start + end, len(one), len(other))
+
+
+def _equal(one: str, other: str) -> int:
+    """Return the number of equal letters at the starts of two names."""
+    count = 0
+    for letter, its in zip(one, other, strict=False):
+        if letter != its:
+            break
+        count += 1
+    return count
 
 
 def _by_lower_case(names: Iterable[str]) -> dict[str, str]:

@@ -50,3 +50,17 @@ def test_each_repair_is_printed_once(capsys) -> None:
     assert capsys.readouterr().err == "urdfkit: warning: r.urdf:3:1: gone\n"
     assert note_repairs([repair("gone", 3), repair("new", 4)], noted) == {"gone", "new"}
     assert capsys.readouterr().err == "urdfkit: warning: r.urdf:4:1: new\n"
+
+
+def test_many_repairs_of_one_kind_are_one_line_with_their_number(capsys) -> None:
+    repairs = [repair(f"no parent `p{i}`; it is added{'; did you mean `q`?' * (i < 5)}", i + 1) for i in range(5_000)]
+    others = [repair(f"no child `c{i}`", i + 1, code="T202") for i in range(9)]
+    noted = note_repairs([*repairs, *others])
+    first, *rest = capsys.readouterr().err.splitlines()
+    assert first == (
+        "urdfkit: warning: r.urdf:1:1: no parent `p0`; it is added (and 4999 more of this kind); did you mean `q`?"
+    )
+    assert rest == [f"urdfkit: warning: r.urdf:{i + 1}:1: no child `c{i}`" for i in range(9)]
+    assert len(noted) == 5_009
+    note_repairs([*repairs, repair("no parent `new`; it is added", 9)], noted)
+    assert capsys.readouterr().err == "urdfkit: warning: r.urdf:9:1: no parent `new`; it is added\n"

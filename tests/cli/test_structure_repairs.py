@@ -85,3 +85,18 @@ def test_strict_refuses_the_robot(command: str, capsys: pytest.CaptureFixture[st
 def test_quiet_prints_no_warnings(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["tf", "bad.urdf", "-q"]) == 0
     assert capsys.readouterr().err == ""
+
+
+def test_many_undefined_parents_are_one_warning_in_every_command(capsys: pytest.CaptureFixture[str]) -> None:
+    joint = '<joint name="j{0}" type="fixed"><parent link="gone{0}"/><child link="l{0}"/></joint>\n'
+    parts = "".join(f'<link name="l{i}"/>\n{joint.format(i)}' for i in range(30))
+    Path("bad.urdf").write_text(f'<robot name="bad"><link name="base">{BODY}</link>\n{parts}</robot>')
+    expected = "`j0`: its parent link `gone0` does not exist; an empty link `gone0` is added (and 29 more of this kind)"
+    for words in (*COMMANDS.values(), ["view", "bad.urdf", "--html", "page.html"]):
+        if "hand" in words:
+            continue
+        assert main(words) == 0
+        out, err = capsys.readouterr()
+        (warning,) = [line for line in err.splitlines() if line.startswith("urdfkit: warning")]
+        assert expected in warning
+        assert "--json" not in words or len(json.loads(out)["repairs"]) == 30

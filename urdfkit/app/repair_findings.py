@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from urdfkit.app.page import note
+from urdfkit.description.urdf.repair_record import grouped
 from urdfkit.description.xml.source import Source
 from urdfkit.errors import ResourceError
 
@@ -18,7 +19,7 @@ Row = dict[str, Any]
 
 
 def note_repairs(repairs: Iterable[Repair], noted: Collection[str] = ()) -> set[str]:
-    """Print each repair once.
+    """Print each repair once; see `grouped`.
 
     Args:
         repairs: the repairs.
@@ -30,9 +31,8 @@ def note_repairs(repairs: Iterable[Repair], noted: Collection[str] = ()) -> set[
     messages: dict[str, Repair] = {}
     for repair in repairs:
         messages.setdefault(repair.message, repair)
-    for message, repair in messages.items():
-        if message not in noted:
-            note(f"urdfkit: {repair.severity}: {repair}")
+    for repair in grouped(repair for message, repair in messages.items() if message not in noted):
+        note(f"urdfkit: {repair.severity}: {repair}")
     return set(messages)
 
 

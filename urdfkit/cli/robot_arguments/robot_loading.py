@@ -46,11 +46,13 @@ def load_robot(model: ModelArgument, arguments: argparse.Namespace) -> Robot:
 
 
 def print_repairs(robot: Robot, *, quiet: bool) -> None:
-    """Print one line per repair on standard error.
+    """Print the repairs on standard error; see `grouped`.
 
     Args:
         robot: the robot.
         quiet: print nothing.
     """
-    for repair in () if quiet else dict.fromkeys(robot.repairs):
+    from urdfkit.description.urdf.repair_record import grouped
+
+    for repair in () if quiet else grouped(robot.repairs):
         print(f"urdfkit: {repair.severity}: {repair}", file=sys.stderr)

@@ -2,15 +2,21 @@
 
 from __future__ import annotations
 
-from urdfkit.errors import one_line
+from dataclasses import replace
+
+from urdfkit.errors import kind_of, one_line
 from urdfkit.position import Position
 from urdfkit.record import record
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
+    from collections.abc import Iterable
     from typing import Any, Literal
 
     RepairKind = Literal["structure", "inertia", "mass", "shape", "mesh", "joint", "plugin", "hardware", "controller"]
+
+SMALLEST_GROUP = 10
+"""Number of repairs of one kind from which on they are one line in the terminal."""
 
 
 @record
@@ -53,3 +59,23 @@ class Repair:
             "link": self.link,
             "joint": self.joint,
         }
+
+
+def grouped(repairs: Iterable[Repair]) -> list[Repair]:
+    """Return the repairs for the terminal: from `SMALLEST_GROUP` on, repairs of one kind are one, with their number.
+
+    Repairs are of one kind if they have the same code and severity, and messages that differ in names and numbers only.
+    """
+    groups: dict[tuple[str | None, str, str], list[Repair]] = {}
+    for repair in dict.fromkeys(repairs):
+        groups.setdefault((repair.code, repair.severity, kind_of(repair.message)), []).append(repair)
+    found: list[Repair] = []
+    for group in groups.values():
+        if len(group) < SMALLEST_GROUP:
+            found += group
+            continue
+        before, separator, suggestion = group[0].message.partition("; did you mean ")
+        found.append(
+            replace(group[0], message=f"{before} (and {len(group) - 1} more of this kind){separator}{suggestion}")
+        )
+    return found

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-import re
-
+from urdfkit.errors import kind_of
 from urdfkit.lint.finding import SEVERITIES, Finding
 
 TYPE_CHECKING = False
@@ -42,7 +41,7 @@ def grouped(findings: Iterable[Finding]) -> list[Finding]:
 def _kind(finding: Finding) -> str:
     if finding.severity == "error":
         return finding.message
-    return re.sub(r"`[^`]*`|<[^>]*>|-?\d[\d.e+-]*", "…", finding.message)
+    return kind_of(finding.message)
 
 
 def worst_first(findings: Iterable[Finding]) -> list[Finding]:

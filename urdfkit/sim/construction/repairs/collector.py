@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TYPE_CHECKING
 
-from urdfkit.description.urdf.repair_record import Repair
+from urdfkit.description.urdf.repair_record import Repair, grouped
 from urdfkit.errors import with_effect
 
 if TYPE_CHECKING:
@@ -35,11 +35,14 @@ class Repairs:
         self._note = note
         self.strict, self.density = strict, density
         self.found: list[Repair] = []
+        self._recorded: set[Repair] = set()
 
-    def add(self, repair: Repair) -> None:
-        """Record and report a repair, unless an equal one was recorded before."""
-        if repair not in self.found:
-            self.found.append(repair)
+    def add(self, *repairs: Repair) -> None:
+        """Record and report repairs that were not recorded before; see `grouped`."""
+        new = [repair for repair in dict.fromkeys(repairs) if repair not in self._recorded]
+        self._recorded.update(new)
+        self.found += new
+        for repair in grouped(new):
             self._note(str(repair) if repair.severity == "warning" else f"note: {repair}")
 
     def leave_out(

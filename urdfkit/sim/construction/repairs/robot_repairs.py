@@ -42,8 +42,7 @@ def repaired(robot: Robot, scene: Scene | None, repairs: Repairs, *, floating: b
         require_valid_values(robot)
         return robot, scene or scene_of(robot, strict=False)
     written = robot = without_impossible_mimics(robot)
-    for repair in robot.repairs:
-        repairs.add(repair)
+    repairs.add(*robot.repairs)
     robot, found = without_empty_shapes(robot)
     scene, missing = with_substitutes(scene_of(robot, strict=False) if scene is None or found else scene)
     pairs = [possible(link) for link in robot.links]
@@ -55,8 +54,7 @@ def repaired(robot: Robot, scene: Scene | None, repairs: Repairs, *, floating: b
     robot, estimated = with_estimates(robot, scene, floating=floating, density=repairs.density)
     robot, least = with_least_masses(robot, floating=floating)
     masses = _of_whole_robot(written, robot, [*estimated, *least], repairs.density, floating=floating)
-    for repair in [*found, *masses]:
-        repairs.add(repair)
+    repairs.add(*found, *masses)
     return robot, scene
 
 
