@@ -1,4 +1,7 @@
-"""Fix files: edit literal source text, lint the result, and keep it only without regressions (see `regressions`).
+"""Fix files: edit literal source text, lint the result, and keep it only if it is not worse.
+
+The result has no regressions (see `regressions`), and the expanded robot changes only where the findings name it (see
+`model_changes`).
 
 Bytes outside of the edits stay unchanged: line endings, byte order marks, encodings, comments. Files are written only
 after the fixed text has been linted, and each file is replaced atomically. Files outside the linted folders, such as
@@ -12,14 +15,20 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from pathlib import Path
 
 from urdfkit.description.xml.source import Overlay, Source, Span
-from urdfkit.errors import ResourceError
+from urdfkit.errors import ResourceError, UrdfkitError
 from urdfkit.lint.engine.run import Outcome, run
 from urdfkit.lint.finding import Edit, Finding
 from urdfkit.lint.fixes.generated_files import reason_if_generated
+from urdfkit.lint.fixes.model_changes import unnamed_changes
 from urdfkit.lint.fixes.regressions import WrittenText, new_findings, unmatched
 from urdfkit.lint.project.entry_files import Entry
 from urdfkit.lint.project.options import Options
 from urdfkit.record import record
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from urdfkit.description.xacro.expanded import Expanded
+    from urdfkit.description.xml.element import Element
 
 _ROUNDS = 10
 _SURROGATE = re.compile("[\ud800-\udfff]")
@@ -246,15 +255,44 @@ class _Fixer:
         worse = [finding for finding in new if written.explains(finding, relinted.sources[finding.file])]
         alike = {_key(finding) for finding in findings}  # equal findings elsewhere may remain
         before = [finding for finding in outcome.findings if _key(finding) in alike]
-        if not worse and any(True for _ in unmatched(before, relinted.findings)):
+        remains = not any(True for _ in unmatched(before, relinted.findings))
+        unnamed = [] if worse or remains else self._unnamed_changes(findings, texts)
+        if not worse and not remains and not unnamed:
             return texts, relinted
         if len(findings) == 1:
-            cause = f"that would have caused {_listed(worse)}" if worse else "the finding would remain"
+            cause = "the finding would remain"
+            if worse:
+                cause = f"that would have caused {_listed(worse)}"
+            elif unnamed:
+                place = unnamed[0].origin.position
+                cause = f"that would also have changed <{unnamed[0].tag}> at {place.file}:{place.line}"
             self.refused.add(_key(findings[0]))
             self.notes[f"{findings[0].code} at {findings[0].file}:{findings[0].line} was not fixed: {cause}"] = None
             return None
         parts = [self._attempt(part, outcome) for part in _parts(findings)]
         return next((part for part in parts if part is not None), None)
+
+    def _unnamed_changes(self, findings: Sequence[Finding], texts: dict[Path, str]) -> list[Element]:
+        """Return the elements of the robots that fixed texts change, and that no finding names."""
+        changed = {path for path, text in texts.items() if text != self.texts.get(path, self.originals[path].text)}
+        found: list[Element] = []
+        for entry in self.entries:
+            before = self._expanded(entry, self.texts)
+            if before is not None and not changed.isdisjoint(before.files):
+                after = self._expanded(entry, texts)
+                found += unnamed_changes(before, after, findings) if after is not None else []
+        return found
+
+    def _expanded(self, entry: Entry, texts: dict[Path, str]) -> Expanded | None:
+        from urdfkit.description.packages.resolver import Packages
+        from urdfkit.description.xacro.expand import expand_leniently
+
+        overlay = {str(path): self.originals[path].overlay(text) for path, text in texts.items()}
+        packages = Packages(self.options.package_path, near=entry.path)
+        try:
+            return expand_leniently(entry.path, arguments=self.options.arguments, packages=packages, texts=overlay)
+        except UrdfkitError:
+            return None
 
     def _is_wanted(self, finding: Finding) -> bool:
         fix = finding.fix

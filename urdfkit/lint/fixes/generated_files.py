@@ -8,7 +8,7 @@ from collections.abc import Mapping
 from pathlib import Path
 
 _HEAD = 2_000
-_SAYS_SO = (
+_MARK = (
     r"(?i)\b(?:auto-?generated|generated (?:automatically|by|from|using|with)|automatically generated"
     r"|do not (?:edit|modify|change)|editing this file by hand is not recommended)\b"
 )
@@ -26,10 +26,10 @@ def reason_if_generated(path: Path, text: str, others: Mapping[Path, str] | None
         others: path → content that replaces neighbouring files on disk.
     """
     pattern = r"(?s)<!--(.*?)-->" if text.lstrip("\ufeff \t\r\n").startswith("<") else r"(?m)#(.*)$"
-    said = next((at for at in re.finditer(pattern, text[:_HEAD]) if re.search(_SAYS_SO, at[1])), None)
-    if said is not None:
-        line = text.count("\n", 0, said.start()) + 1
-        return f"a comment in line {line} says that it is generated"
+    mark = next((at for at in re.finditer(pattern, text[:_HEAD]) if re.search(_MARK, at[1])), None)
+    if mark is not None:
+        line = text.count("\n", 0, mark.start()) + 1
+        return f"a comment in line {line} marks it as generated"
     neighbours = _neighbours(path)
     if _MIN_NEIGHBOURS <= len(neighbours) <= _MAX_NEIGHBOURS:
         structure = _structure(text)
