@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from urdfkit.description.packages.existence import is_file
+from urdfkit.description.control.parameter_files import parameter_file
 from urdfkit.description.packages.related_files import SRDF, package_of
 from urdfkit.description.xml.reader import document_of, read_source, shown_path
 from urdfkit.errors import ResourceError, UrdfkitError, XmlError
@@ -36,8 +36,10 @@ def related_files(
     """
     packages = expanded.packages
     files = dict.fromkeys(packages.around(package or expanded.path.absolute().parent))
-    for other in _configured(robot, package) if package is not None else ():
+    configured = _parameter_files(robot, packages, expanded.path.absolute().parent)
+    for other in _neighbours(configured, package) if package is not None else ():
         files.update(dict.fromkeys(packages.around(other)))
+    files.update(dict.fromkeys(configured))
     found: dict[str, Source] = {}
     roots: dict[str, Element] = {}
     for file in files:
@@ -71,15 +73,20 @@ def _semantic_description(
     return (None if expanded.faults else expanded.root), expanded.sources
 
 
-def _configured(robot: Robot, own: Path) -> list[Path]:
-    """Return the neighbouring packages whose settings a plugin of the robot reads."""
+def _parameter_files(robot: Robot, packages: Packages, folder: Path) -> list[Path]:
+    """Return the existing files that the plugins of a robot read parameters from."""
     found: dict[Path, None] = {}
     for block in robot.gazebo:
         for plugin in block.plugins:
             for child in plugin.element.find_all("parameters"):
-                file = Path(child.text) if child.text.startswith("/") and "$" not in child.text else None
-                package = package_of(file) if file is not None and is_file(file) else None
-                if package is not None and package.parent == own.parent:
-                    found[package] = None
-    found.pop(own, None)
+                try:
+                    found[parameter_file(child.text, packages, folder)] = None
+                except ResourceError:
+                    continue
     return list(found)
+
+
+def _neighbours(files: list[Path], own: Path) -> list[Path]:
+    """Return the packages of files that are in the folder of a package, without the package."""
+    packages = dict.fromkeys(package_of(file) for file in files)
+    return [each for each in packages if each is not None and each.parent == own.parent and each != own]

@@ -12,7 +12,7 @@ from urdfkit.description.plugins.sensors.table import BARE
 from urdfkit.description.plugins.unknown_plugins import unknown
 from urdfkit.description.sdf.reader.world_plugins import NEEDLESS
 from urdfkit.description.urdf.robot import Plugin, Robot, SensorTag
-from urdfkit.errors import SimulationError, UrdfkitError, UsageError, with_effect
+from urdfkit.errors import DescriptionError, SimulationError, UrdfkitError, UsageError, with_effect
 from urdfkit.sim.plugins.base import Controller, Drive, Sensor
 from urdfkit.sim.plugins.builtin_publishers import JointStates, all_joint_states, joint_states
 from urdfkit.sim.plugins.controllers import CONTROLLERS
@@ -193,5 +193,6 @@ def _leave_out(plugin: Plugin, error: UrdfkitError, setup: Setup) -> Needless:
         UrdfkitError: the error, if robots that need a repair are refused.
     """
     effect = f"plugin `{plugin.name or plugin.filename}` is left out"
-    setup.repairs.leave_out(error, effect, "plugin", position=plugin.element.origin.position)
+    code = "K971" if isinstance(error, DescriptionError) else None
+    setup.repairs.leave_out(error, effect, "plugin", code, position=plugin.element.origin.position)
     return Needless()

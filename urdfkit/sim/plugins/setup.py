@@ -57,8 +57,13 @@ class Setup:
         """Values of the placeholders in a table's defaults."""
         return {"model": self.model, "world": self.world, "root": self.kinematics.root}
 
-    def joint(self, name: str, position: Position) -> str:
+    def joint(self, name: str, position: Position, code: str = "Z802") -> str:
         """Return the name of a joint that moves in one degree of freedom.
+
+        Args:
+            name: the name in the parameter.
+            position: source position of the parameter.
+            code: code of the lint rule that reports unknown joints of the parameter.
 
         Raises:
             SimulationError: no joint with one degree of freedom has this name, with the position of the parameter.
@@ -71,8 +76,8 @@ class Setup:
             raise SimulationError(
                 f"joint `{name}` is {robot.joint_by_name[name].type}: nothing can drive it",
                 position=position,
-                code="Z802",
+                code=code,
             )
         raise SimulationError(
-            f"no joint `{name}` in robot `{robot.name}`{did_you_mean(name, names)}", position=position, code="Z802"
+            f"no joint `{name}` in robot `{robot.name}`{did_you_mean(name, names)}", position=position, code=code
         )

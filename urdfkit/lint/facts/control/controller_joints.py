@@ -13,41 +13,6 @@ from urdfkit.record import record
 _TYPE = r"\w*(?:_controllers?|_broadcaster)/\w+"
 _JOINTS = r"joints?|(?:left|right)_wheel(?:_names)?"
 
-_OF_JOINTS = ("JointPositionController", "JointVelocityController", "JointEffortController")
-_OF_GROUPS = ("JointGroupPositionController", "JointGroupVelocityController", "JointGroupEffortController")
-TYPES = (
-    *(
-        f"{kind}_controllers/{name}"
-        for kind in ("position", "velocity", "effort")
-        for name in (*_OF_JOINTS, *_OF_GROUPS, "JointTrajectoryController", "GripperActionController")
-    ),
-    "pos_vel_controllers/JointTrajectoryController",
-    "pos_vel_acc_controllers/JointTrajectoryController",
-    "joint_state_controller/JointStateController",
-    "joint_state_broadcaster/JointStateBroadcaster",
-    "joint_trajectory_controller/JointTrajectoryController",
-    "forward_command_controller/ForwardCommandController",
-    "forward_command_controller/MultiInterfaceForwardCommandController",
-    "diff_drive_controller/DiffDriveController",
-    "ackermann_steering_controller/AckermannSteeringController",
-    "bicycle_steering_controller/BicycleSteeringController",
-    "tricycle_steering_controller/TricycleSteeringController",
-    "tricycle_controller/TricycleController",
-    "four_wheel_steering_controller/FourWheelSteeringController",
-    "mecanum_drive_controller/MecanumDriveController",
-    "admittance_controller/AdmittanceController",
-    "pid_controller/PidController",
-    "gpio_controllers/GpioCommandController",
-    "gripper_controllers/GripperActionController",
-    "parallel_gripper_action_controller/GripperActionController",
-    "imu_sensor_controller/ImuSensorController",
-    "imu_sensor_broadcaster/IMUSensorBroadcaster",
-    "force_torque_sensor_controller/ForceTorqueSensorController",
-    "force_torque_sensor_broadcaster/ForceTorqueSensorBroadcaster",
-    "range_sensor_broadcaster/RangeSensorBroadcaster",
-)
-"""Controller types of ros_controllers (Noetic) and ros2_controllers (Rolling)."""
-
 _WRITTEN_TYPE = r"(?m)(?:^|[{,])[ \t]*type[ \t]*:[ \t]*[\"']?([\w-]+/[\w-]+)[\"']?[ \t]*(?=\r?$|[},])"
 
 

@@ -34,6 +34,11 @@ def specs(plugin: Plugin) -> list[PluginSpec]:
     return tables(plugin)
 
 
+def runs_ros2_control(robot: Robot) -> bool:
+    """Return whether a Gazebo plugin of the robot runs the controllers of its ``<ros2_control>``."""
+    return any(spec.kind == "ros2_control" for plugin, _, _ in plugins(robot) for spec in specs(plugin))
+
+
 def generations(plugin: Plugin) -> set[str]:
     """Return the generations that have a plugin's library, from its specifications or its name; empty if unknown."""
     from urdfkit.description.plugins.lookup import stem

@@ -1,7 +1,13 @@
 """C710 interface-combination-invalid."""
 
+from urdfkit.description.xml.element import Element
+from urdfkit.description.xml.numbers import number
 from urdfkit.lint.facts.control.hardware_interfaces import meant_interface
+from urdfkit.lint.facts.gazebo.plugins import runs_ros2_control
 from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
+
+_SIMULATED = ("position", "velocity", "effort")
+"""Command interfaces of the simulators' hardware."""
 
 
 class InterfaceCombination(RobotRule):
@@ -9,8 +15,8 @@ class InterfaceCombination(RobotRule):
 
     ## What it does
     Checks the ``<command_interface>`` and ``<state_interface>`` elements of each joint for duplicate names, and for
-    names that nearly match ``position``, ``velocity``, ``acceleration`` or ``effort``. Other names are accepted,
-    because hardware may define its own interfaces.
+    names that nearly match ``position``, ``velocity``, ``acceleration`` or ``effort``. Other names are a
+    note if the hardware runs in a simulator, and are accepted otherwise: hardware may define its own interfaces.
 
     ## Why is this bad?
     The controller manager stops, or the controller finds no interface to claim.
@@ -67,4 +73,19 @@ class InterfaceCombination(RobotRule):
                         elif suggestion is not None:
                             message = f"unknown interface `{name}`; did you mean `{suggestion}`?"
                             yield self.at(model, element, message, attribute="name", joint=joint.get("name"))
+                        elif kind == "command_interface" and name not in _SIMULATED and runs_ros2_control(model.robot):
+                            message = f"the simulator has no command interface `{name}`"
+                            yield self.at(
+                                model, element, message, attribute="name", joint=joint.get("name"), severity="note"
+                            )
                         seen.add(name)
+                        yield from self._initial_value(model, element) if runs_ros2_control(model.robot) else ()
+
+    def _initial_value(self, model: Model, interface: Element) -> Findings:
+        for parameter in interface.find_all("param"):
+            if (
+                parameter.get("name") == "initial_value"
+                and "$" not in parameter.text
+                and number(parameter.text) is None
+            ):
+                yield self.at(model, parameter, f"initial_value `{parameter.text}` is not a number", severity="warning")

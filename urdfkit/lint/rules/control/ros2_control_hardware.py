@@ -1,7 +1,7 @@
 """C709 ros2-control-plugin-vs-distro."""
 
 from urdfkit.lint.facts.control.exported_plugins import is_exported_plugin
-from urdfkit.lint.facts.gazebo.plugins import plugins, simulated_hardware
+from urdfkit.lint.facts.gazebo.plugins import plugins, runs_ros2_control, simulated_hardware
 from urdfkit.lint.fix_builders import nearest, new_text
 from urdfkit.lint.project.target_platform import WITHOUT_CLASSIC
 from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
@@ -16,6 +16,8 @@ HARDWARE = {
 MOCKS = ("mock_components/GenericSystem", "fake_components/GenericSystem")
 """The hardware that simulates any other, under its names since Iron and before."""
 
+_ARGUMENT = "pass the xacro argument that selects the hardware of the simulator, if the robot has one"
+
 
 class HardwareMismatch(RobotRule):
     """The hardware of ``<ros2_control>`` does not match the Gazebo plugin of the robot.
@@ -24,7 +26,8 @@ class HardwareMismatch(RobotRule):
     Each plugin that runs the controller manager in Gazebo has its own hardware: gazebo_ros2_control has
     ``gazebo_ros2_control/GazeboSystem``, gz_ros2_control ``gz_ros2_control/GazeboSimSystem`` and ign_ros2_control
     ``ign_ros2_control/IgnitionSystem``. The rule reports hardware of another plugin, and names that nearly match one of
-    these or ``mock_components/GenericSystem``. Other hardware is accepted.
+    these or ``mock_components/GenericSystem``. Other hardware is a note if the robot has such a plugin, because its
+    joints are not controlled in a simulation.
 
     ROS 2 from Jazzy on (``--target ros2-jazzy``) and Gazebo Sim (``--target gz``) have no
     ``gazebo_ros2_control/GazeboSystem``; Gazebo Classic (``--target classic``) has only that hardware.
@@ -72,15 +75,16 @@ class HardwareMismatch(RobotRule):
         if not model.robot.ros2_control:
             return
         files = {(plugin.filename or "").strip() for plugin, _, _ in plugins(model.robot)}
+        is_run = runs_ros2_control(model.robot)
         hosts = {package for package in HARDWARE if any(package in file for file in files)}
         for block in model.robot.ros2_control:
             hardware = block.element.find("hardware")
             element = hardware.find("plugin") if hardware is not None else None
             text = element.text if element is not None else ""
-            if element is None or not text or "$" in text:
+            if element is None or "$" in text:
                 continue
             package = text.partition("/")[0]
-            if text in MOCKS:
+            if text in MOCKS or (not text and not is_run):
                 continue
             if text == HARDWARE["gazebo_ros2_control"] and model.release in WITHOUT_CLASSIC:
                 expected, message = HARDWARE["gz_ros2_control"], f"hardware `{text}` does not exist for {model.release}"
@@ -95,6 +99,9 @@ class HardwareMismatch(RobotRule):
             else:
                 suggestion = HARDWARE.get(package) or nearest(text, (*HARDWARE.values(), *MOCKS), cutoff=0.9)
                 if suggestion is None or is_exported_plugin(model, text):
+                    if is_run:
+                        message = f"hardware `{text}` is not simulated; its joints are not controlled in Gazebo"
+                        yield self.at(model, element, message, help=_ARGUMENT, severity="note")
                     continue
                 expected, message = suggestion, f"unknown hardware `{text}`"
             yield self.at(

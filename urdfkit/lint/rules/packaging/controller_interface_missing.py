@@ -49,7 +49,7 @@ class ControllerInterfaceMissing(RobotRule):
     def check(self, model: Model) -> Findings:
         """Yield a finding at the type of each controller whose joint lacks the required interface."""
         from urdfkit.lint.facts.control.controller_joints import joints_of, typed
-        from urdfkit.lint.facts.control.hardware_interfaces import is_misspelt
+        from urdfkit.lint.facts.control.hardware_interfaces import has_gazebo_ros_control, is_misspelt
 
         if model.robot.ros2_control:
             return
@@ -58,6 +58,7 @@ class ControllerInterfaceMissing(RobotRule):
             for joint in transmission.joints:
                 names = (name.rpartition("/")[2] for name in joint.hardware_interfaces)
                 provided.setdefault(joint.name or "", set()).update(names)
+        is_run = has_gazebo_ros_control(model.robot)
         for source in model.related_files.values() if provided else ():
             if not source.file.endswith((".yaml", ".yml")):
                 continue
@@ -68,6 +69,13 @@ class ControllerInterfaceMissing(RobotRule):
                     for joint in joints_of(source, controller_type)
                     if provided.get(joint) and required not in provided[joint]
                 ]
+                unprovided = [joint for joint in joints_of(source, controller_type) if not provided.get(joint)]
+                unprovided = [joint for joint in unprovided if joint in model.robot.joint_by_name]
+                if required is not None and unprovided and not missing and is_run:
+                    needed = f"`{controller_type.name}` requires the {required} of joint `{unprovided[0]}`"
+                    message = f"{needed}, which has no transmission"
+                    span = source.span(controller_type.start, controller_type.start + len(controller_type.name))
+                    yield Finding(self.code, self.name, "note", message, span, joint=unprovided[0])
                 if required is None or not missing or any("$" in name for name in provided[missing[0]]):
                     continue
                 if any(is_misspelt(name) for name in provided[missing[0]]):

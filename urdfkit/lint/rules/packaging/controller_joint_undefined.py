@@ -49,7 +49,26 @@ class ControllerJointUndefined(RobotRule):
     not_for = NOT_GAZEBO
 
     def check(self, model: Model) -> Findings:
-        """Yield a finding for each controller joint that no description in these packages can define."""
+        """Yield a finding for each controller joint that no description in these packages can define.
+
+        An undefined joint of a controller that a Gazebo plugin of the robot loads is at least a note.
+        """
+        from urdfkit.lint.facts.control.loaded_controllers import loaded_controllers
+
+        places = set()
+        for finding in self._undefined(model):
+            places.add((finding.span.file, finding.span.line, finding.span.column))
+            yield finding
+        joints = model.robot.joint_by_name
+        for name, settings in loaded_controllers(model) if joints else ():
+            named = (settings.find("joints"), settings.find("joint"))
+            for entry in [one for each in named if each is not None for one in (each.items or (each,))]:
+                place = entry.position
+                if entry.value and entry.value not in joints and (place.file, place.line, place.column) not in places:
+                    message = f"controller `{name}` names the undefined joint `{entry.value}`"
+                    yield self.at(model, place, message, joint=entry.value, severity="note")
+
+    def _undefined(self, model: Model) -> Findings:
         from urdfkit.lint.facts.control.controller_joints import joints
         from urdfkit.lint.fix_builders import nearest
 

@@ -11,8 +11,6 @@ _KEY = r"(?m)^([ \t]*)[\"']?([\w/]+)[\"']?[ \t]*:[ \t]*\r?$"
 _GROUP = r"(?m)(?:^|[{,])[ \t]*[\"']?(ros_*[A-Za-z_]+)[\"']?[ \t]*:[ \t]*(?=\r?$|[{&*])"
 _PARAMETERS = "ros__parameters"
 _TAB = r"(?m)^ *\t[ \t]*(?=[^\s#])"
-_MAX_LENGTH_DIFFERENCE = 2
-"""Largest accepted difference in length from the suggested name."""
 
 
 class ControllerSettingsMisspelt(RobotRule):
@@ -22,7 +20,9 @@ class ControllerSettingsMisspelt(RobotRule):
     Checks the controller parameters in the YAML files of the robot's package and of neighbouring packages that
     depend on it for misspelt controller types of ros_controllers and ros2_controllers, misspelt names of controller
     sections, misspelt or missing ``ros__parameters`` keys (with two underscores), misspelt parameters and
-    interfaces, and tabs. Types that a package of the workspace exports are accepted.
+    interfaces, and tabs. Types that a package of the workspace exports are accepted. A type of another package is a
+    note if a Gazebo plugin of the robot loads the controller, because a simulation with urdfkit leaves it out. So are
+    unknown parameters of such a controller.
 
     ## Why is this bad?
     Loading fails with "Loader for controller not found", or the controller starts without its joints, because unknown
@@ -58,10 +58,12 @@ class ControllerSettingsMisspelt(RobotRule):
 
     def check(self, model: Model) -> Findings:
         """Yield a finding for each misspelt name, and for the first tab of a file."""
+        from urdfkit.description.control.controller_types import meant_type
         from urdfkit.lint.facts.control.controller_joints import typed
         from urdfkit.lint.facts.control.exported_plugins import is_exported_plugin
         from urdfkit.lint.facts.control.launch_package_paths import uncommented
 
+        yield from self._loaded(model)
         for source in model.related_files.values():
             if not source.file.endswith((".yaml", ".yml")):
                 continue
@@ -70,7 +72,7 @@ class ControllerSettingsMisspelt(RobotRule):
             if not types and "controller" not in text:
                 continue
             for reference in types:
-                suggestion = _suggested_type(reference.name)
+                suggestion = meant_type(reference.name)
                 if suggestion is not None and not is_exported_plugin(model, reference.name):
                     message = f"unknown controller type `{reference.name}`; did you mean `{suggestion}`?"
                     yield self._at(source, reference.start, reference.name, message)
@@ -79,6 +81,28 @@ class ControllerSettingsMisspelt(RobotRule):
             yield from self._sections(source)
             if (tab := re.search(_TAB, text)) is not None:
                 yield self._at(source, tab.start(), tab[0], "YAML is indented with a tab", help="indent with spaces")
+
+    def _loaded(self, model: Model) -> Findings:
+        """Yield a note for each loaded controller of another package, and for unknown parameters of a controller."""
+        from urdfkit.description.control.controller_parameters import unknown_parameters
+        from urdfkit.description.control.controller_types import TYPES, meant_type
+        from urdfkit.lint.facts.control.controller_settings import misspelt
+        from urdfkit.lint.facts.control.loaded_controllers import loaded_controllers
+        from urdfkit.lint.facts.control.yaml_tree import yamls
+
+        loaded = loaded_controllers(model)
+        keys = [(source.file, key.line, key.column) for source in yamls(model) for key, _, _ in misspelt(source)]
+        for name, settings in loaded:
+            kind = settings.group("type")
+            unknown = [(each.place, each.name) for each in unknown_parameters(settings)]
+            unknown = [(at, each) for at, each in unknown if (at.file, at.line, at.column) not in keys]
+            if unknown:
+                names = ", ".join(f"`{each}`" for _, each in unknown)
+                message = f"controller `{name}` ignores the unknown parameters {names}"
+                yield self.at(model, unknown[0][0], message, severity="note")
+            if kind.value and kind.value not in TYPES and meant_type(kind.value) is None:
+                message = f"controller `{name}`: urdfkit does not simulate the type `{kind.value}` of another package"
+                yield self.at(model, kind.position, message, severity="note")
 
     def _keys(self, source: Source, text: str) -> Findings:
         from urdfkit.lint.facts.control.controller_joints import controllers
@@ -106,7 +130,7 @@ class ControllerSettingsMisspelt(RobotRule):
 
     def _sections(self, source: Source) -> Findings:
         """Yield a finding for each type without package, and each ROS 2 section without ``ros__parameters``."""
-        from urdfkit.lint.facts.control.controller_joints import TYPES
+        from urdfkit.description.control.controller_types import TYPES
         from urdfkit.lint.facts.control.ros2_controllers import declared
         from urdfkit.lint.facts.control.yaml_tree import documents, groups, span_of, walk
 
@@ -146,17 +170,3 @@ class ControllerSettingsMisspelt(RobotRule):
     def _at(self, source: Source, start: int, text: str, message: str, help: str | None = None) -> Finding:
         span = source.span(start, start + len(text))
         return Finding(self.code, self.name, self.severity, message, span, help=help)
-
-
-def _suggested_type(name: str) -> str | None:
-    """Return the suggestion for a misspelt controller type; None if the type is valid or may be user-defined."""
-    from urdfkit.lint.facts.control.controller_joints import TYPES
-    from urdfkit.lint.fix_builders import nearest
-
-    if name in TYPES:
-        return None
-    suggestion = nearest(name, TYPES, cutoff=0.9)
-    if suggestion is None:
-        return None
-    parts = zip(name.split("/"), suggestion.split("/"), strict=False)
-    return suggestion if all(abs(len(word) - len(other)) <= _MAX_LENGTH_DIFFERENCE for word, other in parts) else None

@@ -54,6 +54,20 @@ class ParameterValueInvalid(RobotRule):
 
     def check(self, model: Model) -> Findings:
         """Yield a finding for each impossible value and each repeated key."""
+        from urdfkit.description.control.controller_parameters import invalid_parameters
+        from urdfkit.lint.facts.control.loaded_controllers import loaded_controllers
+
+        places = set()
+        for finding in self._in_yaml(model):
+            places.add((finding.span.file, finding.span.line))
+            yield finding
+        for _, settings in loaded_controllers(model):
+            for error in invalid_parameters(settings):
+                place = error.position
+                if place is not None and (place.file, place.line) not in places:
+                    yield self.at(model, place, error.message)
+
+    def _in_yaml(self, model: Model) -> Findings:
         from urdfkit.lint.facts.control.controller_joints import controllers
         from urdfkit.lint.facts.control.parameter_values import contradictions, incomplete_controllers, value_defects
         from urdfkit.lint.facts.control.ros2_controllers import PARAMETERS

@@ -5,10 +5,13 @@ from dataclasses import dataclass
 from math import ceil, inf
 
 from urdfkit.description.control import Settings
+from urdfkit.description.control.controller_parameters import unknown_parameters
+from urdfkit.description.control.controller_types import NOT_SIMULATED
+from urdfkit.description.urdf.repair_record import Repair
 from urdfkit.errors import SimulationError, UrdfkitError, did_you_mean
 from urdfkit.sim.plugins.builtin_publishers import Publication
 from urdfkit.sim.plugins.controllers.command_output import Output
-from urdfkit.sim.plugins.controllers.controller import Hardware, RosController
+from urdfkit.sim.plugins.controllers.controller import LEFT_OUT, Hardware, RosController
 from urdfkit.sim.plugins.controllers.controller_types import load_ros_controller
 from urdfkit.sim.plugins.controllers.joint_handle import JointPid
 from urdfkit.sim.state.joint_commands import Motors
@@ -155,10 +158,19 @@ class ControlLoop:
             return True
         controller = load_ros_controller(name, self.configured[name], self.hardware)
         if controller is None:
-            kind = self.configured[name].text("type", "")
-            place = self.configured[name].group("type").position
-            self.hardware.setup.note(f"{place}: controller `{name}`: {kind} is not simulated")
+            kind, setup = self.configured[name].text("type", ""), self.hardware.setup
+            place, message = (
+                self.configured[name].group("type").position,
+                f"controller `{name}`: {kind} is not simulated",
+            )
+            if kind in NOT_SIMULATED or setup.repairs.strict:
+                setup.note(f"{place}: {message}")
+            else:
+                setup.repairs.add(Repair("controller", "K962", f"{message}; the controller is left out", place))
             return False
+        if unknown := unknown_parameters(self.configured[name]):
+            names = ", ".join(f"`{each.name}`" for each in unknown)
+            self.hardware.setup.note(f"{unknown[0].place}: controller `{name}` ignores the unknown parameters {names}")
         self.controllers[name] = controller
         self.publications += controller.publications
         self.changed(controller)
@@ -229,7 +241,12 @@ class ControlLoop:
         except UrdfkitError as error:
             if name not in self.controllers:
                 effect = f"controller `{name}` is left out"
-                self.hardware.setup.repairs.leave_out(error, effect, "controller", "K962")
+                if error.code == LEFT_OUT:
+                    self.hardware.setup.note(f"{error.position}: {error.message}; {effect}")
+                else:
+                    if error.code == "K963":
+                        error.position = self.configured[name].group("type").position
+                    self.hardware.setup.repairs.leave_out(error, effect, "controller", "K971")
             elif isinstance(error, SimulationError):
                 self.hardware.setup.note(f"not started: {error}")
             else:

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from math import inf
 from typing import Any, ClassVar
 
 from urdfkit.bus import Topic
 from urdfkit.description.control import Settings
+from urdfkit.description.xml.source import Position
 from urdfkit.errors import DescriptionError, did_you_mean
 from urdfkit.sim.plugins.builtin_publishers import Publication
 from urdfkit.sim.plugins.controllers.command_output import Output
@@ -19,6 +20,9 @@ from urdfkit.sim.plugins.setup import Setup
 from urdfkit.sim.state.joint_commands import Motors
 from urdfkit.sim.state.periodic_steps import NEVER
 from urdfkit.sim.state.robot_state import State
+
+LEFT_OUT = "left-out"
+"""Code of errors about joints whose hardware is left out; a repair reports the hardware."""
 
 
 @dataclass
@@ -33,6 +37,7 @@ class Hardware:
         outputs: (joint, interface) → output, in the order of the description.
         joints: joints whose states are available, in the order of the description.
         wake: requests an update in the next control period.
+        left_out: joint → hardware that the simulation left out.
         source: element that error messages name if a joint has no interface, e.g. ``<transmission>``.
     """
 
@@ -44,9 +49,15 @@ class Hardware:
     joints: tuple[str, ...]
     wake: Callable[[], None]
     source: str = "<transmission>"
+    left_out: dict[str, str] = field(default_factory=dict)
 
-    def output(self, entry: Settings, interface: str) -> Output:
+    def output(self, entry: Settings, interface: str, place: Position | None = None) -> Output:
         """Return the output of a joint named in a parameter.
+
+        Args:
+            entry: the parameter that names the joint.
+            interface: the command interface.
+            place: source position of the name of the interface; None if only the type of the controller names it.
 
         Raises:
             DescriptionError: unknown joint, or the joint lacks the interface; with the position of the parameter.
@@ -57,14 +68,18 @@ class Hardware:
             return found
         joints = list(dict.fromkeys(name for name, _ in self.outputs))
         robot = self.setup.kinematics.robot
-        if joint in joints:
+        code = "K965" if self.ros == 2 else "K963"
+        if joint in self.left_out:
+            message, code = f"joint `{joint}` is not controlled: its {self.left_out[joint]} is left out", LEFT_OUT
+        elif joint in joints:
             others = " or ".join(kind for name, kind in self.outputs if name == joint)
             message = f"joint `{joint}` takes {others}, not {interface}; check its {self.source}"
         elif joint in robot.joint_by_name:
             message = f"joint `{joint}` has no {self.source} with an interface for {interface}"
         else:
             message = f"no joint `{joint}` in robot `{robot.name}`{did_you_mean(joint, robot.joint_by_name)}"
-        raise DescriptionError(message, position=entry.position)
+            code, place = "K959", None
+        raise DescriptionError(message, position=place or entry.position, code=code)
 
 
 class RosController(ABC):

@@ -1,7 +1,8 @@
 """Registry of the simulated controllers of ros_control and ros2_control by type name."""
 
 from urdfkit.description.control import Settings
-from urdfkit.errors import DescriptionError, did_you_mean
+from urdfkit.description.control.controller_types import NOT_SIMULATED, meant_type
+from urdfkit.errors import DescriptionError, suggestion
 from urdfkit.sim.plugins.controllers.controller import Hardware, RosController
 from urdfkit.sim.plugins.controllers.joints.forward_command import Forward, ForwardGroup
 from urdfkit.sim.plugins.controllers.joints.gripper import Gripper
@@ -31,39 +32,18 @@ ROS_CONTROLLERS: tuple[type[RosController], ...] = (
 )
 """All controller classes; a test fails if one is missing here."""
 
-ELSEWHERE = (
-    "admittance_controller/AdmittanceController",
-    "force_torque_sensor_broadcaster/ForceTorqueSensorBroadcaster",
-    "force_torque_sensor_controller/ForceTorqueSensorController",
-    "gpio_controllers/GpioCommandController",
-    "gripper_controllers/GripperActionController",
-    "imu_sensor_broadcaster/IMUSensorBroadcaster",
-    "imu_sensor_controller/ImuSensorController",
-    "pid_controller/PidController",
-    "pos_vel_controllers/JointTrajectoryController",
-    "pos_vel_acc_controllers/JointTrajectoryController",
-    "range_sensor_broadcaster/RangeSensorBroadcaster",
-    "steering_controllers_library/SteeringControllersLibrary",
-    "tricycle_controller/TricycleController",
-)
-"""Controller types of ros2_controllers and ros_controllers that are not simulated."""
-
 
 def load_ros_controller(name: str, settings: Settings, hardware: Hardware) -> RosController | None:
-    """Return a configured controller; None for a type that is not simulated or belongs to an unknown package.
+    """Return a configured controller; None for a type that is not simulated.
 
     Raises:
-        DescriptionError: unknown type in a known package, or an invalid parameter, with its position.
+        DescriptionError: unknown type, or an invalid parameter, with its position.
     """
     kind = settings.text("type")
-    names = [name for controller in ROS_CONTROLLERS for name in controller.types]
     for controller in ROS_CONTROLLERS:
         if kind in controller.types:
             return controller(name, settings, hardware)
-    if kind in ELSEWHERE:
-        return None
-    package, packages = kind.partition("/")[0], {name.partition("/")[0] for name in names}
-    if package not in packages and not did_you_mean(package, packages):
-        return None  # third-party: Gazebo runs without it if its library is missing
-    hint = did_you_mean(kind, (*names, *ELSEWHERE))
-    raise DescriptionError(f"no controller type `{kind}`{hint}", position=settings.group("type").position)
+    if kind in NOT_SIMULATED or (meant := meant_type(kind)) is None:
+        return None  # Without the library of another package, Gazebo runs without the controller, too.
+    place = settings.group("type").position
+    raise DescriptionError(f"unknown controller type `{kind}`{suggestion(meant)}", position=place, code="K962")

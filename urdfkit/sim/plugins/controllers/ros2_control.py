@@ -7,11 +7,12 @@ from pathlib import Path
 
 from urdfkit.description.control import Settings, node_settings, read_settings
 from urdfkit.description.control.parameter_files import parameter_file
+from urdfkit.description.control.ros2_controllers import configured_controllers
 from urdfkit.description.plugins.controller_plugins import GAZEBO_ROS2_CONTROL
 from urdfkit.description.xml.element import Element
 from urdfkit.description.xml.numbers import number
 from urdfkit.description.xml.source import Position
-from urdfkit.errors import ResourceError, SimulationError, did_you_mean
+from urdfkit.errors import ResourceError, SimulationError, similar, suggestion
 from urdfkit.sim.plugins.controllers.command_output import (
     INTERFACES,
     EffortOutput,
@@ -62,12 +63,14 @@ class Ros2Control(ControlLoopPlugin):
         boss = node_settings(root, namespace, read.text("controller_manager") or "controller_manager")
         rate = boss.number("update_rate", UPDATE_RATE)
         if rate <= 0:
-            raise SimulationError(f"`update_rate` is {rate:g} Hz", position=boss.group("update_rate").position)
+            place = boss.group("update_rate").position
+            raise SimulationError(f"`update_rate` is {rate:g} Hz", position=place, code="K971")
         period = max(setup.dt, 1.0 / rate)
         gain = read.number("position_gain", 0.1) if self.spec.generation == "gz" else None
         hardware = Hardware(setup, topics.resolve, 2, period, {}, (), lambda: loop.wake(), "<command_interface>")
+        self.left_out = hardware.left_out
         hardware.joints = tuple(self._joints(setup, hardware, gain))
-        configured = _controllers(root, namespace, boss)
+        configured = configured_controllers(root, namespace, boss)
         hold = self.spec.generation != "gz" or read.flag("hold_joints")
         loop = self.loop = ControlLoop(namespace, configured, hardware, hold=hold)
         if not configured:
@@ -91,19 +94,27 @@ class Ros2Control(ControlLoopPlugin):
         """Fill the outputs of the hardware; return the joints of the simulator's blocks."""
         joints: list[str] = []
         for block in setup.kinematics.robot.ros2_control:
-            plugin = next((e for e in block.element.walk() if e.tag == "plugin"), None)
+            parts = block.element.find("hardware")
+            plugin = parts.find("plugin") if parts is not None else None
             name = plugin.text.strip() if plugin is not None else ""
             if name not in (*SIMULATED, *MOCKS):
-                place = (plugin or block.element).origin.position
-                error = SimulationError(
-                    f"hardware `{name}` is not the simulator's{did_you_mean(name, SIMULATED)}", position=place
-                )
+                place = (plugin or parts or block.element).origin.position
+                near = next(iter(similar(name, SIMULATED, cutoff=0.85)), None)
+                error = SimulationError(f"hardware `{name}` is not the simulator's{suggestion(near)}", position=place)
                 effect = f"its joints are not controlled{simulation_hint(setup.kinematics.robot)}"
-                setup.repairs.leave_out(error, effect, "hardware", "C709")
+                setup.repairs.leave_out(error, effect, "hardware", "C717" if plugin is None else "C709")
+                names = (element.get("name") or "" for element in block.element.find_all("joint"))
+                hardware.left_out.update(dict.fromkeys(names, f"hardware `{name}`"))
                 continue
             of_block = None if name in MOCKS else gain
             for element in block.element.find_all("joint"):
-                own = setup.joint(element.get("name") or "", element.origin.position)
+                written = setup.kinematics.robot.joint_by_name.get(element.get("name") or "")
+                command = element.find("command_interface") if written and written.type == "fixed" else None
+                try:
+                    own = setup.joint(element.get("name") or "", (command or element).origin.position, "C707")
+                except SimulationError as error:
+                    setup.repairs.leave_out(error, "the joint is not controlled", "hardware")
+                    continue
                 joints.append(own)
                 for output in self._outputs(element, own, setup, hardware.period, of_block):
                     hardware.outputs[output.claim] = output
@@ -115,12 +126,13 @@ class Ros2Control(ControlLoopPlugin):
         for interface in element.find_all("command_interface"):
             kind = interface.get("name") or ""
             if kind not in INTERFACES:
-                raise SimulationError(
-                    f"unknown command interface `{kind}`{did_you_mean(kind, INTERFACES)} "
-                    f"(available: {', '.join(INTERFACES)})",
+                error = SimulationError(
+                    f"unknown command interface `{kind}` of joint `{joint}` (available: {', '.join(INTERFACES)})",
                     position=interface.origin.position,
                 )
-            if joint in setup.kinematics.mimic_names:
+                setup.repairs.leave_out(error, "the interface is left out", "hardware", "C710")
+                self.left_out[joint] = f"interface `{kind}`"
+            elif joint in setup.kinematics.mimic_names:
                 setup.note(f"{interface.origin.position}: joint `{joint}` mimics another: it takes no commands")
             elif kind == "effort":
                 found.append(EffortOutput(handle, period))
@@ -135,31 +147,14 @@ class Ros2Control(ControlLoopPlugin):
                 if parameter.get("name") == "initial_value" and interface.get("name") == "position":
                     value = number(parameter.text)
                     if value is None:
-                        raise SimulationError(
+                        error = SimulationError(
                             f"initial_value `{parameter.text}` of joint `{joint}` is not a number",
                             position=parameter.origin.position,
                         )
-                    if joint not in setup.kinematics.mimic_names:
+                        setup.repairs.leave_out(error, "the joint starts at zero", "hardware", "C710")
+                    elif joint not in setup.kinematics.mimic_names:
                         self.initial_positions[joint] = value
         return sorted(found, key=lambda output: INTERFACES.index(output.interface))
-
-
-def _controllers(root: Settings, namespace: str, boss: Settings) -> dict[str, Settings]:
-    """Return name → parameters of each controller with a ``type``, at the controller manager or at its own node."""
-    configured = {}
-    for name, entry in boss.children.items():
-        if (kind := entry.children.get("type")) is not None and kind.value:
-            own = node_settings(root, namespace, name)
-            children = {**own.children, "type": kind}
-            configured[name] = Settings(name, own.position, None, None, children, own.key or entry.key)
-    for path, _ in root.walk():
-        node, _, last = path.rpartition("/")
-        name = node.rpartition("/")[2]
-        if last == "ros__parameters" and name not in configured:
-            own = node_settings(root, namespace, name)
-            if (kind := own.children.get("type")) is not None and "/" in (kind.value or ""):
-                configured[name] = own
-    return configured
 
 
 def _path(text: str, setup: Setup, position: Position) -> Path:

@@ -20,6 +20,9 @@ from urdfkit.sim.plugins.setup import Setup
 from urdfkit.sim.plugins.topic_names import Topics
 from urdfkit.sim.state.pid import read_gains
 
+UNDRIVEN = ("fixed", "floating", "planar")
+"""Types of joints that no transmission can drive."""
+
 
 class GazeboRosControl(ControlLoopPlugin):
     """Plugin that runs the controllers of the robot's namespace on the joints of its transmissions."""
@@ -44,11 +47,17 @@ class GazeboRosControl(ControlLoopPlugin):
         of_hardware = self._hardware_settings(setup, read, found, settings)
         hardware = Hardware(setup, topics.resolve, 1, period, {}, (), lambda: loop.wake())
         for transmission in robot.transmissions:
+            joints = [robot.joint_by_name[name] for name in _names(transmission) if name in robot.joint_by_name]
+            if undriven := next((joint for joint in joints if joint.type in UNDRIVEN), None):
+                fault = f"joint `{undriven.name}` is {undriven.type}; transmission `{transmission.name}` is left out"
+                setup.note(f"{transmission.element.origin.position}: {fault}")
+                continue
             try:
                 output = _output(transmission, of_hardware, setup, period)
             except SimulationError as error:
                 effect = f"transmission `{transmission.name}` is left out"
                 setup.repairs.leave_out(error, effect, "hardware", position=transmission.element.origin.position)
+                hardware.left_out.update(dict.fromkeys(_names(transmission), f"transmission `{transmission.name}`"))
             else:
                 hardware.outputs.setdefault(output.claim, output)
         hardware.joints = tuple(dict.fromkeys(name for name, _ in hardware.outputs))
@@ -88,6 +97,10 @@ class GazeboRosControl(ControlLoopPlugin):
         return found.root
 
 
+def _names(transmission: Transmission) -> list[str]:
+    return [joint.name or "" for joint in transmission.joints]
+
+
 def _output(transmission: Transmission, settings: Settings, setup: Setup, period: float) -> Output:
     """Return the command interface of a transmission.
 
@@ -99,6 +112,7 @@ def _output(transmission: Transmission, settings: Settings, setup: Setup, period
         raise SimulationError(
             f"transmission `{name}` has {len(transmission.joints)} joints; Gazebo simulates those of one",
             position=place,
+            code="C703",
         )
     (joint,) = transmission.joints
     interfaces = joint.hardware_interfaces
@@ -109,6 +123,7 @@ def _output(transmission: Transmission, settings: Settings, setup: Setup, period
                 f"transmission `{name}` lacks <hardwareInterface> in its <joint>, "
                 "such as hardware_interface/EffortJointInterface",
                 position=joint.element.origin.position,
+                code="C702",
             )
         setup.note(f"{place}: transmission `{name}`: <hardwareInterface> belongs into <joint>, not <actuator>")
     kind = interfaces[0].strip().removeprefix("hardware_interface/")
@@ -118,8 +133,9 @@ def _output(transmission: Transmission, settings: Settings, setup: Setup, period
             f"transmission `{name}`: Gazebo has no interface `{interfaces[0]}`"
             f"{did_you_mean(kind, SIMULATED_INTERFACES)} (it has {', '.join(SIMULATED_INTERFACES)})",
             position=written.origin.position,
+            code="C703",
         )
-    own = setup.joint(joint.name or "", joint.element.origin.position)
+    own = setup.joint(joint.name or "", joint.element.origin.position, "C701")
     controlled = setup.kinematics.robot.joint_by_name[own]
     handle, limits = JointHandle(setup.kinematics, controlled), read_limits(controlled, settings, setup.note)
     handle.lower, handle.upper = limits.lower, limits.upper

@@ -18,9 +18,10 @@ _SIMULATION = re.compile(r"(^|_)(sim|simulation|gazebo|gz|ignition|ign|mock|fake
 def simulation_hint(robot: Robot) -> str:
     """Return the end of a message that lists the arguments that enable the simulated hardware; empty without any.
 
-    All files of the robot are searched; arguments that the robot was loaded with are left out.
+    All files of the robot are searched. The end is empty, too, if the robot was loaded with such an argument.
     """
     defaults = declared_arguments([read_source(file) for file in robot.files if file.is_file()])
     enabling = [name for name, value in defaults.items() if value in _FALSE and _SIMULATION.search(name)]
-    names = [name for name in enabling if name not in robot.arguments]
-    return f"; pass {' or '.join(f'{name}:=true' for name in names)}" if names else ""
+    if not enabling or any(name in robot.arguments for name in enabling):
+        return ""
+    return f"; pass {' or '.join(f'{name}:=true' for name in enabling)}"

@@ -86,6 +86,8 @@ class ForwardGroup(Forward):
         joints = self.settings.texts("joints")
         if not joints:
             self.settings.text("joints")
-        self.outputs = tuple(self.hardware.output(entry, interface) for entry in joints)
+        named = self.settings.find("interface_name")
+        place = None if named is None else named.position
+        self.outputs = tuple(self.hardware.output(entry, interface, place) for entry in joints)
         topic = self.topic("command" if self.hardware.ros == 1 else "commands")
         self.listen(topic, FLOATS, lambda message: self.take([float(value) for value in message.data]))

@@ -44,7 +44,9 @@ class JointStatePublisher(RosController):
         else:
             rate = 1.0 / hardware.period
             named = self.settings.texts("joints")
-            self._joints = tuple(hardware.setup.joint(e.value or "", e.position) for e in named) or hardware.joints
+            self._joints = (
+                tuple(hardware.setup.joint(e.value or "", e.position, "K959") for e in named) or hardware.joints
+            )
             local = self.settings.flag("use_local_topics", False)
             topic = self.topic("joint_states") if local else hardware.resolve("joint_states")
         self.report(hardware.setup.bus.advertise(topic, JOINT_STATE), rate, self._message)

@@ -56,7 +56,9 @@ class TrajectoryFollower(RosController):
         if not joints:
             settings.text("joints")
         self._interface = self.types[self.type] or self._chosen()
-        self.outputs = tuple(hardware.output(entry, self._interface) for entry in joints)
+        named = (each.position for each in settings.texts("command_interfaces") if each.value == self._interface)
+        place = next(named, None)
+        self.outputs = tuple(hardware.output(entry, self._interface, place) for entry in joints)
         self._names = [output.handle.name for output in self.outputs]
         self._joint_pids = [self._joint_pid(output) for output in self.outputs]
         self._ros1 = ros1 = hardware.ros == 1

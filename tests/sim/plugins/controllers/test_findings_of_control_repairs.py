@@ -1,0 +1,142 @@
+"""Every hardware part and controller that a simulation leaves out has a finding of its code at its place."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from urdfkit import Simulator
+from urdfkit.lint import lint
+
+INERTIAL = '<inertial><mass value="1"/><inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial>'
+TREE = f"""<robot name="arm">
+<link name="world"/><link name="upper">{INERTIAL}</link><link name="lower">{INERTIAL}</link>
+<link name="hand">{INERTIAL}</link>
+<joint name="shoulder" type="continuous"><parent link="world"/><child link="upper"/><axis xyz="0 1 0"/></joint>
+<joint name="elbow" type="continuous"><parent link="upper"/><child link="lower"/><axis xyz="0 1 0"/></joint>
+<joint name="wrist" type="fixed"><parent link="lower"/><child link="hand"/></joint>
+"""
+ROS_2 = """<ros2_control name="arm" type="system">
+<hardware>
+<plugin>gz_ros2_control/GazeboSimSystem</plugin>
+</hardware>
+<joint name="shoulder">
+<command_interface name="position"/>
+<state_interface name="position"><param name="initial_value">0</param></state_interface>
+</joint>
+<joint name="elbow">
+<command_interface name="velocity"/>
+<state_interface name="position"/>
+</joint>
+</ros2_control>
+<gazebo><plugin filename="gz_ros2_control-system" name="gz_ros2_control::GazeboSimROS2ControlPlugin">
+<parameters>$(find arm)/config/arm.yaml</parameters>
+</plugin></gazebo></robot>
+"""
+YAML_2 = """controller_manager:
+  ros__parameters:
+    update_rate: 100
+    a:
+      type: joint_trajectory_controller/JointTrajectoryController
+a:
+  ros__parameters:
+    joints: [shoulder]
+    command_interfaces: [position]
+    state_interfaces: [position]
+    state_publish_rate: 50.0
+"""
+ROS_1 = """<transmission name="t">
+<type>transmission_interface/SimpleTransmission</type>
+<joint name="shoulder">
+<hardwareInterface>hardware_interface/PositionJointInterface</hardwareInterface>
+</joint>
+<actuator name="m"/>
+</transmission>
+<gazebo><plugin filename="libgazebo_ros_control.so" name="control">
+<robotNamespace>/arm</robotNamespace>
+</plugin></gazebo></robot>
+"""
+YAML_1 = """arm:
+  a:
+    type: position_controllers/JointPositionController
+    joint: shoulder
+"""
+CASES = {
+    "hardware": ("gz_ros2_control/GazeboSimSystem", "acme/Hardware", "C709"),
+    "empty hardware": ("gz_ros2_control/GazeboSimSystem", "", "C709"),
+    "no plugin": ("<plugin>gz_ros2_control/GazeboSimSystem</plugin>", "", "C717"),
+    "no hardware": ("<hardware>\n<plugin>gz_ros2_control/GazeboSimSystem</plugin>\n</hardware>", "", "C717"),
+    "interface": ('command_interface name="position"', 'command_interface name="grip"', "C710"),
+    "initial value": ('value">0<', 'value">zero<', "C710"),
+    "joint": ('joint name="elbow">\n<command', 'joint name="knee">\n<command', "C707"),
+    "fixed joint": ('joint name="elbow">\n<command', 'joint name="wrist">\n<command', "C707"),
+    "type of a package": ("joint_trajectory_controller/JointTrajectoryController", "acme/Controller", "K962"),
+    "type without package": ("joint_trajectory_controller/JointTrajectoryController", "Controller", "K962"),
+    "misspelt type": ("/JointTrajectoryController", "/JointTrajectoryControler", "K962"),
+    "joint of a controller": ("joints: [shoulder]", "joints: [shouldr]", "K959"),
+    "interface of a controller": ("joints: [shoulder]", "joints: [elbow]", "K965"),
+    "no joints": ("    joints: [shoulder]\n", "", "K971"),
+    "no interfaces": ("    command_interfaces: [position]\n", "", "K971"),
+    "number": ("state_publish_rate: 50.0", "state_publish_rate: often", "K971"),
+    "list for a number": ("state_publish_rate: 50.0", "state_publish_rate: [1]", "K971"),
+    "update rate": ("update_rate: 100", "update_rate: often", "K971"),
+    "negative update rate": ("update_rate: 100", "update_rate: -1", "K971"),
+}
+CASES_1 = {
+    "interface": ("hardware_interface/PositionJointInterface", "acme/Interface", "C703"),
+    "no interface": ("<hardwareInterface>hardware_interface/PositionJointInterface</hardwareInterface>", "", "C702"),
+    "two joints": ("</joint>\n<actuator", '</joint>\n<joint name="elbow"/>\n<actuator', "C703"),
+    "joint": ('<joint name="shoulder">\n<hardware', '<joint name="shouldr">\n<hardware', "C701"),
+    "type of a package": ("position_controllers/JointPositionController", "acme/Controller", "K962"),
+    "misspelt type": ("/JointPositionController", "/JointPositionControler", "K962"),
+    "joint of a controller": ("joint: shoulder", "joint: shouldr", "K959"),
+    "no joint": ("    joint: shoulder\n", "", "K971"),
+}
+
+
+def unreported(folder: Path, robot: str, yaml: str) -> tuple[set[str | None], list[str]]:
+    """Return the codes of the repairs, and the repairs without a finding of their code at their place."""
+    (folder / "package.xml").write_text('<package format="3"><name>arm</name></package>')
+    (folder / "urdf").mkdir()
+    (folder / "config").mkdir()
+    (folder / "config" / "arm.yaml").write_text(yaml)
+    path = folder / "urdf" / "arm.urdf"
+    path.write_text(robot.replace("$(find arm)", str(folder)))
+    repairs = Simulator(path, note=lambda _: None).repairs
+    places = {(each.code, each.span.file, each.span.line) for each in lint(path)}
+    missing = [
+        f"{repair.code} {repair}"
+        for repair in repairs
+        if repair.position is None or (repair.code, repair.position.file, repair.position.line) not in places
+    ]
+    return {repair.code for repair in repairs}, missing
+
+
+@pytest.mark.parametrize("case", CASES)
+def test_parts_of_ros2_control_that_are_left_out_have_a_finding(tmp_path: Path, case: str) -> None:
+    old, new, code = CASES[case]
+    assert (old in ROS_2) != (old in YAML_2)
+    folder = tmp_path / "arm"
+    folder.mkdir()
+    codes, missing = unreported(folder, TREE + ROS_2.replace(old, new), YAML_2.replace(old, new))
+    assert missing == []
+    assert code in codes
+
+
+@pytest.mark.parametrize("case", CASES_1)
+def test_parts_of_gazebo_ros_control_that_are_left_out_have_a_finding(tmp_path: Path, case: str) -> None:
+    old, new, code = CASES_1[case]
+    assert (old in ROS_1) != (old in YAML_1)
+    folder = tmp_path / "arm"
+    folder.mkdir()
+    codes, missing = unreported(folder, TREE + ROS_1.replace(old, new), YAML_1.replace(old, new))
+    assert missing == []
+    assert code in codes
+
+
+@pytest.mark.parametrize(("tail", "yaml"), [(ROS_2, YAML_2), (ROS_1, YAML_1)], ids=["ros2", "ros1"])
+def test_a_correct_robot_has_no_repairs(tmp_path: Path, tail: str, yaml: str) -> None:
+    folder = tmp_path / "arm"
+    folder.mkdir()
+    assert unreported(folder, TREE + tail, yaml) == (set(), [])
