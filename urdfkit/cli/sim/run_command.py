@@ -23,8 +23,9 @@ from urdfkit.cli.sim import option_values
 from urdfkit.cli.sim.controllers_option import add_controllers
 from urdfkit.cli.sim.record_option import NEW_TOPIC_PERIOD, add_record, check_record, recording
 from urdfkit.cli.sim.renderer_option import add_renderer
-from urdfkit.cli.sim.repair_options import add_repair_options, print_warning
+from urdfkit.cli.sim.repair_options import add_repair_options
 from urdfkit.cli.sim.ros_distro_option import add_distro
+from urdfkit.cli.sim.warnings import GroupedWarnings
 from urdfkit.errors import SimulationError, UsageError, suggestion
 
 if TYPE_CHECKING:
@@ -210,7 +211,8 @@ def load(arguments: argparse.Namespace) -> Simulator:
         pose = arguments.spawn._asdict() if arguments.spawn else {}
         twist = arguments.initial_twist or (0.0,) * 6
         spawn = Spawn(**pose, twist=twist, joints=positions, velocities=velocities)
-    with limit:
+    warnings = GroupedWarnings()
+    with limit, warnings:
         simulator = Simulator(
             robot,
             world=world,
@@ -224,7 +226,7 @@ def load(arguments: argparse.Namespace) -> Simulator:
             renderer=arguments.renderer,
             strict=arguments.strict,
             density=arguments.density,
-            note=(lambda text: None) if arguments.quiet else print_warning,
+            note=(lambda text: None) if arguments.quiet else warnings,
         )
     warn_of_file_names(robot, quiet=arguments.quiet)
     return simulator

@@ -8,7 +8,7 @@ from pathlib import Path
 
 from urdfkit.description.sdf import WorldLink, WorldModel, WorldShape
 from urdfkit.description.urdf.robot import Mesh
-from urdfkit.errors import ResourceError, SimulationError
+from urdfkit.errors import ResourceError, SimulationError, with_effect
 from urdfkit.scene import MeshLoader, Scene
 
 
@@ -22,7 +22,7 @@ def warn_of_omitted_shapes(scene: Scene, note: Callable[[str], None]) -> None:
         if each.role == "collision":
             raise each.error
     for each in scene.problems:
-        note(f"{each.error}; shape `{each.name}` is left out: it is invisible")
+        note(with_effect(str(each.error), f"shape `{each.name}` is left out: it is invisible"))
 
 
 def without_broken(model: WorldModel, meshes: MeshLoader, note: Callable[[str], None]) -> WorldModel:

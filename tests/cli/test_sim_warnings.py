@@ -1,0 +1,44 @@
+"""Warnings with one cause share a line in the terminal; the JSON output keeps each repair."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from urdfkit.cli import main
+from urdfkit.cli.sim.warnings import grouped
+
+INERTIAL = '<inertial><mass value="1"/><inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial>'
+MESH = '<geometry><mesh filename="package://missing_meshes/{}.stl"/></geometry>'
+
+
+def test_a_missing_package_is_one_warning(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    links = "".join(
+        f'<link name="l{n}">{INERTIAL}\n<visual>{MESH.format(n)}</visual>\n<collision>{MESH.format(n)}</collision>\n'
+        f'</link><joint name="j{n}" type="fixed"><parent link="base"/><child link="l{n}"/></joint>\n'
+        for n in range(6)
+    )
+    path = tmp_path / "r.urdf"
+    path.write_text(f'<robot name="r">\n<link name="base">{INERTIAL}</link>\n{links}</robot>')
+    assert main(["sim", "run", str(path), "--for", "0.001"]) == 0
+    lines = [line for line in capsys.readouterr().err.splitlines() if "missing_meshes" in line]
+    assert len(lines) == 1
+    assert "(6 more warnings with this cause: " in lines[0]
+    assert "r.urdf:4:" in lines[0]
+
+
+def test_warnings_that_differ_in_names_only_share_a_line() -> None:
+    alike = [f"r.urdf:{n}:1: mesh part{n}.dae is a Git LFS pointer; shape `s{n}` is left out" for n in range(1, 8)]
+    others = ["r.urdf:9:1: unknown plugin `a`", "r.urdf:10:1: unknown plugin `b`", "no plugin", "note: slip of 1e-5"]
+    found = grouped([others[0], *alike, *others[1:]])
+    assert found == [
+        *others[:2],
+        f"{alike[0]} (6 more warnings with this cause: r.urdf:2:1, r.urdf:3:1, r.urdf:4:1, …)",
+        *others[2:],
+    ]
+
+
+def test_fewer_warnings_stay_apart() -> None:
+    texts = [f"r.urdf:{n}:1: unknown plugin `p{n}`" for n in range(3)]
+    assert grouped(texts) == texts
