@@ -19,27 +19,23 @@ def require_inertia(kinematics: Kinematics) -> None:
     masses = np.array([inertia.mass for inertia in model.inertias])
     if not np.isfinite(masses).all() or any(not np.isfinite(i.inertia).all() for i in model.inertias):
         raise SimulationError(f"robot `{kinematics.robot.name}` has a mass or inertia that is not finite")
+    # Of each joint with all joints below it, which have higher numbers.
+    turning = np.array([np.abs(each.inertia).max() > 0.0 or vector_norm(each.lever) > 0.0 for each in model.inertias])
+    for joint in range(model.njoints - 1, 0, -1):
+        parent = model.parents[joint]
+        masses[parent] += masses[joint]
+        turning[parent] |= turning[joint]
     for joint in range(1, model.njoints):
-        moved = [i for i in range(joint, model.njoints) if _is_below(model, i, joint)]
-        mass = sum(model.inertias[i].mass for i in moved)
-        turning = any(np.abs(model.inertias[i].inertia).max() > 0.0 for i in moved)
         kind = model.joints[joint]
         name = model.names[joint]
         written = kinematics.robot.joint_by_name.get(name)
         position = written.element.origin.position if written is not None else None
         link = (written.child if written is not None else kinematics.root) or ""
-        lever = any(vector_norm(model.inertias[i].lever) > 0.0 for i in moved)
-        if mass > 0.0 and (turning or lever or kind.shortname().startswith("JointModelP")):
+        if masses[joint] > 0.0 and (turning[joint] or kind.shortname().startswith("JointModelP")):
             continue
-        lacks = "mass" if not mass > 0.0 else "moment of inertia"
+        lacks = "mass" if not masses[joint] > 0.0 else "moment of inertia"
         raise SimulationError(
             f"joint `{name}` moves link `{link}`, which has no {lacks}: give it an <inertial> "
             f"({lacks} greater than zero), or make the joint fixed",
             position=position,
         )
-
-
-def _is_below(model: Any, joint: int, ancestor: int) -> bool:
-    while joint > ancestor:
-        joint = model.parents[joint]
-    return bool(joint == ancestor)
