@@ -39,6 +39,6 @@ def test_warnings_that_differ_in_names_only_share_a_line() -> None:
     ]
 
 
-def test_fewer_warnings_stay_apart() -> None:
+def test_fewer_warnings_are_separate_lines() -> None:
     texts = [f"r.urdf:{n}:1: unknown plugin `p{n}`" for n in range(3)]
     assert grouped(texts) == texts

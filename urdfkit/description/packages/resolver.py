@@ -219,7 +219,8 @@ class Packages:
             return self.find(name) / inside
         if scheme == "file":
             return Path(rest.removeprefix("localhost"))
-        raise ResourceError(f"{uri}: files are read from this machine only; use package://, model:// or a path")
+        message = f"{uri}: files are read from this machine only; use package://, model:// or a path"
+        raise ResourceError(message, kind="file")
 
     def _look_up(self, name: str) -> Path | None:
         for folder in self._places():

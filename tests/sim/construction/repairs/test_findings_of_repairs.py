@@ -36,6 +36,11 @@ LINKS = {
     "empty shape": (GOOD + BOX.replace("0.2", "0"), "G611"),
     "missing mesh": (GOOD + BOX.replace('box size="0.1 0.2 0.3"', 'mesh filename="no.stl"'), "G601"),
     "missing package": (GOOD + BOX.replace('box size="0.1 0.2 0.3"', 'mesh filename="package://no/no.stl"'), "G602"),
+    "mesh of another machine": (
+        GOOD + BOX.replace('box size="0.1 0.2 0.3"', 'mesh filename="http://a.b/c.stl"'),
+        "G601",
+    ),
+    "expression": (GOOD + BOX.replace('box size="0.1 0.2 0.3"', 'mesh filename="$(find a)/c.stl"'), "G601"),
     "pointer": (GOOD + BOX.replace('box size="0.1 0.2 0.3"', 'mesh\n filename="pointer.stl"'), "G607"),
 }
 

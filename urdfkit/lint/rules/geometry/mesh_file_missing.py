@@ -5,7 +5,7 @@ from pathlib import Path
 
 from urdfkit.description.packages.existence import is_file
 from urdfkit.lint.fix_builders import new_value
-from urdfkit.lint.model.mesh_files import is_absolute, meshes, missing
+from urdfkit.lint.model.mesh_files import is_absolute, is_remote, meshes, missing
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
 _MAX_FOLDERS = 4
@@ -17,7 +17,8 @@ class MeshFileMissing(RobotRule):
 
     ## What it does
     Resolves the ``filename`` of every mesh (``package://``, ``model://``, ``file://`` and paths) and checks that the
-    file exists. The comparison is case-sensitive, and the message suggests the nearest name.
+    file exists. The comparison is case-sensitive, and the message suggests the nearest name. Files of other machines
+    and names with expressions are a note, because a simulation with urdfkit leaves such meshes out.
 
     ## Why is this bad?
     check_urdf does not check mesh files. Viewers show nothing, and simulators stop. A name in the wrong case works only
@@ -53,7 +54,12 @@ class MeshFileMissing(RobotRule):
         """Yield a finding for each missing mesh file."""
         failures: dict[str, tuple[str, str] | None] = {}
         for mesh, element, link in meshes(model.robot):
-            if model.is_unresolved(element, "filename") or "$" in mesh.uri:
+            if model.is_unresolved(element, "filename"):
+                continue
+            if "$" in mesh.uri or is_remote(mesh.uri):
+                fault = "is not a file of this machine" if is_remote(mesh.uri) else "contains an expression"
+                message = f"mesh `{mesh.uri.strip()}` {fault}; a simulation with urdfkit leaves it out"
+                yield self.at(model, element, message, attribute="filename", link=link.name, severity="note")
                 continue
             if mesh.uri not in failures:
                 failures[mesh.uri] = missing(mesh, model.expanded)
@@ -62,8 +68,7 @@ class MeshFileMissing(RobotRule):
                 continue
             if is_absolute(mesh.uri) and model.literal(element, "filename") is not None:
                 continue  # Reported by G603.
-            if _is_relative_to_output(mesh.uri.strip(), model.expanded.path):
-                continue
+            is_of_output = _is_relative_to_output(mesh.uri.strip(), model.expanded.path)
             near = re.search(r"did you mean `([^`]+)`", failure[1])
             uri = f"{mesh.uri.strip().rpartition('/')[0]}/{near[1]}".lstrip("/") if near else ""
             has_same_suffix = (
@@ -78,6 +83,7 @@ class MeshFileMissing(RobotRule):
                 fix=new_value(model, element, "filename", uri, "unsafe", f"Replace with `{uri}`")
                 if has_same_suffix
                 else None,
+                severity="note" if is_of_output else None,
                 cause="" if near else f"folder of {mesh.uri.strip().rpartition('/')[0]}",
             )
 

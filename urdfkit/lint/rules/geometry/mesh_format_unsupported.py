@@ -27,7 +27,7 @@ class MeshFormatUnsupported(RobotRule):
     ```xml
     <robot name="arm">
       <link name="base">
-        <visual><geometry><mesh filename="https://example.com/base.step"/></geometry></visual>
+        <visual><geometry><mesh filename="base.step"/></geometry></visual>
       </link>
     </robot>
     ```
