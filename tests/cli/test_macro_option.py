@@ -9,6 +9,8 @@ import pytest
 
 import urdfkit
 from urdfkit.cli import main
+from urdfkit.description.xml.source import Source
+from urdfkit.description.xml.start_tag import start_tag
 from urdfkit.errors import ModelError, UsageError
 
 MACROS = """<robot xmlns:xacro="http://www.ros.org/wiki/xacro">
@@ -108,3 +110,44 @@ def test_expand_compares_no_macro(macros: str, capsys: pytest.CaptureFixture[str
     assert main(["expand", macros, "--macro", "tool", "prefix:=a_", "--compare"]) == 2
     message = "expand: --macro cannot be combined with --compare; xacro has no such option"
     assert capsys.readouterr().err == f"urdfkit: {message}\n"
+
+
+@pytest.mark.parametrize("text", [MACROS, MACROS.replace("\n", " ").replace("  ", " ")], ids=["lines", "one line"])
+@pytest.mark.parametrize("root", ["<robot xmlns", "<robot\n name='r' xmlns"])
+def test_every_element_has_a_position_in_the_file_of_the_user(
+    macros: str, text: str, root: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    text = text.replace("<robot xmlns", root)
+    Path(macros).write_text(text)
+    source = Source(macros, text)
+    robot = urdfkit.load(macros, macro="arm", arguments={"prefix": "p_"})
+    macro = source.position(text.index("<xacro:macro"))
+    for element in robot.element.walk():
+        position = element.origin.position
+        tag = start_tag(source, position)
+        assert tag is not None
+        place = text[source.offset(position.line, position.column) :]
+        is_added = element.get("name") == "mount" or element.tag == "origin"
+        assert position == macro if is_added else place.startswith(f"<{element.tag}")
+        assert [each.position for each in element.origin.expansions if each.macro == "arm"] in ([], [macro])
+    assert main(["lint", macros, "--macro", "arm", "prefix:=a_", "--format", "json", "--no-cache"]) == 1
+    for finding in json.loads(capsys.readouterr().out):
+        assert finding["line"] <= len(source.line_starts)
+        assert text[source.offset(finding["line"], finding["column"])] in "<imxnp"
+
+
+@pytest.mark.parametrize("command", [["view", "--html", "page.html"], ["tf"], ["sim", "run", "--for", "0.01"]])
+def test_arguments_that_the_macro_does_not_have_are_reported(
+    macros: str, command: list[str], capsys: pytest.CaptureFixture[str]
+) -> None:
+    pytest.importorskip("meshcat")
+    Path(macros).write_text(MACROS.replace('value="-1"', 'value="1"'))
+    words = [*command, macros, "--macro", "arm", "prefix:=a_", "lenght:=2", "origin:=3"]
+    assert main(words) == 0
+    warnings = [line for line in capsys.readouterr().err.splitlines() if "argument" in line]
+    assert warnings == [
+        "urdfkit: warning: no file uses the argument `lenght`; did you mean `length`?",
+        "urdfkit: warning: no file uses the argument `origin` (declared: prefix, parent, length)",
+    ]
+    with pytest.raises(UsageError, match="no file uses the argument `lenght`; did you mean `length`"):
+        urdfkit.load(macros, macro="arm", arguments={"prefix": "p_", "lenght": "1"})

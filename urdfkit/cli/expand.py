@@ -7,7 +7,7 @@ import sys
 from pathlib import Path
 
 from urdfkit.cli.parser import add_model, add_time_limit
-from urdfkit.cli.robot_arguments.macro_option import add_macro, with_macro, xacro_arguments
+from urdfkit.cli.robot_arguments.macro_option import add_macro, with_macro
 from urdfkit.description.xacro.declared_arguments import unused_arguments
 from urdfkit.errors import ModelError, ResourceError, UrdfkitError, UsageError, XacroError
 
@@ -15,6 +15,7 @@ TYPE_CHECKING = False
 if TYPE_CHECKING:
     from urdfkit.description.packages.resolver import Packages
     from urdfkit.description.xacro.expanded import Expanded
+    from urdfkit.resources import ModelArgument
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
@@ -71,7 +72,7 @@ def _run(arguments: argparse.Namespace) -> int:
     expanded = expand(typed, arguments=model.arguments, packages=packages, run_xacro=True, texts=texts)
     _refuse_sdf(expanded, typed)
     if not arguments.quiet:
-        _show_notes(expanded, xacro_arguments(model))
+        _show_notes(expanded, model)
     if arguments.output is None:
         sys.stdout.write(expanded.xml)
     else:
@@ -130,10 +131,10 @@ def _compare(path: str, arguments: dict[str, str], packages: Packages) -> int:
     return 1
 
 
-def _show_notes(expanded: Expanded, arguments: dict[str, str]) -> None:
+def _show_notes(expanded: Expanded, model: ModelArgument) -> None:
     for note in expanded.warnings:
         print(f"{note.position}: {note.level}: {note.message}", file=sys.stderr)
-    for line in unused_arguments(arguments, expanded.sources.values()):
+    for line in unused_arguments(model.arguments, expanded.sources.values(), model.macro):
         print(f"urdfkit: warning: {line}", file=sys.stderr)
 
 

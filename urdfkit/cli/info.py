@@ -9,7 +9,7 @@ from collections import Counter
 from typing import TYPE_CHECKING, Any
 
 from urdfkit.cli.parser import add_model
-from urdfkit.cli.robot_arguments.macro_option import add_macro, with_macro, xacro_arguments
+from urdfkit.cli.robot_arguments.macro_option import add_macro, with_macro
 from urdfkit.cli.robot_arguments.robot_loading import add_strict, load_robot, print_repairs
 from urdfkit.cli.robot_arguments.unused_arguments import note_unused
 from urdfkit.description.urdf.version import RATES
@@ -38,7 +38,7 @@ def run(arguments: argparse.Namespace) -> int:
     model = with_macro(find_model(arguments.model, package_path=arguments.package_path), arguments)
     with loading_limit():
         robot = load_robot(model, arguments)
-        note_unused(xacro_arguments(model), robot.files, quiet=arguments.quiet)
+        note_unused(model, robot.files, quiet=arguments.quiet)
         print_repairs(robot, quiet=arguments.quiet)
         facts = facts_of(robot)
     if facts["note"] and not arguments.quiet:

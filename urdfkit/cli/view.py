@@ -8,7 +8,7 @@ from urdfkit.cli.page_options import add_page_options, announce
 from urdfkit.cli.parser import add_model
 from urdfkit.cli.robot_arguments.file_name_case import warn_of_file_names
 from urdfkit.cli.robot_arguments.launch_arguments import add_launch_arguments, with_launch_arguments
-from urdfkit.cli.robot_arguments.macro_option import add_macro, with_macro, xacro_arguments
+from urdfkit.cli.robot_arguments.macro_option import add_macro, with_macro
 from urdfkit.cli.robot_arguments.required_arguments import listing_required_arguments
 from urdfkit.cli.robot_arguments.robot_loading import add_strict
 from urdfkit.cli.robot_arguments.unused_arguments import note_unused
@@ -47,7 +47,7 @@ def run(arguments: argparse.Namespace) -> int:
     def read() -> ShownRobot:
         with listing_required_arguments(model, quiet=arguments.quiet):
             shown = ShownRobot.read(model, strict=arguments.strict)
-        note_unused(xacro_arguments(named), shown.files, quiet=arguments.quiet)
+        note_unused(named, shown.files, quiet=arguments.quiet)
         warn_of_file_names(shown.kinematics.robot, quiet=arguments.quiet)
         if not arguments.quiet:
             note_repairs(shown.repairs)

@@ -60,8 +60,7 @@ def load(
     if isinstance(robot, Robot) and not arguments and not package_path and macro is None:
         return robot
     loaded = _load(model_argument(robot, arguments=arguments, package_path=package_path, macro=macro), check)
-    if macro is None:
-        refuse_unused(arguments, loaded.files)
+    refuse_unused(arguments, loaded.files, macro)
     return loaded
 
 
@@ -76,17 +75,18 @@ def load_valid(model: ModelArgument) -> Robot:
     return robot
 
 
-def refuse_unused(arguments: Mapping[str, str] | None, files: Iterable[Path]) -> None:
+def refuse_unused(arguments: Mapping[str, str] | None, files: Iterable[Path], macro: str | None = None) -> None:
     """Raise for xacro arguments that no file declares or uses.
 
     Args:
         arguments: the xacro arguments.
         files: the files of the robot.
+        macro: the instantiated macro, which uses its parameters.
 
     Raises:
         UsageError: a file uses no such argument; the message names the nearest one.
     """
-    if arguments and (lines := unused_arguments(arguments, [read_source(file) for file in files])):
+    if arguments and (lines := unused_arguments(arguments, [read_source(file) for file in files], macro)):
         raise UsageError(lines[0])
 
 

@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from urdfkit.cli.robot_arguments.joint_positions import joint_positions
-from urdfkit.cli.robot_arguments.macro_option import add_macro, with_macro, xacro_arguments
+from urdfkit.cli.robot_arguments.macro_option import add_macro, with_macro
 from urdfkit.cli.robot_arguments.robot_loading import add_strict, load_robot, print_repairs
 from urdfkit.cli.robot_arguments.unused_arguments import note_unused
 from urdfkit.errors import MissingDependencyError, ResourceError, UsageError, did_you_mean
@@ -91,7 +91,7 @@ def run(arguments: argparse.Namespace) -> int:
     found = with_macro(find_model(model, package_path=arguments.package_path), arguments)
     with loading_limit():
         robot = load_robot(found, arguments)
-        note_unused(xacro_arguments(found), robot.files, quiet=arguments.quiet)
+        note_unused(found, robot.files, quiet=arguments.quiet)
         print_repairs(robot, quiet=arguments.quiet)
         tree = TransformTree(robot)
     _warn_of_limits(tree, positions)

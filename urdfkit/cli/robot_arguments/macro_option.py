@@ -27,8 +27,3 @@ def with_macro(model: ModelArgument, arguments: argparse.Namespace) -> ModelArgu
         arguments: with the option of `add_macro`.
     """
     return replace(model, macro=arguments.macro)
-
-
-def xacro_arguments(model: ModelArgument) -> dict[str, str]:
-    """Return the arguments that only ``$(arg …)`` can use; none with a macro, whose parameters they may be."""
-    return model.arguments if model.macro is None else {}

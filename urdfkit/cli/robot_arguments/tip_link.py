@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 import sys
 
-from urdfkit.cli.robot_arguments.macro_option import add_macro, with_macro, xacro_arguments
+from urdfkit.cli.robot_arguments.macro_option import add_macro, with_macro
 from urdfkit.cli.robot_arguments.robot_loading import add_strict, load_robot, print_repairs
 from urdfkit.errors import UsageError
 
@@ -61,10 +61,10 @@ def robot_and_tip(arguments: argparse.Namespace, command: str) -> tuple[Robot, s
     found = with_macro(find_model([plain[0], *xacro_words], package_path=arguments.package_path), arguments)
     with loading_limit():
         robot = load_robot(found, arguments)
-    if xacro_arguments(found):
+    if found.arguments:
         from urdfkit.cli.robot_arguments.unused_arguments import note_unused
 
-        note_unused(xacro_arguments(found), robot.files, quiet=arguments.quiet)
+        note_unused(found, robot.files, quiet=arguments.quiet)
     print_repairs(robot, quiet=arguments.quiet)
     if len(plain) == 1:
         ends = [link.name for link in robot.links if not robot.children_of.get(link.name)]

@@ -16,7 +16,7 @@ from urdfkit.app.termination import ended_by_signals
 from urdfkit.cli.parser import add_model
 from urdfkit.cli.robot_arguments.file_name_case import warn_of_file_names
 from urdfkit.cli.robot_arguments.launch_arguments import add_launch_arguments, with_launch_arguments
-from urdfkit.cli.robot_arguments.macro_option import add_macro, with_macro, xacro_arguments
+from urdfkit.cli.robot_arguments.macro_option import add_macro, with_macro
 from urdfkit.cli.robot_arguments.robot_loading import load_robot
 from urdfkit.cli.robot_arguments.unused_arguments import note_unused
 from urdfkit.cli.sim import option_values
@@ -199,7 +199,7 @@ def load(arguments: argparse.Namespace) -> Simulator:
         named = with_macro(find_model(arguments.model, package_path=arguments.package_path), arguments)
         model = with_launch_arguments(named, arguments)
         robot = load_robot(model, arguments)
-        note_unused(xacro_arguments(named), robot.files, quiet=arguments.quiet)
+        note_unused(named, robot.files, quiet=arguments.quiet)
         world = load_world(arguments.world)
     prepare_kernel(sys.stderr)
     spawn = None

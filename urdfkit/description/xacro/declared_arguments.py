@@ -27,7 +27,31 @@ def declared_arguments(sources: Iterable[Source]) -> dict[str, str | None]:
     return declared
 
 
-def unused_arguments(arguments: Mapping[str, str], sources: Iterable[Source]) -> list[str]:
+def macro_parameters(macro: str, sources: Iterable[Source]) -> list[str]:
+    """Return the parameters of a macro that take a value, not a block, in all of its definitions.
+
+    Args:
+        macro: name of the macro.
+        sources: the files.
+    """
+    from urdfkit.description.xacro.evaluation.parameters import parameters
+
+    found: dict[str, None] = {}
+    for source in sources:
+        try:
+            document = document_of(source)
+        except XmlError:
+            continue
+        for element in document.walk():
+            if element.tag.rpartition(":")[2] == "macro" and (element.get("name") or "").rpartition(":")[2] == macro:
+                try:
+                    found.update((each.name, None) for each in parameters(element.get("params") or ""))
+                except ValueError:
+                    continue
+    return [name for name in found if not name.startswith("*")]
+
+
+def unused_arguments(arguments: Mapping[str, str], sources: Iterable[Source], macro: str | None = None) -> list[str]:
     """Return one line per argument that is neither declared nor used, with the nearest declared name.
 
     xacro ignores such arguments, and with them misspelt names.
@@ -35,11 +59,12 @@ def unused_arguments(arguments: Mapping[str, str], sources: Iterable[Source]) ->
     Args:
         arguments: the arguments passed to xacro.
         sources: all files of the robot.
+        macro: the instantiated macro, whose parameters are declared, too.
     """
     import re
 
     sources = list(sources)
-    declared = declared_arguments(sources)
+    declared = [*declared_arguments(sources), *(macro_parameters(macro, sources) if macro else ())]
     lines = []
     for name in arguments:
         own = re.escape(name)

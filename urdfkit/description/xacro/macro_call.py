@@ -8,6 +8,7 @@ from pathlib import Path
 from xml.sax.saxutils import quoteattr
 
 from urdfkit.description.xacro.expand import expand_leniently
+from urdfkit.description.xml.extended_text import ExtendedText
 from urdfkit.description.xml.reader import absolute, read_source, shown_path
 from urdfkit.errors import UsageError, did_you_mean
 
@@ -25,7 +26,7 @@ def text_with_call(path: Path, macro: str, arguments: Mapping[str, str], package
     """Return the text of a file with a call of one of its macros at the end, by the absolute path of the file.
 
     Each block parameter receives an ``<origin>`` of zeros. Links that joints of the macro name as parents, and that
-    the file does not define, are added.
+    the file does not define, are added. The position of all of these elements is that of the macro.
 
     Args:
         path: the file.
@@ -52,16 +53,16 @@ def text_with_call(path: Path, macro: str, arguments: Mapping[str, str], package
     call = f"<xacro:{macro}{values}>{blocks}</xacro:{macro}>"
     source = read_source(path, shown_as=shown)
     where = source.text.rfind("</robot")
-    root = re.search(r"<robot\b", source.text)
+    root = re.search(r"<robot\b[^>]*?(?=\s*/?>)", source.text)
     if where < 0 or root is None:
         raise UsageError(f"{shown} has no <robot>, so --macro cannot call a macro in it")
-    head, tail = source.text[:where], source.text[where:]
-    if expanded.root is None or not expanded.root.get("name"):
-        head = f"{head[: root.end()]} name={quoteattr(macro)}{head[root.end() :]}"
-    texts = {str(absolute(path)): head + call + tail}
+    is_named = expanded.root is not None and expanded.root.get("name")
+    name = (root.end(), "" if is_named else f" name={quoteattr(macro)}")
+    key, place = str(absolute(path)), definition.position
+    texts = {key: ExtendedText.of(source, [name, (where, call)], place)}
     called = expand_leniently(path, arguments=arguments, packages=packages, run_xacro=True, texts=texts)
     links = "".join(f"<link name={quoteattr(name)}/>" for name in _undefined_parents(called))
-    return {str(absolute(path)): head + links + call + tail}
+    return {key: ExtendedText.of(source, [name, (where, links + call)], place)}
 
 
 def listed(expanded: Expanded) -> str:

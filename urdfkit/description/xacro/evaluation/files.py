@@ -23,6 +23,7 @@ from urdfkit.description.xacro.evaluation.texts import Texts, unreadable
 from urdfkit.description.xacro.evaluation.tree import Tag
 from urdfkit.description.xacro.evaluation.tree_reader import read_tree
 from urdfkit.description.xacro.faults import Warned
+from urdfkit.description.xml.extended_text import ExtendedText
 from urdfkit.description.xml.reader import absolute, read_source, shown_path
 from urdfkit.description.xml.source import Position, Source, content_of
 from urdfkit.errors import ResourceError
@@ -91,7 +92,10 @@ class Files(Texts):
         source = self.sources.get(shown)
         if source is None:
             source = self.sources[shown] = read_source(path, shown_as=shown, texts=self._texts)
-        return self._document(source)
+        document = self._document(source)
+        if isinstance(source.text, ExtendedText):
+            self.sources[shown] = source.text.original
+        return document
 
     def _document(self, source: Source) -> Tag:
         return self._read(source)

@@ -19,6 +19,7 @@ from urdfkit.description.xacro.evaluation.tree import (
     Tag,
 )
 from urdfkit.description.xml.element import MAX_DEPTH
+from urdfkit.description.xml.extended_text import ExtendedText
 from urdfkit.description.xml.known_tags import TAGS
 from urdfkit.description.xml.reader import MAX_VALUE, check_doctype, parse_with, refuse_entity, refuse_excess, too_deep
 from urdfkit.description.xml.source import Position, Source
@@ -50,6 +51,7 @@ class _TreeReader:
     def __init__(self, source: Source, parser: Any) -> None:
         self._source, self._parser = source, parser
         self._check = partial(refuse_excess, source) if len(source.text) > MAX_VALUE else None
+        self._written = source.text.written if isinstance(source.text, ExtendedText) else None
         self._document = self._at = Tag("", {}, Position(source.file, 1, 1), ())
         self._depth = 0
         self._is_cdata = self._cdata_continues = False
@@ -88,6 +90,8 @@ class _TreeReader:
             attributes[_qualified(values[index])] = values[index + 1]
         parser = self._parser
         position = Position(self._source.file, parser.CurrentLineNumber, parser.CurrentColumnNumber + 1)
+        if self._written is not None:
+            position = self._written(position)
         element = Tag(tag, attributes, position, ())
         if tag in TAGS and "xmlns" not in attributes and ":" not in "".join(attributes):
             element.work = VALUES if "$" in "".join(attributes.values()) else NOTHING
