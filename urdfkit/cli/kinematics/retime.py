@@ -8,7 +8,7 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from urdfkit.cli.robot_arguments.macro_option import add_macro, with_macro, xacro_arguments
+from urdfkit.cli.robot_arguments.macro_option import add_macro, with_macro
 from urdfkit.cli.robot_arguments.robot_loading import add_strict, load_robot, print_repairs
 from urdfkit.cli.robot_arguments.unused_arguments import note_unused
 from urdfkit.errors import UsageError, did_you_mean
@@ -94,7 +94,7 @@ def run(arguments: argparse.Namespace) -> int:
     found = with_macro(find_model(model, package_path=arguments.package_path), arguments)
     with loading_limit():
         robot = load_robot(found, arguments)
-        note_unused(xacro_arguments(found), robot.files, quiet=arguments.quiet)
+        note_unused(found, robot.files, quiet=arguments.quiet)
         print_repairs(robot, quiet=arguments.quiet)
     source = arguments.joint_limits or find_joint_limits(robot, path.joints)
     if source is not None and arguments.joint_limits is None and not arguments.quiet:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import sys
 
+from urdfkit.cli.robot_arguments.file_name_case import warn_of_file_names
 from urdfkit.cli.robot_arguments.required_arguments import listing_required_arguments
 
 TYPE_CHECKING = False
@@ -46,7 +47,7 @@ def load_robot(model: ModelArgument, arguments: argparse.Namespace) -> Robot:
 
 
 def print_repairs(robot: Robot, *, quiet: bool) -> None:
-    """Print the repairs on standard error; see `grouped`.
+    """Print the repairs and the files with other capital letters on standard error; see `grouped`.
 
     Args:
         robot: the robot.
@@ -54,5 +55,6 @@ def print_repairs(robot: Robot, *, quiet: bool) -> None:
     """
     from urdfkit.description.urdf.repair_record import grouped
 
+    warn_of_file_names(robot, quiet=quiet)
     for repair in () if quiet else grouped(robot.repairs):
         print(f"urdfkit: {repair.severity}: {repair}", file=sys.stderr)

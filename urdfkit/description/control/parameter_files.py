@@ -16,13 +16,14 @@ if TYPE_CHECKING:
 _FIND = re.compile(r"\$\(\s*(?:find|find-pkg-share)\s+([^()\s]+)\s*\)")
 
 
-def parameter_file(text: str, packages: Packages | None, folder: Path) -> Path:
+def parameter_file(text: str, packages: Packages | None, folder: Path, *, in_any_case: bool = False) -> Path:
     """Return the path of the file that a ``<parameters>`` element names.
 
     Args:
         text: text of the element.
         packages: resolves ``$(find …)`` and ``package://``; None to resolve paths only.
         folder: folder of the robot, for relative paths.
+        in_any_case: accept a file whose path differs in capital letters, and add it to the notes of the packages.
 
     Raises:
         ResourceError: file or package not found; the message names the nearest file.
@@ -31,7 +32,7 @@ def parameter_file(text: str, packages: Packages | None, folder: Path) -> Path:
     if packages is not None:
         text = _FIND.sub(lambda match: str(packages.find(match[1])), text)
         if "://" in text:
-            return packages.resolve(text, folder)
+            return (packages.resolve_in_any_case if in_any_case else packages.resolve)(text, folder)
     path = folder / text
     if is_file(path):
         return path
@@ -43,4 +44,6 @@ def parameter_file(text: str, packages: Packages | None, folder: Path) -> Path:
         found = sorted(package.glob(f"*/{path.relative_to(package)}"))
         if len(found) == 1:
             return found[0]
+    if in_any_case and packages is not None and (other := packages.in_any_case(path, text)) is not None:
+        return other
     raise ResourceError(f"no file {text}{near_path(path)}", kind="file")

@@ -136,17 +136,29 @@ class Packages:
         Raises:
             ResourceError: the package or file does not exist, or several files differ in capital letters only.
         """
-        from urdfkit.description.packages.letter_case import in_any_case
-
         try:
             return self.resolve(uri, relative_to)
         except ResourceError:
-            wanted = self._path_of(uri, Path(relative_to))
-            path = in_any_case(wanted) if self.permits(wanted) else None
+            path = self.in_any_case(self._path_of(uri, Path(relative_to)), uri)
             if path is None:
                 raise
-        self.notes[f"{uri}: the name of the file is {path.name} in {path.parent}; correct the capital letters"] = None
         return path
+
+    def in_any_case(self, path: Path, written: str) -> Path | None:
+        """Return the one existing file whose path differs in capital letters; add to `notes`. None without one.
+
+        Args:
+            path: a path that does not exist.
+            written: the path as in the description, with its position, if available.
+        """
+        from urdfkit.description.packages.letter_case import in_any_case
+
+        found = in_any_case(path) if self.permits(path) else None
+        if found is None or not self.permits(found):
+            return None
+        note = f"{written}: the name of the file is {found.name} in {found.parent}; correct the capital letters"
+        self.notes[note] = None
+        return found
 
     def _resolved(self, uri: str, relative_to: str | Path) -> Path:
         path = self._path_of(uri, Path(relative_to))

@@ -27,6 +27,15 @@ def declared_arguments(sources: Iterable[Source]) -> dict[str, str | None]:
     return declared
 
 
+def is_used(name: str, sources: Iterable[Source]) -> bool:
+    """Return whether an expression in one of the files uses an argument."""
+    import re
+
+    own = re.escape(name)
+    use = re.compile(rf"\$\(arg\s+{own}\s*\)|\$\(eval\b[^<\"]*?\b{own}\b|\bxacro\.arg\(.{own}.\)")
+    return any(use.search(source.text) for source in sources)
+
+
 def macro_parameters(macro: str, sources: Iterable[Source]) -> list[str]:
     """Return the parameters of a macro that take a value, not a block, in all of its definitions.
 
@@ -61,15 +70,11 @@ def unused_arguments(arguments: Mapping[str, str], sources: Iterable[Source], ma
         sources: all files of the robot.
         macro: the instantiated macro, whose parameters are declared, too.
     """
-    import re
-
     sources = list(sources)
     declared = [*declared_arguments(sources), *(macro_parameters(macro, sources) if macro else ())]
     lines = []
     for name in arguments:
-        own = re.escape(name)
-        use = re.compile(rf"\$\(arg\s+{own}\s*\)|\$\(eval\b[^<\"]*?\b{own}\b|\bxacro\.arg\(.{own}.\)")
-        if name not in declared and not any(use.search(source.text) for source in sources):
+        if name not in declared and not is_used(name, sources):
             available = f" (declared: {', '.join(declared)})" if declared else "; the robot declares none"
             lines.append(f"no file uses the argument `{name}`{did_you_mean(name, declared) or available}")
     return lines

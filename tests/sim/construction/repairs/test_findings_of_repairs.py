@@ -81,6 +81,17 @@ def test_every_repair_has_a_finding_of_its_code_at_its_element(tmp_path: Path, b
         assert any(reports(finding, repair) for finding in findings), (str(repair), [str(each) for each in findings])
 
 
+@pytest.mark.parametrize("slip", [1e-5, 9e-5, 1.1e-4, 9e-4, 1e-2])
+def test_a_small_slip_of_an_inertia_is_a_note_in_both(tmp_path: Path, slip: float) -> None:
+    path = tmp_path / "r.urdf"
+    path.write_text(
+        f'<robot name="r">\n<link name="base">{BOX}{INERTIAL.format(1, 0.02 / (1.0 - slip))}</link></robot>'
+    )
+    (repair,) = repairs_of(path)
+    (finding,) = [each for each in lint(path) if each.code == repair.code == "I503"]
+    assert (repair.severity == "note") == (finding.severity == "note") == (slip < 1e-4)
+
+
 def test_a_robot_without_any_mass_is_one_repair_and_one_finding(tmp_path: Path) -> None:
     path = tmp_path / "r.urdf"
     path.write_text(

@@ -182,7 +182,15 @@ class Files(Texts):
         check_length(path)
         if not os.path.exists(path) and (moved := self.packages.relocate(path)) is not None:  # noqa: PTH110 - `Path.exists` raises without permission
             return str(moved)
-        return path
+        return self._in_any_case(path, name)
+
+    def _in_any_case(self, path: str, name: str) -> str:
+        """Return the path of a file; in other capital letters if only such a file exists."""
+        if os.path.exists(path):  # noqa: PTH110 - as above
+            return path
+        tag, _ = self.at
+        found = self.packages.in_any_case(Path(path), name if tag is None else f"{tag.position}: {name}")
+        return path if found is None else str(found)
 
     def _load_yaml(self, name: str) -> Any:
         from urdfkit.description.xacro.evaluation.yaml_files import yaml_values

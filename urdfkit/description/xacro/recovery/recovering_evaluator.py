@@ -186,6 +186,12 @@ class RecoveringEvaluator(Evaluator):
 
     # Values
 
+    def _argument(self, node: Tag, macros: Scope, scope: Scope) -> None:
+        name = node.attributes.get("name")
+        if isinstance(name, str) and "default" not in node.attributes:  # a failure, not another one at each use
+            self.commands.arguments.setdefault(name, Unknown(f"$(arg {name})"))
+        super()._argument(node, macros, scope)
+
     @property
     def _is_exhausted(self) -> bool:
         return self._evaluated > MAX_EXPRESSIONS or self.budget.left < 0
@@ -288,6 +294,9 @@ class RecoveringEvaluator(Evaluator):
         if type(name) is Unknown:
             raise Recorded
         return super()._absolute(name)
+
+    def _in_any_case(self, path: str, name: str) -> str:
+        return path  # a fault
 
     def _include(self, node: Tag, macros: Scope, scope: Scope) -> Steps:
         if shown_path(self.file_stack[-1]) in self._loops:

@@ -5,7 +5,10 @@ from urdfkit.lint.facts.inertia.principal_moments import principal_moments, reor
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
 TOLERANCE = 1e-3
-"""Violations up to this fraction of the largest moment result from rounded numbers and are notes."""
+"""Violations up to this fraction of the largest moment result from rounded numbers and are no errors."""
+
+SLIP = 1e-4
+"""Violations up to this fraction are notes, here and in the repairs of a simulation."""
 
 NOISE = 1e-6
 """Violations up to this fraction are not reported: many CAD programs write only six digits."""
@@ -15,9 +18,10 @@ class InertiaTriangleInequality(RobotRule):
     """The principal moments of an inertia tensor violate the triangle inequality.
 
     ## What it does
-    Computes the principal moments A ≤ B ≤ C of every tensor and checks that A + B ≥ C. The tensor of a
-    link that a fixed joint attaches to its parent is a warning, because readers merge both; a link that is fixed to a
-    body with more than twenty times its mass and inertia is a note.
+    Computes the principal moments A ≤ B ≤ C of every tensor and checks that A + B ≥ C. A violation of up to
+    0.0001 C is a note and of up to 0.001 C a warning, as rounded numbers cause them. The tensor of a link that a fixed
+    joint attaches to its parent is a warning, because readers merge both; a link that is fixed to a body with more than
+    twenty times its mass and inertia is a note.
 
     ## Why is this bad?
     Every physical body satisfies the inequality: A + B - C is twice the second moment of mass along the third axis
@@ -64,8 +68,9 @@ class InertiaTriangleInequality(RobotRule):
                 if reordered(element) is not None or has_slip(model, element):
                     continue  # Reported by I505 or X119.
                 a, b, c = shown(moments)
-                is_note = large - small - middle <= TOLERANCE * large or is_negligible(model, link)
-                is_merged = is_fixed(model, link) or is_small(model, link)
+                excess = (large - small - middle) / large
+                is_note = excess <= SLIP or is_negligible(model, link)
+                is_warning = excess <= TOLERANCE or is_fixed(model, link) or is_small(model, link)
                 yield self.at(
                     model,
                     element,
@@ -73,5 +78,5 @@ class InertiaTriangleInequality(RobotRule):
                     f"{a} + {b} < {c}",
                     link=link.name,
                     help="compute it from shape and mass; set placeholders for products of inertia to 0",
-                    severity="note" if is_note else "warning" if is_merged else "error",
+                    severity="note" if is_note else "warning" if is_warning else "error",
                 )

@@ -101,13 +101,14 @@ class LaunchArgumentUnknown(RobotRule):
             yield Finding(self.code, self.name, severity, message, span)
 
     def _xacro(self, file: LaunchActions, call: Call, model: Model) -> Findings:
-        from urdfkit.description.xacro.declared_arguments import declared_arguments
+        from urdfkit.description.xacro.declared_arguments import declared_arguments, is_used
         from urdfkit.lint.facts.launch.receivers import receiver
 
         path = receiver(call, model)
         if path is None or not call.passed or path.resolve() != model.expanded.path.resolve():
             return
-        names = declared_arguments(model.expanded.sources.values())
+        sources = model.expanded.sources.values()
+        names = [*declared_arguments(sources), *(each.name for each in call.passed if is_used(each.name, sources))]
         yield from self._unknown(file, call.passed, names, path.name, bool(model.missing_file), self.severity)
 
     def _unknown(
