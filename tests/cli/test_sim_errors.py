@@ -101,23 +101,23 @@ REFUSED = {
     ),
     "limits the wrong way round": (
         arm(limit='<limit lower="1.5" upper="-1" effort="1" velocity="1"/>'),
-        ":8:5: joint `elbow`: its lower limit 1.5 rad is above its upper limit -1 rad",
+        ":8:12: joint `elbow`: its lower limit 1.5 rad is above its upper limit -1 rad",
     ),
     "negative effort": (
         arm(limit='<limit lower="-1" upper="1" effort="-5" velocity="1"/>'),
-        ":8:5: joint `elbow`: effort limit -5 N·m; it must not be negative",
+        ":8:33: joint `elbow`: effort limit -5 N·m; it must not be negative",
     ),
     "negative velocity": (
         arm(limit='<limit lower="-1" upper="1" effort="5" velocity="-1"/>'),
-        ":8:5: joint `elbow`: velocity limit -1 rad/s; it must not be negative",
+        ":8:44: joint `elbow`: velocity limit -1 rad/s; it must not be negative",
     ),
     "damping that drives": (
         arm(limit=LIMIT + '<dynamics damping="-100"/>'),
-        ":8:59: joint `elbow`: damping -100 N·m·s/rad; it must not be negative",
+        ":8:69: joint `elbow`: damping -100 N·m·s/rad; it must not be negative",
     ),
     "friction that drives": (
         arm(limit=LIMIT + '<dynamics friction="-1"/>'),
-        ":8:59: joint `elbow`: friction -1 N·m; it must not be negative",
+        ":8:69: joint `elbow`: friction -1 N·m; it must not be negative",
     ),
     "size below zero": (
         arm(body(), box("0.1 -0.1 0.1")),

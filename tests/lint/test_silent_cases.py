@@ -78,8 +78,8 @@ def test_fragment_with_a_commented_include(include: str, is_reported: bool, tmp_
         ("", None, "error X106"),
         ("", "", "error X106"),
         ("", " prefix:=a_", "note X106"),
-        ('<xacro:arg name="prefix"/>', None, "note X106"),
-        ('<xacro:arg name="prefix"/>', "", "error X106"),
+        ('<xacro:arg name="prefix"/>', None, None),  # X125
+        ('<xacro:arg name="prefix"/>', "", None),
         ('<xacro:arg name="prefx" default=""/>', None, "error X106"),
         ('<xacro:arg name="prefix" default=""/>', None, None),
     ],
