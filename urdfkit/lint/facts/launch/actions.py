@@ -41,23 +41,20 @@ def launch_files(model: Model) -> Iterator[LaunchActions]:
             yield actions_of(source)
 
 
-@lru_cache(maxsize=400)
 def actions_of(source: Source) -> LaunchActions:
-    """Return the actions of a launch file; empty if it cannot be parsed, or is nested too deeply."""
-    try:
-        return _actions_of(source)
-    except RecursionError:
-        return LaunchActions(source)
+    """Return the actions of a launch file; empty if it cannot be parsed."""
+    is_xml = source.file.endswith((".launch", ".xml"))
+    return _actions(source, is_xml and reads_ros1(source))
 
 
-def _actions_of(source: Source) -> LaunchActions:
+@lru_cache(maxsize=400)
+def _actions(source: Source, is_ros1: bool) -> LaunchActions:
     if source.file.endswith(".py"):
         from urdfkit.lint.facts.launch.python_actions import read_python
 
         return read_python(source)
     text = uncommented(source)
     is_yaml = source.file.endswith((".yaml", ".yml"))
-    is_ros1 = not is_yaml and reads_ros1(source)
     found = LaunchActions(source, is_ros1)
     roots = tuple(_from_yaml(source)) if is_yaml else tuple(_from_tag(tag) for tag in Document(source).roots)
     for use in re.finditer(_USED, text):

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-from functools import lru_cache
 from pathlib import Path
 
 from urdfkit.description.packages.related_files import manifest, package_of, uncommented
@@ -14,7 +13,6 @@ _ROS2 = r"\$\((?:find-pkg-\w+|var|find-exec)\s|<let\b|<node\b[^<>]*\sexec\s*="
 _MANY = 3
 
 
-@lru_cache(maxsize=400)
 def ros_version(source: Source) -> int:
     """Return 1 or 2 by the build tool of the package, else by the words of the file; 0 if these contradict."""
     text = uncommented(source.text)

@@ -6,6 +6,7 @@ import re
 from collections.abc import Iterator
 from pathlib import Path
 
+from urdfkit.description.packages.related_files import neighbours
 from urdfkit.description.xml.source import Source
 from urdfkit.lint.facts.control.launch_package_paths import uncommented
 from urdfkit.lint.facts.control.yaml_tree import Node, documents, yamls
@@ -16,6 +17,7 @@ from urdfkit.record import record
 
 _SPAWNERS = ("spawner", "controller_manager")
 _MAX_DEPTH = 5
+_MAX_FILES = 200
 
 
 @record(eq=False)
@@ -111,3 +113,16 @@ def loaders(files: list[Source], parameters: Source) -> list[str] | None:
             found.append(namespace)
     mentions = sum(len(re.findall(rf"(?<![\w.-]){re.escape(name)}", uncommented(source))) for source in files)
     return found if mentions == len(found) else None
+
+
+def is_mentioned_elsewhere(name: str, model: Model) -> bool:
+    """Return whether a launch file of a package next to the robot's that is not a related file contains a file name."""
+    related = {str(Path(file).absolute()) for file in model.related_files}
+    for folder in neighbours(model.package).values() if model.package is not None else ():
+        for file in [*folder.glob("launch/**/*.launch"), *folder.glob("launch/**/*.xml")][:_MAX_FILES]:
+            try:
+                if str(file.absolute()) not in related and name in file.read_text("utf-8", "replace"):
+                    return True
+            except OSError:
+                continue
+    return False

@@ -58,7 +58,7 @@ class ControllerParametersMissing(RobotRule):
         files = ros1_files(model)
         defined = definitions(model) if files else {}
         for spawner in spawners(files):
-            message = _message(spawner, files, defined)
+            message = _message(spawner, files, defined, model)
             if message:
                 span = spawner.source.span(spawner.tag.start, spawner.tag.end)
                 yield Finding(self.code, self.name, self.severity, message, span)
@@ -68,7 +68,7 @@ class ControllerParametersMissing(RobotRule):
     def _controller_list(self, model: Model, files: list[Source]) -> Findings:
         from urdfkit.description.packages.related_files import package_of
         from urdfkit.lint.facts.control.yaml_tree import documents, yamls
-        from urdfkit.lint.facts.launch.spawned_controllers import loaders, tags
+        from urdfkit.lint.facts.launch.spawned_controllers import is_mentioned_elsewhere, loaders, tags
 
         for source, tag in tags(files, "param"):
             value = tag.attributes.get("value")
@@ -76,7 +76,8 @@ class ControllerParametersMissing(RobotRule):
                 continue
             lists = [file for file in yamls(model) if any(root.find("controller_list") for root in documents(file)[0])]
             own = [file for file in lists if package_of(Path(file.file)) == package_of(Path(source.file))]
-            if own and all(loaders(files, file) == [] for file in lists):
+            is_unread = all(loaders(files, file) == [] for file in lists)
+            if own and is_unread and not any(is_mentioned_elsewhere(Path(file.file).name, model) for file in lists):
                 message = f"no launch file loads {Path(own[0].file).name}, which defines `controller_list`"
                 yield Finding(self.code, self.name, self.severity, message, source.span(tag.start, tag.end))
 
@@ -90,14 +91,15 @@ class ControllerParametersMissing(RobotRule):
         if any(re.search(_OTHER_WAYS, text) for text in texts):
             return
         for node in started_nodes(model):
-            if node.program == "ros2_control_node" and node.parameters == () and not node.has_arguments:
+            is_manager = node.program == "ros2_control_node" and node.package == "controller_manager"
+            if is_manager and node.parameters == () and not node.has_arguments:
                 message = "`ros2_control_node` has no parameters, so its controllers have no types"
                 yield Finding(self.code, self.name, self.severity, message, node.source.span(node.start, node.end))
 
 
-def _message(spawner: Spawner, files: list[Source], defined: dict[str, list[tuple[Source, str]]]) -> str:
+def _message(spawner: Spawner, files: list[Source], defined: dict[str, list[tuple[Source, str]]], model: Model) -> str:
     """Return the message for a spawner whose controllers lack parameters; empty for the others."""
-    from urdfkit.lint.facts.launch.spawned_controllers import loaders
+    from urdfkit.lint.facts.launch.spawned_controllers import is_mentioned_elsewhere, loaders
 
     for name in spawner.names:
         of_name = defined.get(name, [])
@@ -105,9 +107,13 @@ def _message(spawner: Spawner, files: list[Source], defined: dict[str, list[tupl
             continue
         source, inner = of_name[0]
         namespaces = loaders(files, source)
-        if namespaces == []:
+        if namespaces is None or any(
+            is_mentioned_elsewhere(Path(each.file).name, model) for each in (source, spawner.source)
+        ):
+            continue
+        if not namespaces:
             return f"no launch file loads {Path(source.file).name}, which defines `{name}`"
-        if namespaces is not None and len(namespaces) == 1:
+        if len(namespaces) == 1:
             there = f"{namespaces[0]}/{inner}".strip("/")
             if there != spawner.namespace:
                 here = f"namespace `{spawner.namespace}`" if spawner.namespace else "no namespace"

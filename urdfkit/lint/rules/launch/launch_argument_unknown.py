@@ -120,13 +120,17 @@ class LaunchArgumentUnknown(RobotRule):
         only_misspelt: bool,
         severity: Severity,
     ) -> Findings:
+        from urdfkit.errors import suggestion
+        from urdfkit.lint.facts.launch.python_api import first_slip
         from urdfkit.lint.fix_builders import meant
 
         names = list(names)
         for name in passed:
             if name.name in names:
                 continue
-            near, hint = meant(name.name, [other for other in names if other not in {one.name for one in passed}])
+            others = [other for other in names if other not in {one.name for one in passed}]
+            near = meant(name.name, others)[0] or first_slip(name.name, others)
+            hint = suggestion(near)
             if near is not None or not only_misspelt:
                 yield self._at(file, name, f"{target} has no argument `{name.name}`{hint}", severity)
 

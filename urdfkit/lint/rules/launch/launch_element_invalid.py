@@ -8,6 +8,7 @@ from urdfkit.lint.rule import Findings, Model, RobotRule
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     from urdfkit.description.xml.source import Source
+    from urdfkit.lint.finding import Severity
     from urdfkit.lint.model.tags import Attribute, Tag
 
 
@@ -93,7 +94,9 @@ class LaunchElementInvalid(RobotRule):
                 misspelt.add(near)
                 hint = f"; did you mean `{near}`?" if near else ""
                 message = f"unknown attribute `{attribute.name}` of <{tag.name}>{hint}"
-                yield self._at(source, (attribute.start, attribute.start + len(attribute.name)), message)
+                place = (attribute.start, attribute.start + len(attribute.name))
+                # roslaunch ignores unknown attributes and prints a warning.
+                yield self._at(source, place, message, "error" if near else "warning")
         required = list(element.required)
         if tag.name == "arg" and above.name == "include" and "pass_all_args" not in above.attributes:
             required.append("value|default" if version == 1 else "value")
@@ -104,8 +107,8 @@ class LaunchElementInvalid(RobotRule):
                 message = f"<{tag.name}> lacks the required attribute {' or '.join(f'`{n}`' for n in names.split('|'))}"
                 yield self._at(source, (tag.start, tag.end), message)
 
-    def _at(self, source: Source, place: tuple[int, int], message: str) -> Finding:
-        return Finding(self.code, self.name, self.severity, message, source.span(*place))
+    def _at(self, source: Source, place: tuple[int, int], message: str, severity: Severity | None = None) -> Finding:
+        return Finding(self.code, self.name, severity or self.severity, message, source.span(*place))
 
 
 def _unknown(name: str, above: str, version: int) -> str | None:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 from urdfkit.lint.finding import Finding
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
@@ -66,7 +68,7 @@ class RobotDescriptionMissing(RobotRule):
     def _in_ros1(self, model: Model) -> Findings:
         from urdfkit.lint.facts.launch.actions import actions_of
         from urdfkit.lint.facts.launch.receivers import OUTSIDE, included_files
-        from urdfkit.lint.facts.launch.spawned_controllers import ros1_files, tags
+        from urdfkit.lint.facts.launch.spawned_controllers import is_mentioned_elsewhere, ros1_files, tags
 
         files = ros1_files(model)
         below: dict[str, list[Source] | None] = {}
@@ -83,6 +85,8 @@ class RobotDescriptionMissing(RobotRule):
                 continue
             above = [each for each in below.values() if each is None or (each is not own and file in each)]
             if any(each is None or any(_sets(tag, True) for _, tag in tags(each, "param")) for each in above):
+                continue
+            if is_mentioned_elsewhere(Path(file.file).name, model):
                 continue
             message = "the parameter `robot_description` is not set by this launch file or its includes"
             yield Finding(self.code, self.name, self.severity, message, file.span(user.start, user.end))

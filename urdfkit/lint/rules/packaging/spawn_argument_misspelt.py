@@ -38,7 +38,8 @@ class SpawnArgumentMisspelt(RobotRule):
     ## What it does
     Checks the arguments of ``create`` (ros_gz_sim), ``spawn_entity.py`` and ``spawn_model`` (gazebo_ros) for misspelt
     options, for options of another spawner, and for misspellings of the topic or parameter ``robot_description`` and of
-    joints. Python launch files are parsed, not executed.
+    joints. The spawners of Gazebo Classic need a source of the description. Python launch files are parsed, not
+    executed.
 
     ## Why is this bad?
     The spawner fails, or waits forever for a description, and the robot does not appear in the world.
@@ -71,7 +72,8 @@ class SpawnArgumentMisspelt(RobotRule):
                 continue
             for node in started(source):
                 if node.package in _PACKAGES and node.program in _OPTIONS:
-                    for start, text, message in (*_invalid_arguments(node), *_unknown_joints(node, model)):
+                    invalid = (*_invalid_arguments(node), *_unknown_joints(node, model), *_without_source(node))
+                    for start, text, message in invalid:
                         span = source.span(start, start + len(text))
                         yield Finding(self.code, self.name, self.severity, message, span)
 
@@ -109,6 +111,26 @@ def _unknown_joints(node: Started, model: Model) -> Iterator[tuple[int, str, str
         near = first_slip(word.name, names)
         if near is not None:
             yield word.start, word.name, f"unknown joint `{word.name}`; did you mean `{near}`?"
+
+
+def _without_source(node: Started) -> Iterator[tuple[int, str, str]]:
+    """Yield the first argument of a Gazebo Classic spawner that names no source of the description."""
+    written = [word.name for word in node.arguments if word is not None and word.name.startswith("-")]
+    options = {option.lstrip("-").partition("=")[0] for option in written}
+    previous = [None, *node.arguments]
+    # A computed argument after a value can be an option.
+    is_open = any(
+        word is None and (before is None or not before.name.startswith("-"))
+        for before, word in zip(previous, node.arguments, strict=False)
+    )
+    first = node.arguments[0] if node.arguments else None
+    sources = {"file", "topic", "param", "database", "stdin"}
+    misspelt = {_nearest_option(option, tuple(sources)) for option in options} | {
+        _SYNONYMS[node.program].get(option) for option in options
+    }
+    if node.program != "create" and first is not None and not is_open and not sources & (options | misspelt):
+        named = "topic" if node.program == "spawn_entity.py" else "param"
+        yield first.start, first.name, f"`{node.program}` needs a source of the description, such as `-{named}`"
 
 
 def _nearest_option(option: str, options: tuple[str, ...]) -> str | None:
