@@ -25,6 +25,7 @@ class MisplacedControllers:
         controller: name of the controller.
         found: namespace of its parameters.
         expected: namespace of the spawner.
+        line: line of the spawner in the launch file.
     """
 
     source: Source
@@ -32,6 +33,7 @@ class MisplacedControllers:
     controller: str
     found: str
     expected: str
+    line: int
 
 
 def paths_of_controllers(source: Source) -> Iterator[tuple[Node, ...]]:
@@ -78,7 +80,7 @@ def misplaced_controllers(launch: Source, model: Model) -> Iterator[MisplacedCon
             source, path, found = loaded[name]
             if found not in seen:
                 seen.add(found)
-                yield MisplacedControllers(source, path[0], name, found, expected)
+                yield MisplacedControllers(source, path[0], name, found, expected, launch.position(tag.start).line)
 
 
 def _joined(*parts: str) -> str:

@@ -42,13 +42,20 @@ def launch_files(model: Model) -> Iterator[LaunchActions]:
 
 
 def actions_of(source: Source) -> LaunchActions:
-    """Return the actions of a launch file; empty if it cannot be parsed."""
+    """Return the actions of a launch file; empty if it cannot be parsed, or is nested too deeply."""
     is_xml = source.file.endswith((".launch", ".xml"))
     return _actions(source, is_xml and reads_ros1(source))
 
 
 @lru_cache(maxsize=400)
 def _actions(source: Source, is_ros1: bool) -> LaunchActions:
+    try:
+        return _actions_of(source, is_ros1)
+    except RecursionError:
+        return LaunchActions(source, is_ros1)
+
+
+def _actions_of(source: Source, is_ros1: bool) -> LaunchActions:
     if source.file.endswith(".py"):
         from urdfkit.lint.facts.launch.python_actions import read_python
 

@@ -48,7 +48,12 @@ def _is_xacro(node: ast.expr, text: str | None) -> bool:
     if text is not None:
         return re.fullmatch(r"\s*(?:\S*/)?xacro(?:\.py)?", text) is not None
     calls = [inner for inner in ast.walk(node) if isinstance(inner, ast.Call)]
-    return any(name_of(call.func) == "FindExecutable" and "'xacro'" in ast.unparse(call) for call in calls)
+    return any(name_of(call.func) == "FindExecutable" and _names_xacro(call) for call in calls)
+
+
+def _names_xacro(call: ast.Call) -> bool:
+    words = [*call.args, *(word.value for word in call.keywords)]
+    return any(getattr(word, "value", None) == "xacro" for word in words)
 
 
 def _is_word(node: ast.expr, reader: LaunchReader) -> bool:

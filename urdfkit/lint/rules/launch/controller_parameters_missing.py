@@ -20,8 +20,9 @@ class ControllerParametersMissing(RobotRule):
 
     ## What it does
     In ROS 1, compares the controllers that the launch files spawn with the YAML files that define them: a launch file
-    must load the file, into the namespace of the spawner. MoveIt's simple controller manager needs a file with
-    ``controller_list``. In ROS 2, ``ros2_control_node`` needs parameters unless the spawners pass them.
+    must load the file, and into the namespace of the spawner (if both are in one file, see K960). MoveIt's simple
+    controller manager needs a file with ``controller_list``. In ROS 2, ``ros2_control_node`` needs parameters unless
+    the spawners pass them.
 
     ## Why is this bad?
     The spawner fails, since the controller has no type, and the robot does not move.
@@ -29,16 +30,15 @@ class ControllerParametersMissing(RobotRule):
     ## Example
     ```xml
     <launch>
-      <rosparam command="load" file="$(find cart_description)/config/controllers.yaml"/>
-      <node name="spawner" pkg="controller_manager" type="spawner" ns="cart" args="wheel_controller"/>
+      <node name="spawner" pkg="controller_manager" type="spawner" args="wheel_controller"/>
     </launch>
     ```
 
     ## Use instead
     ```xml
     <launch>
-      <rosparam command="load" file="$(find cart_description)/config/controllers.yaml" ns="cart"/>
-      <node name="spawner" pkg="controller_manager" type="spawner" ns="cart" args="wheel_controller"/>
+      <rosparam command="load" file="$(find cart_description)/config/controllers.yaml"/>
+      <node name="spawner" pkg="controller_manager" type="spawner" args="wheel_controller"/>
     </launch>
     ```
 
@@ -113,7 +113,8 @@ def _message(spawner: Spawner, files: list[Source], defined: dict[str, list[tupl
             continue
         if not namespaces:
             return f"no launch file loads {Path(source.file).name}, which defines `{name}`"
-        if len(namespaces) == 1:
+        is_here = Path(source.file).name in spawner.source.text  # spawned-controller-undefined reports this file
+        if len(namespaces) == 1 and not is_here:
             there = f"{namespaces[0]}/{inner}".strip("/")
             if there != spawner.namespace:
                 here = f"namespace `{spawner.namespace}`" if spawner.namespace else "no namespace"

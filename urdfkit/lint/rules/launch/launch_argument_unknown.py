@@ -57,7 +57,8 @@ class LaunchArgumentUnknown(RobotRule):
             for call in file.includes:
                 path = receiver(call, model)
                 actions = actions_at(path, model) if path is not None else None
-                outside = OUTSIDE.get((call.package, call.path.rpartition("/")[2]))
+                folder, _, name = call.path.rpartition("/")
+                outside = OUTSIDE.get((call.package, name))
                 if actions is not None:
                     yield from self._include(file, call, actions, model)
                 elif path is None and (near := misspelt_file(call)) is not None:
@@ -65,6 +66,12 @@ class LaunchArgumentUnknown(RobotRule):
                     written = call.path.rpartition("/")[2]
                     start = max(file.source.text.find(written, call.start), call.start)
                     yield self._at(file, Named(written, start), message, "error")
+                elif outside is not None and folder != "launch":
+                    start = max(file.source.text.find(call.path, call.start), call.start)
+                    message = (
+                        f"package `{call.package}` has no launch file `{call.path}`; did you mean `launch/{name}`?"
+                    )
+                    yield self._at(file, Named(call.path, start), message, "error")
                 elif outside is not None:
                     yield from self._unknown(file, call.passed, outside.split(), call.path, True, self.severity)
             for call in file.xacro:

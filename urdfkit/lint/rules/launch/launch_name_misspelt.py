@@ -16,8 +16,8 @@ if TYPE_CHECKING:
 
 _NAMES = ("use_sim_time", "robot_description")
 _TOPICS = (*_NAMES, "joint_states", "controller_manager")
-_QUOTED = r"[\"'](?:[\w~/]*/)?(?P<name>[A-Za-z]\w{8,20})[\"']"
-_KEY = r"(?m)(?<=[\s{,])(?P<name>[A-Za-z]\w{8,20})(?=[ \t]*:)"
+_QUOTED = r"[\"'](?:(?:[\w~/]*/)?(?P<name>[A-Za-z]\w{8,20})|[\w~/]*/(?P<dashed>[A-Za-z][\w-]{8,20}))[\"']"
+_KEY = r"(?m)(?<=[\s{,])(?P<name>[A-Za-z]\w{8,20})(?=[ \t]*:)(?P<dashed>)"
 _SUBSCRIBED = {
     "controller_manager": "robot_description",
     "joint_state_publisher": "joint_states",
@@ -71,7 +71,8 @@ class LaunchNameMisspelt(RobotRule):
                 continue
             names = _TOPICS if is_launch else _NAMES
             for word in re.finditer(_QUOTED if is_launch else _KEY, uncommented(source)):
-                written, start = word["name"], word.start("name")
+                group = "name" if word["name"] is not None else "dashed"
+                written, start = word[group], word.start(group)
                 near = next((name for name in names if written != name and is_slip(written, name)), None)
                 before = source.text[max(word.start() - 25, 0) : word.start() + 1]
                 if near is None or re.search(r"-(?:topic|param)\b", before):  # spawn-argument-misspelt reports these

@@ -86,7 +86,8 @@ class SpawnedControllerUndefined(RobotRule):
 
         for one in misplaced_controllers(source, model):
             found, expected = (f"namespace `{name}`" if name else "no namespace" for name in (one.found, one.expected))
-            message = f"`{one.controller}` is in {found}, but its spawner in {source.file} has {expected}"
+            spawner = f"{source.file}:{one.line}"
+            message = f"`{one.controller}` is in {found}, but its spawner in {spawner} has {expected}"
             yield Finding(self.code, self.name, self.severity, message, span_of(one.source, one.key))
 
 
@@ -99,5 +100,5 @@ def _spawned(source: Source) -> Iterator[Named]:
             continue
         for previous, word in zip([None, *node.arguments], node.arguments, strict=False):
             is_option = previous is not None and previous.name.startswith("-")
-            if word is not None and re.fullmatch(r"[A-Za-z]\w*", word.name) and not is_option:
+            if word is not None and re.fullmatch(r"[A-Za-z][\w-]*", word.name) and not is_option:
                 yield word
