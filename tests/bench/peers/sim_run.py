@@ -16,8 +16,8 @@ from pathlib import Path
 from statistics import median
 
 from tests.bench.peers.mujoco_scene import Mujoco
-from tests.bench.peers.peer_engines import choose, rate
-from tests.bench.peers.scene import Pose, Running, Scene
+from tests.bench.peers.peer_engines import choose
+from tests.bench.peers.scene import DT, Pose, Running, Scene
 from tests.bench.peers.scenes import (
     ARM_ENDS,
     ARM_JOINTS,
@@ -35,13 +35,13 @@ HOLD = ",".join(f"{name}={angle}" for name, angle in zip(ARM_JOINTS, ARM_ENDS[0]
 JOINT_STATES = '<plugin filename="gz-sim-joint-state-publisher-system" name="gz::sim::systems::JointStatePublisher"/>'
 
 
-def diff_drive(separation: float, radius: float) -> str:
+def diff_drive(separation: float, radius: float, torque: float) -> str:
     """Return the plugin of a differential drive as robots of ROS 1 have it: 100 Hz, encoders, joint states."""
     return (
         '<plugin name="drive" filename="libgazebo_ros_diff_drive.so"><leftJoint>left_wheel_joint</leftJoint>'
         f"<rightJoint>right_wheel_joint</rightJoint><wheelSeparation>{separation}</wheelSeparation>"
-        f"<wheelDiameter>{2 * radius}</wheelDiameter><wheelTorque>10</wheelTorque><updateRate>100</updateRate>"
-        "<publishWheelJointState>true</publishWheelJointState></plugin>"
+        f"<wheelDiameter>{2 * radius}</wheelDiameter><wheelTorque>{torque}</wheelTorque><updateRate>100</updateRate>"
+        "<odometrySource>encoder</odometrySource><publishWheelJointState>true</publishWheelJointState></plugin>"
     )
 
 
@@ -77,7 +77,7 @@ class Typed:
 
 COMMANDS = {
     "diff drive": Typed(
-        "diff-drive", ("--cmd-vel", f"{DIFF_MOTION[0]},0,{DIFF_MOTION[1]}"), diff_drive(0.3, 0.06), 3.0
+        "diff-drive", ("--cmd-vel", f"{DIFF_MOTION[0]},0,{DIFF_MOTION[1]}"), diff_drive(0.3, 0.06, 1.0), 3.0
     ),
     "skid": Typed(
         "skid-steer",
@@ -116,7 +116,7 @@ COMMANDS = {
     "mobile manipulator": Typed(
         "mobile-manipulator",
         ("--cmd-vel", f"{MANIPULATOR_MOTION[0]},0,{MANIPULATOR_MOTION[1]}", "--joint-target", HOLD),
-        diff_drive(0.5, 0.1),
+        diff_drive(0.5, 0.1, 10.0),
         2.2,
     ),
     "arm": Typed("arm", ("--joint-target", HOLD, "--fixed-base"), "", 3.5),
@@ -183,6 +183,15 @@ class InSimRun(Running):
         return None
 
 
+def speed(running: Running, seconds: float) -> float:
+    """Return steps per CPU second, with as many steps a call as `sim run` makes."""
+    chunk, start, steps = round(run_command.CHUNK / DT), time.process_time(), 0
+    while time.process_time() - start < seconds:
+        running.many(chunk)
+        steps += chunk
+    return steps / (time.process_time() - start)
+
+
 def ratios(typed: Typed, *, seconds: float, rounds: int) -> tuple[float, float, float, str]:
     """Return steps per CPU second of both engines, the median of the ratios, and remarks."""
     scene, peer = standing(typed), Mujoco()
@@ -192,7 +201,7 @@ def ratios(typed: Typed, *, seconds: float, rounds: int) -> tuple[float, float, 
     pairs = []
     for k in range(rounds):
         turn = [ours, theirs] if k % 2 else [theirs, ours]
-        found = {running: rate(running, seconds) for running in turn}
+        found = {running: speed(running, seconds) for running in turn}
         pairs.append((found[ours], found[theirs]))
     remarks = f"{settings}{'; WRONG: ' * bool(wrong)}{', '.join(wrong)}"
     return *(median(column) for column in zip(*pairs, strict=True)), median(a / b for a, b in pairs), remarks

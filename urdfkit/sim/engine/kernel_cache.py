@@ -23,6 +23,7 @@ KERNEL_MODULES = (
     "contacts/ground_contacts",
     "dynamics/integration",
     "dynamics/mass_matrix",
+    "dynamics/odometry",
     "kernel_world",
     "math/elementary_functions",
     "math/linear_systems",

@@ -26,6 +26,19 @@ AT_REST, WINDOW, FASTEST, SLOWEST, FASTEST_BEFORE, DIED_DOWN, RESISTED = range(O
 """Places in ``still`` of a tree: the time at rest, and for `slow_motion` the time in this window, the greatest and the
 least speed in it, the greatest in the window before, and the results: motion has died down, rolling is resisted."""
 
+ENCODERS, ENCODER = 8, 5
+"""Most joints that the odometry of a tree measures, and how many numbers are kept of each."""
+LAST_POSITION, FORWARD_SHARE, LEFT_SHARE, TURN_SHARE, ANGLE_SHARE = range(ENCODER)
+"""Places in ``encoder`` of a joint: its position at the last update, and the effect of a change of it."""
+ODOMETRY = 9
+X, Y, HEADING, FORWARD, LEFT, TURNED, DISTANCE, PERIOD, AXLES = range(ODOMETRY)
+"""Places in ``odometry`` of a tree: the pose, the last displacement in the axes of the robot and its length, the number
+of steps between updates, and the distance between the axles of a bicycle, otherwise zero."""
+FOLLOWS_ARC, LAST_UPDATE, BEFORE, NEXT_UPDATE, FIRST_COORDINATE = range(1, 6)
+"""Places in ``odometer`` of a tree after the number of its encoders, zero for none: whether displacements follow an
+arc, the steps of the last updates and of the next, and the coordinates of its encoders, relative to its first one."""
+ODOMETER = FIRST_COORDINATE + ENCODERS
+
 
 def _sizes(*rows: str) -> dict[str, Size]:
     """Return name → shape of fields written as ``name:shape``."""
@@ -57,6 +70,7 @@ FLOATS = _sizes(
     "found_normal:24 found_gap:8 Y:y columns:y row_bias:r g:r low:r high:r mu:r before:r slip:r x:r y:r A:q B:q",
     "row_stiffness:r near_x:r ahead:r velocity:r shape_mu2:k floor_mu2:k shape_along:k,3 ki:d i_min:d i_max:d",
     "antiwindup:d feedforward:d integral:d i_part:d rigid_kd:d turn:b,2",
+    f"odometry:t,{ODOMETRY} encoder:t,{ENCODERS},{ENCODER}",
 )
 
 INTEGERS = _sizes(
@@ -69,6 +83,7 @@ INTEGERS = _sizes(
     "shape_owner:k shape_meets:k shape_data:k contact_body:c contact_other:c contact_shape:c contact_against:c",
     "contact_next:c contact_feature:c contact_row:c slot:r row_a:r row_b:r at_a:r at_b:r of_a:r of_b:r state:r",
     "index:r redundant:r extreme_vertex:9 saturated:d pressed:d motor_row:d counts:12 along_body:k",
+    f"odometer:t,{ODOMETER}",
 )
 
 # Where in the head of the block of integers the kernel finds sizes and the start of each field.

@@ -15,6 +15,7 @@ from urdfkit.sim.plugins.periodic import Periodic, Publisher
 from urdfkit.sim.state.periodic_steps import NEVER, PeriodicSteps
 
 if TYPE_CHECKING:
+    from urdfkit.bus import Topic
     from urdfkit.description.plugins import PluginSpec
     from urdfkit.description.urdf.robot import Plugin
     from urdfkit.sim.plugins.controllers.control_loop import ControlLoop
@@ -78,6 +79,11 @@ class Drive(Commanding):
         """Return the first step from `step` on before which `write` is due."""
         return NEVER if self.resting else self._ticks.next(step)
 
+    @property
+    def published(self) -> tuple[Topic, ...] | None:
+        """The topics for which `read` is called; None if it has to be called at every due step."""
+        return None
+
     @abstractmethod
     def read(self, state: State) -> None:
         """Measure and publish."""
@@ -89,6 +95,29 @@ class Drive(Commanding):
     def estimate(self, state: State) -> dict[str, Pose]:
         """Return odometry frame → pose in it; empty for a drive without odometry."""
         return {}
+
+
+class DriveReads(Publisher):
+    """The calls of a drive's `read`; while its topics have no subscribers, the simulation does not stop for them.
+
+    Args:
+        drive: the drive.
+    """
+
+    def __init__(self, drive: Drive) -> None:
+        self.drive, self.rate = drive, drive.read_rate
+
+    def stop(self, step: int) -> int:
+        """Return the next step at which the simulation has to stop."""
+        topics = self.drive.published
+        self.topics = topics or ()
+        return NEVER if topics == () else super().stop(step)
+
+    def measure(self, state: State, count: int) -> None:
+        """Let the drive publish, and count the messages that were due."""
+        self.drive.read(state)
+        for topic in self.drive.published or ():
+            topic.count += count - 1
 
 
 class Sensor(Publisher):

@@ -96,6 +96,11 @@ class OdometryTopics:
         self._covariances = (covariance, twist_covariance)
         self._flat = flat
 
+    @property
+    def topics(self) -> tuple[Topic, ...]:
+        """The topics that exist."""
+        return tuple(topic for topic in (self.odometry, self.tf) if topic is not None)
+
     def publish(self, t: float, estimate: Estimate) -> None:
         """Offer message and transform of an estimate."""
         if self.odometry is not None:

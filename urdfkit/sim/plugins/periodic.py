@@ -1,7 +1,6 @@
 """Base classes of periodic work in a simulation: calls and publishers with a rate."""
 
 from abc import ABC, abstractmethod
-from collections.abc import Callable
 
 from urdfkit.bus import Topic
 from urdfkit.sim.state.periodic_steps import NEVER, PeriodicSteps
@@ -28,31 +27,6 @@ class Periodic(ABC):
     @abstractmethod
     def act(self, state: State) -> None:
         """Do the work that is due at the step of the state."""
-
-
-class Timed(Periodic):
-    """A call at a fixed rate.
-
-    Args:
-        ticks: steps at which the call is due.
-        call: function to call.
-    """
-
-    def __init__(self, ticks: PeriodicSteps, call: Callable[[State], object]) -> None:
-        self._ticks, self._call = ticks, call
-
-    def next(self, step: int) -> int:
-        """Return the first step from `step` on at which the call is due."""
-        return self._ticks.next(step)
-
-    def act(self, state: State) -> None:
-        """Make the call."""
-        self._call(state)
-        self.due = self._ticks.after(state.step)
-
-    def reset(self) -> None:
-        """Restart at step 0."""
-        self.due = 0
 
 
 class Publisher(Periodic):

@@ -4,6 +4,8 @@ from abc import ABC, abstractmethod
 from collections.abc import Sequence
 from math import copysign, cos, hypot, pi, sin, sqrt, tan
 
+from urdfkit.sim.state.odometer import Encoder, OdometerReading
+
 Twist = tuple[float, float, float]
 """Forward [m/s], to the left [m/s], turning [rad/s]."""
 
@@ -77,25 +79,64 @@ class WheelOdometry(ABC):
         self.moved, self.distance = (forward, left, turn), hypot(dx, dy)
 
 
-class DifferentialOdometry(WheelOdometry):
+class EncoderOdometry(WheelOdometry):
+    """Odometry from positions of joints, each with a constant effect; the engine computes the same by itself.
+
+    An update takes the positions of the encoders [rad] or [m].
+
+    Args:
+        encoders: the joints.
+        axles: distance between the axles of a bicycle, which turns by its steering angle [m]; zero for other drives.
+        exact: follow the exact arc instead of the chord at the mid-point heading.
+
+    Attributes:
+        encoders: the joints.
+        axles: see above.
+        exact: see above.
+    """
+
+    def __init__(self, encoders: Sequence[Encoder], *, axles: float = 0.0, exact: bool = True) -> None:
+        super().__init__()
+        self.encoders, self.axles, self.exact = tuple(encoders), axles, exact
+
+    def integrate(self, before: tuple[float, ...], now: tuple[float, ...]) -> None:
+        """Advance by the sum of the displacements."""
+        forward = left = turn = angle = 0.0
+        for encoder, old, new in zip(self.encoders, before, now, strict=True):
+            forward += encoder.forward * (new - old)
+            left += encoder.left * (new - old)
+            turn += encoder.turn * (new - old)
+            angle += encoder.angle * 0.5 * (new + old)
+        if self.axles:
+            turn += forward * tan(angle) / self.axles
+        self.advance(forward, left, turn, exact=self.exact)
+
+    def take(self, reading: OdometerReading, dt: float) -> None:
+        """Set the odometry to a reading of the engine, whose steps have `dt` [s]."""
+        self.t, self.period, self.rolled = reading.step * dt, reading.steps * dt, reading.positions
+        (self.x, self.y, self.heading), self.moved, self.distance = reading.pose, reading.moved, reading.distance
+
+
+class DifferentialOdometry(EncoderOdometry):
     """Odometry from the left and the right wheel.
 
     Args:
         separation: distance between the wheels [m].
+        joints: joints of the left and the right wheel; an update takes the distances they rolled if they have no names.
+        radius: radius of the wheels [m].
         exact: follow the exact arc (``gz::math::DiffDriveOdometry``) instead of the chord at the mid-point heading
             (Sigwart and Nourbakhsh 2004, eq. 5.7, as in gazebo_ros_diff_drive). The chord is longer by the fraction
             Δθ²/24: 1e-6 at 0.5 rad/s and 100 Hz.
     """
 
-    def __init__(self, separation: float, *, exact: bool = False) -> None:
-        super().__init__()
-        self._separation = separation
-        self._exact = exact
-
-    def integrate(self, before: tuple[float, ...], now: tuple[float, ...]) -> None:
-        """Advance by the mean of both wheels, and turn by their difference."""
-        left, right = now[0] - before[0], now[1] - before[1]
-        self.advance((left + right) / 2, 0.0, (right - left) / self._separation, exact=self._exact)
+    def __init__(
+        self, separation: float, joints: Sequence[str] = ("", ""), radius: float = 1.0, *, exact: bool = False
+    ) -> None:
+        encoders = (
+            Encoder(joint, radius / 2, 0.0, side * radius / separation)
+            for joint, side in zip(joints, (-1.0, 1.0), strict=True)
+        )
+        super().__init__(tuple(encoders), exact=exact)
 
 
 class BicycleOdometry(WheelOdometry):
@@ -172,7 +213,7 @@ class FourWheelOdometry(WheelOdometry):
         return ahead, left, turn
 
 
-class MecanumOdometry(WheelOdometry):
+class MecanumOdometry(EncoderOdometry):
     """Odometry from four mecanum wheels: front left, front right, back left, back right.
 
     Wheels roll at vx ∓ vy ∓ w·(separation + base)/2 (front left: both minus); each displacement is the mean of the four
@@ -180,16 +221,18 @@ class MecanumOdometry(WheelOdometry):
 
     Args:
         reach: (separation + base) / 2 [m].
+        joints: joints of the wheels; an update takes the distances they rolled if they have no names.
+        radius: radius of the wheels [m].
     """
 
-    def __init__(self, reach: float) -> None:
-        super().__init__()
-        self._reach = reach
-
-    def integrate(self, before: tuple[float, ...], now: tuple[float, ...]) -> None:
-        """Advance by the three displacements."""
-        a, b, c, d = (new - old for new, old in zip(now, before, strict=True))
-        self.advance((a + b + c + d) / 4, (b + c - a - d) / 4, (b + d - a - c) / 4 / self._reach)
+    def __init__(self, reach: float, joints: Sequence[str] = ("",) * 4, radius: float = 1.0) -> None:
+        signs = ((-1.0, -1.0), (1.0, 1.0), (1.0, -1.0), (-1.0, 1.0))
+        super().__init__(
+            [
+                Encoder(joint, radius / 4, left * radius / 4, turn * radius / 4 / reach)
+                for joint, (left, turn) in zip(joints, signs, strict=True)
+            ]
+        )
 
 
 def along_arc(arc: float, heading: float, turn: float) -> tuple[float, float]:

@@ -139,6 +139,25 @@ class Motors:
             servos.acceleration[index] = limit.acceleration or inf
             servos.deceleration[index] = limit.deceleration or limit.acceleration or inf
 
+    def approach(self, joint: str, position: float, *, rate: float, fastest: float) -> None:
+        """Move a joint at `rate` times its distance to a position, and hold it there, within its limit of effort.
+
+        Args:
+            joint: name of the joint.
+            position: goal [rad] or [m]; the nearest position within the joint's limits replaces it.
+            rate: [1/s].
+            fastest: greatest velocity [rad/s] or [m/s].
+
+        Raises:
+            SimulationError: unknown joint, or a value is not finite.
+        """
+        self._set(joint, position, self.limit(joint))
+        index, servos = self._index[joint], self._servos
+        lower, upper = self._kinematics.limits(joint)
+        self._velocity[index] = 0.0
+        servos.position[index], servos.approach_rate[index] = min(upper, max(lower, position)), rate
+        servos.fastest[index], servos.acceleration[index], servos.deceleration[index] = fastest, inf, inf
+
     def exert(self, joint: str, effort: float) -> None:
         """Apply an effort [N·m] or [N] to a joint, in addition to its motor, until the next call.
 

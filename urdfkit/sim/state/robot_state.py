@@ -15,6 +15,7 @@ from urdfkit.sim.engine import Contact, Engine
 from urdfkit.sim.engine.articulation import Articulation
 from urdfkit.sim.engine.scalar_views import numbers
 from urdfkit.sim.engine.state_conversion import configuration
+from urdfkit.sim.state.odometer import Odometer
 from urdfkit.sim.state.poses_and_energy import energy_of, in_the_world, link_poses, pose_and_twist
 from urdfkit.sim.state.quaternion import product, rotate
 
@@ -82,6 +83,7 @@ class State:
 
     Attributes:
         step: number of steps since the start.
+        odometer: the wheel odometry that the engine integrates.
     """
 
     def __init__(
@@ -125,9 +127,14 @@ class State:
         arrays, tree = engine.arrays, self._articulation.tree
         dof = int(arrays["tree_dof"][tree])
         self._at = {name: int(arrays["dof_s"][dof + k]) for name, k in self._index.items()}
+        self.odometer = Odometer(arrays, tree)
         self._coordinates, self._velocities = numbers(arrays["s"]), numbers(self._articulation.v)
         self._efforts, self._applied = numbers(self._articulation.effort), numbers(self._articulation.applied)
         self._root = int(arrays["tree_s"][tree])
+
+    def coordinate(self, joint: str) -> int:
+        """Return the number of a joint's position among the coordinates of the engine."""
+        return self._at[joint]
 
     def advance(self, steps: int) -> None:
         """Advance the step count by `steps` and drop cached values; call after the engine has stepped."""

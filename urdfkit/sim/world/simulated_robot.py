@@ -17,15 +17,15 @@ from urdfkit.sim.construction.start_pose import Spawn, raised_joints
 from urdfkit.sim.construction.surface_parameters import surfaces_of
 from urdfkit.sim.engine import Engine, Ground, Member, Surface
 from urdfkit.sim.engine.articulation import Articulation
+from urdfkit.sim.plugins.base import DriveReads
 from urdfkit.sim.plugins.builtin_publishers import Transforms, publish_fixed
 from urdfkit.sim.plugins.controllers.controller_switching import Controllers
 from urdfkit.sim.plugins.installer import Installed, install
 from urdfkit.sim.plugins.live_objects import LiveObjects
 from urdfkit.sim.plugins.namespaced_bus import OwnBus
-from urdfkit.sim.plugins.periodic import Periodic, Publisher, Timed
+from urdfkit.sim.plugins.periodic import Periodic, Publisher
 from urdfkit.sim.plugins.setup import Setup
 from urdfkit.sim.state.joint_commands import Motors, Servos
-from urdfkit.sim.state.periodic_steps import PeriodicSteps
 from urdfkit.sim.state.robot_state import State
 
 SERVO_ARRAYS = (
@@ -113,7 +113,7 @@ class SimulatedRobot:
         self.controllers = Controllers([])
         self._bus: OwnBus | None = None
         self._own_publishers: list[Publisher] = []
-        self._drive_reads: list[Timed] = []
+        self._drive_reads: list[DriveReads] = []
         self.writes: list[Periodic] = []
         self.reads: tuple[Sequence[Periodic], ...] = ()
 
@@ -183,7 +183,7 @@ class SimulatedRobot:
         self.writes = [*drives, *self.plugins.controllers]
         transforms = Transforms(bus, setup.dt, self.kinematics, setup.namespace)
         self._own_publishers = [*self.plugins.sensors, *self.plugins.joint_states, transforms]
-        self._drive_reads = [Timed(PeriodicSteps(drive.read_rate, setup.dt), drive.read) for drive in drives]
+        self._drive_reads = [DriveReads(drive) for drive in drives]
         self.reads = ([*self._drive_reads, *self._own_publishers], *self.controllers.each_publications)
         for publisher in self._publishers:
             publisher.schedule(setup.dt, self.state.step)
@@ -205,7 +205,7 @@ class SimulatedRobot:
 
     @property
     def _publishers(self) -> Sequence[Publisher]:
-        return [*self._own_publishers, *self.controllers.publications]
+        return [*self._drive_reads, *self._own_publishers, *self.controllers.publications]
 
     def start(self) -> tuple[Array, Array]:
         """Return the initial q and v."""
@@ -228,8 +228,6 @@ class SimulatedRobot:
         self.motors.release_all()
         for drive in self.plugins.drives:
             drive.reset()
-        for timed in self._drive_reads:
-            timed.reset()
         for publisher in self._publishers:
             publisher.reset()
 

@@ -66,7 +66,8 @@ def transfer_state(before: Engine, old: EngineLayout, after: Engine, new: Engine
         for name in _PER_DOF:
             b[name][_span(b, "tree_dof", j)] = a[name][_span(a, "tree_dof", i)]
         b["s"][_span(b, "tree_s", j)] = a["s"][_span(a, "tree_s", i)]
-        b["displaced"][j] = a["displaced"][i]
+        for name in ("displaced", "odometry", "encoder", "odometer"):
+            b[name][j] = a[name][i]
         b["still"][j] = 0.0 if a["asleep"][i] else a["still"][i]
     shapes = _shapes(before, old, after, new)
     _transfer_impulses(a, b, trees, shapes)

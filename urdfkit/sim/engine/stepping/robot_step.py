@@ -24,6 +24,7 @@ from urdfkit.sim.engine.contacts.anisotropic_friction import orient_friction
 from urdfkit.sim.engine.contacts.ground_contacts import collide_with_plane, near_plane
 from urdfkit.sim.engine.dynamics.integration import move
 from urdfkit.sim.engine.dynamics.mass_matrix import place, solve_forward, terms
+from urdfkit.sim.engine.dynamics.odometry import update_odometry
 from urdfkit.sim.engine.kernel_world import world
 from urdfkit.sim.engine.simulation_memory import (
     BODIES,
@@ -38,6 +39,7 @@ from urdfkit.sim.engine.simulation_memory import (
     HAS_FLOOR,
     ITERATED,
     MIMICS,
+    NEXT_UPDATE,
     SHAPES,
     SLOTS,
     STEPS,
@@ -141,4 +143,6 @@ def advance(floats: Any, integers: Any, steps: int, only_terms: bool) -> int:
         if not math.isfinite(total):
             return done
         w.counts[STEPS] += 1
+        if w.odometer[0] != 0 and w.counts[STEPS] >= w.odometer[NEXT_UPDATE]:
+            update_odometry(w, 0, w.counts[STEPS])
     return steps

@@ -7,9 +7,19 @@ from urdfkit.sim.engine.constraints.joint_servos import account
 from urdfkit.sim.engine.constraints.position_goals import approach_goals
 from urdfkit.sim.engine.contacts.contact_search import find_candidate_pairs, find_contacts
 from urdfkit.sim.engine.contacts.warm_start import store_impulses, store_pair_impulses
+from urdfkit.sim.engine.dynamics.odometry import update_odometry
 from urdfkit.sim.engine.dynamics.tree_motion import begin_step, evaluate, integrate_tree, predict_poses
 from urdfkit.sim.engine.kernel_world import world
-from urdfkit.sim.engine.simulation_memory import DT, FOUND_CONTACTS, FOUND_PAIRS, FOUND_ROWS, STEPS, TREES
+from urdfkit.sim.engine.simulation_memory import (
+    DT,
+    FOUND_CONTACTS,
+    FOUND_PAIRS,
+    FOUND_ROWS,
+    NEXT_UPDATE,
+    ODOMETER,
+    STEPS,
+    TREES,
+)
 from urdfkit.sim.engine.sleep.sleep import let_sleep
 from urdfkit.sim.engine.sleep.wake import wake_disturbed, wake_touched
 from urdfkit.sim.engine.stepping.islands import build_islands
@@ -90,6 +100,9 @@ def advance(floats: Any, integers: Any, steps: int, only_terms: bool) -> int:
             for d in range(first, beyond):
                 total += w.v[d]
             integrate_tree(w, tree, 0.5 * dt)
+            at = ODOMETER * tree
+            if w.odometer[at] != 0 and counts[STEPS] + 1 >= w.odometer[at + NEXT_UPDATE]:
+                update_odometry(w, tree, counts[STEPS] + 1)
         counts[FOUND_CONTACTS], counts[FOUND_ROWS], counts[FOUND_PAIRS] = contacts, all_rows, pairs
         if not math.isfinite(total):
             return done

@@ -9,6 +9,7 @@ from __future__ import annotations
 from math import copysign, dist, hypot, tan
 from typing import Any
 
+from urdfkit.bus import Topic
 from urdfkit.errors import SimulationError
 from urdfkit.messages import message_type
 from urdfkit.sim.plugins.drives.odometry_parameters import odometry_topics
@@ -70,7 +71,7 @@ class Ackermann(VelocityDrive):
             twist_covariance=True,
         )
         steering_wheel = (self._steering_wheel,) if self._steering_wheel else ()
-        self._wheels = Wheels(
+        self.wheels = Wheels(
             setup,
             (*self._joints.values(), *steering_wheel),
             with_tf=read.flag("publish_wheel_tf"),
@@ -159,7 +160,6 @@ class Ackermann(VelocityDrive):
     def read(self, state: State) -> None:
         """Publish odometry (the true pose in the world), wheel transforms, distance travelled and steering angle."""
         super().read(state)
-        self._wheels.publish(state)
         pose = state.base_pose
         if self._distance_topic is not None:
             here = pose[:2]
@@ -170,6 +170,11 @@ class Ackermann(VelocityDrive):
         if self._angle_topic is not None:
             angle = self._mean_angle(state)
             self._angle_topic.offer(lambda: self._number(angle))
+
+    @property
+    def published(self) -> tuple[Topic, ...] | None:
+        """Topics of odometry and wheels; None if `read` adds up the distance travelled."""
+        return super().published if self._distance_topic is self._angle_topic is None else None
 
     def _mean_angle(self, state: State) -> float:
         return sum(state.position(self._joints[f"{side}_steering_joint"]) for side in ("left", "right")) / 2

@@ -6,6 +6,7 @@ Source: gz-sim main, src/systems/ackermann_steering/AckermannSteering.cc.
 from math import copysign, isfinite, sin, tan
 from typing import Any
 
+from urdfkit.bus import Topic
 from urdfkit.errors import SimulationError
 from urdfkit.sim.plugins.drives.odometry_parameters import odometry_topics
 from urdfkit.sim.plugins.drives.velocity_drive import VelocityDrive, joints_of
@@ -14,8 +15,9 @@ from urdfkit.sim.plugins.setup import Setup
 from urdfkit.sim.plugins.speed_limits import SpeedLimits, limiter
 from urdfkit.sim.plugins.topic_names import Topics
 from urdfkit.sim.plugins.wheel_geometry import steering_angles
-from urdfkit.sim.plugins.wheel_odometry import BicycleOdometry
+from urdfkit.sim.plugins.wheel_odometry import EncoderOdometry
 from urdfkit.sim.state.joint_commands import Motors
+from urdfkit.sim.state.odometer import Encoder
 from urdfkit.sim.state.pid import Gains, GazeboPid
 from urdfkit.sim.state.robot_state import State
 
@@ -62,6 +64,9 @@ class AckermannSteering(VelocityDrive):
             read.number("steer_i_min"), read.number("steer_i_max"),
         )  # fmt: skip
         self._pid = GazeboPid(gains, (read.number("steer_min"), read.number("steer_max")), read.number("steer_offset"))
+        # The engine itself follows a velocity in proportion to the error.
+        others = (gains.i, gains.d, self._pid.offset, sum(self._pid.bounds))
+        self._in_proportion = gains.p > 0.0 and others == (0.0, 0.0, 0.0, 0.0)
         self.limits = SpeedLimits(limiter(read, "linear"), limiter(read, "angular"))
         self._angle = 0.0
         self._subscribe(setup, read, topics)
@@ -70,7 +75,9 @@ class AckermannSteering(VelocityDrive):
             self._radius = read.number("wheel_radius")
             self._kingpin = read.number("kingpin_width")
             self.topics = odometry_topics(setup, read, topics, published=True, with_tf=True)
-            self.odometry = BicycleOdometry(self._base)
+            wheels = (Encoder(joints[0], self._radius / 2) for joints in (self._left, self._right))
+            steering = (Encoder(joints[0], angle=0.5) for joints in (self._left_steering, self._right_steering))
+            self.odometry = EncoderOdometry([*wheels, *steering], axles=self._base)
         self.read_rate = read.number("odometry_rate")
 
     def _subscribe(self, setup: Setup, read: Parameters, topics: Topics) -> None:
@@ -105,11 +112,15 @@ class AckermannSteering(VelocityDrive):
         else:
             self._drive(v, w, motors)
         for joints, target in ((self._left_steering, self._targets[0]), (self._right_steering, self._targets[1])):
+            if self._in_proportion:
+                for joint in joints:
+                    motors.approach(joint, target, rate=self._pid.gains.p, fastest=self._pid.bounds[1])
+                continue
             self._pid.reset()
             speed = self._pid.update(state.position(joints[0]) - target, dt)
             for joint in joints:
                 motors.drive(joint, speed)
-        self.resting = settled and self._steered(state)
+        self.resting = settled and (self._in_proportion or self._steered(state))
 
     def _drive(self, v: float, w: float, motors: Motors) -> None:
         """Set the wheel velocities, and compute the steering angles."""
@@ -134,18 +145,17 @@ class AckermannSteering(VelocityDrive):
 
     # After the step
 
+    @property
+    def published(self) -> tuple[Topic, ...] | None:
+        """Topics of the odometry; None if `read` checks the steering."""
+        return super().published if self._in_proportion else None
+
     def read(self, state: State) -> None:
         """Publish the odometry of the first wheels and the first steering joints."""
-        if self.resting and not self._steered(state):
+        if self.resting and not self._in_proportion and not self._steered(state):
             self.resting = False
         if not self._only_steers:
             super().read(state)
-
-    def rolled(self, state: State) -> tuple[float, ...]:
-        """Return the mean rolled distance of the first wheels [m] and mean angle of the first steering joints [rad]."""
-        turned = state.position(self._left[0]) + state.position(self._right[0])
-        steered = state.position(self._left_steering[0]) + state.position(self._right_steering[0])
-        return turned / 2 * self._radius, steered / 2
 
     def reset(self) -> None:
         """Clear commands and odometry."""

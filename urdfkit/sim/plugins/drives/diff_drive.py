@@ -112,7 +112,9 @@ class DiffDrive(VelocityDrive):
 
     def _advertise(self, setup: Setup, read: Parameters, topics: Topics) -> None:
         if by_encoder(read):
-            self.odometry = DifferentialOdometry(self._separations[0], exact=self._gz)
+            # The first pair has the encoders.
+            pair = self._pairs[0][::-1] if self._swapped else self._pairs[0]
+            self.odometry = DifferentialOdometry(self._separations[0], pair, self._radii[0], exact=self._gz)
         published = self._gz or read.flag("publish_odometry")
         # <publishOdomTF> exists since Kinetic. Before, the transform was always published with the message.
         with_tf = self._gz or read.flag("publish_odometry_tf")
@@ -127,7 +129,7 @@ class DiffDrive(VelocityDrive):
             twist_covariance=self.spec.generation == "ros2",
         )
         wheel_states = self.spec.generation == "ros1" and read.flag("publish_wheel_joint_state")
-        self._wheels = Wheels(
+        self.wheels = Wheels(
             setup,
             [joint for pair in self._pairs for joint in pair],
             with_tf=not self._gz and read.flag("publish_wheel_tf"),
@@ -178,18 +180,6 @@ class DiffDrive(VelocityDrive):
             speeds[side] = self._instructed[2 * i + side]
 
     # After the step
-
-    def read(self, state: State) -> None:
-        """Publish odometry, wheel transforms and wheel states."""
-        super().read(state)
-        self._wheels.publish(state)
-
-    def rolled(self, state: State) -> tuple[float, ...]:
-        """Return the rolled distances of the left and the right wheel of the first pair, which has the encoders [m]."""
-        (left, right), radius = self._pairs[0], self._radii[0]
-        if self._swapped:
-            left, right = right, left
-        return state.position(left) * radius, state.position(right) * radius
 
     def measure(self, state: State, odometry: WheelOdometry | None) -> Estimate:
         """Return the estimate of the present state; gazebo_ros_diff_drive reports the absolute value of the speed."""

@@ -45,7 +45,8 @@ class MecanumDrive(VelocityDrive):
         self.read_rate = read.number("odometry_rate")
         self.subscribe(setup, topics.resolve(read.text("command_topic")))
         self.topics = odometry_topics(setup, read, topics, published=True, with_tf=True)
-        self.odometry = MecanumOdometry(self._reach)
+        joints = [joints[0] for joints in self._joints.values()]
+        self.odometry = MecanumOdometry(self._reach, joints, self._radius)
 
     def write(self, state: State, motors: Motors) -> None:
         """Set the wheels' velocity motors."""
@@ -56,7 +57,3 @@ class MecanumDrive(VelocityDrive):
         for corner, (left, turn) in CORNERS.items():
             for joint in self._joints[corner]:
                 motors.drive(joint, (vx + left * vy + turn * w * self._reach) / self._radius)
-
-    def rolled(self, state: State) -> tuple[float, ...]:
-        """Return the rolled distance of the first wheel of each corner [m]."""
-        return tuple(state.position(joints[0]) * self._radius for joints in self._joints.values())

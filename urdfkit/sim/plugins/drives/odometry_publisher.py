@@ -4,6 +4,7 @@ Source: gz-sim main, src/systems/odometry_publisher/OdometryPublisher.cc. Gazebo
 steps; urdfkit publishes the velocity of the present state.
 """
 
+from urdfkit.bus import Topic
 from urdfkit.sim.plugins.base import Drive
 from urdfkit.sim.plugins.odometry import Estimate, OdometryTopics, Pose, from_world
 from urdfkit.sim.plugins.parameters import Parameters
@@ -60,6 +61,11 @@ class OdometryPublisher(Drive):
 
     def write(self, state: State, motors: Motors) -> None:
         """Do nothing; this plugin has no joint commands."""
+
+    @property
+    def published(self) -> tuple[Topic, ...] | None:
+        """Topics of the odometry; None if each message consumes random numbers."""
+        return None if self._noise else tuple(topic for topics in self._topics for topic in topics.topics)
 
     def read(self, state: State) -> None:
         """Publish the odometry."""

@@ -80,6 +80,11 @@ class PlanarMove(VelocityDrive):
         back = (-x, -y, -z, w)
         motors.move_base(rotate(back, (along, across, 0.0)), rotate(back, (0.0, 0.0, turning)))
 
+    @property
+    def published(self) -> None:
+        """Return None: `read` computes mean velocities between two calls."""
+        return
+
     def read(self, state: State) -> None:
         """Publish the true pose in the world, in ROS 1 with the mean velocity since the last message."""
         now = self.measure(state, None)

@@ -7,7 +7,6 @@ from __future__ import annotations
 
 from urdfkit.sim.plugins.drives.diff_drive import DiffDrive
 from urdfkit.sim.plugins.drives.odometry_parameters import odometry_topics
-from urdfkit.sim.plugins.drives.wheel_messages import Wheels
 from urdfkit.sim.plugins.parameters import Parameters
 from urdfkit.sim.plugins.setup import Setup
 from urdfkit.sim.plugins.topic_names import Topics
@@ -44,4 +43,3 @@ class SkidSteer(DiffDrive):
             twist_covariance=True,
             flat=True,
         )
-        self._wheels = Wheels(setup, (), with_tf=False)

@@ -53,10 +53,12 @@ class Tricycle(VelocityDrive):
         self._period = PeriodicSteps(self.write_rate, setup.dt).period
         self.subscribe(setup, topics.resolve(read.text("command_topic", "cmd_vel")))
         separation = read.number("wheel_separation")
-        self.odometry = DifferentialOdometry(separation) if by_encoder(read) else None
+        if by_encoder(read):
+            wheels = self._left, self._right
+            self.odometry = DifferentialOdometry(separation, wheels, self._encoder_radius)
         published = self.spec.generation == "ros1" or read.flag("publish_odometry")
         self.topics = odometry_topics(setup, read, topics, published=published, with_tf=published)
-        self._wheels = Wheels(
+        self.wheels = Wheels(
             setup,
             (self._steering, self._actuated, self._left, self._right),
             with_tf=read.flag("publish_wheel_tf"),
@@ -92,13 +94,3 @@ class Tricycle(VelocityDrive):
         if now - target > self._slower * self._period:
             return now - self._slower * self._period
         return target
-
-    def read(self, state: State) -> None:
-        """Publish odometry, wheel transforms and wheel states."""
-        super().read(state)
-        self._wheels.publish(state)
-
-    def rolled(self, state: State) -> tuple[float, ...]:
-        """Return the rolled distances of the left and the right wheel [m]."""
-        radius = self._encoder_radius
-        return state.position(self._left) * radius, state.position(self._right) * radius

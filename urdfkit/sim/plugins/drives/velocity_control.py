@@ -3,6 +3,7 @@
 Source: gz-sim main, src/systems/velocity_control/VelocityControl.cc. It publishes no odometry.
 """
 
+from urdfkit.bus import Topic
 from urdfkit.description.plugins import PluginSpec
 from urdfkit.description.urdf.robot import Plugin
 from urdfkit.sim.plugins.drives.planar_move import movable
@@ -52,6 +53,11 @@ class VelocityControl(VelocityDrive):
         commanded = self.command.count > self._ignored
         linear, angular = (self.command.linear, self.command.angular) if commanded else self._initial
         motors.move_base(linear, angular)
+
+    @property
+    def published(self) -> tuple[Topic, ...]:
+        """Return no topics."""
+        return ()
 
     def read(self, state: State) -> None:
         """Publish nothing."""

@@ -5,14 +5,18 @@ from copy import copy
 from math import isfinite
 from typing import Any
 
+from urdfkit.bus import Topic
 from urdfkit.errors import SimulationError
 from urdfkit.messages import TWIST
 from urdfkit.sim.plugins.base import Drive
+from urdfkit.sim.plugins.drives.wheel_messages import Wheels
 from urdfkit.sim.plugins.odometry import Estimate, OdometryTopics, Pose, from_world, planar
 from urdfkit.sim.plugins.parameters import Parameters
 from urdfkit.sim.plugins.setup import Setup
 from urdfkit.sim.plugins.speed_limits import SpeedLimits
-from urdfkit.sim.plugins.wheel_odometry import WheelOdometry
+from urdfkit.sim.plugins.wheel_odometry import EncoderOdometry, WheelOdometry
+from urdfkit.sim.state.joint_commands import Motors
+from urdfkit.sim.state.periodic_steps import PeriodicSteps
 from urdfkit.sim.state.robot_state import State
 
 ZERO = (0.0, 0.0, 0.0)
@@ -71,12 +75,15 @@ class VelocityDrive(Drive):
         limits: limits of the commanded velocities.
         odometry: wheel odometry; None to publish the true pose.
         topics: topics of the odometry; None for a drive without odometry.
+        wheels: topics of the wheels; None for a drive without.
     """
 
     command: Command
     limits: SpeedLimits = SpeedLimits()
-    odometry: WheelOdometry | None = None
+    odometry: EncoderOdometry | None = None
     topics: OdometryTopics | None = None
+    wheels: Wheels | None = None
+    _in_engine = False
 
     def subscribe(self, setup: Setup, topic: str) -> None:
         """Subscribe to the velocity commands on a topic."""
@@ -87,36 +94,72 @@ class VelocityDrive(Drive):
         """Resume calls of `write` from the next step on."""
         self.resting = False
 
-    def rolled(self, state: State) -> tuple[float, ...]:
-        """Return the arguments of the odometry: the rolled distances of the wheels and steering angles."""
-        raise NotImplementedError
-
     def start_odometry(self, state: State) -> None:
-        """Store the positions of the wheels before the first step."""
-        if self.odometry is not None and not self.odometry.started:
-            self.odometry.update(state.t, *self.rolled(state))
+        """Store the positions of the wheels before the first step, and let the engine integrate from there on.
+
+        The engine integrates the odometry of one drive per robot.
+        """
+        odometry, odometer = self.odometry, state.odometer
+        if odometry is None or odometry.started:
+            return
+        odometry.update(state.t, *_positions(odometry, state))
+        self._in_engine = self._in_engine or not odometer.runs
+        if self._in_engine:
+            coordinates = [state.coordinate(encoder.joint) for encoder in odometry.encoders]
+            odometer.start(
+                state.step, odometry.encoders, coordinates, PeriodicSteps(self.read_rate, self._dt),
+                axles=odometry.axles, follows_arc=odometry.exact,
+            )  # fmt: skip
+
+    def schedule(self, dt: float, motors: Motors) -> None:
+        """Set the simulation's step [s] and the motors of the robot, after `configure`."""
+        super().schedule(dt, motors)
+        self._dt = dt
 
     def measure(self, state: State, odometry: WheelOdometry | None) -> Estimate:
         """Return the estimate of the present state.
 
         Args:
             state: state of the robot.
-            odometry: wheel odometry to update; None for the true pose.
+            odometry: updated wheel odometry; None for the true pose.
         """
         if odometry is None:
             return from_world(state.base_pose, state.base_velocity)
-        odometry.update(state.t, *self.rolled(state))
         return planar(odometry.x, odometry.y, odometry.heading, odometry.velocity)
 
+    @property
+    def published(self) -> tuple[Topic, ...] | None:
+        """Topics of odometry and wheels; None if `read` integrates the odometry."""
+        if self.odometry is not None and not self._in_engine:
+            return None
+        return (*(self.topics.topics if self.topics else ()), *(self.wheels.topics if self.wheels else ()))
+
     def read(self, state: State) -> None:
-        """Publish the odometry."""
-        now = self.measure(state, self.odometry)
+        """Publish odometry and wheels."""
+        odometry = self.odometry
+        if odometry is not None:
+            self._update(odometry, state)
         if self.topics is not None:
-            self.topics.publish(state.t, now)
+            self.topics.publish(state.t if odometry is None else odometry.t, self.measure(state, odometry))
+        if self.wheels is not None:
+            self.wheels.publish(state)
+
+    def _update(self, odometry: EncoderOdometry, state: State) -> None:
+        """Update odometry to its last due step."""
+        if self._in_engine and odometry.started:
+            odometry.take(state.odometer.read(), self._dt)
+        else:
+            odometry.update(state.t, *_positions(odometry, state))
 
     def estimate(self, state: State) -> dict[str, Pose]:
         """Return odometry frame → pose of the base in that frame, whether or not it is published."""
-        return {} if self.topics is None else {self.topics.frame: self.measure(state, copy(self.odometry)).pose}
+        if self.topics is None:
+            return {}
+        odometry = copy(self.odometry)
+        if odometry is not None:
+            self._update(odometry, state)
+            odometry.update(state.t, *_positions(odometry, state))
+        return {self.topics.frame: self.measure(state, odometry).pose}
 
     def reset(self) -> None:
         """Clear commands and odometry."""
@@ -126,6 +169,10 @@ class VelocityDrive(Drive):
         self.limits.reset()
         if self.odometry is not None:
             self.odometry.reset()
+
+
+def _positions(odometry: EncoderOdometry, state: State) -> list[float]:
+    return [state.position(encoder.joint) for encoder in odometry.encoders]
 
 
 def joints_of(setup: Setup, read: Parameters, meaning: str) -> tuple[str, ...]:

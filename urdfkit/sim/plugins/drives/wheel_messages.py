@@ -3,6 +3,7 @@
 from collections.abc import Sequence
 from typing import Any
 
+from urdfkit.bus import Topic
 from urdfkit.messages import JOINT_STATE, TF, header, message_type, transform
 from urdfkit.sim.plugins.setup import Setup
 from urdfkit.sim.state.robot_state import Snapshot, State
@@ -40,6 +41,11 @@ class Wheels:
         self._named_by_joint = named_by_joint
         self._tf = setup.bus.advertise("/tf", TF) if with_tf else None
         self._states = setup.bus.advertise(states, JOINT_STATE) if states else None
+
+    @property
+    def topics(self) -> tuple[Topic, ...]:
+        """The topics that exist."""
+        return tuple(topic for topic in (self._tf, self._states) if topic is not None)
 
     def publish(self, state: State) -> None:
         """Publish transforms and joint states of the present state."""
