@@ -169,6 +169,8 @@ OF_LIBRARIES = {
     "cli/parser.py": {"_actions", "_option_string_actions", "_SubParsersAction"},
     "cli/sim/run_command.py": {"_negative_number_matcher"},
     "compilation/codegen.py": {"_internal_codegen"},
+    "compilation/native.py": {"_final_module", "_get_compiled_object"},
+    "compilation/native_entry.py": {"_getvalue"},
     "compilation/whole_program.py": {
         *("_check_llvm_bugs", "_engine", "_final_module", "_get_module_for_linking", "_linking_libraries"),
         *("_make_finalizer", "_reload_init", "_reset_overloads"),

@@ -60,10 +60,10 @@ def test_the_best_level_that_the_processor_has_all_of(host, features, expected):
 
 def test_settings_of_numba_come_first(host, monkeypatch):
     host()
-    monkeypatch.setattr(numba.config, "ENABLE_AVX", 0)
+    monkeypatch.setenv("NUMBA_ENABLE_AVX", "0")
     assert level() == "x86-64-v2"
     level.cache_clear()
-    monkeypatch.setattr(numba.config, "CPU_NAME", "znver4")
+    monkeypatch.setenv("NUMBA_CPU_NAME", "znver4")
     assert level() == NATIVE
 
 

@@ -11,10 +11,10 @@ with ``NUMBA_ENABLE_AVX=0`` for the level without AVX. For other architectures t
 
 from __future__ import annotations
 
+import os
 from functools import lru_cache
 
 from llvmlite import binding
-from numba import config
 
 V2 = ("cx16", "sahf", "popcnt", "sse3", "ssse3", "sse4.1", "sse4.2")
 LEVELS = {
@@ -34,13 +34,14 @@ NATIVE = "native"
 @lru_cache(maxsize=1)
 def level() -> str:
     """Return the best of `LEVELS` that this processor supports, or `NATIVE`."""
-    if config.CPU_NAME is not None or config.CPU_FEATURES is not None:
+    if "NUMBA_CPU_NAME" in os.environ or "NUMBA_CPU_FEATURES" in os.environ:
         return NATIVE
     if not binding.get_process_triple().startswith("x86_64"):
         return NATIVE
+    avx = os.environ.get("NUMBA_ENABLE_AVX", "1") != "0"
     try:
         host = binding.get_host_cpu_features()
     except RuntimeError:  # LLVM cannot detect the features
         host = {}
-    supported = {name for name, has in host.items() if has and (config.ENABLE_AVX or not name.startswith("avx"))}
+    supported = {name for name, has in host.items() if has and (avx or not name.startswith("avx"))}
     return next(name for name, needed in LEVELS.items() if supported.issuperset(needed))

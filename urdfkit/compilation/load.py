@@ -23,7 +23,12 @@ BROKEN_CACHE = (RuntimeError, OSError, EOFError, ValueError, TypeError, Attribut
 
 
 def compile_or_load(
-    function: Callable[..., Any], arguments: tuple[Any, ...], *, digest: str, options: Mapping[str, Any]
+    function: Callable[..., Any],
+    arguments: tuple[Any, ...],
+    *,
+    digest: str,
+    options: Mapping[str, Any],
+    cache: bool = True,
 ) -> Any:
     """Compile a function for these argument types, or load it from the cache.
 
@@ -36,12 +41,13 @@ def compile_or_load(
         arguments: their numba types.
         digest: digest of the sources of all functions it calls.
         options: options of ``numba.njit``.
+        cache: use numba's cache.
     """
     named = FunctionType(function.__code__, function.__globals__, function.__name__)
     named.__qualname__ = f"{function.__name__}_{level().replace('-', '_')}_{digest[:16]}"
     try:
-        dispatcher = _compile(named, arguments, cache=True, **options)
-        if dispatcher.stats.cache_misses:
+        dispatcher = _compile(named, arguments, cache=cache, **options)
+        if cache and dispatcher.stats.cache_misses:
             _forget_stale(Path(dispatcher.stats.cache_path), function, digest)
     except BROKEN_CACHE:
         dispatcher = _compile(named, arguments, **options)
@@ -81,8 +87,3 @@ def _forget_stale(folder: Path, function: Callable[..., Any], digest: str) -> No
         if found and found[1] != digest[:16]:
             with suppress(OSError):
                 path.unlink()
-
-
-def own_sources() -> bytes:
-    """Return the sources of this package, which digests include besides the sources of the kernels."""
-    return b"".join(path.read_bytes() for path in sorted(Path(__file__).parent.glob("*.py")))

@@ -25,6 +25,8 @@ from numba.core.codegen import JITCodeLibrary, JITCPUCodegen
 from numba.core.compiler_lock import global_compiler_lock
 from numba.core.registry import cpu_target
 
+from urdfkit.compilation.native_entry import add_native_entry
+
 
 class LinkedFunction(JITCodeLibrary):  # type: ignore[misc]
     """Unoptimised code of a function that other functions call, to be linked into an `EntryLibrary`."""
@@ -109,11 +111,16 @@ def whole_program(entry: str) -> Iterator[None]:
             return resolved[key]
 
         def create_library(name: str, **options: Any) -> Any:
-            return (EntryLibrary if name == entry else LinkedFunction)(codegen, name, **options)
+            if name != entry:
+                return LinkedFunction(codegen, name, **options)
+            library = EntryLibrary(codegen, name, **options)
+            library.enable_object_caching()
+            return library
 
         def create_cpython_wrapper(library: Any, *arguments: Any, **options: Any) -> None:
             if isinstance(library, EntryLibrary):
                 type(target).create_cpython_wrapper(target, library, *arguments, **options)
+                add_native_entry(target, library, arguments[0])
 
         def create_cfunc_wrapper(*arguments: Any, **options: Any) -> None:
             pass

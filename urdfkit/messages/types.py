@@ -21,6 +21,20 @@ JOINT_CONTROLLER_STATE = "control_msgs/msg/JointControllerState"
 TRAJECTORY_STATE = "control_msgs/msg/JointTrajectoryControllerState"
 
 
+def require_message_types() -> None:
+    """Check that rosbags is installed, without importing it, which takes a tenth of a second.
+
+    Raises:
+        MissingDependencyError: it is not.
+    """
+    from importlib.util import find_spec
+
+    from urdfkit.errors import MissingDependencyError
+
+    if find_spec("rosbags") is None:
+        raise MissingDependencyError("messages need rosbags: pip install 'urdfkit[sim]'")
+
+
 @cache
 def message_type(name: str) -> Any:
     """Return the class of a message type such as ``geometry_msgs/msg/Twist``.

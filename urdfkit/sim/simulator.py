@@ -17,7 +17,7 @@ from urdfkit.description.sdf import Physics, World
 from urdfkit.description.urdf.repair_record import Repair
 from urdfkit.errors import SimulationError, UnknownNameError, suggestion
 from urdfkit.linear_algebra import Array
-from urdfkit.messages import TWIST, TWIST_STAMPED, header, message_type, twist
+from urdfkit.messages import TWIST, TWIST_STAMPED, header, message_type, require_message_types, twist
 from urdfkit.scene import Scene
 from urdfkit.sim.construction.initial_overlap import note_overlaps
 from urdfkit.sim.construction.loading import require_valid_arguments, world_with_gravity
@@ -148,7 +148,7 @@ class Simulator:
         builder = WorldBuilder(first, found, dt=dt, note=self.note, package_path=package_path, sleep=sleep)
         self.state, self.motors = first.state, first.motors
         self._scheduler = Scheduler(builder, self.state, dt)
-        message_type(TWIST)  # fails now if the message types are missing
+        require_message_types()
         self.world = LiveWorld(builder, self._scheduler, note=self.note, seed=seed, package_path=package_path)
         self.surroundings = Surroundings(self.world, self.note, renderer)
         setup = Setup(

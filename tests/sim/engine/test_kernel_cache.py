@@ -34,6 +34,18 @@ def test_a_second_warmup_has_nothing_to_compile():
     assert told == []
 
 
+@pytest.mark.slow
+def test_a_simulation_with_compiled_kernels_imports_no_compiler():
+    warmup()
+    heavy = "numba", "scipy", "trimesh", "tornado", "rosbags"
+    code = (
+        "import sys; from urdfkit.sim import Simulator; Simulator('simpleton').run(0.01); "
+        f"print([name for name in {heavy} if name in sys.modules])"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert done.stdout.strip() == "[]"
+
+
 def compiled_below(name: str) -> set[str]:
     """Return the modules with compiled functions that a module of the engine imports, itself included."""
     found, waiting = set(), [name]

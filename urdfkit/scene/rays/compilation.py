@@ -6,9 +6,8 @@ from functools import lru_cache
 from pathlib import Path
 from typing import Any, TypeVar, cast
 
-import numba
-
 from urdfkit.compilation import compile_or_load, own_sources
+from urdfkit.compilation.deferred import Deferred
 
 Function = TypeVar("Function", bound=Callable[..., Any])
 
@@ -37,7 +36,7 @@ OPTIONS: dict[str, Any] = {"fastmath": False, "error_model": "numpy", "nogil": T
 
 def inlined(function: Function) -> Function:
     """Compile a function as part of the kernels that call it."""
-    return cast(Function, numba.njit(function, forceinline=True, **OPTIONS))
+    return cast(Function, Deferred(lambda: _compilable(function, forceinline=True)))
 
 
 def compiled(function: Function) -> Function:
@@ -45,7 +44,13 @@ def compiled(function: Function) -> Function:
 
     By default numba inlines a function that is first called by an `inlined` one.
     """
-    return cast(Function, numba.njit(function, forceinline=False, **OPTIONS))
+    return cast(Function, Deferred(lambda: _compilable(function, forceinline=False)))
+
+
+def _compilable(function: Callable[..., Any], *, forceinline: bool) -> Any:
+    import numba
+
+    return numba.njit(function, forceinline=forceinline, **OPTIONS)
 
 
 @lru_cache
@@ -58,7 +63,7 @@ def load_compiled(function: Callable[..., Any], arguments: tuple[Any, ...]) -> C
 @lru_cache(maxsize=1)
 def sources_digest() -> str:
     """Return a digest of the kernels' sources."""
-    digest = hashlib.sha256(own_sources())
-    for name in KERNEL_MODULES:
-        digest.update((Path(__file__).parent / f"{name}.py").read_bytes())
+    digest = hashlib.sha256()
+    for path in (*own_sources(), *((Path(__file__).parent / f"{name}.py") for name in KERNEL_MODULES)):
+        digest.update(path.read_bytes())
     return digest.hexdigest()

@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 
+from urdfkit.compilation.native import bind
 from urdfkit.errors import SimulationError
 from urdfkit.kinematics.model import Kinematics
 from urdfkit.linear_algebra import Array, matmul
@@ -99,8 +100,8 @@ class Engine(Articulation):
         )
         for member in self._members:
             require_inertia(member.kinematics)
-        self._advance = self._step_function(alone=alone and not self.arrays["numbers"][HAS_PAIRS])
-        self._floats, self._integers = self.arrays.floats, self.arrays.integers
+        step_function = self._step_function(alone=alone and not self.arrays["numbers"][HAS_PAIRS])
+        self._advance = bind(step_function, self.arrays.floats, self.arrays.integers)
         super().__init__(kinematics, self.arrays, 0)
         others_parts = [Articulation(each.kinematics, self.arrays, k) for k, each in enumerate(others, 1)]
         self.robots: tuple[Articulation, ...] = (self, *others_parts)
@@ -149,7 +150,7 @@ class Engine(Articulation):
             SimulationError: the state stopped being finite; names the joint and the time. Or more touches at once than
                 there is room for.
         """
-        if self._advance(self._floats, self._integers, n, False) < n:
+        if self._advance(n, False) < n:
             raise SimulationError(self._divergence())
 
     def wake(self) -> None:
@@ -198,7 +199,7 @@ class Engine(Articulation):
 
     def evaluate(self) -> None:
         """Compute poses, M and bias of the state as it is."""
-        self._advance(self.arrays.floats, self.arrays.integers, 1, True)
+        self._advance(1, True)
 
     def _divergence(self) -> str:
         a = self.arrays

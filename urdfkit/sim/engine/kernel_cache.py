@@ -3,16 +3,19 @@
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
+from urdfkit.compilation import own_sources
+from urdfkit.compilation.native import NativeCode, NativeFunction, cache_folders, write_native
 from urdfkit.description.xml.cost_limit import excluded
 
 KERNEL_MODULES = (
     "simulation_memory",
     "compilation",
+    "field_type",
     "constraints/constraint_rows",
     "constraints/contact_rows",
     "constraints/limit_crossings",
@@ -25,9 +28,11 @@ KERNEL_MODULES = (
     "dynamics/mass_matrix",
     "dynamics/odometry",
     "kernel_world",
+    "kernel_world_type",
     "math/elementary_functions",
     "math/linear_systems",
     "math/simd",
+    "math/simd_types",
     "math/spatial_algebra",
     "solver/active_set_newton",
     "solver/delassus",
@@ -45,20 +50,14 @@ Progress = Callable[[int], None]
 """Called with the number of functions compiled so far, beginning with 0, if any function must be compiled."""
 
 
-@lru_cache(maxsize=1)
 def kernel() -> Kernel:
     """Return the compiled `advance`, from the cache where there is one."""
-    from urdfkit.sim.engine.stepping.robot_step import advance
-
-    return load_compiled(advance, ("floats", "integers", "count", "flag"))
+    return _native(world=False) or _compile(world=False)
 
 
-@lru_cache(maxsize=1)
 def world_kernel() -> Kernel:
     """Return the compiled `world_step.advance`, from the cache where there is one."""
-    from urdfkit.sim.engine.stepping.world_step import advance
-
-    return load_compiled(advance, ("floats", "integers", "count", "flag"), digest=world_digest())
+    return _native(world=True) or _compile(world=True)
 
 
 def announcement(*, world: bool = False) -> str:
@@ -74,6 +73,8 @@ def warmup(progress: Progress | None = None, *, world: bool = False) -> bool:
         progress: called with 0 before a compilation starts and with a growing count while it runs.
         world: whether it is the kernel for a world of several bodies, rather than for one robot on its plane.
     """
+    if _native(world=world) is not None:
+        return False
     from numba.core import event
 
     compiled: list[str] = []
@@ -94,21 +95,59 @@ def warmup(progress: Progress | None = None, *, world: bool = False) -> bool:
 
 def sources_digest() -> str:
     """Return a digest of the kernel's sources."""
-    from urdfkit.compilation import own_sources
-
-    digest = hashlib.sha256(own_sources())
-    for name in KERNEL_MODULES:
-        digest.update((Path(__file__).parent / f"{name}.py").read_bytes())
-    return digest.hexdigest()
+    return _digest(_robot_sources())
 
 
 def world_digest() -> str:
     """Return a digest of the sources of the kernel for worlds."""
-    digest = hashlib.sha256(sources_digest().encode())
-    for folder in WORLD_FOLDERS:
-        for path in sorted((Path(__file__).parent / folder).glob("*.py")):
-            digest.update(path.read_bytes())
+    return _digest(_world_sources())
+
+
+def _robot_sources() -> tuple[Path, ...]:
+    return *own_sources(), *((Path(__file__).parent / f"{name}.py") for name in KERNEL_MODULES)
+
+
+def _world_sources() -> tuple[Path, ...]:
+    folders = (sorted((Path(__file__).parent / folder).glob("*.py")) for folder in WORLD_FOLDERS)
+    return *_robot_sources(), *(path for folder in folders for path in folder)
+
+
+def _digest(sources: Sequence[Path]) -> str:
+    digest = hashlib.sha256()
+    for path in sources:
+        digest.update(path.read_bytes())
     return digest.hexdigest()
+
+
+def _code(*, world: bool) -> NativeCode:
+    name, sources = ("world_step", _world_sources()) if world else ("robot_step", _robot_sources())
+    return NativeCode(name, sources, cache_folders(Path(__file__).parent))
+
+
+@lru_cache
+def _native(*, world: bool) -> NativeFunction | None:
+    """Return a kernel from its file of machine code, without numba; None without a file for these sources."""
+    return _code(world=world).load()
+
+
+@lru_cache
+def _compile(*, world: bool) -> Kernel:
+    """Compile a kernel with numba, and write its machine code for later processes."""
+    if world:
+        from urdfkit.sim.engine.stepping.world_step import advance
+    else:
+        from urdfkit.sim.engine.stepping.robot_step import advance
+    import numba
+
+    from urdfkit.compilation.load import TESTED_VERSIONS
+
+    digest, code = world_digest() if world else sources_digest(), _code(world=world)
+    # numba's cache is needed where machine code is not written, or exists and cannot be loaded.
+    cache = code.exists or numba.__version__ not in TESTED_VERSIONS
+    dispatcher = _compiled(advance, ("floats", "integers", "count", "flag"), digest, cache=cache)
+    write_native(code, dispatcher, arrays=2)
+    _native.cache_clear()
+    return _native(world=world) or next(iter(dispatcher.overloads.values())).entry_point
 
 
 @lru_cache
@@ -118,12 +157,17 @@ def load_compiled(function: Callable[..., int], arguments: tuple[str, ...], *, d
     Returns the compiled function instead of numba's dispatcher, which checks the types of all arguments in each call
     and takes longer than the call. Therefore, arrays of other types are not detected.
     """
+    return next(iter(_compiled(function, arguments, digest or sources_digest()).overloads.values())).entry_point  # type: ignore[no-any-return]
+
+
+def _compiled(function: Callable[..., int], arguments: tuple[str, ...], digest: str, *, cache: bool = True) -> Any:
+    """Return numba's dispatcher of a function that is compiled for these types of arguments."""
     import numba
 
     from urdfkit.compilation import compile_or_load
-    from urdfkit.sim.engine.compilation import OPTIONS
+    from urdfkit.sim.engine.compilation import OPTIONS, register_types
 
+    register_types()
     types = {"floats": numba.float64[::1], "integers": numba.int64[::1], "count": numba.int64, "flag": numba.boolean}
     signature = tuple(types[name] for name in arguments)
-    dispatcher = compile_or_load(function, signature, digest=digest or sources_digest(), options=OPTIONS)
-    return dispatcher.overloads[signature].entry_point  # type: ignore[no-any-return]
+    return compile_or_load(function, signature, digest=digest, options=OPTIONS, cache=cache)

@@ -1,0 +1,103 @@
+"""Machine code in files of its own: loaded without numba, for these sources only, and left alone if it is damaged."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+import urdfkit
+from urdfkit.compilation.native import cache_folders
+
+SCRIPT = """
+import sys
+from pathlib import Path
+import numpy as np
+from urdfkit.compilation.native import NativeCode, bind, write_native
+
+code = NativeCode("total", [Path("source.py")], [Path("/proc/nowhere"), Path("cache")])
+found = code.load()
+if found is None:
+    import numba
+    from urdfkit.compilation import compile_or_load
+
+    namespace = {{}}
+    exec(Path("source.py").read_text(), namespace)
+    kinds = numba.float64[::1], numba.int64[::1], numba.int64, numba.boolean
+    options = {{"error_model": "numpy", "_nrt": False, "nogil": True}}
+    dispatcher = compile_or_load(namespace["total"], kinds, digest="x", options=options, cache=False)
+    write_native(code, dispatcher, arrays=2)
+    found = code.load()
+    print("compiled")
+floats, integers = np.arange(5.0), np.array([1, 2])
+print(found(floats, integers, 10, True), integers[0], found(floats, integers, -3, False))
+bound = bind(found, floats, integers)
+floats[0] = 100.0
+print(bound(1, False), bound(True, 0), {check})
+try:
+    bound(1)
+except TypeError:
+    print("refused")
+"""
+SOURCE = """
+def total(floats, integers, count, flag):
+    result = 0.0
+    for k in range(len(floats)):
+        result += floats[k] % 7.0
+    if flag:
+        integers[0] = 40
+    return int(result) + count
+"""
+
+
+def run(folder: Path, check: str = "0") -> list[str]:
+    (folder / "probe.py").write_text(SCRIPT.format(check=check))
+    root = str(Path(urdfkit.__file__).parents[1])
+    environment = {**os.environ, "PYTHONPATH": os.pathsep.join(filter(None, (root, os.environ.get("PYTHONPATH", ""))))}
+    command = [sys.executable, "-W", "error", "probe.py"]
+    done = subprocess.run(command, capture_output=True, text=True, cwd=folder, env=environment, check=False)
+    assert done.returncode == 0, done.stderr
+    return done.stdout.splitlines()
+
+
+RESULT = ["20 40 7", "13 13 {}", "refused"]
+
+
+@pytest.mark.slow
+def test_code_is_loaded_without_numba_until_the_syntax_of_its_sources_changes(tmp_path: Path) -> None:
+    source = tmp_path / "source.py"
+    source.write_text(SOURCE)
+    without = [line.format(False) for line in RESULT]
+    assert run(tmp_path)[0] == "compiled"
+    assert run(tmp_path, '"numba" in sys.modules') == without
+    source.write_text(f'"""Documented."""\n# a comment\n{SOURCE}\n')
+    assert run(tmp_path, '"numba" in sys.modules') == without
+    files = sorted((tmp_path / "cache").iterdir())
+    assert [path.suffix for path in files].count(".o") == 1
+    source.write_text(SOURCE.replace("7.0", "70.0"))
+    assert run(tmp_path)[0] == "compiled"
+    assert [path.suffix for path in (tmp_path / "cache").iterdir()].count(".o") == 1
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    "damage", [lambda content: content[:-20], lambda _: b"", lambda _: b"{}\ncode", lambda _: b"[]\n"]
+)
+def test_damaged_code_is_compiled_again(tmp_path: Path, damage) -> None:
+    (tmp_path / "source.py").write_text(SOURCE)
+    run(tmp_path)
+    (code,) = (tmp_path / "cache").glob("*.o")
+    code.write_bytes(damage(code.read_bytes()))
+    assert run(tmp_path)[0] == "compiled"
+    assert run(tmp_path)[0] == RESULT[0]
+
+
+def test_folders_for_machine_code(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    monkeypatch.setenv("NUMBA_CACHE_DIR", str(tmp_path))
+    assert cache_folders(Path("/a")) == (tmp_path / "urdfkit",)
+    monkeypatch.delenv("NUMBA_CACHE_DIR")
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
+    assert cache_folders(Path("/a")) == (Path("/a/__pycache__"), tmp_path / "urdfkit" / "kernels")
