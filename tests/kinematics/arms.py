@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from urdfkit import load
+from urdfkit.cli import main
 from urdfkit.kinematics import Chain, Kinematics
 
 CORPUS = Path(__file__).parents[3] / "shared" / "corpus"
@@ -19,6 +20,17 @@ UR5 = (ROBOTS / "ur_description/urdf/ur5_robot.urdf", "base_link", "tool0")
 """Six joints of -2π … 2π."""
 UR5_LIMITED = (ROBOTS / "ur_description/urdf/ur5_joint_limited_robot.urdf", "base_link", "tool0")
 """Six joints of -π … π."""
+FR3 = (CORPUS / "franka_description/robots/fr3/fr3.urdf.xacro", "base", "fr3_hand_tcp")
+ROMEO = (ROBOTS / "romeo_description/urdf/romeo.urdf", "base_link", "r_wrist")
+"""Seven joints above that of the torso."""
+
+
+def made_arm(folder: Path, joints: int) -> tuple[Path, str, str]:
+    """Create the packages of a robot with an arm of six or seven joints."""
+    name = f"made{joints}"
+    words = ["new", "robot", name, "--arm", str(joints), "--drive", "none", "--into", str(folder), "--yes", "--quiet"]
+    assert main(words) == 0
+    return folder / f"{name}_description", "world", "hand_roll_link"
 
 
 def robot_or_skip(file: Path) -> object:

@@ -3,12 +3,24 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from pathlib import Path
 
 import numpy as np
 import pinocchio as pin
 import pytest
 
-from tests.kinematics.arms import PANDA, UR5, UR5_LIMITED, Reference, errors, random_configurations, robot_or_skip
+from tests.kinematics.arms import (
+    FR3,
+    PANDA,
+    ROMEO,
+    UR5,
+    UR5_LIMITED,
+    Reference,
+    errors,
+    made_arm,
+    random_configurations,
+    robot_or_skip,
+)
 from urdfkit.description.urdf.robot import Robot
 from urdfkit.errors import KinematicsError
 from urdfkit.kinematics import Chain
@@ -17,13 +29,19 @@ ARMS = {
     "panda": PANDA,
     "ur5": UR5,
     "ur5_limited": UR5_LIMITED,
+    "fr3": FR3,
+    "romeo": ROMEO,
+    "bundled": ("seven_dof_arm", "world", "grasping_frame"),
+    "new robot with 6 joints": 6,
+    "new robot with 7 joints": 7,
 }
 
 
 @pytest.mark.parametrize("name", ARMS)
-def test_random_reachable_poses_are_reached_within_limits(name: str) -> None:
-    file, base, tip = ARMS[name]
-    chain = Chain(robot_or_skip(file), base, tip)
+def test_random_reachable_poses_are_reached_within_limits(name: str, tmp_path: Path) -> None:
+    arm = ARMS[name]
+    file, base, tip = made_arm(tmp_path, arm) if isinstance(arm, int) else arm
+    chain = Chain(robot_or_skip(file) if isinstance(file, Path) else file, base, tip)
     targets = chain.forward(random_configurations(chain, 1000, 3))
     found = chain.solve(targets)
     distance, angle = errors(Reference(chain).poses(found.q), targets)
