@@ -17,7 +17,7 @@ PREFERENCES = {"first": 0, "nearest": 1, "manipulability": 2, "all": 3}
 """Which solution is kept: see `serial.kernel.search`."""
 MORE = 16
 """Restarts after the first solution that search for a better one."""
-APPROACHES = 60
+APPROACHES = 100
 """Descents to the configuration nearest to a target that cannot be reached."""
 ROW = 5
 """Numbers after the configuration of a solution: see `serial.kernel.search`."""

@@ -48,4 +48,3 @@ def table(
     if len(solutions) > len(shown):
         lines.append(f"and {len(solutions) - len(shown)} more: --json prints all")
     return "\n".join(lines) + "\n"
-

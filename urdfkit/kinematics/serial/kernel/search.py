@@ -137,8 +137,10 @@ def approach(
     for attempt in range(starts):
         state = start(attempt, state, seed, size, limits, q)
         chain = (steps, variables, count, size, limits, goal, q, memory)
-        descend(*chain, 2.0, angular, 0.0, 0.0, ITERATIONS, PATIENCE, FALL)
-        if angular > 0.0:
+        # Every other descent ignores the angle, which can hide the nearest position.
+        weight = angular if attempt % 2 == 0 else 0.0
+        descend(*chain, 2.0, weight, 0.0, 0.0, ITERATIONS, PATIENCE, FALL)
+        if weight > 0.0:
             descend(*chain, HEAVY, angular, 0.0, 0.0, 2 * ITERATIONS, 10, 0.99)
         distance2, angle2, _ = descend(*chain, 1.0, 0.0, 0.0, 0.0, 2 * ITERATIONS, PATIENCE, 1.0 - 1e-9)
         value = math.sqrt(distance2) + (SLACK * math.sqrt(angle2) if angular > 0.0 else 0.0)
