@@ -37,13 +37,14 @@ COMMANDS = {
     "ik": "compute joint positions that place a link at a pose: inverse kinematics",
     "jacobian": "compute the Jacobian of a link, its singular values and the direction that is lost",
     "retime": "compute the fastest motion through waypoints within the limits of the joints",
+    "srdf": "write groups and disabled collisions of a robot for MoveIt",
     "sim": "simulate a robot: teleop, run, warmup",
     "topic": "inspect and publish topics of a running simulation: list, info, echo, hz, bw, pub",
     "completion": "print the completion script of bash, zsh or fish",
 }
 """Command → its description. The module ``urdfkit.cli.<command>`` implements it; ``import_`` is ``import``."""
 
-_FOLDERS = dict.fromkeys(("tf", "ik", "jacobian", "retime"), "kinematics")
+_FOLDERS = dict.fromkeys(("tf", "ik", "jacobian", "retime", "srdf"), "kinematics")
 """Command → the package in ``urdfkit.cli`` that its module is in."""
 
 

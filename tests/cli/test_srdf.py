@@ -1,0 +1,76 @@
+"""``urdfkit srdf``: what it writes, and what it keeps of an old file."""
+
+import json
+from xml.etree import ElementTree
+
+import pytest
+
+from urdfkit.cli import main
+
+QUICK = ["--samples", "300"]
+
+
+def written(capsys, *words):
+    assert main(["srdf", "seven_dof_arm", *QUICK, *words]) == 0
+    return capsys.readouterr()
+
+
+def test_the_text_is_an_srdf_of_the_robot(capsys):
+    root = ElementTree.fromstring(written(capsys).out)
+    assert root.attrib == {"name": "seven_dof_arm"}
+    assert [(e.tag, e.get("base_link"), e.get("tip_link")) for e in root.find("group")] == [
+        ("chain", "base_link", "gripper_roll_link")
+    ]
+    pairs = {(e.get("link1"), e.get("link2")): e.get("reason") for e in root.iter("disable_collisions")}
+    assert pairs["shoulder_pan_link", "shoulder_pitch_link"] == "Adjacent"
+    assert set(pairs.values()) <= {"Adjacent", "Default", "Always", "Never"}
+
+
+def test_json_has_every_pair_with_its_samples(capsys):
+    values = json.loads(written(capsys, "--json", "--group", "wrist=elbow_pitch_link:gripper_roll_link").out)
+    count = len(values["links"])
+    assert len(values["pairs"]) == count * (count - 1) // 2
+    assert [group["joints"] for group in values["groups"]] == [
+        ["wrist_roll_joint", "wrist_pitch_joint", "gripper_roll_joint"]
+    ]
+    for pair in values["pairs"]:
+        assert pair["hits"] <= pair["samples"] <= 300
+        assert pair["rate_bound"] > pair["hits"] / pair["samples"] or pair["hits"] == pair["samples"]
+        assert (pair["distance"] is not None) == (pair["hits"] == 0 and pair["reason"] in ("Never", None))
+
+
+def test_an_update_replaces_only_lines_of_ours(tmp_path, capsys):
+    old = tmp_path / "old.srdf"
+    old.write_text(
+        '<robot name="seven_dof_arm">\n  <!-- <disable_collisions link1="a" link2="b" reason="Never"/> -->\n'
+        '  <group name="mine"><joint name="elbow_pitch_joint"/></group>\n'
+        '  <disable_collisions link1="gone" link2="base_link" reason="Never"/>\n'
+        '  <disable_collisions link1="base_link" link2="shoulder_pan_link" reason="User"/>\n'
+        '  <group_state name="home" group="mine"/>\n</robot>\n'
+    )
+    written(capsys, "--update", str(old))
+    new = old.read_text()
+    for kept in ("<!-- <disable_collisions", '<group name="mine">', 'reason="User"', "<group_state"):
+        assert new.count(kept) == 1
+    assert '"gone"' not in new
+    pairs = [
+        frozenset((e.get("link1"), e.get("link2"))) for e in ElementTree.fromstring(new).iter("disable_collisions")
+    ]
+    assert len(pairs) == len(set(pairs)) > 10
+    written(capsys, "--update", str(old))
+    assert old.read_text() == new
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        (["--group", "arm=base_link"], "must be NAME=BASE:TIP"),
+        (["--group", "arm=base_lnk:gripper_roll_link"], "no link `base_lnk`; did you mean `base_link`?"),
+        (["--group", "arm=gripper_roll_link:base_link"], "`base_link` is not below `gripper_roll_link`"),
+        (["--update", "absent.srdf"], "--update absent.srdf: No such file"),
+        (["--samples", "0"], "`0` is not a number of configurations"),
+    ],
+)
+def test_mistakes_are_reported_in_a_line(capsys, words, message):
+    assert main(["srdf", "seven_dof_arm", *words]) == 2
+    assert message in capsys.readouterr().err

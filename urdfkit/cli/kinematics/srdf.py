@@ -1,0 +1,180 @@
+"""``urdfkit srdf``: groups and disabled collisions for MoveIt."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import sys
+from collections import Counter
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from urdfkit.cli.robot_arguments.macro_option import add_macro, with_macro, xacro_arguments
+from urdfkit.cli.robot_arguments.robot_loading import add_strict, load_robot, print_repairs
+from urdfkit.cli.robot_arguments.unused_arguments import note_unused
+from urdfkit.errors import ResourceError, UsageError
+
+if TYPE_CHECKING:
+    from urdfkit.kinematics.self_collision import CollisionMatrix
+    from urdfkit.kinematics.srdf import EndEffector, Group
+
+
+def configure(parser: argparse.ArgumentParser) -> None:
+    """Add the arguments of ``urdfkit srdf``."""
+    parser.usage = "urdfkit srdf ROBOT [key:=value ...] [--group NAME=BASE:TIP ...] [--update OLD.srdf] [-o FILE]"
+    parser.epilog = (
+        "reasons: Adjacent (a joint connects the links), Default (they collide at rest), Always, Never\n"
+        "examples:\n"
+        "  urdfkit srdf seven_dof_arm -o seven_dof_arm.srdf\n"
+        "  urdfkit srdf arm.urdf --group arm=base_link:tool0 --samples 500000\n"
+        "  urdfkit srdf arm.urdf --update config/arm.srdf"
+    )
+    parser.add_argument(
+        "words", nargs="+", metavar="ROBOT", help="a .urdf or .xacro file, a package folder or a robot name"
+    )
+    parser.add_argument(
+        "--group",
+        action="append",
+        default=[],
+        type=_group,
+        metavar="NAME=BASE:TIP",
+        help="a planning group of the chain from BASE to TIP, in place of the groups that are found (repeatable)",
+    )
+    parser.add_argument(
+        "--samples", type=_count, default=100_000, metavar="N", help="random configurations (default: 100000)"
+    )
+    parser.add_argument("--seed", type=_seed, default=0, metavar="N", help="seed of all random numbers (default: 0)")
+    parser.add_argument("-o", "--output", type=Path, metavar="FILE", help="write the SRDF (default: standard output)")
+    parser.add_argument(
+        "--update",
+        type=Path,
+        metavar="OLD.srdf",
+        help="replace only the disabled pairs of this SRDF; those with other reasons, and all else, stay",
+    )
+    parser.add_argument("--json", action="store_true", help="print one JSON value, with the samples of each pair")
+    add_macro(parser)
+    add_strict(parser, "a second root link")
+    parser.add_argument(
+        "--package-path",
+        action="append",
+        default=[],
+        metavar="DIR",
+        help="search this folder for packages too (repeatable)",
+    )
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Compute the collisions, then print or write the SRDF."""
+    if arguments.update is not None and arguments.group:
+        raise UsageError("srdf: --group cannot be combined with --update, which keeps the groups of the file")
+    old = _read(arguments.update) if arguments.update is not None else None
+    from urdfkit.description.xml.cost_limit import loading_limit
+    from urdfkit.kinematics.pinocchio_requirement import require_pinocchio
+    from urdfkit.resources import find_model
+
+    require_pinocchio("srdf")
+    from urdfkit.kinematics.self_collision import collision_matrix
+    from urdfkit.kinematics.srdf import find_groups, group_of_chain, new_srdf, updated_srdf
+
+    found = with_macro(find_model(arguments.words, package_path=arguments.package_path), arguments)
+    with loading_limit():
+        robot = load_robot(found, arguments)
+        note_unused(xacro_arguments(found), robot.files, quiet=arguments.quiet)
+        print_repairs(robot, quiet=arguments.quiet)
+    effectors: list[EndEffector] = []
+    if arguments.group:
+        groups = [group_of_chain(robot, *words) for words in arguments.group]
+    else:
+        groups, effectors = find_groups(robot)
+    note = _silent if arguments.quiet else _note
+    progress = _show if sys.stderr.isatty() and not arguments.quiet else _silent
+    matrix = collision_matrix(robot, samples=arguments.samples, seed=arguments.seed, note=note, progress=progress)
+    if progress is _show:
+        sys.stderr.write("\r\x1b[K")
+    if old is not None:
+        text = updated_srdf(old, matrix, str(arguments.update))
+    else:
+        text = new_srdf(robot.name or "", groups, effectors, matrix, robot.roots()[0].name)
+    output = arguments.output or arguments.update
+    if output is not None:
+        from urdfkit.atomic import write_bytes
+
+        write_bytes(output, text.encode())
+    if arguments.json:
+        print(json.dumps(_values(matrix, groups, effectors)))
+    elif output is None:
+        print(text, end="")
+    if not arguments.quiet:
+        counts = Counter(pair.reason or "to check" for pair in matrix.pairs)
+        summary = ", ".join(f"{count} {reason}" for reason, count in sorted(counts.items()))
+        written = f"wrote {output}: " if output is not None else ""
+        print(f"{written}{len(matrix.pairs)} pairs of links: {summary}", file=sys.stderr)
+    return 0
+
+
+def _read(file: Path) -> str:
+    try:
+        return file.read_text("utf-8")
+    except (OSError, UnicodeDecodeError) as error:
+        reason = error.strerror if isinstance(error, OSError) else "not a text in UTF-8"
+        raise ResourceError(f"srdf: --update {file}: {reason}") from None
+
+
+def _values(matrix: CollisionMatrix, groups: list[Group], effectors: list[EndEffector]) -> dict[str, Any]:
+    return {
+        "links": list(matrix.links),
+        "groups": [
+            {"name": group.name, "base": group.base or None, "tip": group.tip or None, "joints": list(group.joints)}
+            for group in groups
+        ],
+        "end_effectors": [
+            {"name": each.name, "parent_link": each.parent, "group": each.group, "parent_group": each.parent_group}
+            for each in effectors
+        ],
+        "pairs": [
+            {
+                "links": [pair.first, pair.second],
+                "reason": pair.reason,
+                "samples": pair.samples,
+                "hits": pair.hits,
+                "rate_bound": pair.rate_bound,
+                "distance": pair.distance,
+                "collision": pair.collision,
+            }
+            for pair in matrix.pairs
+        ],
+    }
+
+
+def _note(text: str) -> None:
+    print(f"urdfkit: warning: {text}", file=sys.stderr)
+
+
+def _show(done: int, total: int) -> None:
+    if done % 20 == 0:
+        sys.stderr.write(f"\r{done} of {total} pairs of links \r")
+        sys.stderr.flush()
+
+
+def _silent(*values: object) -> None:
+    return None
+
+
+def _group(text: str) -> tuple[str, str, str]:
+    name, equals, links = text.partition("=")
+    base, colon, tip = links.partition(":")
+    if not (name and equals and base and colon and tip):
+        raise argparse.ArgumentTypeError(f"`{text}` must be NAME=BASE:TIP")
+    return name, base, tip
+
+
+def _count(text: str) -> int:
+    if not text.isdecimal() or int(text) < 1:
+        raise argparse.ArgumentTypeError(f"`{text}` is not a number of configurations")
+    return int(text)
+
+
+def _seed(text: str) -> int:
+    if not text.isdecimal():
+        raise argparse.ArgumentTypeError(f"`{text}` is not a seed; it must be a whole number, zero or more")
+    return int(text)
