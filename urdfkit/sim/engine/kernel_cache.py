@@ -35,9 +35,12 @@ KERNEL_MODULES = (
     "math/simd_types",
     "math/spatial_algebra",
     "solver/active_set_newton",
+    "solver/augmented_newton",
     "solver/delassus",
+    "solver/penalty_rows",
     "solver/row_states",
     "solver/sliding_contacts",
+    "solver/tree_matrix",
     "stepping/ballistic",
     "stepping/robot_step",
 )

@@ -71,6 +71,7 @@ FLOATS = _sizes(
     "row_stiffness:r near_x:r ahead:r velocity:r shape_mu2:k floor_mu2:k shape_along:k,3 ki:d i_min:d i_max:d",
     "antiwindup:d feedforward:d integral:d i_part:d rigid_kd:d turn:b,2",
     f"odometry:t,{ODOMETRY} encoder:t,{ENCODERS},{ENCODER}",
+    "K:e push:b,36 reach:b,6 load:b,6 pair:6 u_free:d",
 )
 
 INTEGERS = _sizes(

@@ -44,7 +44,7 @@ POLISHES = 6
 """Most steps of Newton's method from the result of softer problems to what redundant contacts share their load as."""
 EXACTLY = -2
 """What `solve_active_set` returns for contacts that slide without softness."""
-ATTEMPTS = 12
+MOST_GUESSES = 12
 """Maximum number of active sets for one softness."""
 SOFTEST = 1e-2
 """Softness of the first regularised problem."""
@@ -123,16 +123,16 @@ def solve_active_set(w: KernelWorld, rows: int, rest: Any, softness: float) -> i
 
 
 @inlined
-def iterate_active_set(w: KernelWorld, rows: int, rest: Any, softness: float, tiny: float) -> int:
-    """Revise the active set until it is consistent; return the number of iterations."""
-    for tried in range(ATTEMPTS):
+def iterate_active_set(w: KernelWorld, rows: int, rest: Any, softness: float, tiny: float, attempts: int) -> int:
+    """Revise the active set until it is consistent; return the number of iterations, `attempts` if it never was."""
+    for tried in range(attempts):
         found = solve_active_set(w, rows, rest, softness)
         if found == 0:
             break
         there = found > 0 or rotate_slip_directions(w, rows, w.x, tiny)
         if revise_active_set(w, rows, w.x, tiny) and there:
             return tried
-    return ATTEMPTS
+    return attempts
 
 
 @inlined
@@ -211,9 +211,9 @@ def proximal_point(w: KernelWorld, rows: int, tiny: float) -> int:
         softness, failed = SOFTEST, 0
         active_set_from_impulses(w, rows, near)
         while failed < SOFTENINGS:
-            wrong = iterate_active_set(w, rows, near, softness, tiny)
+            wrong = iterate_active_set(w, rows, near, softness, tiny, MOST_GUESSES)
             tried += wrong + 1
-            if wrong == ATTEMPTS:
+            if wrong == MOST_GUESSES:
                 failed += 1
                 softness = min(1.0, SOFTENING * softness)
                 active_set_from_impulses(w, rows, near)
@@ -280,17 +280,14 @@ def regularise_tangents(w: KernelWorld, rows: int) -> None:
 
 
 @inlined
-def solve(w: KernelWorld, rows: int) -> int:
-    """Find the impulses x of all rows from A, g, the bounds, mu and the impulses ``before``, which are spent.
+def guess(w: KernelWorld, rows: int, largest: float, attempts: int) -> int:
+    """Find the impulses x by so many guesses of the active set, from the impulses ``before``, which are spent.
 
     Returns:
-        How many guesses it took, negative if it took sweeps too; 0 if x only comes near the law.
+        How many guesses it took; 0 if all were in vain.
     """
     near = w.near_x
-    largest = 0.0
-    for k in range(rows):
-        largest = max(largest, abs(w.g[k]))
-    tiny = 1e-11 * largest + 1e-14
+    tiny = smallest(largest)
     regularise_tangents(w, rows)
     initial_active_set(w, rows, tiny)
     for k in range(rows):
@@ -298,18 +295,30 @@ def solve(w: KernelWorld, rows: int) -> int:
     rest = w.before
     tried = 0
     for _ in range(ROUNDS):
-        wrong = iterate_active_set(w, rows, rest, SOFTNESS, tiny)
+        wrong = iterate_active_set(w, rows, rest, SOFTNESS, tiny, attempts)
         tried += wrong + 1
-        if wrong == ATTEMPTS:
-            tried = proximal_point(w, rows, tiny)
-            if tried != 0:
-                distribute_redundant_loads(w, rows, tiny)
-            break
+        if wrong == attempts:
+            return 0
         if residual_slip(w, rows) <= CONTRADICTION + tiny:
             break
         rest = near
         for k in range(rows):
             near[k] = w.x[k]
+    return 0 if tried > MANY and is_implausible(w, rows, w.x, largest) else tried
+
+
+@compiled
+def iterate(w: KernelWorld, rows: int, largest: float) -> int:
+    """Find the impulses x where guesses were in vain, from the impulses that these left in ``before``.
+
+    Returns:
+        How many guesses it took, negative if it took sweeps too; 0 if x only comes near the law.
+    """
+    near = w.near_x
+    tiny = smallest(largest)
+    tried = proximal_point(w, rows, tiny)
+    if tried != 0:
+        distribute_redundant_loads(w, rows, tiny)
     if (tried <= 0 or tried > MANY) and is_implausible(w, rows, w.x, largest):
         for k in range(rows):
             near[k] = 0.0
@@ -318,3 +327,30 @@ def solve(w: KernelWorld, rows: int) -> int:
             w.x[k] = near[k]
         return 0
     return tried
+
+
+@inlined
+def smallest(largest: float) -> float:
+    """Return the velocity that counts as none, from the largest of a row without impulses [m/s or rad/s]."""
+    return 1e-11 * largest + 1e-14
+
+
+@inlined
+def fastest_row(w: KernelWorld, rows: int) -> float:
+    """Return the largest velocity of a row without impulses [m/s or rad/s]."""
+    largest = 0.0
+    for k in range(rows):
+        largest = max(largest, abs(w.g[k]))
+    return largest
+
+
+@inlined
+def solve(w: KernelWorld, rows: int) -> int:
+    """Find the impulses x of all rows from A, g, the bounds, mu and the impulses ``before``, which are spent.
+
+    Returns:
+        How many guesses it took, negative if it took sweeps too; 0 if x only comes near the law.
+    """
+    largest = fastest_row(w, rows)
+    tried = guess(w, rows, largest, MOST_GUESSES)
+    return tried if tried != 0 else iterate(w, rows, largest)

@@ -44,7 +44,14 @@ from urdfkit.sim.engine.simulation_memory import (
     SLOTS,
     STEPS,
 )
-from urdfkit.sim.engine.solver.active_set_newton import solve
+from urdfkit.sim.engine.solver.active_set_newton import MOST_GUESSES, fastest_row, guess, iterate
+from urdfkit.sim.engine.solver.augmented_newton import (
+    ATTEMPTS,
+    FEW_ROWS,
+    MOST_ROWS,
+    list_contacts,
+    solve_single_tree,
+)
 from urdfkit.sim.engine.solver.delassus import apply_impulses, build_delassus
 from urdfkit.sim.engine.stepping.ballistic import is_ballistic, rk4_step
 
@@ -81,6 +88,7 @@ def advance(floats: Any, integers: Any, steps: int, only_terms: bool) -> int:
         # step, unless a limit is near and all joints are slow; ballistic trees use RK4. If servos saturate, or limits
         # are near, the second part is repeated.
         halfway = False
+        solved = True
         attempt = 0
         moved = True
         while True:
@@ -113,14 +121,26 @@ def advance(floats: Any, integers: Any, steps: int, only_terms: bool) -> int:
                 break
             rows = contact_rows(w, rows, 0, contacts, dofs, first_contact_slot, 0, dt, ALONE)
             if rows > 0:
-                build_delassus(w, rows, 0, dofs, ALONE)
                 for k in range(rows):
                     w.before[k] = w.memory[w.slot[k]]
-                guesses = solve(w, rows)
-                apply_impulses(w, rows, 0, dofs, ALONE)
+                guesses, few = 0, rows <= FEW_ROWS or mimics > 0
+                if few or rows <= min(MOST_ROWS, dofs):
+                    build_delassus(w, rows, 0, dofs, ALONE)
+                    largest = fastest_row(w, rows)
+                    guesses = guess(w, rows, largest, MOST_GUESSES if few else ATTEMPTS)
+                    if few and guesses == 0:
+                        guesses = iterate(w, rows, largest)
+                solved = few or guesses != 0
+                if solved:
+                    apply_impulses(w, rows, 0, dofs, ALONE)
+                else:
+                    for k in range(rows):
+                        w.before[k] = w.memory[w.slot[k]]
+                    guesses = solve_single_tree(w, 0, dofs, rows, list_contacts(w, 0, contacts, True))
                 w.counts[GUESSES] = guesses
                 w.counts[ITERATED] += guesses <= 0
-            solve_forward(w, 0, dofs)
+            if rows == 0 or solved:
+                solve_forward(w, 0, dofs)
             for d in range(dofs):
                 w.v[d] = w.v_start[d] + (0.5 * w.u[d] if free else w.u[d])
             if free:

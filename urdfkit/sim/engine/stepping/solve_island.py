@@ -31,7 +31,15 @@ from urdfkit.sim.engine.simulation_memory import (
     WIDTH,
 )
 from urdfkit.sim.engine.sleep.rolling_resistance import resist_rolling
-from urdfkit.sim.engine.solver.active_set_newton import solve
+from urdfkit.sim.engine.solver.active_set_newton import fastest_row, guess, solve
+from urdfkit.sim.engine.solver.augmented_newton import (
+    ATTEMPTS,
+    FEW_ROWS,
+    MOST_ROWS,
+    list_contacts,
+    solve_single_tree,
+    touches_fixed,
+)
 from urdfkit.sim.engine.solver.delassus import apply_impulses, build_delassus
 from urdfkit.sim.engine.stepping.ballistic import is_ballistic, rk4_step
 from urdfkit.sim.engine.stepping.islands import contact_count
@@ -91,8 +99,24 @@ def solve_island(w: KernelWorld, root: int) -> int:
             w.before[k] = w.last[w.slot[k]]
         # Islands without room for their matrix are solved by Gauss-Seidel sweeps, too.
         dense = rows * rows <= w.sizes[MATRIX]
-        held = False
-        if rows > 0 and not swept and (single < 0 or rows > island_dofs + FEW):
+        held = done = False
+        if rows > FEW_ROWS and touches_fixed(w, single, w.island_contact[root]):
+            guesses = 0
+            if rows <= min(MOST_ROWS, island_dofs):
+                build_delassus(w, rows, single, width, False)
+                guesses = guess(w, rows, fastest_row(w, rows), ATTEMPTS)
+            if guesses != 0:
+                apply_impulses(w, rows, single, width, False)
+            else:
+                for k in range(rows):
+                    w.before[k] = w.last[w.slot[k]]
+                there = list_contacts(w, w.island_contact[root], 0, False)
+                guesses = solve_single_tree(w, single, width, rows, there)
+                held = True
+            counts[GUESSES] = guesses
+            counts[ITERATED] += guesses <= 0
+            done = True
+        elif rows > 0 and not swept and (single < 0 or rows > island_dofs + FEW):
             guesses = hold(w, root, rows)
             held = guesses != 0
             if held:
@@ -104,7 +128,7 @@ def solve_island(w: KernelWorld, root: int) -> int:
         if swept:
             counts[GUESSES] = -sweep(w, root, rows)
             counts[ITERATED] += 1
-        elif rows > 0 and not held:
+        elif rows > 0 and not held and not done:
             build_delassus(w, rows, single, width, False)
             guesses = solve(w, rows)
             apply_impulses(w, rows, single, width, False)
