@@ -131,6 +131,46 @@ def test_a_manifest_that_tools_accept_is_silent(cmake, old, new):
     assert found(cmake) == []
 
 
+def test_folders_that_moveit_reads_have_to_be_installed(cmake):
+    write(cmake, {"config/cart.srdf": '<robot name="cart"/>\n'})
+    assert "CMakeLists.txt:4: folder `config` is not installed, but MoveIt reads it" in found(cmake)
+    (cmake / "CMakeLists.txt").write_text(CMAKE.replace("launch urdf", "launch urdf config"))
+    assert not any("not installed" in line for line in found(cmake))
+
+
+def test_folders_that_the_description_of_another_package_reads_have_to_be_installed(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    control = MANIFEST.replace("<name>cart<", "<name>cart_control<")
+    cmake = CMAKE.replace("(cart)", "(cart_control)").replace("launch urdf", "launch")
+    robot = """<robot name="cart"><link name="base"/>
+      <gazebo><plugin name="p" filename="libgz_ros2_control-system.so">
+        <!-- $(find cart_control)/other/cart.yaml -->
+        <parameters>$(find cart_control)/config/cart.yaml</parameters>
+      </plugin></gazebo></robot>"""
+    folder = tmp_path / "cart_control"
+    files = {"package.xml": control, "CMakeLists.txt": cmake.replace("install(PROGRAMS", "# install(PROGRAMS")}
+    write(
+        folder, {**files, "config/cart.yaml": "{}\n", "other/cart.yaml": "{}\n", "launch/c.launch.xml": "<launch/>\n"}
+    )
+    own = MANIFEST.replace("launch_ros", "cart_control")
+    write(tmp_path / "cart", {"package.xml": own, "urdf/cart.urdf.xacro": robot})
+    lines = [line for line in found(tmp_path) if "not installed" in line]
+    use = "cart/urdf/cart.urdf.xacro:4 uses it"
+    assert lines == [f"cart_control/CMakeLists.txt:4: folder `config` is not installed, but {use}"]
+
+
+def test_a_neighbour_that_misspells_its_dependency_belongs_to_the_robot(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    robot = '<robot name="r"><link name="base"/></robot>\n'
+    description = MANIFEST.replace("<name>cart<", "<name>cart_description<")
+    write(tmp_path / "cart_description", {"package.xml": description, "urdf/r.urdf": robot})
+    for written, expected in (("cart_descriptoin", 1), ("cart2_description", 0), ("cart_descriptions_of_others", 0)):
+        bringup = MANIFEST.replace("<name>cart<", "<name>bringup<").replace("launch_ros", written)
+        write(tmp_path / "bringup", {"package.xml": bringup})
+        lines = [line for line in found(tmp_path) if "unknown dependency" in line]
+        assert len(lines) == expected, lines
+
+
 @pytest.mark.parametrize(
     ("old", "new", "expected"),
     [

@@ -171,6 +171,21 @@ def change(folder: Path, file: str, old: str, new: str) -> list[str]:
     ("file", "old", "new", "expected"),
     [
         ("arm", "update_rate: 100", 'update_rate: "100"', '3: `update_rate` is "100", a text in quotes'),
+        (
+            "arm",
+            "    joint: grip",
+            "    jont: grip",
+            "22: unknown parameter `jont` of controller `grip_controller`; did",
+        ),
+        (
+            "arm",
+            "  constraints:\n      goal",
+            "  goal",
+            "17: `goal_time` of controller `arm_controller` belongs below `const",
+        ),
+        ("arm", "goal_time: 0.5", "linear.x.min_velocity: fast", "18: `linear.x.min_velocity` is `fast`, which is not"),
+        ("arm", "  ros__parameters:\n", "", "1: section `controller_manager` has no `ros__parameters`"),
+        ("moveit", "joint_limits:", "joint_limmits:", "4: unknown parameter `joint_limmits` of MoveIt; did you mean"),
         ("arm", "update_rate: 100", "update_rate: [100]", "3: `update_rate` is a list, not a number"),
         ("arm", "goal_time: 0.5", "goal_time: 0.5 s", "18: `goal_time` is `0.5 s`, which is not a number"),
         (
@@ -293,6 +308,8 @@ def test_a_defect_of_ros2_is_reported(ros2, file, old, new, expected):
         ("arm", "goal_time: 0.5", "goal_time: .inf"),
         ("arm", "goal_time: 0.5", "goal_time: .NAN"),
         ("arm", "goal_tolerance: 0.002", "goal_tolerance: 1e-3"),
+        ("arm", "goal_time: 0.5", "goal_time: 0.5\n    linear.x.min_velocity: -1.0"),
+        ("ompl", "planner_configs:", "planning_plugin: ompl_interface/OMPLPlanner\nplanner_configs:"),
         ("arm", "    command_interfaces: [position]\n    state_interfaces: [position]\n", ""),
         ("arm", "joint_state_broadcaster:\n", "other:\n      ros_parameter: 1\n    joint_state_broadcaster:\n"),
         ("moveit", "max_velocity: 2.0", "max_velocity: 3.0"),
@@ -325,6 +342,11 @@ def test_a_correct_file_of_ros2_is_silent(ros2, file, old, new):
         ("  elbow: 1.0", '  elbow: "1.0"', '13: `elbow` in `velocity_ff` is "1.0", a text in quotes'),
         ("  elbow: 1.0", "  elbwo: 1.0", "13: unknown name `elbwo` in `velocity_ff` of controller `arm_controller`"),
         ("p: 20.0", 'p: "20.0"', '9: gain `p` is "20.0", a text in quotes'),
+        (
+            "      elbow: 1.0\n",
+            "      elbow: 1.0\n      constraints: {}\n",
+            "14: `constraints` of controller `arm_controller`",
+        ),
         (
             "arm:",
             "robot:",

@@ -16,6 +16,10 @@ _TRAJECTORY = (
     *("interpolate_from_desired_state", "set_last_command_interface_value_as_state_on_activation", "speed_scaling"),
     *("stop_trajectory_duration", "velocity_ff", "hold_trajectory_duration", "use_closed_loop_pid_adapter"),
 )
+_GRIPPER = (
+    *("joint", "goal_tolerance", "max_effort", "allow_stalling", "stall_velocity_threshold", "stall_timeout"),
+    *("action_monitor_rate", "max_effort_interface", "max_velocity_interface", "max_velocity", "state_interfaces"),
+)
 OF_TYPES = {
     "diff_drive_controller/DiffDriveController": (
         *("left_wheel", "right_wheel", "left_wheel_names", "right_wheel_names", "wheels_per_side", "wheel_separation"),
@@ -36,6 +40,11 @@ OF_TYPES = {
     ),
     "joint_state_controller/JointStateController": ("extra_joints",),
     "forward_command_controller/ForwardCommandController": ("joints", "interface_name"),
+    **{
+        f"{kind}_controllers/GripperActionController": (*_GRIPPER, "gains", "pid")
+        for kind in ("position", "effort", "velocity")
+    },
+    "parallel_gripper_action_controller/GripperActionController": _GRIPPER,
     "forward_command_controller/MultiInterfaceForwardCommandController": ("joint", "interface_names"),
     **{
         f"{kind}_controllers/JointGroup{kind.title()}Controller": ("joints",)

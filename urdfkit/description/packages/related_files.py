@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from urdfkit.description.packages.existence import is_file
+from urdfkit.errors import similar
 
 LAUNCH = (".launch", ".launch.xml", ".launch.py", ".launch.yaml", "_launch.xml", "_launch.py", "_launch.yaml")
 """Suffixes of launch files."""
@@ -79,7 +80,7 @@ def around(package: Path) -> list[Path]:
     name = name_in(manifest(package), package.name)
     near = neighbours(package)
     needed = {other: dependencies_in(manifest(folder)) for other, folder in near.items()}
-    users = {name, *(other for other, names in needed.items() if name in names)}
+    users = {name, *(other for other, names in needed.items() if name in names or _misspelt(name, names - {*near}))}
     # Packages that only these packages use, such as controllers, belong to the same robot.
     parts = {other for user in users - {name} for other in needed.get(user, ()) if other in near}
     parts = {
@@ -90,6 +91,14 @@ def around(package: Path) -> list[Path]:
     own = [folder for other, folder in near.items() if folder == package or other in users | parts]
     files = [file for folder in own for file in list(_files(folder, 0))[:_MAX_FILES]]
     return [*files, *(file for folder in own for name in BUILD if (file := folder / name).is_file())]
+
+
+def _misspelt(name: str, others: set[str]) -> bool:
+    """Return whether one of several unknown names differs from a name by one or two letters."""
+    alike = [other for other in others if abs(len(other) - len(name)) <= 1 and other[:1] == name[:1] and len(name) > 8]
+    digits = [letter for letter in name if letter.isdigit()]
+    alike = [other for other in alike if [letter for letter in other if letter.isdigit()] == digits]
+    return bool(alike) and bool(similar(name, alike, cutoff=0.93))
 
 
 def _files(folder: Path, depth: int) -> Iterator[Path]:

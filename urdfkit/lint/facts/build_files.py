@@ -120,7 +120,7 @@ def installed_folders(files: BuildFiles) -> tuple[set[str], list[CMakeCommand]] 
     names: set[str] = set()
     installs: list[CMakeCommand] = []
     if files.cmake is not None:
-        if re.search(r"\bforeach\s*\(|\bGLOB\b|ament_auto_package|install_\w+\(", files.cmake.text):
+        if re.search(r"\bforeach\s*\(|\bGLOB\b|ament_auto_package|\binstall_\w+\(", files.cmake.text):
             return None
         for command in commands(files.cmake):
             words = [word for word, _ in command.words]

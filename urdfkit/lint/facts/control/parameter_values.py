@@ -31,11 +31,23 @@ _NOT_NEGATIVE = frozenset(
     (
         *("goal_time", "stopped_velocity_tolerance", "cmd_vel_timeout", "cmd_timeout", "max_velocity", "trajectory"),
         *("max_acceleration", "max_jerk", "max_deceleration", "velocity_rolling_window_size", "goal", "max_effort"),
-        *("wheel_separation", "wheel_radius"),
+        *("wheel_separation", "wheel_radius", "goal_tolerance", "stall_timeout", "stall_velocity_threshold"),
     )
 )
-_NUMBERS = frozenset(("goal_tolerance", "stall_timeout", "stall_velocity_threshold", "stop_trajectory_duration"))
-_LISTS_TOO = frozenset(("max_velocity", "max_acceleration", "max_deceleration", "max_jerk", "goal", "trajectory"))
+_OF_ANY_SIGN = frozenset(("min_velocity", "min_acceleration", "min_jerk"))
+_LISTS_TOO = frozenset(
+    (
+        "min_velocity",
+        "min_acceleration",
+        "min_jerk",
+        "max_velocity",
+        "max_acceleration",
+        "max_deceleration",
+        "max_jerk",
+        "goal",
+        "trajectory",
+    )
+)
 """Numbers in controllers that are lists in other nodes."""
 
 _TRUTHS = frozenset(
@@ -120,14 +132,14 @@ def value_defects(node: Node, is_ros2: bool) -> Defects:
 
 def _of_number(name: str, value: Node, is_ros2: bool) -> Defects:
     last = name.rpartition(".")[2]
-    if last not in _POSITIVE | _NOT_NEGATIVE | _NUMBERS:
+    if last not in _POSITIVE | _NOT_NEGATIVE | _OF_ANY_SIGN:
         return
     if value.kind != "text" and (value.kind == "group" or last in _LISTS_TOO):
         return
     if problem := not_a_number(value):
         yield value, f"`{name}` is {problem}"
         return
-    number = _number(value)
+    number = _number(value) if last not in _OF_ANY_SIGN else None
     is_positive = last in _POSITIVE or (is_ros2 and last in _POSITIVE_IN_ROS2)
     is_with_minimum = "." in name and last == "max_velocity"
     if number is not None and (number < 0.0 or (number == 0.0 and is_positive)) and not is_with_minimum:
@@ -157,6 +169,8 @@ def incomplete_controllers(source: Source, is_typed_at_start: bool) -> Defects:
             if not is_typed_at_start:
                 yield from _untyped(root, node)
             yield from _misplaced(root, node)
+    for one in settings(source):
+        yield from _at_other_level(one)
     for one in _with_parameters(source):
         written = {key.text for key, _ in one.group.entries}
         name = next(iter(names.get(id(one.group), ())), None)
@@ -165,6 +179,18 @@ def incomplete_controllers(source: Source, is_typed_at_start: bool) -> Defects:
             is_elsewhere = parameter in _INTERFACES and not written & _INTERFACES
             if name is not None and parameter not in written and not is_elsewhere and not _is_near(parameter, one):
                 yield name, f"controller `{one.name}` has no `{parameter}`"
+
+
+def _at_other_level(one: ControllerSettings) -> Defects:
+    """Yield tolerances outside of ``constraints``, and parameters inside of the values of joints."""
+    if not one.kind.endswith("/JointTrajectoryController"):
+        return
+    for key, value in one.group.entries:
+        if key.text in ("goal_time", "stopped_velocity_tolerance"):
+            yield key, f"`{key.text}` of controller `{one.name}` belongs below `constraints`; indent it"
+        for inner, _ in value.entries if key.text in ("gains", "velocity_ff", "constraints") else ():
+            if inner.text in _OF_CONTROLLERS:
+                yield inner, f"`{inner.text}` of controller `{one.name}` is in `{key.text}`; indent it less"
 
 
 def _with_parameters(source: Source) -> Iterator[ControllerSettings]:

@@ -42,6 +42,13 @@ moveit_ros_control_interface::MoveItControllerManager moveit_ros_control_interfa
 """
 _MANAGERS = ("moveit_simple_controller_manager", "moveit_ros_control_interface")
 _ACTIONS = ("follow_joint_trajectory", "gripper_cmd", "gripper_action")
+_KEYS = (
+    *("controller_list", "joint_limits", "planner_configs", "planning_plugins", "request_adapters"),
+    *("response_adapters", "moveit_simple_controller_manager", "moveit_controller_manager", "trajectory_execution"),
+    *("default_velocity_scaling_factor", "default_acceleration_scaling_factor"),
+)
+"""Names at the start of MoveIt's files."""
+
 _DEGREES = 180.0 / math.pi
 Defects = Iterator[tuple[Node, str]]
 
@@ -53,10 +60,15 @@ def planning_defects(source: Source, groups: Collection[str]) -> Defects:
         source: a YAML file of MoveIt.
         groups: the names of the groups of the SRDF.
     """
+    from urdfkit.lint.fix_builders import nearest
+
     for document in documents(source)[0]:
         yield from _plugins(document)
         for top in unwrapped(document):
             for key, value in top.entries:
+                near = nearest(key.text, _KEYS, cutoff=0.9) if key.text not in _KEYS else None
+                if near is not None and key.text.rstrip("s") != near.rstrip("s"):
+                    yield key, f"unknown parameter `{key.text}` of MoveIt; did you mean `{near}`?"
                 if key.text == "planner_configs" or value.kind != "group":
                     continue
                 configs = value.find("planner_configs")

@@ -113,9 +113,11 @@ class MoveitNameUndefined(RobotRule):
         name = node.text.strip("/")
         paths = ["/".join(key.text for key in path) for other in yamls(model) for path in paths_of_controllers(other)]
         longer = [path for path in paths if path.endswith(f"/{name}")]
-        package = source.file.rpartition("/config/")[0]
-        in_group = any(re.search(r"\bns\s*=", launch.text) for launch in launches(model) if package in launch.file)
-        if name not in paths and longer and not in_group:
+        if name in paths or not longer:
+            return
+        package, namespace = source.file.rpartition("/config/")[0], re.escape(longer[0].partition("/")[0])
+        in_group = rf"<(?:group|include|node)\b[^<>]*\bns\s*=\s*[\"']/?(?:{namespace}\b|\$\(arg (?!robot_description))"
+        if not any(re.search(in_group, launch.text) for launch in launches(model) if package in launch.file):
             yield self._at(source, node, f"controller `{name}` is in a namespace: its name is `{longer[0]}`", ())
 
     def _at(self, source: Source, node: Node, message: str, names: object) -> Finding:

@@ -22,6 +22,7 @@ _COMMANDS = (
     *("ament_target_dependencies", "catkin_install_python", "ament_export_dependencies", "add_message_files"),
     *("generate_messages", "add_dependencies", "ament_python_install_package", "catkin_python_setup"),
 )
+_FIND = r"\$\(find\s+([\w-]+)\)/([\w-]+/[^\s\"'<>$(){}]+)"
 _DESTINATIONS = ("share", "lib", "bin", "include", "etc", "libexec", "python", "launch", "config", "meshes")
 
 
@@ -182,7 +183,7 @@ class BuildFileInconsistent(RobotRule):
         from urdfkit.lint.facts.control.launched_nodes import launches, started
 
         source = files.cmake
-        if source is None or re.search(r"\bforeach\s*\(|\bGLOB\b|ament_auto_package|install_\w+\(", source.text):
+        if source is None or re.search(r"\bforeach\s*\(|\bGLOB\b|ament_auto_package|\binstall_\w+\(", source.text):
             return
         installs = [command for command in commands(source) if "install" in command.name]
         text = " ".join(word for command in installs for word, _ in command.words)
@@ -207,7 +208,7 @@ def _used_paths(model: Model) -> dict[str, dict[str, str]]:
     """Return package → its paths that launch files use, with the place of the use; launch files with an empty text."""
     from pathlib import Path
 
-    from urdfkit.description.packages.related_files import LAUNCH, manifest, name_in, package_of
+    from urdfkit.description.packages.related_files import LAUNCH, SRDF, manifest, name_in, package_of
     from urdfkit.lint.facts.control.launch_package_paths import package_paths
 
     found: dict[str, dict[str, str]] = {}
@@ -223,4 +224,17 @@ def _used_paths(model: Model) -> dict[str, dict[str, str]]:
         if inner.startswith("launch/"):
             own = name_in(manifest(package), package.name)
             found.setdefault(own, {}).setdefault(inner, "")
+    for name, source in model.expanded.sources.items():
+        holder = package_of(Path(name))
+        for use in re.finditer(_FIND, source.text):  # not-installed reports folders of the own package
+            comments = model.document(name).comments
+            is_comment = any(start <= use.start() < end for start, end, _ in comments)
+            if not is_comment and holder is not None and use[1] != name_in(manifest(holder), holder.name):
+                line = source.position(use.start()).line
+                found.setdefault(use[1], {}).setdefault(use[2], f"{name}:{line} uses it")
+    for name in model.related_files:
+        package = package_of(Path(name)) if name.endswith(SRDF) else None
+        if package is not None and Path(name).absolute().parent == package / "config":
+            inner = Path(name).absolute().relative_to(package).as_posix()
+            found.setdefault(name_in(manifest(package), package.name), {}).setdefault(inner, "MoveIt reads it")
     return found

@@ -147,7 +147,9 @@ class ControllerSettingsMisspelt(RobotRule):
                     yield Finding(self.code, self.name, self.severity, message, span_of(source, kind))
             for key, section in root.entries if _PARAMETERS in source.text else ():
                 inner = {name.text for node in walk(section) for name, _ in node.entries}
-                if key.text in names and inner and not any(re.match(r"ros_|type$", name) for name in inner):
+                is_manager = key.text == "controller_manager" and section.find("update_rate") is not None
+                has_level = any(re.match(r"ros_" if is_manager else r"ros_|type$", name) for name in inner)
+                if inner and (is_manager or key.text in names) and not has_level:
                     message = f"section `{key.text}` has no `{_PARAMETERS}`; its parameters are not read"
                     help = f"write the parameters below `{_PARAMETERS}:`"
                     yield Finding(self.code, self.name, self.severity, message, span_of(source, key), help=help)
