@@ -186,6 +186,18 @@ def change(folder: Path, file: str, old: str, new: str) -> list[str]:
         ("arm", "goal_time: 0.5", "linear.x.min_velocity: fast", "18: `linear.x.min_velocity` is `fast`, which is not"),
         ("arm", "  ros__parameters:\n", "", "1: section `controller_manager` has no `ros__parameters`"),
         ("moveit", "joint_limits:", "joint_limmits:", "4: unknown parameter `joint_limmits` of MoveIt; did you mean"),
+        (
+            "moveit",
+            "    min_position: -2.5\n",
+            "",
+            "6: `has_position_limits` of joint `elbow` is true, but `min_position`",
+        ),
+        (
+            "moveit",
+            "timeout: 0.05",
+            'timeout: 0.05\n  position_only_ik: "true"',
+            "4: `position_only_ik` of group `arm` is",
+        ),
         ("arm", "update_rate: 100", "update_rate: [100]", "3: `update_rate` is a list, not a number"),
         ("arm", "goal_time: 0.5", "goal_time: 0.5 s", "18: `goal_time` is `0.5 s`, which is not a number"),
         (
@@ -378,3 +390,33 @@ def test_a_namespace_of_a_group_applies_to_the_parameters_and_to_the_spawner(ros
     assert found(ros1) == []
     (message,) = change(ros1, "launch/arm.launch", 'ns="arm"', 'ns="/arm"')
     assert "in namespace `/cell/arm`, but its spawner in launch/arm.launch:4 has namespace `/arm`" in message
+
+
+def test_a_controller_of_moveit_in_ros1_is_named_with_its_namespace(ros1):
+    controllers = """controller_list:
+  - name: arm/arm_controller
+    action_ns: follow_joint_trajectory
+    type: FollowJointTrajectory
+    joints: [shoulder, elbow]
+"""
+    write(ros1, {"config/arm.srdf": SRDF, "config/moveit.yaml": controllers})
+    assert found(ros1) == []
+    assert change(ros1, "config/moveit.yaml", "arm/arm_", "amr/arm_") == [
+        "moveit.yaml:2: unknown controller `amr/arm_controller`; did you mean `arm/arm_controller`?"
+    ]
+    assert change(ros1, "config/moveit.yaml", "amr/arm_", "arm_") == []  # a launch file names this namespace
+    (ros1 / "launch" / "arm.launch").unlink()
+    assert found(ros1) == [
+        "moveit.yaml:2: controller `arm_controller` is in a namespace: its name is `arm/arm_controller`"
+    ]
+
+
+def test_one_finding_for_joints_instead_of_joint(ros1):
+    one = """grip_controller:
+  type: position_controllers/JointPositionController
+  joints: [grip]
+"""
+    write(ros1, {"config/grip.yaml": one})
+    assert found(ros1) == [
+        "grip.yaml:3: unknown parameter `joints` of controller `grip_controller`; did you mean `joint`?"
+    ]

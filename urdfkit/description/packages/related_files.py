@@ -54,7 +54,7 @@ def name_in(text: str, fallback: str = "") -> str:
 
 def dependencies_in(text: str) -> set[str]:
     """Return the packages that the text of a package.xml depends on in any way; misspelt elements are accepted."""
-    return set(re.findall(r"<\w*depend\w*[^>]*>\s*([\w.-]+)\s*(?=<)", text))
+    return set(re.findall(r"<\w*depen\w*[^>]*>\s*([\w.-]+)\s*(?=<)", text))
 
 
 def neighbours(package: Path) -> dict[str, Path]:

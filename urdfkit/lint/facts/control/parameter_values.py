@@ -210,8 +210,7 @@ def _is_near(parameter: str, one: ControllerSettings) -> bool:
     written = [key.text for key, _ in one.group.entries]
     if any(name.startswith(f"{parameter}.") for name in written):
         return True
-    others = [name for name in written if name not in ("joints", "joint", "command_interfaces", "state_interfaces")]
-    return nearest(parameter, others, cutoff=0.8) is not None
+    return nearest(parameter, written, cutoff=0.8) is not None
 
 
 def _has_type(node: Node | None) -> bool:

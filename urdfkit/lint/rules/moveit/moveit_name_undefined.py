@@ -113,6 +113,8 @@ class MoveitNameUndefined(RobotRule):
         name = node.text.strip("/")
         paths = ["/".join(key.text for key in path) for other in yamls(model) for path in paths_of_controllers(other)]
         longer = [path for path in paths if path.endswith(f"/{name}")]
+        if name not in paths and "/" in name:
+            yield from self._near(source, node, f"unknown controller `{name}`", name, paths)
         if name in paths or not longer:
             return
         package, namespace = source.file.rpartition("/config/")[0], re.escape(longer[0].partition("/")[0])

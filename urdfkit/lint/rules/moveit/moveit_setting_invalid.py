@@ -113,6 +113,10 @@ def _group(entry: MoveitEntry) -> Iterator[tuple[Node, str]]:
     near = nearest(solver.text, SOLVERS, cutoff=0.85) if solver is not None else None
     if solver is not None and near is not None and solver.text not in SOLVERS:
         yield solver, f"unknown kinematics solver `{solver.text}`; did you mean `{near}`?"
+    only_position = entry.settings.find("position_only_ik")
+    if only_position is not None and only_position.kind == "text" and not only_position.is_plain:
+        text = f'"{only_position.text}", a text in quotes'
+        yield only_position, f"`position_only_ik` of group `{entry.name.text}` is {text}; write true or false"
     for name in ("kinematics_solver_timeout", "kinematics_solver_search_resolution"):
         node = entry.settings.find(name)
         value = _number(node)
@@ -137,6 +141,8 @@ def _joint(entry: MoveitEntry) -> Iterator[tuple[Node, str]]:
             value = _number(limit)
             if limit is None and key.text in LIMIT_KEYS:
                 yield key, f"`{key.text}` of joint `{joint}` is true, but `max_{quantity}` is missing"
+            elif quantity == "position" and settings.find("min_position") is None:
+                yield key, f"`{key.text}` of joint `{joint}` is true, but `min_position` is missing"
             elif limit is not None and value is not None and value <= 0.0 and quantity != "position":
                 yield limit, f"`max_{quantity}` of joint `{joint}` is {value:g}; it must be positive"
         elif key.text.startswith("max_") and settings.find(f"has_{key.text[4:]}_limits") is None:
