@@ -117,10 +117,8 @@ def _check(arguments: argparse.Namespace) -> None:
     from urdfkit.errors import UsageError
 
     changes = arguments.fix or arguments.diff
-    if arguments.unsafe_fixes and not changes:
-        raise UsageError("--unsafe-fixes requires --fix or --diff")
-    if arguments.fix_generated and not changes:
-        raise UsageError("--fix-generated requires --fix or --diff")
+    if not changes and (arguments.unsafe_fixes or arguments.fix_generated):
+        raise UsageError(f"--{'unsafe-fixes' if arguments.unsafe_fixes else 'fix-generated'} requires --fix or --diff")
     if arguments.watch and (changes or arguments.write_baseline):
         raise UsageError("--watch cannot be combined with --fix, --diff or --write-baseline")
     if arguments.write_baseline and changes:
