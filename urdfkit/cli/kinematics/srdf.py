@@ -9,14 +9,14 @@ from collections import Counter
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from urdfkit.cli.robot_arguments.macro_option import add_macro, with_macro, xacro_arguments
+from urdfkit.cli.robot_arguments.macro_option import add_macro, with_macro
 from urdfkit.cli.robot_arguments.robot_loading import add_strict, load_robot, print_repairs
 from urdfkit.cli.robot_arguments.unused_arguments import note_unused
 from urdfkit.errors import ResourceError, UsageError
 
 if TYPE_CHECKING:
     from urdfkit.kinematics.self_collision import CollisionMatrix
-    from urdfkit.kinematics.srdf import EndEffector, Group
+    from urdfkit.kinematics.srdf import EndEffector, PlanningGroup
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
@@ -79,7 +79,7 @@ def run(arguments: argparse.Namespace) -> int:
     found = with_macro(find_model(arguments.words, package_path=arguments.package_path), arguments)
     with loading_limit():
         robot = load_robot(found, arguments)
-        note_unused(xacro_arguments(found), robot.files, quiet=arguments.quiet)
+        note_unused(found, robot.files, quiet=arguments.quiet)
         print_repairs(robot, quiet=arguments.quiet)
     effectors: list[EndEffector] = []
     if arguments.group:
@@ -120,7 +120,7 @@ def _read(file: Path) -> str:
         raise ResourceError(f"srdf: --update {file}: {reason}") from None
 
 
-def _values(matrix: CollisionMatrix, groups: list[Group], effectors: list[EndEffector]) -> dict[str, Any]:
+def _values(matrix: CollisionMatrix, groups: list[PlanningGroup], effectors: list[EndEffector]) -> dict[str, Any]:
     return {
         "links": list(matrix.links),
         "groups": [

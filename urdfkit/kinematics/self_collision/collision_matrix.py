@@ -45,7 +45,7 @@ class Pair:
         hits: number of collisions among them.
         rate_bound: upper bound of the rate of collisions at 95 % confidence.
         distance: closest approach that was found [m]; None if it was not searched for.
-        collision: joint → position [rad] or [m] in a configuration with a collision; None if there is none.
+        collision: joint → position [rad] or [m] in a configuration with a collision; None without one.
     """
 
     first: str

@@ -13,7 +13,7 @@ _USUAL = ("joint", "link", "wrist", "elbow", "shoulder", "forearm", "upper", "lo
 
 
 @dataclass(frozen=True)
-class Group:
+class PlanningGroup:
     """A planning group: a chain, or joints.
 
     Attributes:
@@ -39,30 +39,30 @@ class EndEffector:
     parent_group: str
 
 
-def find_groups(robot: Robot) -> tuple[list[Group], list[EndEffector]]:
+def find_groups(robot: Robot) -> tuple[list[PlanningGroup], list[EndEffector]]:
     """Return the arms and grippers of a robot.
 
-    An arm is a chain of at least `LEAST` joints with one degree of freedom in which no link has moving joints beside
-    it. What moves beyond its end, with two branches or a mimic joint, is its gripper.
+    An arm is a chain of at least `LEAST` joints with one degree of freedom, in which each link but the last carries one
+    moving joint. What moves beyond its end, with two branches or a mimic joint, is its gripper.
     """
     moving = _moving_below(robot)
-    groups: list[Group] = []
+    groups: list[PlanningGroup] = []
     effectors: list[EndEffector] = []
     for joints, ends in _chains(robot, moving):
         base, tip = joints[0].parent or "", joints[-1].child or ""
         name = _name(joints, [group.name for group in groups], "arm")
-        groups.append(Group(name, base, tip, tuple(joint.name for joint in joints)))
+        groups.append(PlanningGroup(name, base, tip, tuple(joint.name for joint in joints)))
         fingers = [joint for joint in ends if joint.mimic is None]
         if fingers:
             side = name.removesuffix("arm").rstrip("_")
             hand = f"{side}_gripper" if side else "gripper"
             mount = _mount(robot, tip, ends)
-            groups.append(Group(hand, "", "", tuple(joint.name for joint in fingers)))
+            groups.append(PlanningGroup(hand, "", "", tuple(joint.name for joint in fingers)))
             effectors.append(EndEffector(f"{hand}_end", mount, hand, name))
     return groups, effectors
 
 
-def group_of_chain(robot: Robot, name: str, base: str, tip: str) -> Group:
+def group_of_chain(robot: Robot, name: str, base: str, tip: str) -> PlanningGroup:
     """Return the group of a chain from a link to a link below it.
 
     Raises:
@@ -84,7 +84,7 @@ def group_of_chain(robot: Robot, name: str, base: str, tip: str) -> Group:
     moving = tuple(joint.name for joint in joints if joint.is_movable and joint.mimic is None)
     if not moving:
         raise KinematicsError(f"group `{name}`: no joint moves between `{base}` and `{tip}`")
-    return Group(name, base, tip, moving)
+    return PlanningGroup(name, base, tip, moving)
 
 
 def _moving_below(robot: Robot) -> dict[str, list[Joint]]:

@@ -6,7 +6,7 @@ from xml.sax.saxutils import quoteattr
 
 from urdfkit.errors import DescriptionError
 from urdfkit.kinematics.self_collision import CollisionMatrix
-from urdfkit.kinematics.srdf.groups import EndEffector, Group
+from urdfkit.kinematics.srdf.groups import EndEffector, PlanningGroup
 
 REASONS = ("Adjacent", "Default", "Always", "Never")
 """Reasons of the lines that an update replaces; MoveIt's assistant writes the same. `User` is left as it is."""
@@ -19,7 +19,7 @@ _COMMENT = re.compile(r"<!--.*?-->", re.DOTALL)
 
 
 def new_srdf(
-    name: str, groups: Sequence[Group], effectors: Sequence[EndEffector], matrix: CollisionMatrix, base: str
+    name: str, groups: Sequence[PlanningGroup], effectors: Sequence[EndEffector], matrix: CollisionMatrix, base: str
 ) -> str:
     """Return a whole SRDF.
 
