@@ -1,15 +1,19 @@
 """From a key to the diagnostics: ``urdfkit lsp`` over pipes, on a robot of a hundred links.
 
-Run it as ``python tests/bench/bench_lsp.py [LINKS] [EDITS]``. Each edit changes a number of one link; timed is from the
-change sent to the diagnostics received. CPU is that of the server, where the system tells (Linux).
+Run it as ``python tests/bench/bench_lsp.py [LINKS] [EDITS] [MESHES]``. The first MESHES links show a mesh of 2.4 MB.
+Each edit changes a number of one link; timed is from the change sent to the diagnostics received. CPU is that of the
+server, where the system tells (Linux).
 """
 
 from __future__ import annotations
 
+import re
 import sys
 import tempfile
 import time
 from pathlib import Path
+
+import trimesh
 
 sys.path.insert(0, str(Path(__file__).parents[2]))
 
@@ -38,8 +42,8 @@ JOINT = """  <joint name="{joint}" type="revolute">
 """
 
 
-def robot(links: int, mass: str, *, form: str) -> str:
-    """Return a chain; the links written out (``plain`` or with expressions, ``written``) or made by a ``macro``."""
+def robot(links: int, mass: str, *, form: str, meshes: int = 0) -> str:
+    """Return a chain: links written out (``plain``, or ``written`` with expressions) or made by a ``macro``."""
     if form == "macro":
         body = SEGMENT.replace("{{", "{").replace("}}", "}").replace("{link}", "link_${i}")
         joint = JOINT.format(joint="joint_${i}", parent="${parent}", link="link_${i}")
@@ -48,7 +52,11 @@ def robot(links: int, mass: str, *, form: str) -> str:
         return "".join([HEAD, macro, '  <link name="link_0"/>\n', *calls, "</robot>\n"]).replace("1.0", mass, 1)
     parts = [HEAD]
     for index in range(links):
-        parts.append(SEGMENT.format(link=f"link_{index}"))
+        segment = SEGMENT.format(link=f"link_{index}")
+        if index < meshes:
+            mesh = f'<visual><origin xyz="0 0 0.1"/><geometry><mesh filename="meshes/{index}.stl"/></geometry></visual>'
+            segment = re.sub("<visual>.*</visual>", mesh, segment)
+        parts.append(segment)
         if index:
             parts.append(JOINT.format(joint=f"joint_{index}", parent=f"link_{index - 1}", link=f"link_{index}"))
     text = "".join([*parts, "</robot>\n"])
@@ -60,11 +68,13 @@ def robot(links: int, mass: str, *, form: str) -> str:
 def main() -> int:
     links = int(sys.argv[1]) if len(sys.argv) > 1 else 100
     edits = int(sys.argv[2]) if len(sys.argv) > 2 else 60
-    for form in ("plain", "written", "macro"):
+    meshes = int(sys.argv[3]) if len(sys.argv) > 3 else 0
+    for form in ("plain", "written") if meshes else ("plain", "written", "macro"):
         name = "chain.urdf" if form == "plain" else "chain.urdf.xacro"
         with tempfile.TemporaryDirectory() as folder:
             place = Path(folder).resolve()
-            (place / name).write_text(robot(links, "1.0", form=form))
+            (place / name).write_text(robot(links, "1.0", form=form, meshes=meshes))
+            write_meshes(place / "meshes", meshes)
             with connected(place) as client:
                 client.open(name)
                 client.published(name)
@@ -72,13 +82,23 @@ def main() -> int:
                 for edit in range(edits):
                     mass = f"{1.0 + edit / 1000:.3f}" if edit % 5 else "-1.0"
                     before, start = cpu_of(client.process.pid), time.perf_counter()
-                    client.change(name, robot(links, mass, form=form))
+                    client.change(name, robot(links, mass, form=form, meshes=meshes))
                     diagnostics = client.published(name)
                     walls.append(time.perf_counter() - start)
                     cpus.append(cpu_of(client.process.pid) - before)
-                    assert bool(diagnostics) is (mass == "-1.0")
+                    assert bool(diagnostics) is (mass == "-1.0"), diagnostics[:2]
         print(f"{form:8s} {links} links  wall {spread(walls)}   cpu {spread(cpus)}")
     return 0
+
+
+def write_meshes(folder: Path, count: int) -> None:
+    """Write binary STL files of boxes with 49,152 triangles each."""
+    folder.mkdir()
+    box = trimesh.creation.box((0.05, 0.05, 0.2))
+    for _ in range(6):
+        box = box.subdivide()
+    for index in range(count):
+        box.export(folder / f"{index}.stl")
 
 
 def spread(times: list[float]) -> str:
