@@ -50,13 +50,13 @@ ROBOT = """<robot name="lab" xmlns:xacro="http://www.ros.org/wiki/xacro">
 </robot>
 """
 
-TWINS = """<robot name="two" xmlns:xacro="http://www.ros.org/wiki/xacro">
-  <link name="a"><visual><origin rpy="1.5708 0 0"/><geometry><box size="1 1 1"/></geometry></visual></link>
-  <link name="b"><visual><origin rpy="1.5708 0 0"/><geometry><box size="1 1 1"/></geometry></visual></link>
-  <joint name="j" type="fixed"><parent link="a"/><child link="b"/><origin rpy="1.5708 0 0"/></joint>
+TWINS = """<robot name="two" version="1.2" xmlns:xacro="http://www.ros.org/wiki/xacro">
+  <link name="a"><visual><origin quat_xyzw="0 0 0 2"/><geometry><box size="1 1 1"/></geometry></visual></link>
+  <link name="b"><visual><origin quat_xyzw="0 0 0 2"/><geometry><box size="1 1 1"/></geometry></visual></link>
+  <joint name="j" type="fixed"><parent link="a"/><child link="b"/><origin quat_xyzw="0 0 0 2"/></joint>
   <xacro:macro name="wheel" params="side">
     <link name="wheel_${side}">
-      <visual><origin rpy="1.5708 0 0"/><geometry><cylinder radius="0.1" length="0.1"/></geometry></visual></link>
+      <visual><origin quat_xyzw="0 0 0 2"/><geometry><cylinder radius="0.1" length="0.1"/></geometry></visual></link>
     <joint name="${side}" type="fixed"><parent link="a"/><child link="wheel_${side}"/></joint>
   </xacro:macro>
   <xacro:wheel side="left"/>
