@@ -45,8 +45,8 @@ NEAR, GAIN = 1e-6, 0.7
 """The same where a round gains less than this factor over the one before, as where rows contradict each other."""
 MEMORY = 1.0 - 1e-6
 """How much of the last step's impulses is started from: a load that nothing determines slowly becomes even."""
-FEW_ROWS = 20
-"""Rows up to which `active_set_newton.solve` is used instead."""
+FEW_ROWS, FEW_DOFS = 20, 15
+"""Rows, and dofs, up to which `active_set_newton.solve` is used instead: it is exact, and quick where it is small."""
 MOST_ROWS, ATTEMPTS = 36, 5
 """Rows up to which guesses of the active set are tried first, and how many; not with more rows than dofs."""
 

@@ -47,6 +47,7 @@ from urdfkit.sim.engine.simulation_memory import (
 from urdfkit.sim.engine.solver.active_set_newton import MOST_GUESSES, fastest_row, guess, iterate
 from urdfkit.sim.engine.solver.augmented_newton import (
     ATTEMPTS,
+    FEW_DOFS,
     FEW_ROWS,
     MOST_ROWS,
     list_contacts,
@@ -123,7 +124,7 @@ def advance(floats: Any, integers: Any, steps: int, only_terms: bool) -> int:
             if rows > 0:
                 for k in range(rows):
                     w.before[k] = w.memory[w.slot[k]]
-                guesses, few = 0, rows <= FEW_ROWS or mimics > 0
+                guesses, few = 0, rows <= FEW_ROWS or dofs <= FEW_DOFS or mimics > 0
                 if few or rows <= min(MOST_ROWS, dofs):
                     build_delassus(w, rows, 0, dofs, ALONE)
                     largest = fastest_row(w, rows)

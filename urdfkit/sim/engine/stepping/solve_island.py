@@ -34,6 +34,7 @@ from urdfkit.sim.engine.sleep.rolling_resistance import resist_rolling
 from urdfkit.sim.engine.solver.active_set_newton import fastest_row, guess, solve
 from urdfkit.sim.engine.solver.augmented_newton import (
     ATTEMPTS,
+    FEW_DOFS,
     FEW_ROWS,
     MOST_ROWS,
     list_contacts,
@@ -100,7 +101,7 @@ def solve_island(w: KernelWorld, root: int) -> int:
         # Islands without room for their matrix are solved by Gauss-Seidel sweeps, too.
         dense = rows * rows <= w.sizes[MATRIX]
         held = done = False
-        if rows > FEW_ROWS and touches_fixed(w, single, w.island_contact[root]):
+        if rows > FEW_ROWS and island_dofs > FEW_DOFS and touches_fixed(w, single, w.island_contact[root]):
             guesses = 0
             if rows <= min(MOST_ROWS, island_dofs):
                 build_delassus(w, rows, single, width, False)
