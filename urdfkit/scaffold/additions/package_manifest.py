@@ -3,6 +3,7 @@
 import re
 from pathlib import Path
 
+from urdfkit.description.packages.related_files import name_in
 from urdfkit.scaffold.additions.file_changes import Alteration
 
 _NEEDS = re.compile(r"<(?:build_|exec_|run_|build_export_|test_)?depend\b[^>]*>\s*([\w.-]+)\s*<")
@@ -32,7 +33,7 @@ def needs(package: Path) -> set[str]:
 
 
 def with_dependency(package: Path, name: str, *, alone: bool = False) -> Alteration | None:
-    """Return the change to package.xml that adds a dependency; None if it is declared already.
+    """Return the change to package.xml that adds a dependency; None if it is declared or the package itself.
 
     Args:
         package: folder of the package.
@@ -45,6 +46,8 @@ def with_dependency(package: Path, name: str, *, alone: bool = False) -> Alterat
     path = package / "package.xml"
     before = path.read_bytes()
     text = before.decode("utf-8", "surrogateescape")
+    if name_in(text) == name:
+        return None
     tag = "run_depend" if not re.search(r"<package[^>]*\bformat\s*=\s*[\"'][23]", text) else "exec_depend"
     places = list(_LAST.finditer(text))
     if not places:
