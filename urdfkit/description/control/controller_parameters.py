@@ -78,6 +78,8 @@ _FLAGS = (
     *("front_steering", "reduce_wheel_speed_until_steering_reached", "enable_odom_tf", "publish_cmd"),
     *("publish_limited_velocity", "allow_multiple_cmd_vel_publishers", "use_local_topics"),
 )
+_JOINTS = ("four_wheel_steering_controller/FourWheelSteeringController", "front_steering")
+"""The one type of ROS 1 in which a name of `_FLAGS` is a list of joints."""
 _REQUIRED = {
     "joint_trajectory_controller/JointTrajectoryController": ("joints", "command_interfaces"),
     "forward_command_controller/ForwardCommandController": ("interface_name", "joints"),
@@ -112,6 +114,8 @@ def invalid_parameters(settings: Settings) -> Iterator[DescriptionError]:
         except DescriptionError as error:
             yield error
     for name in _FLAGS if kind in TYPES else ():
+        if (kind, name) == _JOINTS:
+            continue
         try:
             settings.flag(name, False)
         except DescriptionError as error:
