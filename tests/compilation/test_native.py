@@ -13,7 +13,9 @@ import urdfkit
 from urdfkit.compilation.native import cache_folders
 
 SCRIPT = """
+import gc
 import sys
+import weakref
 from pathlib import Path
 import numpy as np
 from urdfkit.compilation.native import NativeCode, bind, write_native
@@ -41,6 +43,10 @@ try:
     bound(1)
 except TypeError:
     print("refused")
+kept = weakref.ref(found)
+del found
+gc.collect()
+print(kept() is not None, bound(2, False))
 """
 SOURCE = """
 def total(floats, integers, count, flag):
@@ -49,6 +55,8 @@ def total(floats, integers, count, flag):
         result += floats[k] % 7.0
     if flag:
         integers[0] = 40
+    if count > 1000:
+        raise IndexError("more than 1000")
     return int(result) + count
 """
 
@@ -63,7 +71,7 @@ def run(folder: Path, check: str = "0") -> list[str]:
     return done.stdout.splitlines()
 
 
-RESULT = ["20 40 7", "13 13 {}", "refused"]
+RESULT = ["20 40 7", "13 13 {}", "refused", "True 14"]
 
 
 @pytest.mark.slow

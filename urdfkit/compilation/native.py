@@ -25,9 +25,10 @@ ENTRY = "urdfkit_entry"
 _FORMAT = 1
 UNUSABLE = (OSError, ValueError, TypeError, KeyError, RuntimeError)
 """Errors of files that are missing, damaged or for another system."""
-_NUMBA_FUNCTIONS = {"numba_ldexp": "ldexp", "numba_adapt_ndarray": "abort"}
-"""Functions of numba's library that compiled code calls → functions of the C library in their place. Only numba's own
-entry, which is not used here, calls the last one."""
+_OWN_ENTRY = ("numba_adapt_ndarray", "numba_do_raise", "numba_runtime_build_excinfo_struct", "numba_unpickle")
+"""Functions that only numba's own entry calls, which is not used here."""
+_NUMBA_FUNCTIONS = {"numba_ldexp": "ldexp", **dict.fromkeys(_OWN_ENTRY, "abort")}
+"""Functions of numba's library in compiled code → functions of the C library in their place."""
 _BEGIN, _RENAMED = b"numba_", b"urdfk_"
 """Begin of these names, and in files of machine code, so that numba in the same process keeps its own functions."""
 
@@ -62,17 +63,22 @@ class NativeFunction:
         make = ctypes.pythonapi.PyCFunction_NewEx
         make.restype, make.argtypes = ctypes.py_object, [ctypes.c_void_p, ctypes.py_object, ctypes.c_void_p]
         self._make = make
+        _LOADED.append(self)
 
     def __call__(self, *arguments: Any) -> int:
         """Call the function."""
         return self.bind(*arguments[: self._arrays])(*arguments[self._arrays :])
 
     def bind(self, *arrays: Any) -> Callable[..., int]:
-        """Return a function of the numbers alone. The arrays and this object must live as long as it."""
+        """Return a function of the numbers alone. The arrays must live as long as it."""
         places = [number for array in arrays for number in (array.__array_interface__["data"][0], array.size)]
         owner = struct.pack(f"{len(places)}q", *places)
         function: Callable[..., int] = self._make(ctypes.addressof(self._method), owner, None)
         return function
+
+
+_LOADED: list[NativeFunction] = []
+"""All of the process: functions from `NativeFunction.bind` point into them, which Python's garbage collector reads."""
 
 
 def bind(function: Callable[..., int], *arrays: Any) -> Callable[..., int]:

@@ -35,11 +35,12 @@ def test_a_second_warmup_has_nothing_to_compile():
 
 
 @pytest.mark.slow
-def test_a_simulation_with_compiled_kernels_imports_no_compiler():
-    warmup()
+@pytest.mark.parametrize("surroundings", ["", ", world='house'"])
+def test_a_simulation_with_compiled_kernels_imports_no_compiler(surroundings: str) -> None:
+    warmup(world=bool(surroundings))
     heavy = "numba", "scipy", "trimesh", "tornado", "rosbags"
     code = (
-        "import sys; from urdfkit.sim import Simulator; Simulator('simpleton').run(0.01); "
+        f"import sys; from urdfkit.sim import Simulator; Simulator('simpleton'{surroundings}).run(0.01); "
         f"print([name for name in {heavy} if name in sys.modules])"
     )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
