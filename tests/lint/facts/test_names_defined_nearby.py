@@ -276,6 +276,8 @@ def test_what_launch_files_in_python_hand_to_gazebo(tmp_path):
         '    "/cmd_vel@geometry_msgs/msg/Twist]gz.msgs.Twits",',
         '    "/scan@sensor_msgs/msg/LaserScan[gz.msgs.PointCloudPacked",',
         '    "/clock@rosgraph_msgs/msg/Clock[gz.msgs.Clock", "--ros-args"])',
+        "def generate_launch_description():",
+        "    return LaunchDescription([])",
     )
     launch.write_text("\n".join(lines))
     found = [(f.code, f.line, f.column) for f in lint(tmp_path, target="ros2")]
