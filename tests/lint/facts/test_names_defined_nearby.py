@@ -271,6 +271,7 @@ def test_what_launch_files_in_python_hand_to_gazebo(tmp_path):
     (tmp_path / "cart.urdf").write_text("<robot name='cart'><link name='base'/></robot>")
     launch = tmp_path / "cart.launch.py"
     lines = (
+        "from launch import LaunchDescription; from launch_ros.actions import Node",
         'Node(package="ros_gz_sim", executable="create", arguments=["-nmae", "cart", "-topic", "robot_descripton"])',
         'Node(package="ros_gz_bridge", executable="parameter_bridge", arguments=[',
         '    "/cmd_vel@geometry_msgs/msg/Twist]gz.msgs.Twits",',
@@ -282,10 +283,10 @@ def test_what_launch_files_in_python_hand_to_gazebo(tmp_path):
     launch.write_text("\n".join(lines))
     found = [(f.code, f.line, f.column) for f in lint(tmp_path, target="ros2")]
     assert found == [
-        ("K968", 1, lines[0].index("-nmae") + 1),
-        ("K968", 1, lines[0].index("robot_descripton") + 1),
-        ("K969", 3, lines[2].index("gz.msgs") + 1),
+        ("K968", 2, lines[1].index("-nmae") + 1),
+        ("K968", 2, lines[1].index("robot_descripton") + 1),
         ("K969", 4, lines[3].index("gz.msgs") + 1),
+        ("K969", 5, lines[4].index("gz.msgs") + 1),
     ]
 
 
