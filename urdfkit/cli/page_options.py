@@ -49,7 +49,7 @@ def announce(arguments: argparse.Namespace) -> Callable[[Server], None]:
             for url in server.urls[1:]:
                 print(url, flush=True)
             note("warning: everyone with this address can watch and drive; the connection is not encrypted")
-        if not arguments.no_browser and _has_screen():
+        if opens_browser(arguments):
             # Some browsers block the caller until they are closed.
             threading.Thread(
                 target=webbrowser.open, args=(_private_address(server),), daemon=True, name="open-browser"
@@ -58,6 +58,11 @@ def announce(arguments: argparse.Namespace) -> Callable[[Server], None]:
             note("no screen found: open the address in a browser")
 
     return opened
+
+
+def opens_browser(arguments: argparse.Namespace) -> bool:
+    """Whether `announce` opens a browser: the command line permits it and there is a screen."""
+    return not arguments.no_browser and _has_screen()
 
 
 def _private_address(server: Server) -> str:

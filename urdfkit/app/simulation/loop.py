@@ -62,7 +62,8 @@ class DriveLoop:
         sleep: function that waits for a number of seconds.
 
     Attributes:
-        look: function that is called in every iteration, for a recording.
+        look: function that is called in every iteration, for a recording and the keys of a terminal.
+        report: function that prints a warning.
         sensor_views: views of the sensors.
         pace: ratio of simulated time to the clock.
         features: features of the page.
@@ -83,7 +84,7 @@ class DriveLoop:
         self._requests: deque[Request] = deque()
         self._reported = -math.inf
         self._warnings: list[str] = []
-        self._log, simulator.note.report = simulator.note.report, self._warn
+        self.report, simulator.note.report = simulator.note.report, self._warn
         self.look: Callable[[], None] = lambda: None  # subscribes a recording to new topics
         self.pace = ClockRate(simulator.dt, clock)
         self.sensor_views = SensorViews(simulator, server, clock)
@@ -153,13 +154,13 @@ class DriveLoop:
                 part.forget()
             self.show()
         elif action == "stop":
-            self._stop()
+            self.stop()
             return
         else:
             simulator.paused = action == "pause" or self._failed
         self.pace.restart(simulator.t)
 
-    def _stop(self) -> None:
+    def stop(self) -> None:
         """Send zero velocity to every drive, whichever page drives, and release the controls of all pages."""
         self.server.drive_lock.release()
         self.server.broadcast("stop")
@@ -188,7 +189,7 @@ class DriveLoop:
 
     def _warn(self, text: str) -> None:
         """Print a warning in the terminal and show it on the page."""
-        self._log(text)
+        self.report(text)
         self._warnings.append(text)
         self.server.broadcast("notice", text=text, tone="warning")
 

@@ -3,7 +3,7 @@
 import argparse
 
 from urdfkit.app.page import Page, note, require_page, until_interrupted
-from urdfkit.cli.page_options import add_page_options, announce
+from urdfkit.cli.page_options import add_page_options, announce, opens_browser
 from urdfkit.cli.parser import add_model
 from urdfkit.cli.robot_arguments.file_name_case import warn_of_file_names
 from urdfkit.cli.robot_arguments.launch_arguments import add_launch_arguments, with_launch_arguments
@@ -15,6 +15,7 @@ from urdfkit.cli.sim.record_option import add_record, check_record, recording
 from urdfkit.cli.sim.renderer_option import add_renderer
 from urdfkit.cli.sim.repair_options import add_repair_options, print_warning
 from urdfkit.cli.sim.ros_distro_option import add_distro
+from urdfkit.cli.sim.terminal_option import add_terminal, check_terminal, terminal_driving
 
 KEYS = """\
 Drive with W A S D, the arrow keys, i j k l u o m , . or the pad; the robot stops when you release them.
@@ -38,6 +39,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     add_repair_options(parser)
     add_record(parser)
     add_page_options(parser)
+    add_terminal(parser)
     parser.add_argument(
         "--watchers-may",
         action="append",
@@ -46,7 +48,10 @@ def configure(parser: argparse.ArgumentParser) -> None:
         help="permit pages to do this while another page drives (repeatable): pause, step and set the speed; reset; "
         "or change the world and publish (default: none; every page may stop the robots)",
     )
-    parser.epilog = "examples:\n  urdfkit sim teleop simpleton\n  urdfkit sim teleop simpleton --port 8080 --no-browser"
+    parser.epilog = (
+        "examples:\n  urdfkit sim teleop simpleton\n  urdfkit sim teleop simpleton --port 8080 --no-browser\n"
+        "  urdfkit sim teleop simpleton --terminal"
+    )
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -58,6 +63,8 @@ def run(arguments: argparse.Namespace) -> int:
     from urdfkit.resources import find_model
 
     check_record(arguments.record)
+    arguments.no_browser = arguments.no_browser or bool(arguments.terminal)
+    from_terminal = check_terminal(arguments, browser=opens_browser(arguments))
     with until_interrupted():
         with loading_limit():
             named = with_macro(find_model(arguments.model, package_path=arguments.package_path), arguments)
@@ -86,7 +93,11 @@ def run(arguments: argparse.Namespace) -> int:
             ) as loop,
             recording(loop.simulator, arguments.record) as loop.look,
         ):
-            note(KEYS if loop.simulator.command_topics else "this robot has no drive that takes velocity commands")
+            if not loop.simulator.command_topics:
+                note("this robot has no drive that takes velocity commands")
+            elif not from_terminal:
+                note(KEYS)
             warn_of_file_names(robot, quiet=arguments.quiet)
-            loop.run()
+            with terminal_driving(loop, active=from_terminal):
+                loop.run()
     return 0
