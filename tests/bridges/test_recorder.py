@@ -2,16 +2,21 @@
 
 from __future__ import annotations
 
+import io
 import signal
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
+from PIL import Image
 
 pytest.importorskip("rosbags.rosbag2")
 
 from tests.processes import signals
+from urdfkit.bridges.jpeg_image import IMAGE
 from urdfkit.bridges.recorder import Recorder
+from urdfkit.bridges.recording_options import RecordingOptions, parse_split
 from urdfkit.bus import Bus
 from urdfkit.cli import main
 from urdfkit.errors import ResourceError, UsageError
@@ -141,3 +146,75 @@ def test_a_run_is_recorded_and_the_same_run_gives_the_same_bytes(
 def test_a_recording_is_refused_with_one_line(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["sim", "run", "simpleton", "--for", "0.1", "--record", str(tmp_path / "a.db3")]) == 2
     assert capsys.readouterr().err.endswith("recordings are MCAP; call it a.mcap\n")
+
+
+def image(encoding: str = "rgb8") -> Any:
+    pixels = np.arange(6 * 4 * 3, dtype=np.uint8)
+    fields = {"height": 4, "width": 6, "encoding": encoding, "step": 18, "data": pixels.tolist()}
+    return from_fields(IMAGE, fields)
+
+
+def test_patterns_select_topics(tmp_path: Path) -> None:
+    bus, options = Bus(), RecordingOptions(topics=("/a/*", "/odom", "/oddm"), exclude=("*/secret",))
+    with Recorder(bus, tmp_path / "a.mcap", lambda: 0.0, options) as recorder:
+        for name in ("/a/x", "/a/secret", "/odom", "/b"):
+            bus.publish(name, FLOAT, number(1.0))
+        recorder.subscribe_new_topics()
+    assert [name for name, _, _ in read(tmp_path / "a.mcap")] == ["/a/x", "/odom"]
+    names = ["/robot/odom", "/b"]
+    assert options.unused(names) == [
+        "no topic matches `/a/*`",
+        "no topic matches `/odom`; did you mean `/robot/odom`?",
+        "no topic matches `/oddm`; did you mean `*/odom`?",
+        "no topic matches `*/secret`",
+    ]  # fmt: skip
+
+
+@pytest.mark.parametrize("compression", [True, False])
+def test_compression_is_lossless_and_makes_images_small(tmp_path: Path, compression: bool) -> None:
+    bus, path = Bus(), tmp_path / "a.mcap"
+    with Recorder(bus, path, lambda: 0.0, RecordingOptions(compression=compression)) as recorder:
+        bus.publish("/image", IMAGE, (sent := image()))
+        recorder.subscribe_new_topics()
+        for _ in range(200):
+            bus.publish("/image", IMAGE, sent)
+    found = read(path)
+    assert len(found) == 201
+    assert all(message.data.tolist() == sent.data.tolist() for _, _, message in found)
+    assert (path.stat().st_size < 201 * 72) == compression
+
+
+def test_images_are_recorded_as_jpeg_and_depths_as_they_are(tmp_path: Path) -> None:
+    bus, path = Bus(), tmp_path / "a.mcap"
+    bus.publish("/image", IMAGE, image("bgr8"))
+    depth = {"height": 1, "width": 2, "encoding": "32FC1", "step": 8, "data": [0] * 8}
+    bus.publish("/depth", IMAGE, from_fields(IMAGE, depth))
+    Recorder(bus, path, lambda: 0.0, RecordingOptions(jpeg=95)).close()
+    (name, _, message), (other, _, same) = read(path)
+    assert (name, other, same.encoding) == ("/image/compressed", "/depth", "32FC1")
+    assert message.format == "bgr8; jpeg compressed bgr8"
+    pixels = np.asarray(Image.open(io.BytesIO(message.data.tobytes())), dtype=int)
+    assert pixels.shape == (4, 6, 3)
+    np.testing.assert_allclose(pixels, np.arange(72).reshape(4, 6, 3)[:, :, ::-1], atol=12)  # chroma is halved in JPEG
+
+
+@pytest.mark.parametrize("limit", ["2s", "0.000036MB"])
+def test_a_recording_continues_in_other_files(tmp_path: Path, limit: str) -> None:
+    bus, t = Bus(), 0.0
+    bus.publish("/robot/robot_description", FLOAT, number(-1.0))
+    options = RecordingOptions(**parse_split(limit))  # type: ignore[arg-type]
+    with Recorder(bus, tmp_path / "a.mcap", lambda: t, options) as recorder:
+        for t in (0.0, 1.0, 2.0, 3.0):
+            bus.publish("/x", FLOAT, number(t))
+            recorder.subscribe_new_topics()
+    assert [path.name for path in recorder.files] == ["a_0.mcap", "a_1.mcap"]
+    assert sorted(tmp_path.iterdir()) == recorder.files
+    first, second = ([(t / 1e9, message.data) for _, t, message in read(path)] for path in recorder.files)
+    assert second[0] == (2.0, -1.0)
+    assert [value for _, value in [*first, *second] if value >= 0] == [0.0, 1.0, 2.0, 3.0]
+
+
+@pytest.mark.parametrize("text", ["0s", "5", "5TB", "-3s"])
+def test_a_limit_of_another_form_is_refused(text: str) -> None:
+    with pytest.raises(UsageError, match="such as 30s, 5min, 500MB"):
+        parse_split(text)

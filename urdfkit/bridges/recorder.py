@@ -1,10 +1,11 @@
-"""Recorder: write all published messages to one MCAP file, readable by ``ros2 bag`` and other MCAP tools.
+"""Recorder: write published messages to MCAP files, readable by ``ros2 bag`` and other MCAP tools.
 
 The same simulation gives the same bytes: times are simulated, and the file has no data about the machine.
 """
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from contextlib import ExitStack
 from functools import partial
@@ -13,12 +14,16 @@ from types import TracebackType
 from typing import Any
 
 from urdfkit.atomic import staging, undisturbed
+from urdfkit.bridges.jpeg_image import COMPRESSED_IMAGE, IMAGE, jpeg_image
+from urdfkit.bridges.recording_options import RecordingOptions
 from urdfkit.bus import Bus, Subscription, Topic
 from urdfkit.errors import MissingDependencyError, ResourceError, UsageError
 
 SUFFIX = ".mcap"
 STEM = "recording"
 """File stem of a recording until it is moved into place."""
+REPEATED = ("/tf_static", "/robot_description")
+"""Ends of the names of topics whose last message is repeated at the begin of each further file: they are latched."""
 
 
 def check_name(path: Path) -> None:
@@ -35,7 +40,7 @@ def check_name(path: Path) -> None:
 
 
 class Recorder:
-    """Subscriber to every topic with messages; records until `close`.
+    """Subscriber to topics with messages; records until `close`.
 
     Service requests, which the bus also transports as topics, are not recorded.
 
@@ -43,6 +48,7 @@ class Recorder:
         bus: the bus whose topics are recorded.
         path: the file, replaced if it exists; written to a temporary folder next to it until it is complete.
         clock: returns the time [s]; after a jump back, as on a reset, recorded times continue from the last one.
+        options: selection of topics, compression, splitting.
 
     Raises:
         UsageError: the suffix of the file is not ``.mcap``.
@@ -51,36 +57,37 @@ class Recorder:
 
     Attributes:
         count: messages recorded so far.
+        files: complete files so far.
+        options: the options.
     """
 
-    def __init__(self, bus: Bus, path: str | Path, clock: Callable[[], float]) -> None:
-        self.path = Path(path)
+    def __init__(
+        self, bus: Bus, path: str | Path, clock: Callable[[], float], options: RecordingOptions | None = None
+    ) -> None:
+        self.path, self.options = Path(path), options or RecordingOptions()
         check_name(self.path)
         if self.path.is_dir():
             raise ResourceError(f"cannot record to {path}: it is a folder")
         self.count = 0
+        self.files: list[Path] = []
         self._bus, self._clock = bus, clock
         self._offset = self._last = 0.0
         self._subscriptions: list[Subscription] = []
         self._seen: set[str] = set()
-        self._files = ExitStack()
+        self._recorded: list[Topic] = []
+        self._connections: dict[tuple[str, str], Any] = {}
         try:
-            from rosbags.rosbag2 import StoragePlugin, Writer
+            from rosbags.rosbag2 import Writer  # noqa: F401
 
             from urdfkit.messages import typestore
         except ImportError as error:
             raise MissingDependencyError("recording needs rosbags, 0.11 or newer: pip install -U rosbags") from error
         self._types = typestore()
-        # rosbags writes a folder that contains the file; only the file is kept. The file contains its own name, so a
-        # fixed name is used: the bytes do not depend on the name of the recording.
-        folder = self._files.enter_context(staging(self.path.absolute().parent)) / STEM
-        self._written = folder / f"{STEM}{SUFFIX}"
+        self._open()
         try:
-            self._writer = Writer(folder, version=9, storage_plugin=StoragePlugin.MCAP)
-            self._writer.open()
             self.subscribe_new_topics()
         except BaseException:
-            self._files.close()
+            self._staged.close()
             raise
 
     def subscribe_new_topics(self) -> None:
@@ -90,7 +97,7 @@ class Recorder:
         for topic in self._bus.topics:
             if topic.name not in self._seen:
                 self._seen.add(topic.name)
-                if "/msg/" in topic.type:
+                if "/msg/" in topic.type and self.options.includes(topic.name):
                     self._listen(topic)
 
     @property
@@ -106,15 +113,9 @@ class Recorder:
         """
         if self._writer is None:
             return
-        writer, self._writer = self._writer, None
         for each in self._subscriptions:
             each.close()
-        with self._files:
-            try:
-                writer.close()
-                self._written.replace(self.path)
-            except OSError as error:
-                raise ResourceError(f"cannot write {self.path}: {error.strerror}") from error
+        self._complete()
 
     def __enter__(self) -> Recorder:
         """Return itself."""
@@ -124,20 +125,82 @@ class Recorder:
         """Complete the recording, also after an error."""
         self.close()
 
+    def _open(self) -> None:
+        """Begin a file. rosbags writes a folder that contains the file; only the file is kept.
+
+        The file contains its own name, so a fixed name is used: the bytes do not depend on the name of the recording.
+        """
+        from rosbags.rosbag2 import CompressionFormat, CompressionMode, StoragePlugin, Writer
+
+        self._staged = ExitStack()
+        folder = self._staged.enter_context(staging(self.path.absolute().parent)) / STEM
+        self._written = folder / f"{STEM}{SUFFIX}"
+        try:
+            self._writer: Any = Writer(folder, version=9, storage_plugin=StoragePlugin.MCAP)
+            if self.options.compression:
+                self._writer.set_compression(CompressionMode.STORAGE, CompressionFormat.ZSTD)
+            self._writer.open()
+        except BaseException:
+            self._staged.close()
+            raise
+        self._connections.clear()
+        self._begin, self._size = math.inf, 0
+
+    def _complete(self) -> None:
+        """Complete the file and move it into place."""
+        writer, self._writer = self._writer, None
+        file = self.options.file(self.path, len(self.files))
+        with self._staged:
+            try:
+                writer.close()
+                self._written.replace(file)
+            except OSError as error:
+                raise ResourceError(f"cannot write {file}: {error.strerror}") from error
+        self.files.append(file)
+
     def _listen(self, topic: Topic) -> None:
-        connection = self._writer.add_connection(topic.name, topic.type, typestore=self._types)
-        record = partial(self._record, connection, topic.type)
+        if self.options.jpeg is None or topic.type != IMAGE:
+            self._connection(topic.name, topic.type)
+        record = partial(self._record, topic.name, topic.type)
         if topic.count and (latest := topic.latest) is not None:
             record(latest)
+        self._recorded.append(topic)
         self._subscriptions.append(self._bus.subscribe(topic.name, topic.type, record))
 
-    def _record(self, connection: Any, kind: str, message: Any) -> None:
+    def _connection(self, name: str, kind: str) -> Any:
+        found = self._connections.get((name, kind))
+        if found is None:
+            found = self._connections[name, kind] = self._writer.add_connection(name, kind, typestore=self._types)
+        return found
+
+    def _record(self, name: str, kind: str, message: Any) -> None:
         t = self._clock() + self._offset
         if t < self._last:
             self._offset += self._last - t
             t = self._last
         self._last = t
+        self._begin = min(self._begin, t)
+        if t - self._begin >= self.options.split_duration or self._size >= self.options.split_size:
+            self._continue()
+        self._write(name, kind, message)
+
+    def _continue(self) -> None:
+        """Continue in another file, which begins with the last messages of latched topics."""
+        self._complete()
+        self._open()
+        self._begin = self._last
+        for topic in self._recorded:
+            if topic.name.endswith(REPEATED) and topic.count:
+                self._write(topic.name, topic.type, topic.latest)
+
+    def _write(self, name: str, kind: str, message: Any) -> None:
+        if kind == IMAGE and self.options.jpeg is not None:
+            compressed = jpeg_image(message, self.options.jpeg)
+            if compressed is not None:
+                name, kind, message = f"{name}/compressed", COMPRESSED_IMAGE, compressed
+        connection = self._connection(name, kind)
         data = self._types.serialize_cdr(message, kind)
         with undisturbed():  # a partial message would corrupt the recording
-            self._writer.write(connection, round(t * 1e9), data)
+            self._writer.write(connection, round(self._last * 1e9), data)
         self.count += 1
+        self._size += len(data)

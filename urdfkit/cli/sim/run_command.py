@@ -163,13 +163,13 @@ def run(arguments: argparse.Namespace) -> int:
 
     save_options.check_places("--save-image", (each.file for each in arguments.save_image))
     save_options.check_places("--save-scan", (each.file for each in arguments.save_scan))
-    check_record(arguments.record)
+    check_record(arguments)
     save_options.check_places("--save-world", [Path(arguments.save_world)] if arguments.save_world is not None else [])
     simulator = load(arguments)
     command(simulator, arguments)
     images = image_files.find_topics(simulator, arguments.save_image)
     ranges = scan_files.find_topics(simulator, arguments.save_scan)
-    with recording(simulator, arguments.record, quiet=arguments.quiet) as subscribe_to_new:
+    with recording(simulator, arguments) as subscribe_to_new:
         if arguments.record is not None:
             simulator.every(NEW_TOPIC_PERIOD, subscribe_to_new)
         spent = advance(simulator, arguments.duration, arguments.until)

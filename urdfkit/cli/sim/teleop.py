@@ -62,7 +62,7 @@ def run(arguments: argparse.Namespace) -> int:
     from urdfkit.description.xml.cost_limit import loading_limit
     from urdfkit.resources import find_model
 
-    check_record(arguments.record)
+    check_record(arguments)
     arguments.no_browser = arguments.no_browser or bool(arguments.terminal)
     from_terminal = check_terminal(arguments, browser=opens_browser(arguments))
     with until_interrupted():
@@ -91,7 +91,7 @@ def run(arguments: argparse.Namespace) -> int:
                 density=arguments.density,
                 note=print_warning,
             ) as loop,
-            recording(loop.simulator, arguments.record) as loop.look,
+            recording(loop.simulator, arguments) as loop.look,
         ):
             if not loop.simulator.command_topics:
                 note("this robot has no drive that takes velocity commands")
