@@ -42,7 +42,7 @@ def announce(arguments: argparse.Namespace) -> Callable[[Server], None]:
     """
 
     def opened(server: Server) -> None:
-        from urdfkit.view.server.access_control import is_loopback
+        from urdfkit.network.access_control import is_loopback
 
         print(server.url, flush=True)
         if not is_loopback(arguments.host):

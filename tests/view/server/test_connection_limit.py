@@ -7,8 +7,8 @@ import pytest
 import websocket
 
 from tests.time_limit import PATIENCE
-from urdfkit.view.server import connection_limit
-from urdfkit.view.server.connection_limit import LimitedHTTPServer, limits
+from urdfkit.network import connection_limit
+from urdfkit.network.connection_limit import LimitedHTTPServer, limits
 from urdfkit.view.server.page_socket import PageSocket
 from urdfkit.view.server.server import Server
 

@@ -74,7 +74,7 @@ def viewing(page: Page, model: ModelArgument, shown: ShownRobot, *, strict: bool
     """
     from urdfkit.app.viewer.findings_panel import FindingsPanel
     from urdfkit.app.viewer.session import Session, request_schemas
-    from urdfkit.view.server.access_control import is_loopback
+    from urdfkit.network.access_control import is_loopback
 
     server = page.server
     server.requests.update(request_schemas())

@@ -4,7 +4,8 @@ from typing import Any
 
 from tornado.web import RequestHandler
 
-from urdfkit.view.server.access_control import AccessControl, headers
+from urdfkit.network.access_control import AccessControl
+from urdfkit.view.server.response_headers import headers
 from urdfkit.view.server.server_interface import PageServer
 
 NO_COOKIE = "This browser has not sent the token yet, or urdfkit was restarted with a new token."

@@ -9,9 +9,9 @@ from tornado.web import Application, HTTPError
 
 from urdfkit.errors import MissingDependencyError
 from urdfkit.view.protocol import websocket_messages
-from urdfkit.view.server.access_control import headers
 from urdfkit.view.server.authenticated_handler import NO_COOKIE, AuthenticatedHandler
 from urdfkit.view.server.page_socket import PageSocket
+from urdfkit.view.server.response_headers import headers
 from urdfkit.view.server.server_interface import PageServer
 
 PING = 5.0

@@ -13,10 +13,10 @@ from typing import cast
 from tornado.iostream import StreamClosedError
 from tornado.websocket import WebSocketClosedError, WebSocketHandler, WebSocketProtocol, WebSocketProtocol13
 
+from urdfkit.network.connection_limit import limits
 from urdfkit.view.protocol import websocket_messages as protocol
 from urdfkit.view.server.authenticated_handler import AuthenticatedHandler
 from urdfkit.view.server.broadcast import CLEAR
-from urdfkit.view.server.connection_limit import limits
 from urdfkit.view.server.send_queue import Channel, Frame
 from urdfkit.view.server.server_interface import PageServer
 

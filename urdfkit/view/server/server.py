@@ -15,16 +15,16 @@ from numpy.typing import NDArray
 from tornado.httpserver import HTTPServer
 from tornado.web import Application
 
+from urdfkit.network.access_control import LOOPBACK_NAMES, AccessControl, is_loopback
+from urdfkit.network.connection_limit import REQUEST_TIMEOUT, LimitedHTTPServer
+from urdfkit.network.listen_address import bind, urls
+from urdfkit.network.rejection_log import RejectionLog
 from urdfkit.view.content.mesh_store import GeometryStore
 from urdfkit.view.protocol import websocket_messages as protocol
 from urdfkit.view.protocol.page_requests import Request, Schema, check
-from urdfkit.view.server.access_control import LOOPBACK_NAMES, AccessControl, is_loopback
 from urdfkit.view.server.broadcast import Hub, pack
-from urdfkit.view.server.connection_limit import REQUEST_TIMEOUT, LimitedHTTPServer
 from urdfkit.view.server.drive_lock import DriveLock
 from urdfkit.view.server.http_handlers import application
-from urdfkit.view.server.listen_address import bind, urls
-from urdfkit.view.server.rejection_log import RejectionLog
 from urdfkit.view.server.request_inbox import Inbox
 from urdfkit.view.server.saved_tokens import tokens_of
 from urdfkit.view.server.send_queue import Channel

@@ -2,11 +2,11 @@
 
 from typing import Protocol
 
+from urdfkit.network.access_control import AccessControl
+from urdfkit.network.rejection_log import RejectionLog
 from urdfkit.view.content.mesh_store import GeometryStore
-from urdfkit.view.server.access_control import AccessControl
 from urdfkit.view.server.broadcast import Hub
 from urdfkit.view.server.drive_lock import DriveLock
-from urdfkit.view.server.rejection_log import RejectionLog
 from urdfkit.view.server.send_queue import Channel
 
 

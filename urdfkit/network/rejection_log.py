@@ -12,7 +12,7 @@ MINUTE = 60.0
 REMEMBERED = 1000
 """Maximum number of rejections that are remembered."""
 
-log = logging.getLogger("urdfkit.view")
+log = logging.getLogger("urdfkit.network")
 
 
 class RejectionLog:

@@ -4,7 +4,7 @@ import socket
 import pytest
 
 from urdfkit.errors import UsageError
-from urdfkit.view.server.listen_address import bind, urls
+from urdfkit.network.listen_address import bind, urls
 
 
 @pytest.fixture

@@ -5,7 +5,7 @@ import os
 import socket
 
 from urdfkit.errors import UsageError
-from urdfkit.view.server.access_control import is_loopback
+from urdfkit.network.access_control import is_loopback
 
 DEFAULT_PORT = 7007
 TRIES = 50

@@ -1,4 +1,4 @@
-from urdfkit.view.server.rejection_log import AGAIN, MINUTE, MOST, RejectionLog
+from urdfkit.network.rejection_log import AGAIN, MINUTE, MOST, RejectionLog
 
 
 def test_the_same_refusal_is_reported_once_in_a_while(caplog) -> None:
