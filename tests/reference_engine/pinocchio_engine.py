@@ -26,8 +26,17 @@ from urdfkit.sim.engine.constraints.joint_servos import SERVO_ATTEMPTS
 from urdfkit.sim.engine.constraints.limit_crossings import PASSING, WHIRLING
 from urdfkit.sim.engine.dynamics.mass_matrix import FREE, PLANAR
 from urdfkit.sim.engine.kernel_cache import load_compiled, world_digest
-from urdfkit.sim.engine.simulation_memory import DT, FOUND_CONTACTS, FOUND_ROWS, GUESSES, ITERATED, STEPS, Arrays
-from urdfkit.sim.engine.state_conversion import configuration, turning
+from urdfkit.sim.engine.simulation_memory import (
+    DT,
+    FOUND_CONTACTS,
+    FOUND_ROWS,
+    GUESSES,
+    ITERATED,
+    STEPS,
+    TERMS,
+    Arrays,
+)
+from urdfkit.sim.engine.state_conversion import turning
 
 Array = NDArray[np.float64]
 
@@ -51,9 +60,9 @@ class Reference:
         self._search = load_compiled(find_contacts, ("floats", "integers", "count"), digest=digest)
         self._find = load_compiled(find_impulses, ("floats", "integers", "count"))
 
-    def advance(self, floats: Array, integers: NDArray[np.int64], steps: int, only_terms: bool) -> int:
+    def advance(self, floats: Array, integers: NDArray[np.int64], steps: int, action: int) -> int:
         """Advance by `steps`; return how many were done, fewer only if the state stopped being finite."""
-        if only_terms:
+        if action == TERMS:
             M, bias = self._terms(self.a["v"])
             for tree in self.trees:
                 self.a["M"][tree.entries] = np.tril(M[tree.dofs, tree.dofs]).ravel()
@@ -170,7 +179,7 @@ class Reference:
         n = len(v)
         M, bias = np.zeros((n, n)), np.zeros(n)
         for tree in self.trees:
-            q = configuration(tree.model, self.a, tree.number)
+            q = tree.configuration(self.a)
             own = np.triu(pin.crba(tree.model, tree.data, q))
             M[tree.dofs, tree.dofs] = own + np.triu(own, 1).T
             bias[tree.dofs] = pin.nonLinearEffects(tree.model, tree.data, q, v[tree.dofs])
@@ -182,7 +191,7 @@ class Reference:
         a = self.a
         for tree in self.trees:
             model, data = tree.model, tree.data
-            q = configuration(model, a, tree.number)
+            q = tree.configuration(a)
             pin.forwardKinematics(model, data, q, v[tree.dofs])
             P = q[:3] if a["tree_floats"][tree.number] else a["base"][tree.number]
             a["P"][tree.number] = P
@@ -249,7 +258,7 @@ class Reference:
         a["r"][:] += (a["P"] - origin)[a["body_tree"]]
         a["P"][:], a["twist"][:] = origin, twist
         for tree in self.trees:
-            pin.computeJointJacobians(tree.model, tree.data, configuration(tree.model, a, tree.number))
+            pin.computeJointJacobians(tree.model, tree.data, tree.configuration(a))
         count = self._search(a.floats, a.integers, pairs)
         a["s"][:] = kept
         a["counts"][FOUND_CONTACTS] = count

@@ -6,10 +6,12 @@ from typing import Any
 
 import numpy as np
 import pinocchio as pin
+from numpy.typing import NDArray
 
 from urdfkit.sim.engine.bodies import Body, Member
 from urdfkit.sim.engine.layout.tree_arrays import pose_matrix
 from urdfkit.sim.engine.simulation_memory import Arrays
+from urdfkit.sim.engine.state_conversion import CoordinateLayout
 
 
 class Tree:
@@ -32,6 +34,12 @@ class Tree:
         self.dofs = slice(first, beyond)
         entry = sum(int(n) ** 2 for n in np.diff(arrays["tree_dof"])[:number])
         self.entries = slice(entry, entry + (beyond - first) ** 2)
+        self.coordinates = slice(*arrays["tree_s"][number : number + 2].tolist())
+        self.layout = CoordinateLayout(model, arrays, number)
+
+    def configuration(self, arrays: Arrays) -> NDArray[np.float64]:
+        """Return its configuration in Pinocchio's layout."""
+        return self.layout.configuration(arrays["s"][self.coordinates])
 
 
 def model_of(member: Member) -> Any:

@@ -11,7 +11,7 @@ from urdfkit.kinematics.model import Kinematics
 from urdfkit.linear_algebra import Array, matmul
 from urdfkit.sim.engine.scalar_views import numbers
 from urdfkit.sim.engine.simulation_memory import DT, FOUND_CONTACTS, STEPS, Arrays
-from urdfkit.sim.engine.state_conversion import configuration, positions, set_configuration
+from urdfkit.sim.engine.state_conversion import CoordinateLayout, positions, set_configuration
 
 
 class Articulation:
@@ -25,6 +25,9 @@ class Articulation:
     Attributes:
         arrays: the engine's, of all robots and bodies.
         tree: its number among the engine's robots.
+        coordinates: joint coordinates of its bodies, one number where Pinocchio has cosine and sine; read-only.
+        read_coordinates: coordinates that `Engine.link_poses` computes poses of.
+        computed_poses: their results; shape (n_links, 7).
         motor_velocity: target of the velocity motor of each dof [rad/s or m/s]; shape (nv,).
         motor_effort: maximum effort of that motor [N·m or N]; 0: no motor; shape (nv,).
         applied: effort added to each dof [N·m or N]; shape (nv,).
@@ -51,6 +54,10 @@ class Articulation:
         self.kinematics = kinematics
         self.arrays = arrays
         self.tree = tree
+        coordinates, links = (slice(*arrays[name][tree : tree + 2].tolist()) for name in ("tree_s", "tree_link"))
+        self._layout = CoordinateLayout(kinematics.model, arrays, tree)
+        self.coordinates = _read_only(arrays["s"][coordinates])
+        self.read_coordinates, self.computed_poses = arrays["read_s"][coordinates], arrays["link_pose"][links]
         first, beyond = arrays["tree_dof"][tree : tree + 2].tolist()
         a = {name: arrays[name][first:beyond] for name in _PER_DOF}
         self.motor_velocity, self.motor_effort, self.applied = a["motor_velocity"], a["motor_effort"], a["applied"]
@@ -68,7 +75,11 @@ class Articulation:
     @property
     def q(self) -> Array:
         """Configuration in the layout of ``kinematics.model``, a copy; shape (nq,). Set it by `put`."""
-        return configuration(self.kinematics.model, self.arrays, self.tree)
+        return self.configuration(self.coordinates)
+
+    def configuration(self, coordinates: Array) -> Array:
+        """Return `coordinates` in the layout of ``kinematics.model``; shape (nq,)."""
+        return self._layout.configuration(coordinates)
 
     @property
     def v(self) -> Array:

@@ -19,7 +19,7 @@ from urdfkit.sim.engine.kernel_cache import kernel, world_kernel
 from urdfkit.sim.engine.layout.collision_shapes import touching
 from urdfkit.sim.engine.layout.required_inertia import require_inertia
 from urdfkit.sim.engine.layout.world_arrays import fill
-from urdfkit.sim.engine.simulation_memory import HAS_PAIRS, ITERATED, OVERFULL, STEPS
+from urdfkit.sim.engine.simulation_memory import ADVANCE, HAS_PAIRS, ITERATED, LINK_POSES, OVERFULL, STEPS, TERMS
 from urdfkit.sim.engine.state_conversion import contacts, turning
 
 FLAT = Ground()
@@ -100,8 +100,10 @@ class Engine(Articulation):
         )
         for member in self._members:
             require_inertia(member.kinematics)
-        step_function = self._step_function(alone=alone and not self.arrays["numbers"][HAS_PAIRS])
-        self._advance = bind(step_function, self.arrays.floats, self.arrays.integers)
+        alone = alone and not self.arrays["numbers"][HAS_PAIRS]
+        blocks = self.arrays.floats, self.arrays.integers
+        self._advance = bind(self._step_function(alone=alone), *blocks)
+        self._place_links = bind(kernel() if alone else world_kernel(), *blocks)
         super().__init__(kinematics, self.arrays, 0)
         others_parts = [Articulation(each.kinematics, self.arrays, k) for k, each in enumerate(others, 1)]
         self.robots: tuple[Articulation, ...] = (self, *others_parts)
@@ -150,7 +152,7 @@ class Engine(Articulation):
             SimulationError: the state stopped being finite; names the joint and the time. Or more touches at once than
                 there is room for.
         """
-        if self._advance(n, False) < n:
+        if self._advance(n, ADVANCE) < n:
             raise SimulationError(self._divergence())
 
     def wake(self) -> None:
@@ -193,13 +195,23 @@ class Engine(Articulation):
         a, n = self.arrays, self.kinematics.model.njoints - 1
         return np.hstack([a["P"][0] + a["r"][:n], a["R"][:n]])
 
-    def _step_function(self, *, alone: bool) -> Callable[[Array, Any, int, bool], int]:
+    def link_poses(self, robot: Articulation, coordinates: Array) -> Array:
+        """Return x y z [m] and quaternion x y z w of the links of a robot at `coordinates`, see `Articulation`.
+
+        Returns:
+            In the order of ``kinematics.link_names``; shape (n_links, 7). Valid until the next call.
+        """
+        robot.read_coordinates[:] = coordinates
+        self._place_links(robot.tree, LINK_POSES)
+        return robot.computed_poses
+
+    def _step_function(self, *, alone: bool) -> Callable[[Array, Any, int, int], int]:
         """Return the kernel for one robot without other bodies (`alone`), or for a world."""
         return kernel() if alone else world_kernel()
 
     def evaluate(self) -> None:
         """Compute poses, M and bias of the state as it is."""
-        self._advance(1, True)
+        self._advance(1, TERMS)
 
     def _divergence(self) -> str:
         a = self.arrays

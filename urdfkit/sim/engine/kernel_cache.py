@@ -25,6 +25,7 @@ KERNEL_MODULES = (
     "contacts/anisotropic_friction",
     "contacts/ground_contacts",
     "dynamics/integration",
+    "dynamics/link_poses",
     "dynamics/mass_matrix",
     "dynamics/odometry",
     "kernel_world",
@@ -147,7 +148,7 @@ def _compile(*, world: bool) -> Kernel:
     digest, code = world_digest() if world else sources_digest(), _code(world=world)
     # numba's cache is needed where machine code is not written, or exists and cannot be loaded.
     cache = code.exists or numba.__version__ not in TESTED_VERSIONS
-    dispatcher = _compiled(advance, ("floats", "integers", "count", "flag"), digest, cache=cache)
+    dispatcher = _compiled(advance, ("floats", "integers", "count", "count"), digest, cache=cache)
     write_native(code, dispatcher, arrays=2)
     _native.cache_clear()
     return _native(world=world) or next(iter(dispatcher.overloads.values())).entry_point
@@ -171,6 +172,6 @@ def _compiled(function: Callable[..., int], arguments: tuple[str, ...], digest: 
     from urdfkit.sim.engine.compilation import OPTIONS, register_types
 
     register_types()
-    types = {"floats": numba.float64[::1], "integers": numba.int64[::1], "count": numba.int64, "flag": numba.boolean}
+    types = {"floats": numba.float64[::1], "integers": numba.int64[::1], "count": numba.int64}
     signature = tuple(types[name] for name in arguments)
     return compile_or_load(function, signature, digest=digest, options=OPTIONS, cache=cache)

@@ -14,19 +14,35 @@ from urdfkit.sim.engine.dynamics.mass_matrix import FREE, PLANAR
 from urdfkit.sim.engine.simulation_memory import FOUND_CONTACTS, HAS_PAIRS, SLEEPING, Arrays
 
 
-def configuration(model: Any, arrays: Arrays, tree: int = 0) -> Array:
-    """Return q of a robot in Pinocchio's layout; shape (nq,)."""
-    q = np.empty(model.nq)
-    s = arrays["s"]
-    for b, at in enumerate(_starts(arrays, tree)):
-        iq, nq = model.idx_qs[b + 1], model.nqs[b + 1]
-        if nq == 2:
-            q[iq], q[iq + 1] = np.cos(s[at]), np.sin(s[at])
-        elif nq == 4:
-            q[iq : iq + 4] = s[at], s[at + 1], np.cos(s[at + 2]), np.sin(s[at + 2])
-        else:
-            q[iq : iq + nq] = s[at : at + nq]
-    return q
+class CoordinateLayout:
+    """Places of the engine's coordinates of a robot in Pinocchio's configuration.
+
+    Args:
+        model: the robot's ``pin.Model``.
+        arrays: the engine's.
+        tree: number of the robot among the engine's.
+    """
+
+    def __init__(self, model: Any, arrays: Arrays, tree: int) -> None:
+        copied, angles = [], []
+        for joint, at in enumerate(_starts(arrays, tree) - arrays["tree_s"][tree], 1):
+            iq, nq = model.idx_qs[joint], model.nqs[joint]
+            has_angle = nq in (2, 4)
+            copied += [(iq + k, at + k) for k in range(nq - 2 if has_angle else nq)]
+            angles += [(iq + nq - 2, at + nq - 2)] * has_angle
+        self._nq = model.nq
+        self._copied_q, self._copied_s = np.array(copied, dtype=np.int64).reshape(-1, 2).T
+        self._cosine_q, self._angle_s = np.array(angles, dtype=np.int64).reshape(-1, 2).T
+
+    def configuration(self, coordinates: Array) -> Array:
+        """Return q for these coordinates; shape (nq,)."""
+        if not len(self._angle_s):
+            return np.array(coordinates)
+        q = np.empty(self._nq)
+        q[self._copied_q] = coordinates[self._copied_s]
+        angles = coordinates[self._angle_s]
+        q[self._cosine_q], q[self._cosine_q + 1] = np.cos(angles), np.sin(angles)
+        return q
 
 
 def set_configuration(model: Any, arrays: Arrays, q: Array, tree: int = 0) -> None:

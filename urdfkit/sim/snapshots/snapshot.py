@@ -23,7 +23,7 @@ from urdfkit.sim.world.live_world import LiveWorld
 from urdfkit.sim.world.simulated_robot import SimulatedRobot
 
 MAGIC = b"urdfkit snapshot"
-VERSION = 1
+VERSION = 2
 HEADER = struct.Struct("<16sI32sQQQQ")
 """`MAGIC`, `VERSION`, the digest of the model, and the sizes of names, floats, integers and objects [bytes]."""
 
@@ -35,7 +35,7 @@ CONSTANTS = (
 """Arrays of the engine that describe robots and bodies, not their state."""
 
 
-SCRATCH = {"A", "B", "Y", "columns"}
+SCRATCH = {"A", "B", "Y", "columns", "read_s", "read_R", "read_p", "link_pose"}
 """Arrays of the engine that a step writes before it reads them: most of the memory of a large world."""
 
 

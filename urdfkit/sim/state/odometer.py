@@ -57,7 +57,7 @@ class Odometer:
 
     def __init__(self, arrays: Arrays, tree: int) -> None:
         self._ints, self._floats, self._encoders = (arrays[name][tree] for name in ("odometer", "odometry", "encoder"))
-        self._first, self._s = int(arrays["tree_s"][tree]), arrays["s"]
+        self._s = arrays["s"][slice(*arrays["tree_s"][tree : tree + 2].tolist())]
 
     @property
     def runs(self) -> bool:
@@ -79,7 +79,7 @@ class Odometer:
         Args:
             step: the present step.
             encoders: the joints, at most `ENCODERS`.
-            coordinates: their coordinates in the engine.
+            coordinates: their coordinates among those of the robot in the engine.
             ticks: steps of the updates.
             axles: distance between the axles of a bicycle [m]; zero for other drives.
             follows_arc: follow the exact arc; else the chord at the mid-point heading.
@@ -88,7 +88,7 @@ class Odometer:
         self._floats[memory.PERIOD], self._floats[memory.AXLES] = ticks.steps, axles
         for k, (encoder, at) in enumerate(zip(encoders, coordinates, strict=True)):
             self._encoders[k] = self._s[at], *encoder[1:]
-            self._ints[memory.FIRST_COORDINATE + k] = at - self._first
+            self._ints[memory.FIRST_COORDINATE + k] = at
         self._ints[0], self._ints[memory.FOLLOWS_ARC] = len(encoders), follows_arc
         self._ints[memory.LAST_UPDATE] = self._ints[memory.BEFORE] = step
         self._ints[memory.NEXT_UPDATE] = ticks.after(step)

@@ -14,9 +14,8 @@ from urdfkit.linear_algebra import Array
 from urdfkit.sim.engine import Contact, Engine
 from urdfkit.sim.engine.articulation import Articulation
 from urdfkit.sim.engine.scalar_views import numbers
-from urdfkit.sim.engine.state_conversion import configuration
 from urdfkit.sim.state.odometer import Odometer
-from urdfkit.sim.state.poses_and_energy import energy_of, in_the_world, link_poses, pose_and_twist
+from urdfkit.sim.state.poses_and_energy import energy_of, in_the_world, pose_and_twist
 from urdfkit.sim.state.quaternion import product, rotate
 
 Placement = tuple[tuple[float, float, float], tuple[float, float, float, float]]
@@ -31,36 +30,34 @@ class Snapshot:
     Args:
         kinematics: the robot's model.
         t: simulated time [s].
+        engine: the physics engine.
         articulation: the engine's articulation of this robot; its coordinates are copied.
-        base: pose of the root link of a robot with a fixed base; None for a floating base.
 
     Attributes:
         t: simulated time [s].
-        coordinates: joint coordinates of all bodies, in the order of the engine.
+        coordinates: joint coordinates of the robot's bodies, in the order of the engine.
     """
 
-    def __init__(self, kinematics: Kinematics, t: float, articulation: Articulation, base: Array | None) -> None:
+    def __init__(self, kinematics: Kinematics, t: float, engine: Engine, articulation: Articulation) -> None:
         self._kinematics = kinematics
         self.t = t
-        self._arrays, self._tree = articulation.arrays, articulation.tree
-        self.coordinates: Array = articulation.arrays["s"].copy()
-        self._base = base
+        self._engine, self._articulation = engine, articulation
+        self.coordinates: Array = articulation.coordinates.copy()
         self._poses: Array | None = None
 
     @cached_property
     def q(self) -> Array:
         """Configuration; shape (nq,)."""
-        kept: Any = {name: self._arrays[name] for name in ("tree_body", "first_s")} | {"s": self.coordinates}
-        return configuration(self._kinematics.model, kept, self._tree)
+        return self._articulation.configuration(self.coordinates)
 
     def __getstate__(self) -> dict[str, Any]:
-        """Return the copy without the engine's arrays."""
-        return {**vars(self), "q": self.q, "_arrays": None}
+        """Return the copy without the engine."""
+        return {**vars(self), "q": self.q, "_poses": self.link_poses(), "_engine": None, "_articulation": None}
 
     def link_poses(self) -> Array:
         """Return x y z [m] and quaternion x y z w of every link in the world, read-only; shape (n_links, 7)."""
         if self._poses is None:
-            self._poses = link_poses(self._kinematics, self.q, self._base)
+            self._poses = self._engine.link_poses(self._articulation, self.coordinates).copy()
             self._poses.flags.writeable = False
         return self._poses
 
@@ -126,14 +123,14 @@ class State:
         self._pose: tuple[float, ...] | None = None
         arrays, tree = engine.arrays, self._articulation.tree
         dof = int(arrays["tree_dof"][tree])
-        self._at = {name: int(arrays["dof_s"][dof + k]) for name, k in self._index.items()}
+        first = int(arrays["tree_s"][tree])
+        self._at = {name: int(arrays["dof_s"][dof + k]) - first for name, k in self._index.items()}
         self.odometer = Odometer(arrays, tree)
-        self._coordinates, self._velocities = numbers(arrays["s"]), numbers(self._articulation.v)
+        self._coordinates, self._velocities = numbers(self._articulation.coordinates), numbers(self._articulation.v)
         self._efforts, self._applied = numbers(self._articulation.effort), numbers(self._articulation.applied)
-        self._root = int(arrays["tree_s"][tree])
 
     def coordinate(self, joint: str) -> int:
-        """Return the number of a joint's position among the coordinates of the engine."""
+        """Return the number of a joint's position among the coordinates of the robot in the engine."""
         return self._at[joint]
 
     def advance(self, steps: int) -> None:
@@ -245,7 +242,7 @@ class State:
         """Pose of the root link in the world: x y z [m] and quaternion x y z w."""
         if self._pose is None:
             if self._base is None:
-                self._pose = tuple(self._coordinates[self._root : self._root + 7].tolist())
+                self._pose = tuple(self._coordinates[:7].tolist())
             else:
                 self._pose = tuple(self._base.tolist())
         return self._pose
@@ -279,9 +276,12 @@ class State:
     def snapshot(self) -> Snapshot:
         """Return a copy of the present configuration; calls within one step return the same object."""
         if self._snapshot is None:
-            self._snapshot = Snapshot(self._kinematics, self.t, self._articulation, self._base)
+            self._snapshot = Snapshot(self._kinematics, self.t, self._engine, self._articulation)
         return self._snapshot
 
     def link_poses(self) -> Array:
-        """Return x y z [m] and quaternion x y z w of every link in the world; shape (n_links, 7)."""
+        """Return x y z [m] and quaternion x y z w of every link in the world, read-only; shape (n_links, 7).
+
+        The array keeps the poses of this moment: the next step does not change it.
+        """
         return self.snapshot().link_poses()

@@ -76,6 +76,13 @@ def fill_member(arrays: Arrays, tree: int, member: Member) -> None:
         if joint.nq == joint.nv == 1:
             arrays["lower"][d] = model.lowerPositionLimit[joint.idx_q]
             arrays["upper"][d] = model.upperPositionLimit[joint.idx_q]
+    for k, name in enumerate(kinematics.link_names, int(arrays["tree_link"][tree])):
+        frame = model.frames[kinematics.frame(name)]
+        placement = frame.placement.homogeneous
+        if frame.parentJoint == 0:
+            placement = matmul(base, placement)
+        arrays["link_body"][k] = first_body + frame.parentJoint - 1 if frame.parentJoint else -1
+        arrays["link_R"][k], arrays["link_p"][k] = placement[:3, :3].ravel(), placement[:3, 3]
     _fill_weightless(arrays, first_body, member)
     beyond = first_dof + model.nv
     arrays["damping"][first_dof:beyond] = model.damping

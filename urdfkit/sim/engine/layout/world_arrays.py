@@ -42,6 +42,7 @@ def fill(
     geometry = Geometry()
     moving = [touch for touch in touches if touch.body >= 0]
     mimics = [len(member.kinematics.mimic_names) for member in members] + [0] * len(free)
+    links = [len(member.kinematics.link_names) for member in members] + [0] * len(free)
     owners = {touch.owner for touch in touches}
     meets = len(owners) > 1 or any(touch.meets for touch in touches)
     contacts = sum(
@@ -74,6 +75,7 @@ def fill(
         pairs,
         len(geometry.numbers),
         len(geometry.indices),
+        sum(links),
     )
     arrays = allocate(sizes, width=width)
     arrays["numbers"][:] = dt, ground.height if ground else 0.0, ground is not None, meets
@@ -82,6 +84,7 @@ def fill(
     arrays["tree_dof"][1:] = np.cumsum(dofs)
     arrays["tree_s"][1:] = np.cumsum(widths)
     arrays["tree_mimic"][1:] = np.cumsum(mimics)
+    arrays["tree_link"][1:] = np.cumsum(links)
     for name in ("servo_effort", "fastest", "acceleration", "deceleration"):
         arrays[name][:] = np.inf
     arrays["sleeps"][:] = sleep

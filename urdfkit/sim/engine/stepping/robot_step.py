@@ -23,6 +23,7 @@ from urdfkit.sim.engine.constraints.position_goals import approach_goals
 from urdfkit.sim.engine.contacts.anisotropic_friction import orient_friction
 from urdfkit.sim.engine.contacts.ground_contacts import collide_with_plane, near_plane
 from urdfkit.sim.engine.dynamics.integration import move
+from urdfkit.sim.engine.dynamics.link_poses import place_links
 from urdfkit.sim.engine.dynamics.mass_matrix import place, solve_forward, terms
 from urdfkit.sim.engine.dynamics.odometry import update_odometry
 from urdfkit.sim.engine.kernel_world import world
@@ -38,11 +39,13 @@ from urdfkit.sim.engine.simulation_memory import (
     GUESSES,
     HAS_FLOOR,
     ITERATED,
+    LINK_POSES,
     MIMICS,
     NEXT_UPDATE,
     SHAPES,
     SLOTS,
     STEPS,
+    TERMS,
 )
 from urdfkit.sim.engine.solver.active_set_newton import MOST_GUESSES, fastest_row, guess, iterate
 from urdfkit.sim.engine.solver.augmented_newton import (
@@ -60,7 +63,7 @@ ALONE = True
 """Compile-time constant: there is one tree, so code for several trees is removed by the compiler."""
 
 
-def advance(floats: Any, integers: Any, steps: int, only_terms: bool) -> int:
+def advance(floats: Any, integers: Any, steps: int, action: int) -> int:
     """Advance by `steps`; return how many were done: fewer only if the state stopped being finite.
 
     A step integrates the first half with the old velocity, computes the new velocity there, and integrates the second
@@ -68,9 +71,17 @@ def advance(floats: Any, integers: Any, steps: int, only_terms: bool) -> int:
     evaluation. Contacts are those at the expected end of the step, so that the velocity of a wheel has the direction
     that the wheel has then.
 
-    With `only_terms`, compute poses, M and bias of the present state without advancing.
+    Args:
+        floats: block of floats.
+        integers: block of integers.
+        steps: number of steps; for `LINK_POSES`, the number of the tree.
+        action: `ADVANCE`; `TERMS`: compute poses, M and bias of the present state; or `LINK_POSES`, see `place_links`.
     """
     w = world(floats, integers)
+    if action == LINK_POSES:
+        place_links(w, steps)
+        return 0
+    only_terms = action == TERMS
     bodies, dofs, coordinates = w.sizes[BODIES], w.sizes[DOFS], w.sizes[COORDINATES]
     shapes, mimics, most_contacts = w.sizes[SHAPES], w.sizes[MIMICS], w.sizes[CONTACTS]
     slots = w.sizes[SLOTS]

@@ -7,6 +7,7 @@ from urdfkit.sim.engine.constraints.joint_servos import account
 from urdfkit.sim.engine.constraints.position_goals import approach_goals
 from urdfkit.sim.engine.contacts.contact_search import find_candidate_pairs, find_contacts
 from urdfkit.sim.engine.contacts.warm_start import store_impulses, store_pair_impulses
+from urdfkit.sim.engine.dynamics.link_poses import place_links
 from urdfkit.sim.engine.dynamics.odometry import update_odometry
 from urdfkit.sim.engine.dynamics.tree_motion import begin_step, evaluate, integrate_tree, predict_poses
 from urdfkit.sim.engine.kernel_world import world
@@ -15,9 +16,11 @@ from urdfkit.sim.engine.simulation_memory import (
     FOUND_CONTACTS,
     FOUND_PAIRS,
     FOUND_ROWS,
+    LINK_POSES,
     NEXT_UPDATE,
     ODOMETER,
     STEPS,
+    TERMS,
     TREES,
 )
 from urdfkit.sim.engine.sleep.sleep import let_sleep
@@ -26,7 +29,7 @@ from urdfkit.sim.engine.stepping.islands import build_islands
 from urdfkit.sim.engine.stepping.solve_island import solve_island
 
 
-def advance(floats: Any, integers: Any, steps: int, only_terms: bool) -> int:
+def advance(floats: Any, integers: Any, steps: int, action: int) -> int:
     """Advance by `steps`; return how many were done: fewer only if the state stopped being finite.
 
     A step integrates the first half with the old velocity, computes the new velocity there, and integrates the second
@@ -34,13 +37,20 @@ def advance(floats: Any, integers: Any, steps: int, only_terms: bool) -> int:
     evaluation. Contacts are those at the expected end of the step, so that the velocity of a wheel has the direction
     that the wheel has then.
 
-    With `only_terms`, compute poses, M and bias of the present state without advancing.
+    Args:
+        floats: block of floats.
+        integers: block of integers.
+        steps: number of steps; for `LINK_POSES`, the number of the tree.
+        action: `ADVANCE`; `TERMS`: compute poses, M and bias of the present state; or `LINK_POSES`, see `place_links`.
     """
     w = world(floats, integers)
+    if action == LINK_POSES:
+        place_links(w, steps)
+        return 0
     trees = w.sizes[TREES]
     dt = w.numbers[DT]
     counts = w.counts
-    if only_terms:
+    if action == TERMS:
         for tree in range(trees):
             begin_step(w, tree)
         return 0
