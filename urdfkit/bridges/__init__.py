@@ -1,4 +1,4 @@
-"""Carry messages out of the process: recordings.
+"""Carry messages between a simulation and other programs: recordings and bridges.
 
-A bus goes in; an MCAP file that ``ros2 bag`` reads comes out.
+A bus goes in; an MCAP file that ``ros2 bag`` reads comes out, or peers connect that subscribe and publish.
 """
