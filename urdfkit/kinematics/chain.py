@@ -6,6 +6,7 @@ import os
 import threading
 from collections.abc import Callable, Mapping
 from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -17,6 +18,9 @@ from urdfkit.kinematics.serial.serial_chain import SerialChain
 from urdfkit.kinematics.serial.serial_solver import ROW, SerialSolver, SolverOptions
 from urdfkit.kinematics.serial.solutions import Solutions
 from urdfkit.linear_algebra import Array
+
+if TYPE_CHECKING:
+    from urdfkit.kinematics.torch_chain import TorchChain
 
 TOLERANCE = (1e-3, 1.745e-3)
 """Distance [m] and angle [rad] within which a target is reached: 1 mm and 0.1°."""
@@ -208,6 +212,20 @@ class Chain:
             np.array([solution.rotation_error for solution in found]),
             np.array([float(solution.restarts) for solution in found]),
         )
+
+    def torch(self, device: Any = "cpu", dtype: Any = None) -> TorchChain:
+        """Return this chain with tensors of PyTorch in place of arrays: for gradients, and for a GPU.
+
+        Args:
+            device: ``cpu``, ``cuda`` or another device of PyTorch.
+            dtype: type of the numbers; ``torch.float64`` when None.
+
+        Raises:
+            MissingDependencyError: pytorch-kinematics is not installed.
+        """
+        from urdfkit.kinematics.torch_chain import TorchChain
+
+        return TorchChain(self.serial, device, dtype)
 
     # Memory
 
