@@ -23,7 +23,7 @@ ROW = 20
 
 
 @dataclass(eq=False)
-class Batch:
+class TriangleBatch:
     """Triangles on the device, and the shapes that use them.
 
     Attributes:
@@ -100,7 +100,7 @@ class Drawing:
             self._textures.append(texture)
             holed.append(bool((content[3::4] < 255).any()))
         self.batches = [
-            Batch(
+            TriangleBatch(
                 model,
                 bool((model.vertices[:, 11] < 1.0).any()) or (model.texture >= 0 and holed[model.texture]),
                 context.buffer(model.vertices.tobytes()),
@@ -134,7 +134,7 @@ class Drawing:
         rows[:, 19] = np.arange(len(frames))
         return rows
 
-    def fill(self, drawn: Sequence[tuple[Batch, Numbers]], rows: Rows) -> Iterator[tuple[Batch, int]]:
+    def fill(self, drawn: Sequence[tuple[TriangleBatch, Numbers]], rows: Rows) -> Iterator[tuple[TriangleBatch, int]]:
         """Write the instance data of each batch; yield the batch with its number of instances."""
         for batch, shapes in drawn:
             if len(shapes):
@@ -149,7 +149,7 @@ class Drawing:
             wanted: the output buffers.
             clear: whether to draw the transparent shapes.
         """
-        todo: list[tuple[float, bool, Batch, Numbers]] = []
+        todo: list[tuple[float, bool, TriangleBatch, Numbers]] = []
         for batch in self.batches:
             through = self.clear | batch.holed
             shapes = batch.members(through if clear else ~through)
@@ -185,7 +185,7 @@ class Drawing:
             ctx.fbo.depth_mask = True
             ctx.cull_face = "back"
 
-    def _array(self, batch: Batch, shot: Shot, wanted: tuple[str, ...] = COLOR, *, clear: bool = False) -> Any:
+    def _array(self, batch: TriangleBatch, shot: Shot, wanted: tuple[str, ...] = COLOR, *, clear: bool = False) -> Any:
         """Return the vertex array of a batch, with the uniforms of its program set."""
         model = batch.model
         glossy, textured = model.gloss[3] > 0.0 and "color" in wanted, model.texture >= 0
