@@ -35,6 +35,7 @@ quick: $(VENV)/.test
 bench: $(VENV)/.bench
 	$(BIN)/python tests/bench/bench_lint.py
 	$(BIN)/python tests/bench/bench_lsp.py
+	$(BIN)/python tests/bench/bench_reads.py
 	$(BIN)/python -m tests.bench.peers $(ARGS)
 
 fidelity: $(VENV)/.bench

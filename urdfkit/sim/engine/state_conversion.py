@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from urdfkit.errors import SimulationError
-from urdfkit.linear_algebra import Array, matmul, vector_norm
+from urdfkit.linear_algebra import Array, vector_norm
 from urdfkit.sim.engine.contact_surface import Contact, Touching
 from urdfkit.sim.engine.dynamics.mass_matrix import FREE, PLANAR
 from urdfkit.sim.engine.simulation_memory import FOUND_CONTACTS, HAS_PAIRS, SLEEPING, Arrays
@@ -92,35 +92,39 @@ def turning(arrays: Arrays, v: Array) -> Array:
 
 def contacts(arrays: Arrays, touches: Sequence[Touching], ground: str, dt: float) -> tuple[Contact, ...]:
     """Return the contacts of the last step and those of what sleeps, with their forces."""
+    counts = arrays["counts"]
+    kept = len(arrays["contact_row"]) - 1 - np.arange(int(counts[SLEEPING]))
+    numbers = np.concatenate([np.arange(int(counts[FOUND_CONTACTS])), kept])
+    # Contacts without a row have no force: nothing can move that point along the normal.
+    numbers = numbers[arrays["contact_row"][numbers] >= 0]
+    frames, impulses = arrays["contact_frame"][numbers].reshape(-1, 3, 3), arrays["contact_impulse"][numbers]
+    if len(arrays["tree_floats"]) == 1 and not arrays["numbers"][HAS_PAIRS]:
+        rows, rubs = arrays["contact_row"][numbers], arrays["contact_mu"][numbers] > 0.0
+        impulses = np.zeros((len(numbers), 3))
+        impulses[:, 2] = arrays["x"][rows]
+        impulses[rubs, :2] = arrays["x"][rows[rubs, None] + np.array([1, 2])]
+    trees = arrays["body_tree"][arrays["contact_body"][numbers]]
+    values = (
+        arrays["contact_shape"][numbers],
+        arrays["contact_against"][numbers],
+        arrays["contact_origin"][trees] + arrays["contact_point"][numbers],
+        frames[:, 2],
+        -arrays["contact_gap"][numbers],
+        np.einsum("ki,kij->kj", impulses, frames) / dt,
+    )
     found = []
-    alone = len(arrays["tree_floats"]) == 1 and not arrays["numbers"][HAS_PAIRS]
-    kept = len(arrays["contact_row"]) - 1 - np.arange(int(arrays["counts"][SLEEPING]))
-    for k in (*range(int(arrays["counts"][FOUND_CONTACTS])), *kept.tolist()):
-        frame = arrays["contact_frame"][k].reshape(3, 3)
-        if int(arrays["contact_row"][k]) < 0:  # nothing can move that point along the normal, so there is no force
-            continue
-        at, impulse = int(arrays["contact_row"][k]), arrays["contact_impulse"][k]
-        if alone:
-            rubs = arrays["contact_mu"][k] > 0.0
-            impulse = np.array([*(arrays["x"][at + 1 : at + 3] if rubs else (0.0, 0.0)), arrays["x"][at]])
-        tree = int(arrays["body_tree"][arrays["contact_body"][k]])
-        against = int(arrays["contact_against"][k])
-        mine, other = touches[int(arrays["contact_shape"][k])], None if against < 0 else touches[against]
+    for shape, against, position, normal, depth, force in zip(*(each.tolist() for each in values), strict=True):
+        mine, other = touches[shape], None if against < 0 else touches[against]
         found.append(
             Contact(
                 mine.link,
                 ground if other is None else other.link,
-                _vector(arrays["contact_origin"][tree] + arrays["contact_point"][k]),
-                _vector(frame[2]),
-                -float(arrays["contact_gap"][k]),
-                _vector(matmul(impulse, frame) / dt),
+                tuple(position),
+                tuple(normal),
+                depth,
+                tuple(force),
                 mine.number,
                 -1 if other is None else other.number,
             )
         )
     return tuple(found)
-
-
-def _vector(values: Array) -> tuple[float, float, float]:
-    x, y, z = values.tolist()
-    return (x, y, z)
