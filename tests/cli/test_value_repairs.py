@@ -105,6 +105,9 @@ def test_a_limit_of_minus_one_at_every_joint_is_a_note(capsys: pytest.CaptureFix
     assert main(["tf", "r.urdf"]) == 0
     assert [line.split(": ")[1] for line in capsys.readouterr().err.splitlines()] == ["note", "note"]
     assert main(["tf", "r.urdf", "--strict"]) == 0
+    for options in ([], ["--strict"]):
+        assert main(["sim", "run", "r.urdf", "--for", "0.001", *options]) == 0
+        assert [line.split(": ")[1] for line in capsys.readouterr().err.splitlines()] == ["note", "note"]
 
 
 def test_load_accepts_what_every_reader_reads() -> None:

@@ -108,8 +108,8 @@ def _masses(model: Model, cursor: Cursor) -> list[str]:
 
 
 def _mass(model: Model, link: Link) -> list[str]:
+    from urdfkit.description.urdf.principal_moments import principal_moments
     from urdfkit.errors import UrdfkitError
-    from urdfkit.lint.facts.inertia.principal_moments import principal_moments
     from urdfkit.lint.fixes.inertia_edits import compute_inertial
 
     inertial = link.inertial

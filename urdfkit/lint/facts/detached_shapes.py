@@ -2,8 +2,8 @@
 
 from math import sqrt
 
+from urdfkit.description.urdf.principal_moments import principal_moments
 from urdfkit.description.urdf.robot import Collision, Link, Visual
-from urdfkit.lint.facts.inertia.principal_moments import principal_moments
 from urdfkit.lint.model.model import Model
 from urdfkit.lint.model.placement import shapes_of
 

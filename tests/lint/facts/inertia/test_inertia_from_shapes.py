@@ -6,9 +6,9 @@ import numpy as np
 import pinocchio as pin
 import pytest
 
+from urdfkit.description.urdf.principal_moments import is_possible
 from urdfkit.lint.engine.checker import model_of
 from urdfkit.lint.facts.inertia.inertia_from_shapes import tensor_of
-from urdfkit.lint.facts.inertia.principal_moments import is_possible
 from urdfkit.lint.project.options import Options
 
 LINK = """<link name="a"><inertial>{origin}<mass value="{mass}"/>

@@ -92,6 +92,22 @@ def test_a_small_slip_of_an_inertia_is_a_note_in_both(tmp_path: Path, slip: floa
     assert (repair.severity == "note") == (finding.severity == "note") == (slip < 1e-4)
 
 
+@pytest.mark.parametrize("tensor", ["0.05", "-0.01"])
+@pytest.mark.parametrize("mass", [0.04, 0.06])
+def test_the_inertia_of_a_link_on_a_heavier_body_is_a_note_in_both(tmp_path: Path, mass: float, tensor: str) -> None:
+    small = INERTIAL.format(mass, tensor).replace("0.01", "0.001").replace("0.05", "0.005")
+    path = tmp_path / "r.urdf"
+    path.write_text(
+        f'<robot name="r">\n<link name="base">{INERTIAL.format(1, 0.11).replace("0.01", "0.11")}</link>\n'
+        f'<link name="a">{small}</link>\n'
+        '<joint name="j" type="fixed"><parent link="base"/><child link="a"/></joint></robot>'
+    )
+    (repair,) = repairs_of(path)
+    assert repair.link == "a"
+    severities = {finding.severity for finding in lint(path) if reports(finding, repair)}
+    assert severities == {repair.severity} == {"note" if mass == 0.04 else "warning"}
+
+
 def test_a_robot_without_any_mass_is_one_repair_and_one_finding(tmp_path: Path) -> None:
     path = tmp_path / "r.urdf"
     path.write_text(

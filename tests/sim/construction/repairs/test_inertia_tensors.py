@@ -9,6 +9,7 @@ import pinocchio as pin
 import pytest
 
 from urdfkit.description import load
+from urdfkit.description.urdf.attached_bodies import AttachedBodies
 from urdfkit.description.urdf.robot import Link
 from urdfkit.sim.construction.repairs.inertia_tensors import nearest_tensor, possible
 from urdfkit.sim.construction.validation import tensor_matrix
@@ -53,21 +54,22 @@ def test_a_possible_tensor_stays() -> None:
         np.testing.assert_allclose(nearest_tensor(written), written, rtol=0, atol=1e-12)
 
 
-def link(folder: Path, ixx: float, mass: float = 1.0) -> Link:
+def link(folder: Path, ixx: float, mass: float = 1.0) -> tuple[Link, AttachedBodies]:
     inertia = f'<inertia ixx="{ixx!r}" ixy="0" ixz="0" iyy="0.5" iyz="0" izz="0.5"/>'
     path = folder / "r.urdf"
     path.write_text(
         f'<robot name="r">\n<link name="a"><inertial><mass value="{mass}"/>{inertia}</inertial></link></robot>'
     )
-    return load(path).links[0]
+    robot = load(path)
+    return robot.links[0], AttachedBodies(robot)
 
 
 @pytest.mark.parametrize(
     ("excess", "severity"), [(0.0, None), (5e-7, None), (5e-6, "note"), (9e-5, "note"), (1.1e-4, "warning")]
 )
 def test_slips_within_rounding_errors_are_notes(tmp_path: Path, excess: float, severity: str | None) -> None:
-    written = link(tmp_path, 1.0 / (1.0 - excess))
-    repaired, repair = possible(written)
+    written, bodies = link(tmp_path, 1.0 / (1.0 - excess))
+    repaired, repair = possible(written, bodies)
     if severity is None:
         assert repaired is written
         assert repair is None
@@ -82,11 +84,11 @@ def test_slips_within_rounding_errors_are_notes(tmp_path: Path, excess: float, s
 
 
 def test_the_message_has_the_moments_before_and_after(tmp_path: Path) -> None:
-    _, repair = possible(link(tmp_path, 2.0))
+    _, repair = possible(*link(tmp_path, 2.0))
     assert repair is not None
     assert repair.message == (
         "the inertia of link `a` is impossible: of its principal moments 0.5, 0.5 and 2 kg·m² the largest exceeds the "
         "sum of the others, which no distribution of mass has; simulated with 1, 1, 2 kg·m² (changed by 33.3 %)"
     )
-    assert possible(link(tmp_path, -0.1))[1].code == "I502"
-    assert possible(link(tmp_path, 2.0, mass=-1.0))[1] is None
+    assert possible(*link(tmp_path, -0.1))[1].code == "I502"
+    assert possible(*link(tmp_path, 2.0, mass=-1.0))[1] is None

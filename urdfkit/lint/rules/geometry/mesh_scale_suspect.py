@@ -3,8 +3,8 @@
 from math import dist, sqrt
 
 from urdfkit.description.urdf.geometry import box_around
+from urdfkit.description.urdf.principal_moments import principal_moments
 from urdfkit.description.urdf.robot import Link, Mesh
-from urdfkit.lint.facts.inertia.principal_moments import principal_moments
 from urdfkit.lint.fix_builders import more_attributes, new_value
 from urdfkit.lint.model.mesh_files import meshes
 from urdfkit.lint.model.placement import shapes_of

@@ -2,10 +2,10 @@
 
 from math import sqrt
 
+from urdfkit.description.urdf.attached_bodies import AttachedBodies
+from urdfkit.description.urdf.principal_moments import is_identity
 from urdfkit.lint.facts.gazebo.plugins import is_simulated
-from urdfkit.lint.facts.inertia.attached_bodies import is_fixed_to_world
 from urdfkit.lint.facts.inertia.inertia_from_shapes import computed, tensor_of
-from urdfkit.lint.facts.inertia.principal_moments import is_identity
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
 MIN_MOMENT, MAX_MOMENT = 0.1, 25.0
@@ -61,6 +61,7 @@ class InertiaIdentity(RobotRule):
 
     def check(self, model: Model) -> Findings:
         """Yield a finding for each identity that the shapes do not explain."""
+        bodies = AttachedBodies(model.robot)
         roots = {link.name for link in model.robot.roots()} if len(model.robot.links) > 1 else set()
         for link in model.robot.links:
             mass = link.inertial.mass if link.inertial is not None else None
@@ -76,7 +77,7 @@ class InertiaIdentity(RobotRule):
                         continue
                 if extent is None and not link.visuals and not link.collisions:
                     continue  # The size of the link is unknown.
-                if is_fixed_to_world(model, link):
+                if bodies.is_fixed_to_world(link):
                     continue
                 yield self.at(
                     model,

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from urdfkit.lint.facts.inertia.attached_bodies import is_fixed, is_negligible, is_small
-from urdfkit.lint.facts.inertia.principal_moments import principal_moments, reordered
+from urdfkit.description.urdf.attached_bodies import AttachedBodies
+from urdfkit.description.urdf.principal_moments import principal_moments, reordered
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
 TYPE_CHECKING = False
@@ -57,6 +57,7 @@ class InertiaNotPositiveDefinite(RobotRule):
 
     def check(self, model: Model) -> Findings:
         """Yield a finding for each tensor that is not positive definite."""
+        bodies = AttachedBodies(model.robot)
         for link in model.robot.links:
             mass = link.inertial.mass if link.inertial is not None else None
             if mass is not None and mass < 0.0:
@@ -69,9 +70,9 @@ class InertiaNotPositiveDefinite(RobotRule):
                 sign = "negative" if moments[0] < -TOLERANCE * largest else "zero"
                 is_rod = sign == "zero" and moments[1] > (1.0 - TOLERANCE) * moments[2]
                 severity: Severity | None = (
-                    "warning" if is_rod or is_fixed(model, link) or is_small(model, link) else None
+                    "warning" if is_rod or bodies.is_fixed(link) or bodies.is_small(link) else None
                 )
-                severity = "note" if is_negligible(model, link) else severity
+                severity = "note" if bodies.is_negligible(link) else severity
                 yield self.at(
                     model,
                     element,

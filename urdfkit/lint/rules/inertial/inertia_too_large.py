@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from math import sqrt
 
+from urdfkit.description.urdf.attached_bodies import AttachedBodies
+from urdfkit.description.urdf.principal_moments import is_identity, principal_moments
 from urdfkit.description.urdf.robot import Link
 from urdfkit.description.xml.element import Element
-from urdfkit.lint.facts.inertia.attached_bodies import is_negligible
 from urdfkit.lint.facts.inertia.inertia_from_shapes import computed
-from urdfkit.lint.facts.inertia.principal_moments import is_identity, principal_moments
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
 TYPE_CHECKING = False
@@ -99,6 +99,7 @@ class InertiaTooLarge(RobotRule):
                     implausible.append((link, element, message))
                 else:
                     plausible.append(element)
+        bodies = AttachedBodies(model.robot)
         for link, element, message in implausible:
             from urdfkit.lint.facts.root_cause import call_of
 
@@ -107,5 +108,5 @@ class InertiaTooLarge(RobotRule):
             if call is not None:
                 help = "check the arguments of this macro call; other calls give plausible tensors"
             fix = computed(model, link, element)
-            severity: Severity | None = "note" if is_negligible(model, link) else None
+            severity: Severity | None = "note" if bodies.is_negligible(link) else None
             yield self.at(model, call or element, message, link=link.name, help=help, fix=fix, severity=severity)

@@ -2,10 +2,10 @@
 
 from math import sqrt
 
+from urdfkit.description.urdf.principal_moments import principal_moments
 from urdfkit.description.urdf.robot import Link, Mesh
 from urdfkit.description.xml.element import Element
 from urdfkit.lint.facts.inertia.inertia_from_shapes import computed
-from urdfkit.lint.facts.inertia.principal_moments import principal_moments
 from urdfkit.lint.model.placement import shapes_of
 from urdfkit.lint.rule import Findings, Model, RobotRule
 

@@ -1,7 +1,7 @@
 """I505 inertia-transposed."""
 
+from urdfkit.description.urdf.principal_moments import reordered
 from urdfkit.lint.facts.inertia.inertia_from_shapes import COMPONENTS
-from urdfkit.lint.facts.inertia.principal_moments import reordered
 from urdfkit.lint.fix_builders import new_values
 from urdfkit.lint.rule import Findings, Model, RobotRule
 

@@ -1,7 +1,7 @@
 """I503 inertia-triangle-inequality."""
 
-from urdfkit.lint.facts.inertia.attached_bodies import is_fixed, is_negligible, is_small
-from urdfkit.lint.facts.inertia.principal_moments import principal_moments, reordered, shown
+from urdfkit.description.urdf.attached_bodies import AttachedBodies
+from urdfkit.description.urdf.principal_moments import principal_moments, reordered, shown
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
 TOLERANCE = 1e-3
@@ -58,6 +58,7 @@ class InertiaTriangleInequality(RobotRule):
 
     def check(self, model: Model) -> Findings:
         """Yield a finding for each tensor that violates the inequality."""
+        bodies = AttachedBodies(model.robot)
         for link in model.robot.links:
             for moments, element in principal_moments(link):
                 small, middle, large = moments
@@ -69,8 +70,8 @@ class InertiaTriangleInequality(RobotRule):
                     continue  # Reported by I505 or X119.
                 a, b, c = shown(moments)
                 excess = (large - small - middle) / large
-                is_note = excess <= SLIP or is_negligible(model, link)
-                is_warning = excess <= TOLERANCE or is_fixed(model, link) or is_small(model, link)
+                is_note = excess <= SLIP or bodies.is_negligible(link)
+                is_warning = excess <= TOLERANCE or bodies.is_fixed(link) or bodies.is_small(link)
                 yield self.at(
                     model,
                     element,

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from urdfkit.description.urdf.attached_bodies import AttachedBodies
 from urdfkit.description.urdf.repair_record import Repair
 from urdfkit.description.urdf.robot import Inertia, Link
 from urdfkit.description.xacro.evaluation.failures import chain_words
@@ -43,8 +44,13 @@ def nearest_tensor(tensor: Array) -> Array:
     return np.asarray((nearest + nearest.T) / 2.0)
 
 
-def possible(link: Link) -> tuple[Link, Repair | None]:
-    """Return a link with a possible inertia tensor, and the repair if its tensor was changed."""
+def possible(link: Link, bodies: AttachedBodies) -> tuple[Link, Repair | None]:
+    """Return a link with a possible inertia tensor, and the repair if its tensor was changed.
+
+    Args:
+        link: the link.
+        bodies: the bodies of its robot.
+    """
     inertial = link.inertial
     if inertial is None or inertial.inertia is None or (inertial.mass or 0.0) < 0.0:
         return link, None
@@ -60,14 +66,9 @@ def possible(link: Link) -> tuple[Link, Repair | None]:
         f"the inertia of link `{link.name}` is impossible: {impossible(inertial.inertia, ROUNDING)}; "
         f"simulated with {moments} kg·m² (changed by {100.0 * change:.3g} %)"
     )
-    repair = repair_at(
-        inertial.inertia.element,
-        "inertia",
-        "I502" if a <= ZERO * c else "I503",
-        message,
-        link=link.name,
-        is_note=excess < SLIP,
-    )
+    code = "I502" if a <= ZERO * c else "I503"
+    is_note = (code == "I503" and excess < SLIP) or bodies.is_negligible(link)
+    repair = repair_at(inertial.inertia.element, "inertia", code, message, link=link.name, is_note=is_note)
     repaired = replace(inertial, inertia=inertia_of(nearest, inertial.inertia.element))
     return replace(link, inertial=repaired), repair
 

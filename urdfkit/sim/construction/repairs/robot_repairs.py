@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+from urdfkit.description.urdf.attached_bodies import AttachedBodies
 from urdfkit.description.urdf.massless_links import first_massless, massless
 from urdfkit.description.urdf.repair_record import Repair
 from urdfkit.description.urdf.robot import Robot
@@ -22,9 +23,10 @@ _SHOWN = 6
 
 
 def repaired(robot: Robot, scene: Scene | None, repairs: Repairs, *, floating: bool) -> tuple[Robot, Scene]:
-    """Return a robot that can be simulated, and its shapes; the robot as it is if `repairs` is strict.
+    """Return a robot that can be simulated, and its shapes.
 
-    Defects that no repair removes, such as negative masses, stay.
+    Defects that no repair removes, such as negative masses, stay. If `repairs` is strict, only limits that lint reports
+    as a note are repaired: limits of -1 on every joint.
 
     Args:
         robot: the robot, one tree.
@@ -40,12 +42,15 @@ def repaired(robot: Robot, scene: Scene | None, repairs: Repairs, *, floating: b
             if repair.severity == "warning":
                 raise ModelError(repair.message, position=repair.position)
         require_valid_values(robot)
+        robot, notes = repaired_values(robot)
+        repairs.add(*notes)
         return robot, scene or scene_of(robot, strict=False)
     written = robot = without_impossible_mimics(robot)
     repairs.add(*robot.repairs)
     robot, found = without_empty_shapes(robot)
     scene, missing = with_substitutes(scene_of(robot, strict=False) if scene is None or found else scene)
-    pairs = [possible(link) for link in robot.links]
+    bodies = AttachedBodies(robot)
+    pairs = [possible(link, bodies) for link in robot.links]
     found += missing + [repair for _, repair in pairs if repair is not None]
     if any(repair is not None for _, repair in pairs):
         robot = replace(robot, links=tuple([link for link, _ in pairs]))

@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from urdfkit.lint.facts.inertia.principal_moments import eigenvalues, is_possible, shown
+from urdfkit.description.urdf.principal_moments import eigenvalues, is_possible, shown
 
 entries = st.floats(-1, 1, allow_subnormal=False)
 scales = st.sampled_from([1e-12, 1e-6, 1.0, 1e9])
