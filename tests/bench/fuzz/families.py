@@ -14,6 +14,7 @@ from tests.bench.fuzz import mutations
 from tests.bench.fuzz.descriptions import description, world_file
 from tests.bench.fuzz.frames import frames
 from tests.bench.fuzz.hostile_values import HOSTILE
+from tests.bench.fuzz.packages import workspace, workspaces
 from tests.bench.fuzz.seed_files import seeds, text_of
 from tests.bench.fuzz.simulations import prepare_kernels, sim
 from tests.bench.fuzz.xml_mutations import xml
@@ -29,6 +30,18 @@ def lint(folder: Path, rng: random.Random) -> str:
     from urdfkit.lint.project.options import Options
 
     run([Entry(description(folder, rng))], Options(guess_target=True, time_limit=LIMIT))
+    return "linted"
+
+
+def packages(folder: Path, rng: random.Random) -> str:
+    """Lint a workspace, with its launch, YAML, SRDF and build files."""
+    from urdfkit.lint.engine.run import run
+    from urdfkit.lint.project.entry_files import find_each
+    from urdfkit.lint.project.options import Options
+
+    entries, _ = find_each([workspace(folder, rng)])
+    chosen = rng.sample(entries, min(len(entries), 3))
+    run(chosen, Options(guess_target=True, time_limit=LIMIT))
     return "linted"
 
 
@@ -184,7 +197,13 @@ def parameters(folder: Path, rng: random.Random) -> str:
 
 
 Case = Callable[[Path, random.Random], str | Counter[str]]
-FAMILIES: dict[str, Case] = {each.__name__: each for each in (lint, expand, lsp, sdf, mesh, parameters, sim, frames)}
+FAMILIES: dict[str, Case] = {
+    each.__name__: each for each in (lint, packages, expand, lsp, sdf, mesh, parameters, sim, frames)
+}
 """Name → case; it writes a changed file into a folder, reads it, and returns a word for success or several counts."""
-PREPARATIONS: dict[str, Callable[[], None]] = {"sim": prepare_kernels, "frames": prepare_kernels}
+PREPARATIONS: dict[str, Callable[[], object]] = {
+    "packages": workspaces,
+    "sim": prepare_kernels,
+    "frames": prepare_kernels,
+}
 """Name → function that a process calls before the first case, such as to load compiled code."""
