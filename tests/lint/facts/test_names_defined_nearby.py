@@ -281,7 +281,7 @@ def test_what_launch_files_in_python_hand_to_gazebo(tmp_path):
         "    return LaunchDescription([])",
     )
     launch.write_text("\n".join(lines))
-    found = [(f.code, f.line, f.column) for f in lint(tmp_path, target="ros2")]
+    found = [(f.code, f.line, f.column) for f in lint(tmp_path, target="ros2") if f.code != "L105"]
     assert found == [
         ("K968", 2, lines[1].index("-nmae") + 1),
         ("K968", 2, lines[1].index("robot_descripton") + 1),
