@@ -127,6 +127,35 @@ def test_deeply_nested_launch_files_cause_no_error_of_ours(name, tmp_path, capsy
     assert "a bug in urdfkit" not in "".join(capsys.readouterr())
 
 
+HOSTILE_YAML = {
+    "lists of lists": "[" * 99_000,
+    "lists in one line": "a: 1\nb:\n" + "- " * 49_000,
+    "maps of maps": "a: " + "{" * 99_000,
+    "long word": "x: " + "x" * 99_000,
+    "empty name": (
+        "controller_manager:\n  ros__parameters:\n"
+        "    arm: {type: joint_trajectory_controller/JointTrajectoryController}\n"
+        "arm: {ros__parameters: {joints: [elbow], gains: {'': 1}}}\n"
+    ),
+}
+ARM = (
+    "<robot name='r'><link name='a'/><link name='b'/>"
+    "<joint name='elbow' type='continuous'><parent link='a'/><child link='b'/></joint></robot>"
+)
+
+
+@pytest.mark.parametrize("name", HOSTILE_YAML)
+def test_hostile_settings_of_controllers_cause_no_error_of_ours(name, tmp_path, capsys):
+    (tmp_path / "package.xml").write_text("<package format='3'><name>deep</name></package>")
+    (tmp_path / "config").mkdir()
+    (tmp_path / "config" / "controllers.yaml").write_text(HOSTILE_YAML[name])
+    (tmp_path / "robot.urdf").write_text(ARM)
+    assert main(["lint", "--no-cache", str(tmp_path / "robot.urdf")]) in {0, 1}
+    output = "".join(capsys.readouterr())
+    assert "a bug in urdfkit" not in output
+    assert "linting takes" not in output
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize("first", range(0, 200, 50))
 def test_broken_files_bring_no_traceback(first):

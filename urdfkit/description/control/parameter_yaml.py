@@ -18,6 +18,9 @@ if TYPE_CHECKING:
 _TRUTHS = {"true": True, "yes": True, "on": True, "1": True, "false": False, "no": False, "off": False, "0": False}
 _MAX_DEPTH = 30
 _MAX_NODES = 100_000
+_MAX_FLOW_NODES = 2000
+_DEEP_LINE = r"(?:[-?][ \t]+){200}"
+"""Lists in lists in one line: ``- - - 1``."""
 
 
 @record(eq=False)
@@ -199,7 +202,7 @@ def parse_settings(source: Source, *, separator: str = "/") -> Settings:
     import yaml
 
     try:
-        node = yaml.compose(source.text, Loader=yaml.SafeLoader)
+        node = _composed(source.text)
     except yaml.MarkedYAMLError as error:
         mark = error.problem_mark or error.context_mark
         position = Position(source.file, mark.line + 1, mark.column + 1) if mark else None
@@ -218,6 +221,29 @@ def parse_settings(source: Source, *, separator: str = "/") -> Settings:
     if not read.children:
         raise DescriptionError("no parameters: write names and values as `name: value`", position=start)
     return read
+
+
+def loader_of(text: str) -> Any:
+    """Return PyYAML's reader in C for a text; the one in Python, which limits the depth, if the nesting may be deep.
+
+    The reader in C overflows the stack of the process at some ten thousand levels.
+    """
+    import re
+
+    import yaml
+
+    is_shallow = text.count("[") + text.count("{") < _MAX_FLOW_NODES and not re.search(_DEEP_LINE, text)
+    return getattr(yaml, "CSafeLoader", yaml.SafeLoader) if is_shallow else yaml.SafeLoader
+
+
+def _composed(text: str) -> Any:
+    """Return the root node of a YAML text; the reader in Python states the reasons of errors more precisely."""
+    import yaml
+
+    try:
+        return yaml.compose(text, Loader=loader_of(text))
+    except yaml.YAMLError:
+        return yaml.compose(text, Loader=yaml.SafeLoader)
 
 
 class _YamlReader:

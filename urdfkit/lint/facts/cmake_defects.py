@@ -66,7 +66,7 @@ def unbalanced(source: Source) -> BuildDefect | None:
             opened.pop()
     if not opened:
         return None
-    name = re.search(r"\w*[ \t]*$", source.text[: opened[0]])
+    name = re.search(r"(?<!\w)\w*[ \t]*$", source.text[: opened[0]])
     start = name.start() if name is not None else opened[0]
     command = source.text[start : opened[0]].strip() or "("
     return BuildDefect(source, start, command, f"the parenthesis of `{command}` is not closed")

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
+from functools import lru_cache
 
 from urdfkit.description.xml.source import Source
 from urdfkit.lint.facts.control.launch_package_paths import uncommented
-from urdfkit.lint.facts.control.yaml_tree import Node, documents, groups, start_of, walk
+from urdfkit.lint.facts.control.yaml_tree import Node, documents, documents_in, groups, start_of, walk
 from urdfkit.record import record
 
-_TYPE = r"\w*(?:_controllers?|_broadcaster)/\w+"
+_TYPE = r"(?<!\w)\w*(?:_controllers?|_broadcaster)/\w+"
 _JOINTS = r"joints?|(?:left|right)_wheel(?:_names)?"
 
 _WRITTEN_TYPE = r"(?m)(?:^|[{,])[ \t]*type[ \t]*:[ \t]*[\"']?([\w-]+/[\w-]+)[\"']?[ \t]*(?=\r?$|[},])"
@@ -32,7 +33,7 @@ def typed(source: Source) -> Iterator[Named]:
 
 def controllers(source: Source) -> list[str]:
     """Return the names of the controllers with a type in a YAML file."""
-    return [name for name, _ in _of_controllers(source)]
+    return [name for name, _ in _of_controllers(source.text)]
 
 
 def joints(source: Source) -> Iterator[Named]:
@@ -44,19 +45,25 @@ def joints(source: Source) -> Iterator[Named]:
 
 def joints_of(source: Source, kind: Named) -> list[str]:
     """Return the joints in the settings of the controller with the type `kind`, which is a result of `typed`."""
-    for _, group in _of_controllers(source):
+    for _, group in _of_controllers(source.text):
         node = group.find("type")
         if node is not None and start_of(source, node) == kind.start:
             return [named.name for named in _named(source, group)]
     return []
 
 
-def _of_controllers(source: Source) -> Iterator[tuple[str, Node]]:
-    for root in documents(source)[0] if re.search(_TYPE, source.text) else ():
+@lru_cache(maxsize=400)
+def _of_controllers(text: str) -> tuple[tuple[str, Node], ...]:
+    """Return name and settings of each controller with a type; several rules read them in every YAML file."""
+    if not re.search(_TYPE, text):
+        return ()
+    found = []
+    for root in documents_in(text)[0]:
         for name, group in groups(root):
             kind = group.find("type")
             if kind is not None and re.fullmatch(_TYPE, kind.text):
-                yield name, group
+                found.append((name, group))
+    return tuple(found)
 
 
 def _named(source: Source, part: Node) -> Iterator[Named]:

@@ -102,7 +102,8 @@ def misspelt_names(source: Source) -> Iterator[tuple[Node, str, str]]:
             for each in inner:
                 if each.text in names:
                     continue
-                near = nearest(each.text, names, cutoff=0.8) or (each.text[0] if set(each.text) < {"p", "d"} else None)
+                is_doubled = set(each.text) in ({"p"}, {"d"})
+                near = nearest(each.text, names, cutoff=0.8) or (each.text[0] if is_doubled else None)
                 if near is not None:
                     yield each, near, f"unknown name `{each.text}` in `{key.text}` of controller `{one.name}`"
 

@@ -66,7 +66,7 @@ def yamls(model: Model) -> Iterator[Source]:
 
 def documents(source: Source) -> tuple[tuple[Node, ...], Broken | None]:
     """Return the documents of a YAML file up to the first syntax error, and the error or None."""
-    return _read(source.text)
+    return documents_in(source.text)
 
 
 def start_of(source: Source, node: Node) -> int:
@@ -113,13 +113,15 @@ def groups(node: Node, name: str = "", depth: int = 0) -> Iterator[tuple[str, No
 
 
 @lru_cache(maxsize=400)
-def _read(text: str) -> tuple[tuple[Node, ...], Broken | None]:
+def documents_in(text: str) -> tuple[tuple[Node, ...], Broken | None]:
+    """Return the documents of a YAML text up to the first syntax error, and the error or None."""
     import yaml
 
-    loader: Any = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
+    from urdfkit.description.control.parameter_yaml import loader_of
+
     found: list[Node] = []
     try:
-        for document in yaml.compose_all(text, Loader=loader):
+        for document in yaml.compose_all(text, Loader=loader_of(text)):
             found.append(_Reader().node(document, 0))
     except yaml.MarkedYAMLError as error:
         mark = error.problem_mark or error.context_mark

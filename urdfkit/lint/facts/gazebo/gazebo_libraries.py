@@ -98,9 +98,19 @@ def _without_ending(stem: str) -> str | None:
 
 
 def _is_like(one: str, other: str, similarity: float) -> bool:
+    return _ratio(one, other, similarity) >= similarity
+
+
+def _ratio(one: str, other: str, least: float) -> float:
+    """Return the similarity of two texts; 0 if it is below a bound."""
     from difflib import SequenceMatcher
 
-    return SequenceMatcher(None, one, other, autojunk=False).ratio() >= similarity
+    if one == other:
+        return 1.0
+    if 2.0 * min(len(one), len(other)) < least * (len(one) + len(other)):
+        return 0.0
+    matcher = SequenceMatcher(None, one, other, autojunk=False)
+    return ratio if matcher.quick_ratio() >= least and (ratio := matcher.ratio()) >= least else 0.0
 
 
 _GENERAL = ("controller", "plugin", "driver", "sensor", "scanner", "system")
@@ -113,19 +123,17 @@ _DIGITS = re.compile("[0-9]")
 
 def _similarity(name: str, candidate: str) -> float:
     """Return the similarity of two names; 0 if they are different names."""
-    from difflib import SequenceMatcher
-
     ours, theirs = (_WORDS.split(one.lower()) for one in (name, candidate))
     if _DIGITS.findall(name) != _DIGITS.findall(candidate):
         return 0.0
     if len(ours) != len(theirs):
-        similarity = SequenceMatcher(None, "".join(ours), "".join(theirs), autojunk=False).ratio()
+        similarity = _ratio("".join(ours), "".join(theirs), 0.95)
         return similarity if similarity > 0.95 else 0.0
     total = 1.0
     for one, other in zip(ours, theirs, strict=True):
-        similarity = SequenceMatcher(None, one, other, autojunk=False).ratio() if one != other else 1.0
         begins = min(len(one), len(other)) >= 4 and (one.startswith(other) or other.startswith(one))
-        if similarity < 0.8 and not begins:
+        similarity = _ratio(one, other, 0.0 if begins else 0.8)
+        if not similarity:
             return 0.0
         total *= similarity
     return total

@@ -87,13 +87,13 @@ def executables_of(package: Path, name: str) -> Executables | None:
         return None
     text = re.sub(r"\$\{(?:PROJECT_NAME|CMAKE_PROJECT_NAME)\}", name, "\n".join(texts))
     targets = re.findall(_LITERAL, text)
-    scripts = [word.rpartition("/")[2] for word in re.findall(r"[\w./-]+\.(?:py|sh|bash)\b", text)]
+    scripts = [word.rpartition("/")[2] for word in re.findall(r"(?<![\w./-])[\w./-]+\.(?:py|sh|bash)\b", text)]
     files = frozenset(_files(package, text))
     is_complete = not any("$" in target for target in targets) and "foreach" not in text and "GLOB" not in text
     scripts += [file for file in sorted(files) if file.endswith(".py")]
     names = (*(target for target in targets if "$" not in target), *re.findall(_ENTRY_POINT, text), *scripts)
     words = frozenset(re.findall(r"[\w.-]+", text)) - {"python", "setup", name} | files
-    words |= {word.rpartition("/")[2] for word in re.findall(r"[\w./-]+/[\w.-]+", text)}
+    words |= {word.rpartition("/")[2] for word in re.findall(r"(?<![\w./-])[\w./-]+/[\w.-]+", text)}
     if name in targets or any(name == one for one in names):
         words |= {name}
     return Executables(tuple(dict.fromkeys(names)), words, is_complete)
