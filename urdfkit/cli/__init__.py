@@ -40,6 +40,8 @@ COMMANDS = {
     "srdf": "write groups and disabled collisions of a robot for MoveIt",
     "sim": "simulate a robot: teleop, run, warmup",
     "topic": "inspect and publish topics of a running simulation: list, info, echo, hz, bw, pub",
+    "replay": "show a recording of ROS 1, ROS 2 or urdfkit in the browser",
+    "bag": "print the topics of a recording: info",
     "completion": "print the completion script of bash, zsh or fish",
 }
 """Command → its description. The module ``urdfkit.cli.<command>`` implements it; ``import_`` is ``import``."""

@@ -40,8 +40,23 @@ export function recorder(page) {
   speed.addEventListener("change", () => state.running && request("replay", { action: "play", speed: Number(speed.value) }));
   end.addEventListener("click", () => request("replay", { action: "end" }));
 
+  // The page shows a file and no simulation: everything that changes one is not available.
+  function ofFile(name) {
+    if (document.body.dataset.recording === name) return;
+    document.body.dataset.recording = name;
+    for (const part of [record, topics.label, pictures.label, end]) part.hidden = true;
+    for (const id of ["drive", "arms", "world", "physics", "push"]) page.panels.available(id, false);
+    banner.textContent = `Replay of ${name}`;
+    for (const id of ["push", "place", "walls"]) page.tools.buttons.get(id).button.dataset.modes = "";
+    page.tools.offer();
+    panel.button.children[1].textContent = "Replay";
+    panel.button.title = panel.section.querySelector("h2").textContent = "Replay";
+    page.panels.open("recorder");
+  }
+
   page.on("recorder", (message) => {
     state = message;
+    if (message.file) ofFile(message.file);
     const length = message.end - message.begin;
     record.textContent = message.recording ? "Stop" : "Record";
     record.setAttribute("aria-pressed", message.recording);
@@ -49,6 +64,7 @@ export function recorder(page) {
     panel.badge(message.recording ? "●" : null, "error");
     words.textContent = message.recording
       ? `Recording: ${length.toFixed(1)} s${message.topics ? ", with topics" : ""}.`
+      : message.file ? `${message.frames} messages in ${length.toFixed(1)} s.`
       : message.frames ? `${length.toFixed(1)} s recorded.` : "No recording.";
     replay.hidden = message.recording || !message.frames;
     Object.assign(slider, { min: message.begin, max: message.end });

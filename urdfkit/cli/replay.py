@@ -1,0 +1,52 @@
+"""`urdfkit replay`: show a recording in the browser."""
+
+import argparse
+from contextlib import ExitStack
+
+from urdfkit.cli.page_options import add_page_options, announce
+
+
+def configure(parser: argparse.ArgumentParser) -> None:
+    """Add the arguments."""
+    parser.add_argument("file", metavar="FILE", help="a .mcap, .db3 or .bag file, or a folder of ros2 bag")
+    parser.add_argument(
+        "model",
+        nargs="*",
+        metavar="ROBOT",
+        help="a .urdf or .xacro file, a package folder or a robot name; then key:=value xacro arguments (default: the "
+        "robot description in the recording)",
+    )
+    parser.add_argument(
+        "--package-path",
+        action="append",
+        default=[],
+        metavar="DIR",
+        help="search this folder for packages too (repeatable)",
+    )
+    parser.add_argument(
+        "--fixed-frame", metavar="FRAME", help="frame in which everything is shown (default: map or odom)"
+    )
+    parser.add_argument("--loop", action="store_true", help="begin again at the end")
+    add_page_options(parser)
+    parser.epilog = "examples:\n  urdfkit replay run.mcap simpleton\n  urdfkit replay lab.bag my_robot.urdf --loop"
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Show a recording until interrupted."""
+    from urdfkit.app.page import Page, require_page, until_interrupted
+
+    require_page("replay", "view", modules=("rosbags",))
+    from urdfkit.app.replay.replaying import recorded_model, replaying
+    from urdfkit.bridges.bag_file import BagFile
+    from urdfkit.resources import find_model
+
+    with until_interrupted(), ExitStack() as stack:
+        bag = stack.enter_context(BagFile(arguments.file))
+        words = arguments.model or [str(stack.enter_context(recorded_model(bag)))]
+        model = find_model(words, package_path=arguments.package_path)
+        page = Page("sim", host=arguments.host, port=arguments.port, opened=announce(arguments))
+        session = stack.enter_context(
+            replaying(page, bag, model, fixed_frame=arguments.fixed_frame, loop=arguments.loop)
+        )
+        session.run()
+    return 0
