@@ -9,6 +9,7 @@ from typing import Any
 import pytest
 
 pytest.importorskip("numba")
+pytest.importorskip("yourdfpy")
 torch: Any = pytest.importorskip("torch")
 
 PAGE = Path(__file__).parents[2] / "docs" / "exports.md"
@@ -29,6 +30,9 @@ def _restored() -> Any:
 
 @pytest.mark.usefixtures("_restored")
 @pytest.mark.parametrize("k", range(len(blocks("python"))))
-def test_a_block_prints_what_the_page_shows(capsys: pytest.CaptureFixture[str], k: int) -> None:
+def test_a_block_prints_what_the_page_shows(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch, tmp_path: Path, k: int
+) -> None:
+    monkeypatch.chdir(tmp_path)
     exec(compile(blocks("python")[k], str(PAGE), "exec"), {})
     assert capsys.readouterr().out == blocks("text")[k]

@@ -4,22 +4,22 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
-from typing import Literal
+from typing import Any, Literal
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from urdfkit.description.sdf import Cone, Ellipsoid, Plane
 from urdfkit.description.urdf.parser import EMPTY_NAME
 from urdfkit.description.urdf.robot import Collision, Geometry, Link, Material, Mesh, Robot, Visual
 from urdfkit.description.xml.element import Element
 from urdfkit.description.xml.source import Position
-from urdfkit.errors import ResourceError
+from urdfkit.errors import KinematicsError, ResourceError
 from urdfkit.meshes.loader import MeshLoader, TriMesh
 from urdfkit.meshes.specular import MATT, Gloss
 from urdfkit.meshes.texture_mapping import Wrapper
 from urdfkit.scene.colors import DEFAULT, Palette, Rgba
-from urdfkit.scene.pose_matrices import pose_matrix
+from urdfkit.scene.pose_matrices import pose_matrices, pose_matrix
 from urdfkit.scene.segmentation_labels import labels_of
 
 Role = Literal["visual", "collision"]
@@ -110,6 +110,35 @@ class Scene:
     def with_role(self, role: Role) -> tuple[Shape, ...]:
         """Return the visuals or the collisions."""
         return tuple(shape for shape in self.shapes if shape.role == role)
+
+    def to_trimesh(self, poses: ArrayLike, *, role: Role = "visual") -> Any:
+        """Return the scene as ``trimesh.Scene``: a node for each body, below it the nodes of its shapes.
+
+        Args:
+            poses: x y z [m] and quaternion x y z w of the bodies in the world, such as those of
+                `Kinematics.link_poses`; shape (len(bodies), 7).
+            role: which shapes.
+
+        Raises:
+            MissingDependencyError: trimesh is not installed.
+            KinematicsError: another number of poses.
+        """
+        from urdfkit.scene.trimesh_shapes import empty_scene, meshes_of
+
+        matrices = pose_matrices(poses)
+        if len(matrices) != len(self.bodies):
+            raise KinematicsError(f"{len(matrices)} poses for {len(self.bodies)} bodies")
+        base = "world"
+        while base in self.body_index:
+            base += "_"
+        scene = empty_scene(base)
+        for body, matrix in zip(self.bodies, matrices, strict=True):
+            scene.graph.update(frame_from=base, frame_to=body, matrix=matrix)
+        for shape in self.with_role(role):
+            for k, mesh in enumerate(meshes_of(shape.geometry, shape.mesh, shape.rgba, has_color=shape.has_color)):
+                name = f"{shape.name}/{k}" if k else shape.name
+                scene.add_geometry(mesh, name, name, shape.body, shape.placement)
+        return scene
 
 
 def scene_of(robot: Robot, *, strict: bool = True, meshes: MeshLoader | None = None) -> Scene:

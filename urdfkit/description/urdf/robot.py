@@ -9,6 +9,14 @@ from __future__ import annotations
 from functools import cached_property
 from pathlib import Path
 
+from urdfkit.description.urdf.shapes import Box as Box
+from urdfkit.description.urdf.shapes import Capsule as Capsule
+from urdfkit.description.urdf.shapes import Cylinder as Cylinder
+from urdfkit.description.urdf.shapes import Geometry as Geometry
+from urdfkit.description.urdf.shapes import Mesh as Mesh
+from urdfkit.description.urdf.shapes import Pose as Pose
+from urdfkit.description.urdf.shapes import Sphere as Sphere
+from urdfkit.description.urdf.shapes import Vector as Vector
 from urdfkit.description.xml.element import Element
 from urdfkit.description.xml.source import Origin
 from urdfkit.record import field, record
@@ -16,7 +24,7 @@ from urdfkit.record import field, record
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     from collections.abc import Mapping
-    from typing import Literal
+    from typing import Any, Literal
 
     from urdfkit.description.packages.resolver import Packages
     from urdfkit.description.urdf.repair_record import Repair
@@ -25,59 +33,8 @@ if TYPE_CHECKING:
         "bad-number", "wrong-arity", "not-finite", "missing", "unknown-value", "conflict", "zero", "version"
     ]
 
-Vector = tuple[float, float, float]
-
 JOINT_TYPES = ("fixed", "revolute", "continuous", "prismatic", "planar", "floating")
 """The six joint types of URDF (http://wiki.ros.org/urdf/XML/joint)."""
-
-
-@record
-class Pose:
-    """An ``<origin>``: translation [m] and fixed-axis roll, pitch, yaw [rad], also of a ``quat_xyzw``."""
-
-    xyz: Vector = (0.0, 0.0, 0.0)
-    rpy: Vector = (0.0, 0.0, 0.0)
-
-
-@record
-class Box:
-    """Full edge lengths [m]."""
-
-    size: Vector
-
-
-@record
-class Cylinder:
-    """Axis along z; `radius` and full `length` [m]."""
-
-    radius: float
-    length: float
-
-
-@record
-class Sphere:
-    """`radius` [m]."""
-
-    radius: float
-
-
-@record
-class Capsule:
-    """Axis along z; `radius` and `length` of the cylindrical part [m]."""
-
-    radius: float
-    length: float
-
-
-@record
-class Mesh:
-    """A mesh, by its URI in the description (``package://…``, ``file://…``, relative path)."""
-
-    uri: str
-    scale: Vector = (1.0, 1.0, 1.0)
-
-
-Geometry = Box | Cylinder | Sphere | Capsule | Mesh
 
 
 @record(eq=False)
@@ -396,3 +353,18 @@ class Robot:
         """Return the links in document order without duplicates."""
         first = self.link_by_name
         return [link for link in self.links if first[link.name] is link]
+
+    def to_yourdfpy(self, **options: Any) -> Any:
+        """Return the robot as ``yourdfpy.URDF``; its meshes are found as ours are.
+
+        As in yourdfpy, planar and floating joints do not move. A capsule becomes a cylinder and two spheres.
+
+        Args:
+            options: those of ``yourdfpy.URDF``, such as ``load_meshes``.
+
+        Raises:
+            MissingDependencyError: yourdfpy is not installed.
+        """
+        from urdfkit.description.urdf.yourdfpy_export import yourdfpy_of
+
+        return yourdfpy_of(self, **options)
