@@ -18,8 +18,10 @@ import sys
 import weakref
 from pathlib import Path
 import numpy as np
+from urdfkit.compilation import native
 from urdfkit.compilation.native import NativeCode, bind, write_native
 
+native.BUNDLED = Path("bundled")
 code = NativeCode("total", [Path("source.py")], [Path("/proc/nowhere"), Path("cache")])
 found = code.load()
 if found is None:
@@ -101,6 +103,18 @@ def test_damaged_code_is_compiled_again(tmp_path: Path, damage) -> None:
     code.write_bytes(damage(code.read_bytes()))
     assert run(tmp_path)[0] == "compiled"
     assert run(tmp_path)[0] == RESULT[0]
+
+
+@pytest.mark.slow
+def test_code_of_a_wheel_is_used_without_being_copied(tmp_path: Path) -> None:
+    (tmp_path / "source.py").write_text(SOURCE)
+    run(tmp_path)
+    (tmp_path / "cache").rename(tmp_path / "bundled")
+    assert run(tmp_path)[0] == RESULT[0]
+    assert not (tmp_path / "cache").exists()
+    (tmp_path / "source.py").write_text(SOURCE.replace("7.0", "70.0"))
+    assert run(tmp_path)[0] == "compiled"
+    assert len(list((tmp_path / "bundled").iterdir())) == 2
 
 
 def test_folders_for_machine_code(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:

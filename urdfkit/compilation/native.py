@@ -12,6 +12,7 @@ import hashlib
 import json
 import os
 import struct
+import sys
 from collections.abc import Callable, Iterable, Sequence
 from contextlib import suppress
 from functools import partial
@@ -20,6 +21,8 @@ from typing import Any
 
 from urdfkit.compilation.instruction_set import NATIVE, level
 
+BUNDLED = Path(__file__).parents[1] / "machine_code"
+"""Folder of a wheel with machine code for some processors; missing in a checkout."""
 ENTRY = "urdfkit_entry"
 """Name of the function that `add_native_entry` adds."""
 _FORMAT = 1
@@ -49,7 +52,7 @@ _FASTCALL = 0x80
 
 
 class NativeFunction:
-    """Compiled function with arrays as its first arguments, and an integer as its result.
+    """Compiled function with arrays as its first arguments, then numbers and addresses; its result is an integer.
 
     Args:
         address: of its `ENTRY`.
@@ -109,7 +112,7 @@ class NativeCode:
     def load(self) -> NativeFunction | None:
         """Return the function; None if there is no code for these sources, or it cannot be loaded."""
         written = f"{self._name}_{_digest(self._texts)}.link"
-        for folder in self._folders:
+        for folder in (BUNDLED, *self._folders):
             with suppress(*UNUSABLE):
                 found = folder / (folder / written).read_text("utf-8")
                 return _loaded(found.read_bytes())
@@ -117,17 +120,21 @@ class NativeCode:
         for folder in self._folders:
             with suppress(*UNUSABLE):
                 function = _loaded((folder / name).read_bytes())
-                (folder / written).write_text(name, "utf-8")
+                with suppress(OSError):
+                    (folder / written).write_text(name, "utf-8")
                 return function
         return None
 
-    def save(self, code: bytes, functions: Iterable[str], *, arrays: int) -> None:
-        """Write machine code with an `ENTRY`, and remove that of earlier sources.
+    def save(self, code: bytes, functions: Iterable[str], *, arrays: int) -> NativeFunction:
+        """Write machine code with an `ENTRY`, remove that of earlier sources, and return the function.
 
         Args:
             code: object file in memory.
             functions: names of the functions that it calls.
             arrays: number of arrays among the arguments.
+
+        Raises:
+            ValueError: the function calls an unknown function.
         """
         head = {"format": _FORMAT, "functions": sorted(functions), "arrays": arrays}
         for own in map(str.encode, _NUMBA_FUNCTIONS):
@@ -144,16 +151,17 @@ class NativeCode:
                 name = self._code_name()
                 temporary.replace(folder / name)
                 (folder / f"{self._name}_{_digest(self._texts)}.link").write_text(name, "utf-8")
-                return
+                break
+        return _loaded(content)
 
     def _code_name(self) -> str:
         return f"{self._name}_{_digest(_syntax(text) for text in self._texts)}.o"
 
 
 def _processor() -> str:
-    """Return the level that code is compiled for, or the processor where there are no levels."""
+    """Return the system and the level that code is compiled for, or the processor where there are no levels."""
     if (found := level()) != NATIVE:
-        return found.replace("-", "_")
+        return f"{sys.platform}_{found.replace('-', '_')}"
     from llvmlite import binding
 
     settings = [f"{name}={value}" for name, value in sorted(os.environ.items()) if name.startswith("NUMBA_CPU")]
@@ -221,12 +229,13 @@ def cache_folders(beside: Path) -> tuple[Path, ...]:
     return (beside / "__pycache__",)
 
 
-def write_native(code: NativeCode, dispatcher: Any, *, arrays: int) -> None:
-    """Write the machine code of a compiled function, if it was compiled as one program with an entry of its own."""
+def write_native(code: NativeCode, dispatcher: Any, *, arrays: int) -> NativeFunction | None:
+    """Write the machine code of a compiled function; None if it was not compiled as one program with an entry."""
     library = next(iter(dispatcher.overloads.values())).library
     functions = {each.name for each in library._final_module.functions if each.is_declaration}
     defined = {each.name for each in library.get_defined_functions()}
-    with suppress(AttributeError, RuntimeError):
+    with suppress(AttributeError, RuntimeError, ValueError):
         if ENTRY in defined:
             called = {name for name in functions if not name.startswith("llvm.")}
-            code.save(library._get_compiled_object(), called, arrays=arrays)
+            return code.save(library._get_compiled_object(), called, arrays=arrays)
+    return None

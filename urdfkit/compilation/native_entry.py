@@ -9,11 +9,13 @@ from __future__ import annotations
 from typing import Any
 
 from llvmlite import ir
-from numba.core import cgutils, types
+from numba.core import cgutils
+from numba.core import types as numba_types
 from numba.np.arrayobj import make_array, populate_array
 
 from urdfkit.compilation.native import ENTRY
 
+types: Any = numba_types
 _INT = ir.IntType(64)
 _OBJECT = ir.IntType(8).as_pointer()
 FAILED = -(1 << 63)
@@ -23,7 +25,8 @@ FAILED = -(1 << 63)
 def add_native_entry(target: Any, library: Any, function: Any) -> None:
     """Add `ENTRY` to a library, which releases the lock of the interpreter while the function runs.
 
-    Functions with other arguments or results than arrays of one dimension, integers and truth values get no entry.
+    Functions with other arguments than arrays of one dimension, integers, truth values and pointers, or with another
+    result than an integer, get no entry.
 
     Args:
         target: numba's target context.
@@ -32,9 +35,10 @@ def add_native_entry(target: Any, library: Any, function: Any) -> None:
     """
     kinds = function.argtypes
     arrays = [isinstance(kind, types.Array) and kind.ndim == 1 and kind.layout == "C" for kind in kinds]
-    numbers = [isinstance(kind, (types.Integer, types.Boolean)) for kind in kinds]
+    numbers = [isinstance(kind, (types.Integer, types.Boolean, types.CPointer)) for kind in kinds]
     ordered = arrays == sorted(arrays, reverse=True)
-    if not ordered or not all(a or b for a, b in zip(arrays, numbers, strict=True)) or function.restype != types.int64:
+    result_type = types.unliteral(function.restype)
+    if not ordered or not all(a or b for a, b in zip(arrays, numbers, strict=True)) or result_type != types.int64:
         return
     module = target.create_module("native_entry")
     called = ir.Function(module, target.call_conv.get_function_type(function.restype, kinds), function.llvm_func_name)
@@ -54,6 +58,8 @@ def add_native_entry(target: Any, library: Any, function: Any) -> None:
             passed.append(_array(target, builder, kind, address, length))
         elif isinstance(kind, types.Boolean):
             passed.append(builder.icmp_signed("!=", values.pop(0), ir.Constant(_INT, 0)))
+        elif isinstance(kind, types.CPointer):
+            passed.append(builder.inttoptr(values.pop(0), target.get_value_type(kind)))
         else:
             passed.append(values.pop(0))
     thread = _call(builder, "PyEval_SaveThread", _OBJECT)

@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike
 
 from urdfkit.description import Robot, load
 from urdfkit.errors import KinematicsError
-from urdfkit.kinematics.serial.kernel.object_cache import Compiling, function
+from urdfkit.kinematics.serial.kernel.native_code import Compiling, function
 from urdfkit.kinematics.serial.serial_chain import SerialChain
 from urdfkit.kinematics.serial.serial_solver import ROW, SerialSolver, SolverOptions
 from urdfkit.kinematics.serial.solutions import Solutions
@@ -240,8 +240,8 @@ class Chain:
             *self._chain,
             q.ctypes.data,
             q.size // self._size,
-            poses.ctypes.data if poses is not None else None,
-            jacobians.ctypes.data if jacobians is not None else None,
+            poses.ctypes.data if poses is not None else 0,
+            jacobians.ctypes.data if jacobians is not None else 0,
             wanted,
             self._work(),
         )

@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 from urdfkit.errors import KinematicsError, did_you_mean
-from urdfkit.kinematics.serial.kernel.object_cache import Compiling, function
+from urdfkit.kinematics.serial.kernel.native_code import Compiling, function
 from urdfkit.kinematics.serial.serial_chain import SerialChain
 
 LINEAR = 2.0

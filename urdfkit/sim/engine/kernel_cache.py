@@ -149,9 +149,7 @@ def _compile(*, world: bool) -> Kernel:
     # numba's cache is needed where machine code is not written, or exists and cannot be loaded.
     cache = code.exists or numba.__version__ not in TESTED_VERSIONS
     dispatcher = _compiled(advance, ("floats", "integers", "count", "count"), digest, cache=cache)
-    write_native(code, dispatcher, arrays=2)
-    _native.cache_clear()
-    return _native(world=world) or next(iter(dispatcher.overloads.values())).entry_point
+    return write_native(code, dispatcher, arrays=2) or next(iter(dispatcher.overloads.values())).entry_point
 
 
 @lru_cache

@@ -1,57 +1,80 @@
-"""Compile a function of the kernel to object code that runs without numba."""
+"""Machine code of the kernel: compiled with numba once, then loaded from a file without importing numba or numpy."""
 
 from __future__ import annotations
 
-from contextlib import ExitStack
+import ctypes
+from collections.abc import Callable
+from functools import partial
+from importlib.util import find_spec
+from pathlib import Path
 from typing import Any
 
-import numba
-from llvmlite import binding
-from numba.core import types
-from numba.core.compiler import Flags, compile_extra
-from numba.core.cpu import CPUTargetOptions
-from numba.core.registry import cpu_target
+from urdfkit.errors import MissingDependencyError
 
-from urdfkit.compilation.load import TESTED_VERSIONS
-from urdfkit.kinematics.serial.kernel import entry_functions
-from urdfkit.kinematics.serial.kernel.compilation import FLOATS, INTEGERS, OPTIONS
+SIGNATURES = {
+    "forward": ("floats", "integers", "count", "count", "floats", "count", "floats", "floats", "count", "floats"),
+    "solve": (
+        *("floats", "integers", "count", "count", "floats", "floats", "integers", "count", "floats", "count"),
+        *("floats", "count", "count", "floats", "floats"),
+    ),
+}
+"""Function of `entry_functions` → the types of its arguments."""
 
-TYPES = {"floats": FLOATS, "integers": INTEGERS, "count": types.int64, "number": types.float64}
-"""Type of an argument → its type in numba."""
+Compiling = Callable[[str], None]
+"""Called with a message before a compilation starts."""
+
+_functions: dict[str, Callable[..., int]] = {}
 
 
-def compile_to_object(name: str, arguments: tuple[str, ...]) -> tuple[str, bytes]:
-    """Return the symbol and the object code of a function.
-
-    The function has numba's calling convention: addresses for its result and for an exception come first.
+def function(name: str, compiling: Compiling | None = None) -> Callable[..., int]:
+    """Return a function of the kernel; its arrays are passed as addresses, zero for none.
 
     Args:
-        name: a function of `entry_functions`.
-        arguments: types of its arguments.
-    """
-    function = getattr(entry_functions, name)
-    flags = Flags()
-    options: dict[str, Any] = {**OPTIONS, "nopython": True, "no_cpython_wrapper": True, "no_cfunc_wrapper": True}
-    CPUTargetOptions.parse_as_flags(flags, options)
-    with ExitStack() as stack:
-        if numba.__version__ in TESTED_VERSIONS:
-            from urdfkit.compilation.codegen import fixed_level
-            from urdfkit.compilation.whole_program import whole_program
+        name: a name of `SIGNATURES`.
+        compiling: called before a compilation.
 
-            stack.enter_context(fixed_level())
-            stack.enter_context(whole_program(function.__qualname__))
-        result = compile_extra(
-            cpu_target.typing_context,
-            cpu_target.target_context,
-            function,
-            tuple(TYPES[kind] for kind in arguments),
-            types.int64,
-            flags,
-            {},
-        )
-        triple, processor, features = cpu_target.target_context.codegen().magic_tuple()
-        machine = binding.Target.from_triple(triple).create_target_machine(
-            cpu=processor, features=features, opt=3, reloc="pic", codemodel="small", jit=True
-        )
-        code = machine.emit_object(binding.parse_assembly(result.library.get_llvm_str()))
-    return result.fndesc.llvm_func_name, code
+    Raises:
+        MissingDependencyError: numba is not installed.
+    """
+    if name not in _functions:
+        if find_spec("llvmlite") is None or find_spec("numba") is None:
+            raise MissingDependencyError("ik and jacobian need numba: pip install 'urdfkit[sim]'")
+        from urdfkit.compilation import own_sources
+        from urdfkit.compilation.native import NativeCode, cache_folders
+
+        here = Path(__file__).parent
+        code = NativeCode(f"serial_{name}", (*own_sources(), *sorted(here.glob("*.py"))), cache_folders(here))
+        native = code.load()
+        _functions[name] = native.bind() if native else _compiled(name, code, compiling)
+    return _functions[name]
+
+
+def _compiled(name: str, code: Any, compiling: Compiling | None) -> Callable[..., int]:
+    """Compile a function with numba and write its machine code."""
+    from urdfkit.compilation import compile_or_load
+    from urdfkit.compilation.native import write_native
+    from urdfkit.description.xml.cost_limit import excluded
+
+    if compiling is not None:
+        compiling("compiling the kinematics kernel, once, about 6 s …")
+    with excluded():
+        import numba
+
+        from urdfkit.kinematics.serial.kernel import entry_functions
+        from urdfkit.kinematics.serial.kernel.compilation import FLOATS, INTEGERS, OPTIONS
+
+        types = {"floats": FLOATS, "integers": INTEGERS, "count": numba.int64}
+        arguments = tuple(types[kind] for kind in SIGNATURES[name])
+        python = getattr(entry_functions, name)
+        dispatcher = compile_or_load(python, arguments, digest=name, options=OPTIONS, cache=False)
+        if native := write_native(code, dispatcher, arrays=0):
+            return native.bind()
+        # An untested version of numba: the code has no entry of its own.
+        callback = numba.cfunc(numba.int64(*arguments), **OPTIONS)(python)
+    call = ctypes.CFUNCTYPE(ctypes.c_int64, *(ctypes.c_int64 for _ in arguments))(callback.address)
+    return partial(_call, call, callback)
+
+
+def _call(function: Callable[..., int], owner: Any, *arguments: int) -> int:
+    """Call a function whose code lives as long as `owner`."""
+    return function(*arguments)

@@ -1,4 +1,4 @@
-"""Object code of the kernel: stored, loaded, recompiled when damaged, and refused without numba."""
+"""Machine code of the kernel: stored, loaded, recompiled when damaged or not storable, and refused without numba."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from tests.kinematics.conftest import ARM
 from urdfkit import load
 from urdfkit.errors import MissingDependencyError
 from urdfkit.kinematics import Chain
-from urdfkit.kinematics.serial.kernel import object_cache
+from urdfkit.kinematics.serial.kernel import native_code
 
 SCRIPT = """
 import sys
@@ -37,7 +37,7 @@ def test_code_is_stored_and_damaged_files_are_replaced(tmp_path: Path, monkeypat
 
     compiled, first = run()
     assert compiled == "1"
-    (file,) = (tmp_path / "cache").iterdir()
+    (file,) = (tmp_path / "cache" / "urdfkit").glob("*.o")
     content = file.read_bytes()
     assert run()[0] == "0"
     for damaged in (content[:-100], content[:40], b"", content[:-1] + b"x"):
@@ -57,7 +57,7 @@ def test_chains_with_different_callbacks_share_the_code(tmp_path: Path) -> None:
 
 
 def test_a_missing_numba_is_reported(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(object_cache, "_functions", {})
-    monkeypatch.setattr(object_cache, "find_spec", lambda _: None)
+    monkeypatch.setattr(native_code, "_functions", {})
+    monkeypatch.setattr(native_code, "find_spec", lambda _: None)
     with pytest.raises(MissingDependencyError, match=r"need numba: pip install 'urdfkit\[sim\]'"):
-        object_cache.function("solve")
+        native_code.function("solve")
