@@ -15,6 +15,9 @@ if TYPE_CHECKING:
     Owner = tuple[str | None, str | None]
     """Name of the link, or of the joint, that an element belongs to."""
 
+UNDRIVEN = ("fixed", "floating", "planar")
+"""Types of joints without exactly one degree of freedom: no transmission or interface can drive them."""
+
 
 def cycles(robot: Robot) -> list[list[Joint]]:
     """Return the kinematic loops, each as a list of joints."""

@@ -88,6 +88,7 @@ CASES_1 = {
     "no interface": ("<hardwareInterface>hardware_interface/PositionJointInterface</hardwareInterface>", "", "C702"),
     "two joints": ("</joint>\n<actuator", '</joint>\n<joint name="elbow"/>\n<actuator', "C703"),
     "joint": ('<joint name="shoulder">\n<hardware', '<joint name="shouldr">\n<hardware', "C701"),
+    "fixed joint": ('<joint name="shoulder">\n<hardware', '<joint name="wrist">\n<hardware', "C701"),
     "type of a package": ("position_controllers/JointPositionController", "acme/Controller", "K962"),
     "misspelt type": ("/JointPositionController", "/JointPositionControler", "K962"),
     "joint of a controller": ("joint: shoulder", "joint: shouldr", "K959"),

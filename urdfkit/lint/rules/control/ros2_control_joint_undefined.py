@@ -1,12 +1,10 @@
 """C707 ros2-control-joint-undefined."""
 
+from urdfkit.description.urdf.queries import UNDRIVEN
 from urdfkit.lint.facts.gazebo.plugins import runs_ros2_control
 from urdfkit.lint.fix_builders import meant, new_value
 from urdfkit.lint.model.masked_names import unless_masked
 from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
-
-_UNDRIVEN = ("fixed", "floating", "planar")
-"""Types of joints without exactly one degree of freedom."""
 
 
 class Ros2ControlJointUndefined(RobotRule):
@@ -74,7 +72,7 @@ class Ros2ControlJointUndefined(RobotRule):
                     if command is not None and joints[name].type == "fixed":
                         message = f"<ros2_control> `{block.name}` commands the fixed joint `{name}`"
                         yield self.at(model, command, message, joint=name, severity="warning")
-                    elif joints[name].type in _UNDRIVEN and runs_ros2_control(model.robot):
+                    elif joints[name].type in UNDRIVEN and runs_ros2_control(model.robot):
                         message = f"<ros2_control> `{block.name}` names the {joints[name].type} joint `{name}`"
                         yield self.at(model, element, message, attribute="name", joint=name, severity="note")
                     continue

@@ -1,18 +1,22 @@
 """C701 transmission-joint-undefined."""
 
+from urdfkit.description.urdf.queries import UNDRIVEN
+from urdfkit.lint.facts.control.hardware_interfaces import has_gazebo_ros_control
 from urdfkit.lint.fix_builders import meant, new_value
 from urdfkit.lint.model.masked_names import unless_masked
 from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
 
 
 class TransmissionJointUndefined(RobotRule):
-    """A transmission names an undefined joint.
+    """A transmission names an undefined joint, or a joint that it cannot drive.
 
     ## What it does
-    Compares the joints of ``<transmission>`` with the joints of the robot.
+    Compares the joints of ``<transmission>`` with the joints of the robot. If the robot uses gazebo_ros_control, a
+    joint without exactly one degree of freedom, such as a fixed joint, is a warning.
 
     ## Why is this bad?
-    The transmission is skipped with a log message, and controllers for the joint do not start.
+    The transmission is skipped with a log message, and controllers for the joint do not start. A simulation with
+    urdfkit leaves the transmission out.
 
     ## Example
     ```xml
@@ -56,11 +60,24 @@ class TransmissionJointUndefined(RobotRule):
     not_for = NOT_GAZEBO
 
     def check(self, model: Model) -> Findings:
-        """Yield a finding for each undefined joint of a transmission."""
+        """Yield a finding for each joint of a transmission that is undefined or cannot be driven."""
         joints = model.robot.joint_by_name
         for transmission in model.robot.transmissions:
             for part in transmission.joints:
-                if not part.name or part.name in joints or "$" in part.name:
+                if not part.name or "$" in part.name:
+                    continue
+                if part.name in joints:
+                    kind = joints[part.name].type
+                    if kind in UNDRIVEN and has_gazebo_ros_control(model.robot):
+                        yield self.at(
+                            model,
+                            part.element,
+                            f"transmission `{transmission.name}` names the {kind} joint `{part.name}`",
+                            attribute="name",
+                            joint=part.name,
+                            help="remove the transmission, or correct the type of the joint",
+                            severity="warning",
+                        )
                     continue
                 near, hint = meant(part.name, joints)
                 if near is None and model.is_incomplete:

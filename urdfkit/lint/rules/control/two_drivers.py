@@ -29,15 +29,19 @@ class TwoDrivers(RobotRule):
       <link name="base_footprint"/>
       <link name="left"/>
       <link name="right"/>
-      <joint name="left_joint" type="fixed">
+      <joint name="left_joint" type="continuous">
         <parent link="base_footprint"/>
         <child link="left"/>
         <origin xyz="0 0.15 0"/>
+        <axis xyz="0 1 0"/>
+        <limit effort="10" velocity="10"/>
       </joint>
-      <joint name="right_joint" type="fixed">
+      <joint name="right_joint" type="continuous">
         <parent link="base_footprint"/>
         <child link="right"/>
         <origin xyz="0 -0.15 0"/>
+        <axis xyz="0 1 0"/>
+        <limit effort="10" velocity="10"/>
       </joint>
       <transmission name="left_transmission">
         <type>transmission_interface/SimpleTransmission</type>
@@ -63,15 +67,19 @@ class TwoDrivers(RobotRule):
       <link name="base_footprint"/>
       <link name="left"/>
       <link name="right"/>
-      <joint name="left_joint" type="fixed">
+      <joint name="left_joint" type="continuous">
         <parent link="base_footprint"/>
         <child link="left"/>
         <origin xyz="0 0.15 0"/>
+        <axis xyz="0 1 0"/>
+        <limit effort="10" velocity="10"/>
       </joint>
-      <joint name="right_joint" type="fixed">
+      <joint name="right_joint" type="continuous">
         <parent link="base_footprint"/>
         <child link="right"/>
         <origin xyz="0 -0.15 0"/>
+        <axis xyz="0 1 0"/>
+        <limit effort="10" velocity="10"/>
       </joint>
       <gazebo>
         <plugin name="drive" filename="libgazebo_ros_diff_drive.so">

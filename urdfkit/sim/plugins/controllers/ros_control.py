@@ -5,6 +5,7 @@ Source: gazebo_ros_pkgs noetic-devel, gazebo_ros_control/src/{gazebo_ros_control
 
 from urdfkit.description.control import Configuration, Settings, find_configuration
 from urdfkit.description.control.ros1_controllers import SIMULATED_INTERFACES, controllers
+from urdfkit.description.urdf.queries import UNDRIVEN
 from urdfkit.description.urdf.robot import Transmission
 from urdfkit.errors import SimulationError, did_you_mean
 from urdfkit.messages import BOOL
@@ -19,9 +20,6 @@ from urdfkit.sim.plugins.parameters import Parameters
 from urdfkit.sim.plugins.setup import Setup
 from urdfkit.sim.plugins.topic_names import Topics
 from urdfkit.sim.state.pid import read_gains
-
-UNDRIVEN = ("fixed", "floating", "planar")
-"""Types of joints that no transmission can drive."""
 
 
 class GazeboRosControl(ControlLoopPlugin):
@@ -47,11 +45,6 @@ class GazeboRosControl(ControlLoopPlugin):
         of_hardware = self._hardware_settings(setup, read, found, settings)
         hardware = Hardware(setup, topics.resolve, 1, period, {}, (), lambda: loop.wake())
         for transmission in robot.transmissions:
-            joints = [robot.joint_by_name[name] for name in _names(transmission) if name in robot.joint_by_name]
-            if undriven := next((joint for joint in joints if joint.type in UNDRIVEN), None):
-                fault = f"joint `{undriven.name}` is {undriven.type}; transmission `{transmission.name}` is left out"
-                setup.note(f"{transmission.element.origin.position}: {fault}")
-                continue
             try:
                 output = _output(transmission, of_hardware, setup, period)
             except SimulationError as error:
@@ -105,9 +98,15 @@ def _output(transmission: Transmission, settings: Settings, setup: Setup, period
     """Return the command interface of a transmission.
 
     Raises:
-        SimulationError: not exactly one joint, or no interface that Gazebo supports; with its position.
+        SimulationError: not exactly one joint, a joint that nothing can drive, or no interface that Gazebo supports;
+            with its position.
     """
     name, place = transmission.name or "", transmission.element.origin.position
+    by_name = setup.kinematics.robot.joint_by_name
+    for part in transmission.joints:
+        if (written := by_name.get(part.name or "")) is not None and written.type in UNDRIVEN:
+            fault = f"joint `{written.name}` is {written.type}: no transmission can drive it"
+            raise SimulationError(fault, position=part.element.origin.position, code="C701")
     if len(transmission.joints) != 1:
         raise SimulationError(
             f"transmission `{name}` has {len(transmission.joints)} joints; Gazebo simulates those of one",
@@ -127,12 +126,12 @@ def _output(transmission: Transmission, settings: Settings, setup: Setup, period
             )
         setup.note(f"{place}: transmission `{name}`: <hardwareInterface> belongs into <joint>, not <actuator>")
     kind = interfaces[0].strip().removeprefix("hardware_interface/")
-    written = joint.element.find("hardwareInterface") or joint.element
+    place = (joint.element.find("hardwareInterface") or joint.element).origin.position
     if kind not in SIMULATED_INTERFACES:
         raise SimulationError(
             f"transmission `{name}`: Gazebo has no interface `{interfaces[0]}`"
             f"{did_you_mean(kind, SIMULATED_INTERFACES)} (it has {', '.join(SIMULATED_INTERFACES)})",
-            position=written.origin.position,
+            position=place,
             code="C703",
         )
     own = setup.joint(joint.name or "", joint.element.origin.position, "C701")
