@@ -36,6 +36,7 @@ COMMANDS = {
     "tf": "compute a transform, or draw the frame tree",
     "ik": "compute joint positions that place a link at a pose: inverse kinematics",
     "jacobian": "compute the Jacobian of a link, its singular values and the direction that is lost",
+    "reach": "compute which positions and orientations a link reaches, as a map",
     "retime": "compute the fastest motion through waypoints within the limits of the joints",
     "srdf": "write groups and disabled collisions of a robot for MoveIt",
     "sim": "simulate a robot: teleop, run, warmup",
@@ -46,7 +47,7 @@ COMMANDS = {
 }
 """Command → its description. The module ``urdfkit.cli.<command>`` implements it; ``import_`` is ``import``."""
 
-_FOLDERS = dict.fromkeys(("tf", "ik", "jacobian", "retime", "srdf"), "kinematics")
+_FOLDERS = dict.fromkeys(("tf", "ik", "jacobian", "reach", "retime", "srdf"), "kinematics")
 """Command → the package in ``urdfkit.cli`` that its module is in."""
 
 

@@ -11,18 +11,30 @@ if TYPE_CHECKING:
     from urdfkit.kinematics.joint_limits import JointLimitError
     from urdfkit.kinematics.mimic import Coupling
     from urdfkit.kinematics.model import Kinematics
+    from urdfkit.kinematics.reach.reach_map import ReachMap, reach_map
     from urdfkit.kinematics.serial.solutions import Solutions
     from urdfkit.kinematics.tf import TransformTree
 
-__all__ = ["Chain", "Coupling", "JointLimitError", "Kinematics", "Solutions", "TransformTree"]
+__all__ = [
+    "Chain",
+    "Coupling",
+    "JointLimitError",
+    "Kinematics",
+    "ReachMap",
+    "Solutions",
+    "TransformTree",
+    "reach_map",
+]
 
 _HOMES = {
     "Chain": "chain",
     "Coupling": "mimic",
     "JointLimitError": "joint_limits",
     "Kinematics": "model",
+    "ReachMap": "reach.reach_map",
     "Solutions": "serial.solutions",
     "TransformTree": "tf",
+    "reach_map": "reach.reach_map",
 }
 
 
