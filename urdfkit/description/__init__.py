@@ -5,19 +5,22 @@ Input: xacro, URDF and SDF; output: links, joints and models with source positio
 
 from __future__ import annotations
 
-from urdfkit.description.urdf.robot import Robot
-
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     from typing import Any
 
     from urdfkit.description.loading import expand as expand
     from urdfkit.description.loading import load as load
+    from urdfkit.description.urdf.robot import Robot as Robot
 
 __all__ = ["Robot", "expand", "load"]
 
 
 def __getattr__(name: str) -> Any:
+    if name == "Robot":
+        from urdfkit.description.urdf.robot import Robot
+
+        return Robot
     if name in ("expand", "load"):
         from urdfkit.description import loading
 

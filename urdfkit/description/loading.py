@@ -18,7 +18,8 @@ from urdfkit.description.xacro.expand import expand as expand_file
 from urdfkit.description.xacro.expand import is_xacro
 from urdfkit.description.xacro.expanded import Expanded
 from urdfkit.description.xml.element import Element
-from urdfkit.description.xml.reader import absolute, read_source
+from urdfkit.description.xml.reader import read_source
+from urdfkit.description.xml.source import absolute
 from urdfkit.errors import ModelError, UsageError, did_you_mean
 from urdfkit.resources import ModelArgument, find_model
 

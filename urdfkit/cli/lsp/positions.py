@@ -8,7 +8,7 @@ from urllib.parse import unquote, urlparse
 
 from lsprotocol import types
 
-from urdfkit.description.xml.reader import absolute
+from urdfkit.description.xml.source import absolute
 
 if TYPE_CHECKING:
     from urdfkit.description.xml.source import Source, Span

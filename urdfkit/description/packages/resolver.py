@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping
 from pathlib import Path
 
 from urdfkit.description.packages.existence import exists, is_file, is_folder
-from urdfkit.description.xml.reader import absolute
+from urdfkit.description.xml.source import absolute
 from urdfkit.errors import ResourceError, did_you_mean, may_suggest
 
 _PREFIX_VARIABLES = ("AMENT_PREFIX_PATH", "CMAKE_PREFIX_PATH", "COLCON_PREFIX_PATH")
@@ -79,6 +79,11 @@ class Packages:
             return self._moved(words[0])
         except ResourceError as error:
             return f"!{error.message}"
+
+    def is_as_written(self, question: tuple[str, ...], answer: str) -> bool:
+        """Return whether a result is the file that a URI names itself; it holds as long as that file exists."""
+        kind, *words = question
+        return kind == "resolve" and answer == str(self._path_of(words[0], Path(words[1])))
 
     def near_file(self, near: str | Path) -> Packages:
         """Return a resolver that searches near another file and shares the cache of folders."""

@@ -10,7 +10,8 @@ from pathlib import Path
 
 from urdfkit.description.packages.resolver import Packages
 from urdfkit.description.xacro.expanded import Expanded
-from urdfkit.description.xml.reader import absolute, document_of, read_source, shown_path
+from urdfkit.description.xml.reader import document_of, read_source, shown_path
+from urdfkit.description.xml.source import absolute
 from urdfkit.errors import ResourceError, XmlError
 
 TYPE_CHECKING = False

@@ -9,7 +9,8 @@ from xml.sax.saxutils import quoteattr
 
 from urdfkit.description.xacro.expand import expand_leniently
 from urdfkit.description.xml.extended_text import ExtendedText
-from urdfkit.description.xml.reader import absolute, read_source, shown_path
+from urdfkit.description.xml.reader import read_source, shown_path
+from urdfkit.description.xml.source import absolute
 from urdfkit.errors import UsageError, did_you_mean
 
 TYPE_CHECKING = False

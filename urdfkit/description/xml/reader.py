@@ -13,7 +13,7 @@ from pathlib import Path
 from xml.parsers import expat
 
 from urdfkit.description.xml.element import MAX_DEPTH, Element
-from urdfkit.description.xml.source import Origin, Position, Source, content_of
+from urdfkit.description.xml.source import Origin, Position, Source, absolute, content_of
 from urdfkit.errors import ResourceError, XmlError
 
 TYPE_CHECKING = False
@@ -65,11 +65,6 @@ def shown_path(path: str | Path) -> str:
     """Return the name of a file in messages: relative to the working folder when inside it."""
     whole, here = str(absolute(path)), str(Path.cwd())
     return whole[len(here) + 1 :] if whole.startswith(here + os.sep) else whole
-
-
-def absolute(path: str | Path) -> Path:
-    """Return an absolute path without ``..``; symbolic links are not resolved."""
-    return Path(os.path.normpath(Path(path).absolute()))
 
 
 def document_of(source: Source) -> Element:

@@ -10,6 +10,11 @@ from urdfkit.position import Position as Position
 from urdfkit.record import field, record
 
 
+def absolute(path: str | Path) -> Path:
+    """Return an absolute path without ``..``; symbolic links are not resolved."""
+    return Path(os.path.normpath(Path(path).absolute()))
+
+
 def content_of(path: Path, most: int = -1) -> bytes:
     """Return the bytes of a file, without waiting for files such as /proc/kmsg that have no data yet.
 

@@ -9,6 +9,7 @@ from pathlib import Path
 from urdfkit.description.packages.resolver import Packages
 from urdfkit.description.xml.element import Element
 from urdfkit.description.xml.source import Origin, Position
+from urdfkit.lint.engine.cache import packages_of
 from urdfkit.lint.finding import EntryResult, Finding
 from urdfkit.lint.model.model import Model
 from urdfkit.lint.project.entry_files import Entry, is_nearly_robot
@@ -88,34 +89,25 @@ class Checker:
 
     Args:
         options: lint options.
-        cached: read and write the cache.
+        cache: stores new results; None for none.
         keep_going: if a rule raises an exception, run the other rules and report the failure in the result.
     """
 
-    def __init__(self, options: Options, *, cached: bool = False, keep_going: bool = False) -> None:
+    def __init__(self, options: Options, *, cache: Cache | None = None, keep_going: bool = False) -> None:
         self.options, self.keep_going = options, keep_going
         self.memory: Memory | None = None
         self.clean: CleanElements | None = None
         self.sources: dict[str, Source] = {}
-        confinement = options.confinement
-        self.packages = Packages(options.package_path, permits=None if confinement is None else confinement.permits)
+        self.cache = cache
+        self.packages = cache.packages if cache is not None else packages_of(options)
         self.foreign = _third_party()
         self.wanted = selection(options.select, options.ignore, self._codes)
-        self.cache: Cache | None = None
-        if cached and not options.texts and not self.foreign:  # inputs of third-party rules are unknown
-            from urdfkit.lint.engine.cache import Cache
-
-            self.cache = Cache(options, self.packages)
 
     def _codes(self) -> tuple[str, ...]:
         return (*codes(), *(rule.code for rule in self.foreign))
 
     def _applies(self, rule: type[Rule], target: str | None) -> bool:
         return self.wanted(rule.code) and target not in rule.not_for and (not rule.only_for or target in rule.only_for)
-
-    def cached(self, entry: Entry) -> EntryResult | None:
-        """Return the cached result if no input has changed since."""
-        return self.cache.get(entry) if self.cache is not None else None
 
     def check(self, entry: Entry) -> EntryResult:
         """Lint one entry file and all files it includes."""

@@ -8,6 +8,7 @@ from concurrent.futures import ProcessPoolExecutor
 from concurrent.futures.process import BrokenProcessPool
 
 from urdfkit.errors import ResourceError
+from urdfkit.lint.engine.cache import cache_for
 from urdfkit.lint.engine.checker import Checker
 from urdfkit.lint.finding import EntryResult
 from urdfkit.lint.project.entry_files import Entry
@@ -51,7 +52,7 @@ def check_all(
 def _begin(options: Options, cached: bool, keep_going: bool) -> None:
     if options.confinement is not None:
         options.confinement.start()
-    _checkers[:] = [Checker(options, cached=cached, keep_going=keep_going)]
+    _checkers[:] = [Checker(options, cache=cache_for(options) if cached else None, keep_going=keep_going)]
 
 
 def _check(entry: Entry) -> EntryResult:

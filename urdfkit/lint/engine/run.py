@@ -5,11 +5,9 @@ from __future__ import annotations
 from pathlib import Path
 
 from urdfkit.errors import ResourceError
-from urdfkit.lint.engine.checker import Checker
+from urdfkit.lint.engine.cache import cache_for
 from urdfkit.lint.finding import SEVERITIES, Finding
-from urdfkit.lint.project.entry_files import Entry
 from urdfkit.lint.project.options import Options
-from urdfkit.lint.project.target_platform import parse_target
 from urdfkit.record import record
 
 TYPE_CHECKING = False
@@ -18,6 +16,7 @@ if TYPE_CHECKING:
     from typing import Any
 
     from urdfkit.description.xml.source import Source, Span
+    from urdfkit.lint.project.entry_files import Entry
 
 _MIN_PARALLEL = 8
 """Minimum number of files for which several processes are faster."""
@@ -61,26 +60,36 @@ def run(
         ResourceError: an entry cannot be read, or a third-party rule cannot be imported.
         ModelError: an entry is not a robot description.
     """
-    options = Options(**{**options.__dict__, "target": parse_target(options.target)})
+    if options.target is not None:
+        from urdfkit.lint.project.target_platform import parse_target
+
+        options = Options(**{**options.__dict__, "target": parse_target(options.target)})
     entries = list(entries)
-    checker = Checker(options, cached=cached, keep_going=keep_going)
-    check = checker.check_or_refuse if keep_going and len(entries) > 1 else checker.check
-    found = {entry: result for entry in entries if (result := checker.cached(entry)) is not None}
+    cache = cache_for(options) if cached else None
+    found = {entry: result for entry in entries if cache is not None and (result := cache.get(entry)) is not None}
     hits = len(found)
     left = [entry for entry in entries if entry not in found]
-    if jobs > 1 and len(left) >= _MIN_PARALLEL and not options.texts:
-        from urdfkit.lint.engine.parallel import check_all
+    sources: Mapping[str, Source] = {}
+    if left or not entries:  # without files, only the options are validated
+        from urdfkit.lint.engine.checker import Checker
 
-        found.update(zip(left, check_all(left, options, cached=cached, jobs=jobs, keep_going=keep_going), strict=True))
-    else:
-        found.update((entry, check(entry)) for entry in left)
+        checker = Checker(options, cache=cache, keep_going=keep_going)
+        sources = checker.sources
+        if jobs > 1 and len(left) >= _MIN_PARALLEL and not options.texts:
+            from urdfkit.lint.engine.parallel import check_all
+
+            results = check_all(left, options, cached=cached, jobs=jobs, keep_going=keep_going)
+            found.update(zip(left, results, strict=True))
+        else:
+            check = checker.check_or_refuse if keep_going and len(entries) > 1 else checker.check
+            found.update((entry, check(entry)) for entry in left)
     every = [found[entry] for entry in entries]
     files = {name: Path(path) for one in every for name, path in one.files.items()}
     used = {each for one in every for each in one.used}
     findings = merged(finding for one in every for finding in one.findings if not _is_in_use(finding, one.unused, used))
     notes = dict.fromkeys(one.note for one in every if one.note)
     refused = tuple(dict.fromkeys(one.refused for one in every if one.refused))
-    return Outcome(tuple(findings), Sources(checker.sources, files), files, tuple(notes), hits, refused)
+    return Outcome(tuple(findings), Sources(sources, files), files, tuple(notes), hits, refused)
 
 
 def _is_in_use(finding: Finding, unused: tuple[tuple[str, tuple[str, ...]], ...], used: set[tuple[str, str]]) -> bool:

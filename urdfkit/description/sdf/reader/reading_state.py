@@ -8,7 +8,8 @@ from pathlib import Path
 from urdfkit.description.packages.resolver import Packages
 from urdfkit.description.sdf.values import wrong
 from urdfkit.description.xml.element import Element
-from urdfkit.description.xml.reader import absolute, document_of, read_source, shown_path
+from urdfkit.description.xml.reader import document_of, read_source, shown_path
+from urdfkit.description.xml.source import absolute
 from urdfkit.errors import DescriptionError, did_you_mean
 
 OLDEST, NEWEST = (1, 4), (1, 11)

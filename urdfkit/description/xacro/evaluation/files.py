@@ -24,8 +24,8 @@ from urdfkit.description.xacro.evaluation.tree import Tag
 from urdfkit.description.xacro.evaluation.tree_reader import read_tree
 from urdfkit.description.xacro.faults import Warned
 from urdfkit.description.xml.extended_text import ExtendedText
-from urdfkit.description.xml.reader import absolute, read_source, shown_path
-from urdfkit.description.xml.source import Position, Source, content_of
+from urdfkit.description.xml.reader import read_source, shown_path
+from urdfkit.description.xml.source import Position, Source, absolute, content_of
 from urdfkit.errors import ResourceError
 
 TYPE_CHECKING = False
