@@ -230,3 +230,30 @@ def test_findings_in_files_that_have_gone_come_without_lines(write, monkeypatch,
     path.unlink()
     assert again.sources.get("c.urdf") is None
     assert again.sources.get("d.urdf") is None
+
+
+CONTROLLERS = """controller_manager:
+  ros__parameters:
+    arm:
+      type: joint_trajectry_controller/JointTrajectoryController
+"""
+EXPORT = "PLUGINLIB_EXPORT_CLASS(joint_trajectry_controller::JointTrajectoryController, ci::ControllerInterface)"
+
+
+def test_files_that_rules_search_count(package):
+    Path("p/config").mkdir()
+    Path("p/config/arm.yaml").write_text(CONTROLLERS)
+    lint(package)
+    assert lint(package).cached == 1
+    code = Path("p/src/arm.cpp")
+    code.parent.mkdir()
+    code.write_text(EXPORT)
+    exported = lint(package)
+    assert (exported.cached, "K962" in codes(exported)) == (0, False)
+    code.write_text(f"// {EXPORT[:9]}")
+    misspelt = lint(package)
+    assert (misspelt.cached, "K962" in codes(misspelt)) == (0, True)
+    Path("q").mkdir()
+    Path("q/package.xml").write_text("<package><name>q</name></package>")
+    assert lint(package).cached == 0, "a neighbour"
+    assert lint(package).cached == 1

@@ -2,6 +2,7 @@
 
 import os
 import re
+from collections.abc import Iterator
 from pathlib import Path
 
 _NAME = re.compile(r"<name>\s*([^<\s]+)\s*</name>")
@@ -82,3 +83,13 @@ def share_folders(prefix: Path) -> list[Path]:
     except OSError:
         return []
     return [share for share in (prefix / "share", *isolated) if share.is_dir()]
+
+
+def fuel_models(cache: Path, name: str) -> Iterator[Path]:
+    """Yield the folders of a model in a cache of Gazebo Fuel, the newest version first.
+
+    Source: gz-fuel-tools 9, src/LocalCache.cc: SERVER/OWNER/models/NAME/VERSION, the name in lower case.
+    """
+    for spelling in dict.fromkeys((name.lower(), name)):
+        versions = [each for each in cache.glob(f"*/*/models/{spelling}/*") if each.name.isdigit()]
+        yield from sorted(versions, key=lambda each: -int(each.name))

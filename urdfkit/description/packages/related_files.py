@@ -16,6 +16,9 @@ SRDF = (".srdf", ".srdf.xacro")
 BUILD = ("package.xml", "CMakeLists.txt", "setup.py", "setup.cfg")
 """Files in the folder of a package that describe its build."""
 
+CODE = (".cpp", ".cc", ".cxx", ".hpp", ".h", ".py", ".cfg", ".gitignore")
+"""Suffixes of files that rules search for plugins, executables and modules."""
+
 _SKIPPED = frozenset(("build", "install", "devel", "log", "node_modules", "__pycache__", "test", "tests"))
 _MAX_DEPTH = 4
 _MAX_FILES = 200
@@ -23,6 +26,7 @@ _MAX_FILES = 200
 
 _MAX_NEIGHBOURS = 100
 _MAX_BYTES = 100_000
+_MAX_LISTED = 20_000
 _MAX_SRDF_BYTES = 1_000_000
 """A robot of 100 links can have thousands of disabled pairs of links."""
 
@@ -68,6 +72,35 @@ def neighbours(package: Path) -> dict[str, Path]:
         if os.path.isfile(f"{folder}/package.xml"):  # noqa: PTH113
             found.setdefault(name_in(manifest(Path(folder)), Path(folder).name), Path(folder))
     return found
+
+
+def state_of(folder: str, endings: tuple[str, ...]) -> str:
+    """Return a checksum of the names of the files in a folder, and of size and time of those with one of the endings.
+
+    Without endings, of the manifests of the packages in the folder.
+    """
+    from binascii import crc32
+
+    found: list[str] = []
+    for place, folders, files in os.walk(folder):
+        folders[:] = sorted(name for name in folders if name[0] != "." and name != "__pycache__")
+        if not endings:
+            found += filter(None, (_version(f"{place}/{name}/package.xml") for name in folders[:_MAX_NEIGHBOURS]))
+            break
+        paths = (f"{place}/{name}" for name in sorted(files))
+        found += (_version(path) if path.endswith(endings) else path for path in paths)
+        if len(found) > _MAX_LISTED:
+            break
+    return f"{crc32(chr(0).join(found).encode('utf-8', 'surrogateescape')):x}"
+
+
+def _version(file: str) -> str:
+    """Return path, size and time of a file; empty if it does not exist."""
+    try:
+        status = os.stat(file)  # noqa: PTH116
+    except OSError:
+        return ""
+    return f"{file} {status.st_size} {status.st_mtime_ns}"
 
 
 def around(package: Path) -> list[Path]:

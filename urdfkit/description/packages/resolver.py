@@ -7,6 +7,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping
 from pathlib import Path
 
 from urdfkit.description.packages.existence import exists, is_file, is_folder
+from urdfkit.description.packages.related_files import CODE, around, state_of
 from urdfkit.description.xml.source import absolute
 from urdfkit.errors import ResourceError, did_you_mean, may_suggest
 
@@ -52,6 +53,7 @@ class Packages:
         self._found: dict[str, Path] = {}
         self._seen: dict[str, Path] = {}
         self._scanned: dict[Path, dict[str, Path]] = {}
+        self._states: dict[tuple[str, ...], str] = {}
         self.notes: dict[str, None] = {}
         """Notes on files that were found under a name with other capital letters, in order."""
         self.answers: dict[tuple[str, ...], str] = {}
@@ -74,6 +76,8 @@ class Packages:
                 return str(self.find(words[0]))
             if kind == "resolve":
                 return str(self.resolve(words[0], words[1]))
+            if kind == "files":
+                return self._state_of(question)
             if kind == "around":
                 return "\n".join(map(str, self.around(words[0])))
             return self._moved(words[0])
@@ -88,7 +92,7 @@ class Packages:
     def near_file(self, near: str | Path) -> Packages:
         """Return a resolver that searches near another file and shares the cache of folders."""
         other = Packages(self.search, near, environment=self._environment, permits=self._permits)
-        other._scanned = self._scanned
+        other._scanned, other._states = self._scanned, self._states
         return other
 
     def find(self, name: str) -> Path:
@@ -207,11 +211,19 @@ class Packages:
 
     def around(self, package: str | Path) -> list[Path]:
         """Return the launch files and YAML around a description; see `related_files.around`."""
-        from urdfkit.description.packages.related_files import around
-
         found = around(Path(package))
         self.answers[("around", str(package))] = "\n".join(map(str, found))
         return found
+
+    def watch(self, folder: Path, *endings: str) -> None:
+        """Add the files of a package to `answers`: names, and versions of code, neighbours and files with endings."""
+        for question in (("files", str(folder), *CODE, *endings), ("files", str(folder.parent))):
+            self.answers[question] = self._state_of(question)
+
+    def _state_of(self, question: tuple[str, ...]) -> str:
+        if question not in self._states:
+            self._states[question] = state_of(question[1], question[2:])
+        return self._states[question]
 
     def _moved(self, path: str) -> str:
         """Return the path if it exists now, else its relocated path."""
@@ -301,17 +313,12 @@ class Packages:
         return Path(self._environment.get("HOME") or Path.home())
 
     def _fuel_models(self, name: str) -> Iterator[Path]:
-        """Yield the folders of a model in the caches of Gazebo Fuel, the newest version first.
+        """Yield the folders of a model in the caches of Gazebo Fuel, the newest version first."""
+        from urdfkit.description.packages.discovery import fuel_models
 
-        Source: gz-fuel-tools 9, src/LocalCache.cc: SERVER/OWNER/models/NAME/VERSION, the name in lower case.
-        """
         listed = self._listed("GZ_FUEL_CACHE_PATH") + self._listed("IGN_FUEL_CACHE_PATH")
         for cache in (*listed, self._home / ".gz" / "fuel", self._home / ".ignition" / "fuel"):
-            if not self.permits(cache):
-                continue
-            for spelling in dict.fromkeys((name.lower(), name)):
-                versions = [each for each in cache.glob(f"*/*/models/{spelling}/*") if each.name.isdigit()]
-                yield from sorted(versions, key=lambda each: -int(each.name))
+            yield from fuel_models(cache, name) if self.permits(cache) else ()
 
     def _listed(self, variable: str) -> list[Path]:
         return [Path(word) for word in self._environment.get(variable, "").split(os.pathsep) if word]

@@ -40,7 +40,7 @@ def unresolved_package(model: Model) -> str:
 def _descriptions(model: Model) -> dict[str, str]:
     """Return the texts of the descriptions in the packages of related files and in their dependencies."""
     from urdfkit.description.packages.related_files import dependencies_in, manifest, neighbours, package_of
-    from urdfkit.lint.project.entry_files import descriptions
+    from urdfkit.lint.project.entry_files import SUFFIXES, descriptions
 
     near = neighbours(model.package) if model.package is not None else {}
     folders: set[Path] = set()
@@ -48,6 +48,8 @@ def _descriptions(model: Model) -> dict[str, str]:
         package = package_of(Path(file))
         if package is not None:
             folders |= {package, *(near[name] for name in dependencies_in(manifest(package)) if name in near)}
+    for folder in folders:
+        model.expanded.packages.watch(folder, *SUFFIXES)
     return {str(path.absolute()): text for folder in sorted(folders) for path, text in descriptions(folder)}
 
 

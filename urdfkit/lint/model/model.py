@@ -188,13 +188,19 @@ class Model:
 
         return related_files(self.expanded, self.robot, self.package, self.texts)
 
+    def watch(self, *endings: str) -> None:
+        """Make size and time of the files of the package with some endings count for the stored result of the lint."""
+        if self.package is not None:
+            self.expanded.packages.watch(self.package, *endings)
+
     @cached_property
     def neighbouring_macros(self) -> dict[str, list[Path]]:
         """Macro → files of the package, or of the entry's folder, that define it but are not included."""
         from pathlib import Path
 
-        from urdfkit.lint.project.entry_files import near_descriptions
+        from urdfkit.lint.project.entry_files import SUFFIXES, near_descriptions
 
+        self.watch(*SUFFIXES)
         read = {str(Path(file).absolute()) for file in self.expanded.sources}
         found: dict[str, list[Path]] = {}
         for path, text in near_descriptions(self.package, self.expanded.path):

@@ -36,9 +36,12 @@ def related_files(
     """
     packages = expanded.packages
     files = dict.fromkeys(packages.around(package or expanded.path.absolute().parent))
+    if package is not None:
+        packages.watch(package)
     configured = _parameter_files(robot, packages, expanded.path.absolute().parent)
     for other in _neighbours(configured, package) if package is not None else ():
         files.update(dict.fromkeys(packages.around(other)))
+        packages.watch(other)
     files.update(dict.fromkeys(configured))
     found: dict[str, Source] = {}
     roots: dict[str, Element] = {}

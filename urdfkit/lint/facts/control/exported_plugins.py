@@ -29,6 +29,8 @@ def is_exported_plugin(model: Model, kind: str) -> bool:
     )
     near = neighbours(model.package)
     folders = [near[package]] if package in near else list(near.values())
+    for folder in folders:
+        model.expanded.packages.watch(folder, ".xml")
     return any(export.search(text) for folder in folders for text in _sources(folder))
 
 

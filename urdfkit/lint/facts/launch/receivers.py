@@ -48,8 +48,11 @@ _MAX_FILES = 50
 def receiver(call: Call, model: Model) -> Path | None:
     """Return the file of a call in the packages next to the robot's; None if it is elsewhere."""
     package = neighbours(model.package).get(call.package) if model.package is not None and call.package else None
-    file = package / call.path if package is not None else None
-    return file if file is not None and is_file(file) else None
+    if package is None:
+        return None
+    model.expanded.packages.watch(package)
+    file = package / call.path
+    return file if is_file(file) else None
 
 
 def misspelt_file(call: Call) -> str | None:

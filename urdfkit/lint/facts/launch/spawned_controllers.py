@@ -119,6 +119,7 @@ def is_mentioned_elsewhere(name: str, model: Model) -> bool:
     """Return whether a launch file of a package next to the robot's that is not a related file contains a file name."""
     related = {str(Path(file).absolute()) for file in model.related_files}
     for folder in neighbours(model.package).values() if model.package is not None else ():
+        model.expanded.packages.watch(folder, ".launch", ".xml")
         for file in [*folder.glob("launch/**/*.launch"), *folder.glob("launch/**/*.xml")][:_MAX_FILES]:
             try:
                 if str(file.absolute()) not in related and name in file.read_text("utf-8", "replace"):

@@ -57,6 +57,8 @@ class ExecutableUnknown(RobotRule):
                 if node.package is None or node.program is None:
                     continue
                 package, program = node.package.name, node.program.name
+                if package in near:
+                    model.expanded.packages.watch(near[package], ".txt")
                 if package not in by_package:
                     by_package[package] = executables_of(near[package], package) if package in near else None
                 found = by_package[package]

@@ -67,10 +67,11 @@ class ParentLinkUndefined(RobotRule):
 
 def _is_defined_nearby(model: Model, name: str) -> bool:
     """Return whether another description of the package defines a link, for a xacro file."""
-    from urdfkit.lint.project.entry_files import near_descriptions
+    from urdfkit.lint.project.entry_files import SUFFIXES, near_descriptions
 
     if model.expanded.path.suffix != ".xacro":
         return False
+    model.watch(*SUFFIXES)
     own = {str(Path(file).absolute()) for file in model.expanded.sources}
     link = re.compile(rf"<link\s+name\s*=\s*[\"']{re.escape(name)}[\"']")
     texts = (text for path, text in near_descriptions(model.package, model.expanded.path) if str(path) not in own)
