@@ -40,7 +40,7 @@ COMMANDS = {
     "retime": "compute the fastest motion through waypoints within the limits of the joints",
     "srdf": "write groups and disabled collisions of a robot for MoveIt",
     "sim": "simulate a robot: teleop, run, warmup",
-    "topic": "inspect and publish topics of a running simulation: list, info, echo, hz, bw, pub",
+    "topic": "inspect and publish topics of a running simulation: list, info, type, find, echo, hz, bw, pub",
     "replay": "show a recording of ROS 1, ROS 2 or urdfkit in the browser",
     "bag": "print the topics of a recording: info",
     "completion": "print the completion script of bash, zsh or fish",

@@ -11,6 +11,8 @@ from urdfkit.cli.parser import HelpFormatter
 SUBCOMMANDS = {
     "list": ("list_topics", "list the topics"),
     "info": ("list_topics", "print type, number of messages and subscribers of a topic"),
+    "type": ("list_topics", "print the type of a topic"),
+    "find": ("list_topics", "print the topics of a type"),
     "echo": ("echo", "print the messages of a topic"),
     "hz": ("rates", "print the message rate of a topic in simulated time"),
     "bw": ("rates", "print the bandwidth of a topic"),

@@ -65,8 +65,14 @@ async def run(client: Client, arguments: argparse.Namespace) -> int:
     kind = kind or find_topic(rows, name).type
     number = 1 if arguments.once else arguments.number
     if not arguments.quiet and (name not in row_by_name or not row_by_name[name].subscribers):
+        from urdfkit.messages import full_type_name
+
         subscribed = [row.name for row in rows if row.subscribers and row.name != name]
-        note(f"urdfkit: {name} has no subscribers{did_you_mean(name, subscribed)}")
+        same = [row.name for row in rows if row.subscribers and row.type == full_type_name(kind)]
+        near = did_you_mean(name, subscribed) or (
+            f"; topics of this type with subscribers: {', '.join(same)}" if same else ""
+        )
+        note(f"urdfkit: {name} has no subscribers{near}")
     loop = asyncio.get_running_loop()
     due, sent = loop.time(), 0
     while True:
