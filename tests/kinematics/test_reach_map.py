@@ -151,10 +151,6 @@ def test_cells_and_neighbours_of_the_grid() -> None:
         assert len(np.unique(difference.round(9), axis=0)) == 1
         steps.add(tuple(difference[0, :3].round(9).tolist()))
     assert steps == {tuple(s * 0.5 * row) for s in (1, -1) for row in np.eye(3)}
-    marked = np.zeros(grid.cells, dtype=bool)
-    marked[0] = True
-    corner = np.abs(grid.centres(cells) - grid.centres(cells[:1])).max(axis=1) < 0.6
-    np.testing.assert_array_equal(grid.around(marked), corner)
 
 
 def test_refusals() -> None:

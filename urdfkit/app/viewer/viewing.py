@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping
 from contextlib import ExitStack, contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING
+from types import MappingProxyType
+from typing import TYPE_CHECKING, Any
 
 from urdfkit.app.page import Page, require_page
 from urdfkit.app.page_handle import PageHandle
@@ -90,12 +91,15 @@ def viewing(page: Page, model: ModelArgument, shown: ShownRobot, *, strict: bool
         server.stop()
 
 
-def html_page(model: ModelArgument, shown: ShownRobot) -> str:
+def html_page(
+    model: ModelArgument, shown: ShownRobot, messages: Mapping[str, Mapping[str, Any]] = MappingProxyType({})
+) -> str:
     """Return the page of a robot as one file that needs no server.
 
     Args:
         model: the robot as it was given.
         shown: the robot.
+        messages: further messages for the page: type → values.
     """
     from urdfkit.app.viewer.findings_panel import FindingsPanel
     from urdfkit.app.viewer.session import Session
@@ -105,4 +109,6 @@ def html_page(model: ModelArgument, shown: ShownRobot) -> str:
     session = Session(recording, model, shown, FindingsPanel(model, may_write=False))
     session.show()
     session.lint()
+    for name, values in messages.items():
+        recording.publish_latched(name, **values)
     return recording.html()

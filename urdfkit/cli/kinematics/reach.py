@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import base64
 import json
 import math
 import re
@@ -10,7 +11,10 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from urdfkit.cli.robot_arguments.tip_link import add_tip, announce, robot_and_tip
+from urdfkit.app.page import Page, note, require_page, until_interrupted
+from urdfkit.cli.page_options import add_page_options
+from urdfkit.cli.page_options import announce as announce_page
+from urdfkit.cli.robot_arguments.tip_link import add_tip, announce, model_of_tip, robot_and_tip
 from urdfkit.errors import UsageError
 
 if TYPE_CHECKING:
@@ -32,7 +36,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser._negative_number_matcher = re.compile(r"^-\.?\d|^-[xyz](,|$)")
     parser.usage = (
         "urdfkit reach ROBOT [key:=value ...] TIP [--base LINK] [--resolution M] [--orientations N]\n"
-        "       [--down | --cone AXIS,DEG | --position-only] [-o MAP.npz|.json|.ply] [option ...]"
+        "       [--down | --cone AXIS,DEG | --position-only] [-o FILE] [--view | --html FILE] [option ...]"
     )
     parser.epilog = (
         "the score of a cell is the share of the orientations that TIP reaches at its centre, within 1 mm and 0.1°\n"
@@ -65,12 +69,17 @@ def configure(parser: argparse.ArgumentParser) -> None:
     add("--seed", type=_whole, default=0, metavar="N", help="seed of all random numbers (default: 0)")
     add("-o", "--output", type=Path, metavar="FILE", help="write the map to a .npz, .json or .ply file")
     add("--json", action="store_true", help="print one JSON value")
+    add("--view", action="store_true", help="show the map in the browser, until interrupted")
+    add("--html", type=Path, metavar="FILE", help="write a self-contained page with the map that needs no server")
+    add_page_options(parser)
 
 
 def run(arguments: argparse.Namespace) -> int:
     """Compute the map, then print a summary and write the files."""
     if arguments.tool_axis is not None and not (arguments.down or arguments.cone):
         raise UsageError("reach: --tool-axis requires --down or --cone")
+    if arguments.html is not None or arguments.view:
+        require_page("reach: the page", "view", modules=("rosbags",))
     robot, tip = robot_and_tip(arguments, "reach")
 
     from urdfkit.kinematics.chain import Chain
@@ -101,8 +110,50 @@ def run(arguments: argparse.Namespace) -> int:
         write_map(arguments.output, found)
         if not arguments.quiet:
             print(f"wrote {arguments.output}", file=sys.stderr)
-    print(json.dumps(_values(found)) if arguments.json else _text(found))
+    if arguments.json:
+        print(json.dumps(_values(found)), flush=True)
+    elif not arguments.view:
+        print(_text(found), flush=True)
+    elif not arguments.quiet:
+        note(_text(found))  # the address of the page is alone on standard output
+    if arguments.html is not None or arguments.view:
+        _show_page(found, arguments)
     return 0 if found.reached.any() else 1
+
+
+def _show_page(found: ReachMap, arguments: argparse.Namespace) -> None:
+    """Write the page with the map to a file, or serve it until interrupted."""
+    from urdfkit.app.viewer.shown_robot import ShownRobot
+    from urdfkit.app.viewer.viewing import html_page, viewing
+    from urdfkit.atomic import write_text
+
+    model = model_of_tip(arguments)
+    shown = ShownRobot.read(model, strict=arguments.strict)
+    if arguments.html is not None:
+        write_text(arguments.html, html_page(model, shown, {"reach": _message(found)}))
+        if not arguments.quiet:
+            note(f"wrote {arguments.html}")
+    if arguments.view:
+        with until_interrupted():
+            page = Page("view", host=arguments.host, port=arguments.port, opened=announce_page(arguments))
+            with viewing(page, model, shown, strict=arguments.strict) as session:
+                session.server.publish_latched("reach", **_message(found))
+                session.run()
+
+
+def _message(found: ReachMap) -> dict[str, Any]:
+    """Return the message `reach` of the page; see docs/protocol.md."""
+    from urdfkit.kinematics.reach.map_files import COLOURS
+
+    return {
+        "base": found.base,
+        "tip": found.tip,
+        "origin": found.origin.tolist(),
+        "resolution": found.resolution,
+        "shape": list(found.score.shape),
+        "scores": base64.b64encode((255.0 * found.score).round().astype("u1").tobytes()).decode(),
+        "colours": COLOURS.tolist(),
+    }
 
 
 def _orientations(arguments: argparse.Namespace) -> int | Array:

@@ -12,6 +12,7 @@ from urdfkit.errors import UsageError
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     from urdfkit.description import Robot
+    from urdfkit.resources import ModelArgument
 
 
 def add_tip(parser: argparse.ArgumentParser) -> None:
@@ -40,6 +41,15 @@ def announce(message: str) -> None:
     print(message, file=sys.stderr, flush=True)
 
 
+def model_of_tip(arguments: argparse.Namespace) -> ModelArgument:
+    """Return the robot of the words of `add_tip`, not loaded."""
+    from urdfkit.resources import find_model
+
+    plain = [word for word in arguments.words if ":=" not in word]
+    xacro_words = [word for word in arguments.words if ":=" in word]
+    return with_macro(find_model([plain[0], *xacro_words], package_path=arguments.package_path), arguments)
+
+
 def robot_and_tip(arguments: argparse.Namespace, command: str) -> tuple[Robot, str]:
     """Load the robot and return it with the name of the tip.
 
@@ -52,13 +62,11 @@ def robot_and_tip(arguments: argparse.Namespace, command: str) -> tuple[Robot, s
         UrdfkitError: the robot cannot be loaded.
     """
     from urdfkit.description.xml.cost_limit import loading_limit
-    from urdfkit.resources import find_model
 
     plain = [word for word in arguments.words if ":=" not in word]
-    xacro_words = [word for word in arguments.words if ":=" in word]
     if not plain or len(plain) > 2:
         raise UsageError(f"{command}: expected ROBOT and TIP, got {len(plain)} words: {' '.join(plain) or 'none'}")
-    found = with_macro(find_model([plain[0], *xacro_words], package_path=arguments.package_path), arguments)
+    found = model_of_tip(arguments)
     with loading_limit():
         robot = load_robot(found, arguments)
     if found.arguments:

@@ -70,14 +70,3 @@ class PoseGrid:
         inside = np.flatnonzero((place[:, axis] >= 0) & (place[:, axis] < self.shape[axis]))
         moved = np.ravel_multi_index(tuple(place[inside].T), self.shape)
         return inside, (moved * len(self.orientations) + turns[inside]).astype(np.intp)
-
-    def around(self, marked: NDArray[np.bool_]) -> NDArray[np.bool_]:
-        """Return the marked cells and their neighbours, diagonal ones included; shape (cells,)."""
-        wide = np.pad(marked.reshape(self.shape), 1)
-        for axis in range(3):
-            shifted = np.moveaxis(wide, axis, 0)
-            grown = shifted.copy()
-            grown[1:] |= shifted[:-1]
-            grown[:-1] |= shifted[1:]
-            wide = np.moveaxis(grown, 0, axis)
-        return np.ascontiguousarray(wide[1:-1, 1:-1, 1:-1]).ravel()

@@ -2,7 +2,8 @@
 
 Random configurations are sorted into the grid and start the first descents. Each solution starts descents for the same
 orientation in the six next cells, and for the most similar orientations in its own cell, until no more poses are
-reached. Other poses near reached cells are tried from random configurations, and their solutions spread again.
+reached. The other poses of cells with any solution or random configuration are tried from random starts; their
+solutions spread again.
 """
 
 from collections.abc import Callable
@@ -92,8 +93,7 @@ class ReachSearch:
         poses, rows = self._nearest_samples(samples)
         self._spread(self._solve(poses, samples[rows], 0))
         count = len(self.grid.orientations)
-        self._near |= self.reached.reshape(-1, count).any(axis=1)
-        near = np.repeat(self.grid.around(self._near), count)
+        near = np.repeat(self._near | self.reached.reshape(-1, count).any(axis=1), count)
         rest = np.flatnonzero(near & ~self.reached)
         for first in range(0, len(rest), BLOCK):
             self._progress(f"{self.reached.sum():,} poses reached; {len(rest) - first:,} to try from random starts")

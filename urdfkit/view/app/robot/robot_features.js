@@ -11,6 +11,7 @@ import { labels } from "../viewport/labels.js";
 import { layers } from "../viewport/display_layers.js";
 import { measure } from "./measure.js";
 import { pick } from "../viewport/picking.js";
+import { reach } from "./reach_map.js";
 import { robot } from "./robot_model.js";
 import { selection } from "../page/selection_bar.js";
 import { sight } from "../viewport/initial_view.js";
@@ -21,5 +22,5 @@ import { tools } from "../page/toolbar.js";
 import { tree } from "./link_tree.js";
 
 export const viewFeatures = [
-  tools, robot, sight, labels, joints, tree, inspector, layers, tf, measure, findings, cameras, capture, ik, pick, steering, selection, theme, help,
+  tools, robot, sight, labels, joints, tree, inspector, layers, tf, reach, measure, findings, cameras, capture, ik, pick, steering, selection, theme, help,
 ];
