@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import threading
 from collections.abc import Callable, Mapping
+from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -20,6 +21,7 @@ from urdfkit.kinematics.serial.solutions import Solutions
 from urdfkit.linear_algebra import Array
 
 if TYPE_CHECKING:
+    from urdfkit.kinematics.self_collision.collision_free_search import CollisionFreeSearch
     from urdfkit.kinematics.torch_chain import TorchChain
 
 TOLERANCE = (1e-3, 1.745e-3)
@@ -138,6 +140,7 @@ class Chain:
         seed: int = 0,
         threads: int | None = None,
         approach: bool = True,
+        collision_free: bool = False,
     ) -> Solutions:
         """Find configurations that place the tip at targets, within the limits of the joints.
 
@@ -157,13 +160,21 @@ class Chain:
             threads: number of threads; that of the processors when None.
             approach: compute the nearest configuration for targets that cannot be reached, by distance first, then by
                 angle; otherwise any configuration with a small error is returned, in a fifth of the time.
+            collision_free: reach targets only without collisions between links; see
+                `urdfkit.kinematics.self_collision.configuration_check` for the pairs that are checked.
 
         Raises:
             KinematicsError: an unknown preference, targets or seeds of another shape, or numbers that are no pose.
+            ResourceError: `collision_free` is set, and a mesh cannot be read.
         """
         options = SolverOptions(position_only, *tolerance, prefer, restarts, seed, approach)
         shape, rows = self._solve(targets, seeds, options, 1, threads)
-        return self._solutions(rows.reshape(*shape, self._size + ROW))
+        collisions = None
+        if collision_free:
+            starts = np.broadcast_to(self._start if seeds is None else seeds, (*shape, self._size))
+            poses = np.asarray(targets, dtype=np.float64).reshape(len(rows), -1)
+            collisions = self._search.improve(rows[:, 0], poses, starts.reshape(len(rows), -1), options)
+        return self._solutions(rows.reshape(*shape, self._size + ROW), collisions)
 
     def solve_all(
         self,
@@ -175,6 +186,7 @@ class Chain:
         restarts: int = 200,
         seed: int = 0,
         most: int = 256,
+        collision_free: bool = False,
     ) -> Solutions:
         """Find different configurations for one target, with all whole turns that the limits allow, nearest first.
 
@@ -189,6 +201,7 @@ class Chain:
             restarts: see `solve`.
             seed: see `solve`.
             most: maximum number of solutions, before whole turns.
+            collision_free: see `solve`; solutions with collisions are left out.
 
         Returns:
             The solutions; the nearest configuration alone if the target cannot be reached.
@@ -203,6 +216,8 @@ class Chain:
         from_ = (self._start if start is None else self._configurations(start)).ravel().tolist()
         solver = SerialSolver(self.serial, self._compiling)
         found = solver.solve(numbers.ravel().tolist(), from_, options, rows=most)
+        if collision_free:
+            found = self._search.filtered(found)
         if found[0].reached:
             found = solver.with_whole_turns(found, from_)
         return Solutions(
@@ -211,6 +226,7 @@ class Chain:
             np.array([solution.position_error for solution in found]),
             np.array([solution.rotation_error for solution in found]),
             np.array([float(solution.restarts) for solution in found]),
+            [solution.collisions or () for solution in found] if collision_free else None,
         )
 
     def torch(self, device: Any = "cpu", dtype: Any = None) -> TorchChain:
@@ -226,6 +242,12 @@ class Chain:
         from urdfkit.kinematics.torch_chain import TorchChain
 
         return TorchChain(self.serial, device, dtype)
+
+    @cached_property
+    def _search(self) -> CollisionFreeSearch:
+        from urdfkit.kinematics.self_collision.collision_free_search import CollisionFreeSearch
+
+        return CollisionFreeSearch(self.serial)
 
     # Memory
 
@@ -296,9 +318,10 @@ class Chain:
             )
         return shape, result
 
-    def _solutions(self, rows: Array) -> Solutions:
+    def _solutions(self, rows: Array, collisions: list[tuple[tuple[str, str], ...]] | None) -> Solutions:
         n = self._size
-        return Solutions(rows[..., :n], rows[..., n + 2] > 0.0, rows[..., n], rows[..., n + 1], rows[..., n + 3])
+        errors = rows[..., n], rows[..., n + 1]
+        return Solutions(rows[..., :n], rows[..., n + 2] > 0.0, *errors, rows[..., n + 3], collisions)
 
 
 def in_threads(part: Callable[[int, int], int], number: int, workers: int) -> int:

@@ -4,7 +4,7 @@ Each pair is checked in random configurations. The boxes around two links decide
 without any collision is called ``Never`` only after a search for its closest approach has found none either.
 """
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from itertools import combinations
 from math import sqrt
@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from urdfkit.description import Robot, load
 from urdfkit.kinematics.self_collision.box_overlap import overlapping
 from urdfkit.kinematics.self_collision.closest_approach import chain_between, closest_approach
-from urdfkit.kinematics.self_collision.collision_shapes import CollisionShape, shapes_by_link
+from urdfkit.kinematics.self_collision.collision_shapes import CollisionShape, box_around, neighbours, shapes_by_link
 from urdfkit.kinematics.self_collision.pair_check import PairCheck
 from urdfkit.kinematics.self_collision.random_configurations import default, draw, link_poses, ranges
 from urdfkit.linear_algebra import Array
@@ -101,12 +101,12 @@ def collision_matrix(
     positions = draw(robot, samples, np.random.default_rng(seed))
     poses = link_poses(robot, {name: values.astype(float) for name, values in positions.items()})
     rest = link_poses(robot, default(robot))
-    neighbours = set(_neighbours(robot, shapes))
+    adjacent = neighbours(robot, shapes)
     pairs = list(combinations(shapes, 2))
     found = []
     for k, (first, second) in enumerate(pairs):
         pair = _PairSearch(robot, (first, second), shapes, poses, rest, positions, [seed, k])
-        found.append(pair.result(adjacent=(first, second) in neighbours))
+        found.append(pair.result(adjacent=(first, second) in adjacent))
         progress(k + 1, len(pairs))
     return CollisionMatrix(tuple(shapes), tuple(found))
 
@@ -128,7 +128,7 @@ class _PairSearch:
         self.poses, self.rest = poses, rest
         first, second = (shapes[name] for name in names)
         self.check = PairCheck(first, second)
-        self.boxes = [_box(first), _box(second)]
+        self.boxes = [box_around(first), box_around(second)]
         self.count = len(poses[names[0]][1])
 
     def result(self, *, adjacent: bool) -> Pair:
@@ -215,13 +215,6 @@ class _PairSearch:
         return {name: float(values[k]) for name, values in self.positions.items()}
 
 
-def _box(shapes: tuple[CollisionShape, ...]) -> tuple[Array, Array]:
-    """Return centre and half sizes of the box around shapes, in the axes of their link."""
-    low = np.min([shape.low for shape in shapes], axis=0)
-    high = np.max([shape.high for shape in shapes], axis=0)
-    return (low + high) / 2.0, (high - low) / 2.0
-
-
 def _bound(hits: int, samples: int) -> float:
     """Return the upper bound of a rate at 95 % confidence: Wilson's, and 3/n without hits."""
     if hits == 0:
@@ -230,23 +223,3 @@ def _bound(hits: int, samples: int) -> float:
     centre = rate + z * z / (2.0 * samples)
     width = z * sqrt(rate * (1.0 - rate) / samples + z * z / (4.0 * samples**2))
     return min(1.0, (centre + width) / (1.0 + z * z / samples))
-
-
-def _neighbours(robot: Robot, shapes: dict[str, tuple[CollisionShape, ...]]) -> Iterator[tuple[str, str]]:
-    """Yield the pairs of links that a joint connects, directly or through links without shapes; both orders."""
-    touching: dict[str, list[str]] = {}
-    for joint in robot.joints:
-        if joint.parent is not None and joint.child is not None:
-            touching.setdefault(joint.parent, []).append(joint.child)
-            touching.setdefault(joint.child, []).append(joint.parent)
-    for name in shapes:
-        waiting, seen = [name], {name}
-        while waiting:
-            for other in touching.get(waiting.pop(), ()):
-                if other in seen:
-                    continue
-                seen.add(other)
-                if other in shapes:
-                    yield name, other
-                else:
-                    waiting.append(other)

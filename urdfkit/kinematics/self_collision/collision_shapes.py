@@ -1,6 +1,6 @@
 """Collision shapes of links for coal: convex shapes to decide most pairs of links, and triangles where they overlap."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Collection
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -38,24 +38,63 @@ class CollisionShape:
     high: Array
 
 
-def shapes_by_link(robot: Robot, note: Callable[[str], None]) -> dict[str, tuple[CollisionShape, ...]]:
+def shapes_by_link(robot: Robot, note: Callable[[str], None] | None = None) -> dict[str, tuple[CollisionShape, ...]]:
     """Return the collision shapes of each link that has any, in document order.
 
     Args:
         robot: the robot.
         note: called with a message for a mesh that cannot be read; its shape is left out.
+
+    Raises:
+        ResourceError: a mesh cannot be read, and `note` is None.
     """
     loader = MeshLoader()
     found = {link.name: tuple(_shapes(robot, link, loader, note)) for link in robot.links}
     return {name: shapes for name, shapes in found.items() if shapes}
 
 
-def _shapes(robot: Robot, link: Link, loader: MeshLoader, note: Callable[[str], None]) -> list[CollisionShape]:
+def box_around(shapes: tuple[CollisionShape, ...]) -> tuple[Array, Array]:
+    """Return centre and half sizes of the box around shapes, in the axes of their link."""
+    low = np.min([shape.low for shape in shapes], axis=0)
+    high = np.max([shape.high for shape in shapes], axis=0)
+    return (low + high) / 2.0, (high - low) / 2.0
+
+
+def neighbours(robot: Robot, shapes: Collection[str]) -> set[tuple[str, str]]:
+    """Return the pairs of links that a joint connects, directly or through links without shapes; both orders.
+
+    Args:
+        robot: the robot.
+        shapes: names of the links with shapes.
+    """
+    found = set()
+    touching: dict[str, list[str]] = {}
+    for joint in robot.joints:
+        if joint.parent is not None and joint.child is not None:
+            touching.setdefault(joint.parent, []).append(joint.child)
+            touching.setdefault(joint.child, []).append(joint.parent)
+    for name in shapes:
+        waiting, seen = [name], {name}
+        while waiting:
+            for other in touching.get(waiting.pop(), ()):
+                if other in seen:
+                    continue
+                seen.add(other)
+                if other in shapes:
+                    found.add((name, other))
+                else:
+                    waiting.append(other)
+    return found
+
+
+def _shapes(robot: Robot, link: Link, loader: MeshLoader, note: Callable[[str], None] | None) -> list[CollisionShape]:
     shapes = []
     for collision in link.collisions:
         try:
             shape = _shape(robot, collision, loader)
         except ResourceError as error:
+            if note is None:
+                raise
             note(f"link `{link.name}`: a collision shape is left out: {error}")
             continue
         if shape is not None:

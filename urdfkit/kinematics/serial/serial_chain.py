@@ -79,6 +79,7 @@ class SerialChain:
         robot: the robot.
         base: name of the base link.
         tip: name of the tip link.
+        hold: name of a joint or variable that does not move → its position [rad] or [m].
         variables: the variables in the order of the joints from base to tip; mimic joints are moved by their leader.
         steps: see `serial.kernel.chain_forward.place`.
         indices: index of the variable of each step.
@@ -91,7 +92,7 @@ class SerialChain:
         self.tip = tip
         self._couplings: dict[str, Coupling] = couplings(robot)
         self._names = variable_names(robot)
-        self._hold = self.checked_positions(hold or {})
+        self.hold = self.checked_positions(hold or {})
         self.steps, self.indices = array("d"), array("q")
         factors: dict[str, list[float]] = {}
         ranges: dict[str, tuple[float, float]] = {}
@@ -111,8 +112,8 @@ class SerialChain:
                 sign = -1.0 if is_reversed else 1.0
                 rotation = rotation_to(part.axis)
                 placement = compose(placement, rotation)
-                if part.variable is None or part.variable in self._hold:
-                    held = part.offset + part.factor * self._hold.get(part.variable or "", 0.0)
+                if part.variable is None or part.variable in self.hold:
+                    held = part.offset + part.factor * self.hold.get(part.variable or "", 0.0)
                     placement = compose(
                         placement, turned(sign * held, 0.0) if part.is_turn else turned(0.0, sign * held)
                     )
@@ -193,7 +194,7 @@ class SerialChain:
         """Return the motions of a movable joint from parent to child; a floating joint is held."""
         if joint.type == "floating":
             parts = PARTS["floating"]
-            values = [self._hold.get(f"{joint.name}/{part}", float(part == "rot_w")) for part in parts]
+            values = [self.hold.get(f"{joint.name}/{part}", float(part == "rot_w")) for part in parts]
             if not any(values[3:]):
                 raise KinematicsError(f"the quaternion of the floating joint `{joint.name}` is zero")
             return [[*rotation_of_quaternion(values[3:]), *values[:3]]]

@@ -86,6 +86,7 @@ class Solution:
         position_error: distance from the tip to the target [m].
         rotation_error: angle from the tip to the target [rad].
         restarts: number of random starts that were needed.
+        collisions: pairs of links that collide; None if they were not checked.
     """
 
     q: tuple[float, ...]
@@ -93,6 +94,7 @@ class Solution:
     position_error: float
     rotation_error: float
     restarts: int
+    collisions: tuple[tuple[str, str], ...] | None = None
 
 
 class SerialSolver:
@@ -151,8 +153,20 @@ class SerialSolver:
         if invalid:
             raise KinematicsError("target is no pose: its numbers must be finite, and its quaternion not zero")
         length = size + ROW
-        found = [_solution(result[k : k + length], size) for k in range(0, len(result), length)]
+        found = [solution_of_row(result[k : k + length], size) for k in range(0, len(result), length)]
         return [solution for solution in found if solution.reached] or found[:1]
+
+    def manipulability(self, q: Sequence[float], *, position_only: bool = False) -> float:
+        """Return Yoshikawa's measure √det(J·Jᵀ) of a configuration; see `Chain.manipulability`."""
+        chain, size = self.chain, len(self.chain.variables)
+        numbers, result = array("d", q), array("d", (0.0,))
+        work = array("d", bytes(8 * (AXIS * len(chain.indices) + 10 * size + 8)))
+        function("forward", self._compiling)(
+            *(chain.steps.buffer_info()[0], chain.indices.buffer_info()[0], len(chain.indices), size),
+            *(numbers.buffer_info()[0], 1, result.buffer_info()[0], None, 12 if position_only else 4),
+            work.buffer_info()[0],
+        )
+        return result[0]
 
     def with_whole_turns(self, solutions: Sequence[Solution], start: Sequence[float]) -> list[Solution]:
         """Return solutions with all combinations of whole turns that finite limits allow, nearest to `start` first."""
@@ -189,6 +203,8 @@ class SerialSolver:
             options: the options it was found with.
         """
         is_near = solution.position_error <= options.distance
+        if solution.collisions and is_near and (options.position_only or solution.rotation_error <= options.angle):
+            return "collision " + ", ".join(f"`{first}`–`{second}`" for first, second in solution.collisions)
         limits = array("d", self.chain.limits)
         for k, variable in enumerate(self.chain.variables):
             if variable.is_periodic:
@@ -208,5 +224,6 @@ class SerialSolver:
         return f"beyond reach by {solution.position_error:.3g} m"
 
 
-def _solution(row: Sequence[float], size: int) -> Solution:
+def solution_of_row(row: Sequence[float], size: int) -> Solution:
+    """Return a solution as the kernel writes it; `size` is the number of variables."""
     return Solution(tuple(row[:size]), row[size + 2] > 0.0, row[size], row[size + 1], int(row[size + 3]))

@@ -75,6 +75,11 @@ def configure(parser: argparse.ArgumentParser) -> None:
         help="solution to print of those found: nearest to --from (default), first found, or most manipulable",
     )
     add("--all", action="store_true", help="print all solutions found, with all whole turns within the limits")
+    add(
+        "--collision-free",
+        action="store_true",
+        help="only solutions in which no links collide, except neighbours and links that collide at rest",
+    )
     add("--restarts", type=int, default=200, metavar="N", help="random starts per pose (default: 200)")
     add("--seed", type=int, default=0, metavar="N", help="number of the random stream (default: 0)")
     add("--threads", type=int, metavar="N", help="threads for files of poses (default: one per processor)")

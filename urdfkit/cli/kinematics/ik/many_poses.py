@@ -96,12 +96,9 @@ def _solved(
             restarts=options.restarts,
             seed=options.seed,
             threads=arguments.threads,
+            collision_free=arguments.collision_free,
         )
-        fields = (found.reached, found.position_error, found.rotation_error, found.restarts.astype(int))
-        solutions += [
-            Solution(tuple(q), *values)
-            for q, *values in zip(found.q.tolist(), *(field.tolist() for field in fields), strict=True)
-        ]
+        solutions += found.listed()
         if shows_progress:
             print(f"\r{len(solutions)} of {len(poses)} poses", end="", file=sys.stderr, flush=True)
     if shows_progress:

@@ -43,6 +43,12 @@ def solve_pose(
     solver = SerialSolver(chain, None if arguments.quiet else announce)
     from_ = chain.start(start)
     solutions = solver.solve(pose, from_, options, rows=MOST if arguments.all else 1)
+    if arguments.collision_free:
+        from urdfkit.kinematics.self_collision.collision_free_search import CollisionFreeSearch
+
+        search = CollisionFreeSearch(chain)
+        found = solutions[0]
+        solutions = search.filtered(solutions) if arguments.all else [search.free(found, pose, from_, options)]
     if arguments.all and solutions[0].reached:
         solutions = solver.with_whole_turns(solutions, from_)
     best = solutions[0]

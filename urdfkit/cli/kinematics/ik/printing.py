@@ -20,6 +20,7 @@ def solution_as_json(
         "rotation_error": solution.rotation_error,
         "restarts": solution.restarts,
         "at_limits": at_limits,
+        "collisions": None if solution.collisions is None else [list(pair) for pair in solution.collisions],
         "reason": None if solution.reached else reason,
     }
 
