@@ -59,6 +59,7 @@ def _store() -> Any:
     """Return rosbags' typestore with the messages it lacks; None without rosbags."""
     from urdfkit.messages.control import CONTROL_MESSAGES
     from urdfkit.messages.sensors import SENSOR_MESSAGES
+    from urdfkit.messages.services import SERVICE_MESSAGES
     from urdfkit.messages.simulation import WORLD_MESSAGES
     from urdfkit.messages.vision import VISION_MESSAGES
 
@@ -66,9 +67,10 @@ def _store() -> Any:
         from rosbags.typesys import Stores, get_types_from_msg, get_typestore
     except ImportError:
         return None
+    definitions_by_name = CONTROL_MESSAGES | WORLD_MESSAGES | SENSOR_MESSAGES | VISION_MESSAGES | SERVICE_MESSAGES
     store = get_typestore(Stores.ROS2_HUMBLE)
     definitions: dict[str, Any] = {}
-    for name, text in (CONTROL_MESSAGES | WORLD_MESSAGES | SENSOR_MESSAGES | VISION_MESSAGES).items():
+    for name, text in definitions_by_name.items():
         (definitions[name],) = get_types_from_msg(text, name).values()  # whose own key has /msg/ in it for services too
     store.register(definitions)
     return store

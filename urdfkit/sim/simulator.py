@@ -84,6 +84,7 @@ class Simulator:
         controllers: the robot's controllers, to list, load, start, stop and switch.
         note: reports a warning to the user, each text once.
         paused: `run` does not move while set; `step` does.
+        requests: topic of a service → function that executes a request and raises its error.
     """
 
     def __init__(
@@ -164,7 +165,7 @@ class Simulator:
         self._snapshots = Snapshots(self.world, self.bus)
         for each in builder.robot_list:
             each.publish_fixed()
-        listen(self.bus, self.world, self.at, self.note)
+        self.requests = listen(self.bus, self.world, self.at, self.note)
         note_overlaps(builder.engine, self.kinematics.link_names, self.note)
 
     def __deepcopy__(self, memo: dict[int, Any]) -> Simulator:

@@ -26,6 +26,7 @@ from urdfkit.app.simulation.features.topic_panel import TopicPanel
 from urdfkit.app.simulation.features.topic_stream import TopicStreams
 from urdfkit.app.simulation.features.world_objects import WorldObjects
 from urdfkit.app.simulation.scene_bodies import SceneBodies
+from urdfkit.bridges.bridge import Bridges
 from urdfkit.errors import SimulationError, UrdfkitError
 from urdfkit.sim.simulator import Simulator
 from urdfkit.sim.state.quaternion import yaw_of
@@ -33,6 +34,8 @@ from urdfkit.teleop import STOP, Motion, Teleop
 from urdfkit.view.protocol.page_requests import Request, Schema
 from urdfkit.view.server.server import Server
 
+SERVED = 0.002
+"""Longest pause of the simulation while a bridge is open [s]."""
 STATUS = 0.1
 """Seconds between two status messages to the page."""
 PATIENCE = 0.05
@@ -67,6 +70,7 @@ class DriveLoop:
         sensor_views: views of the sensors.
         pace: ratio of simulated time to the clock.
         features: features of the page.
+        bridges: bridges whose peers are served between two steps.
     """
 
     def __init__(
@@ -86,6 +90,7 @@ class DriveLoop:
         self._warnings: list[str] = []
         self.report, simulator.note.report = simulator.note.report, self._warn
         self.look: Callable[[], None] = lambda: None  # subscribes a recording to new topics
+        self.bridges = Bridges()
         self.pace = ClockRate(simulator.dt, clock)
         self.sensor_views = SensorViews(simulator, server, clock)
         self.scene_bodies = SceneBodies(simulator, server)
@@ -121,15 +126,27 @@ class DriveLoop:
             while not stop.is_set():
                 self.tick()
                 due += FRAME
-                if (wait := due - self._clock()) > 0:
-                    self._sleep(wait)
+                if due > self._clock():
+                    self._rest(due)
                 else:
                     due = self._clock()
         finally:
             self.replay.close()
 
+    def _rest(self, due: float) -> None:
+        """Wait until the next iteration is due; serve the peers of bridges meanwhile."""
+        while (wait := due - self._clock()) > 0:
+            if not self.bridges:
+                self._sleep(wait)
+                continue
+            self.bridges.calls.wait(min(wait, SERVED))
+            self.bridges.take()
+            if not self.replay.playing and not self.simulator.paused:
+                self._physics()
+
     def tick(self) -> None:
         """Run one iteration: requests, drive commands, physics, poses."""
+        self.bridges.take()
         inputs = self.server.inbox.take()
         for action in inputs.actions:
             self._act(action)
@@ -143,6 +160,14 @@ class DriveLoop:
                 self._physics()
         self.look()
         self._report()
+
+    def reset(self) -> None:
+        """Reset the simulation, as the button does."""
+        self._act("reset")
+
+    def pause(self, paused: bool) -> None:
+        """Pause or continue, as the buttons do."""
+        self._act("pause" if paused else "play")
 
     def _act(self, action: str) -> None:
         simulator = self.simulator

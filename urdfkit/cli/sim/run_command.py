@@ -20,6 +20,7 @@ from urdfkit.cli.robot_arguments.macro_option import add_macro, with_macro
 from urdfkit.cli.robot_arguments.robot_loading import load_robot
 from urdfkit.cli.robot_arguments.unused_arguments import note_unused
 from urdfkit.cli.sim import option_values
+from urdfkit.cli.sim.bridge_options import add_bridges, bridge_options
 from urdfkit.cli.sim.controllers_option import add_controllers
 from urdfkit.cli.sim.record_option import NEW_TOPIC_PERIOD, add_record, check_record, recording
 from urdfkit.cli.sim.renderer_option import add_renderer
@@ -29,6 +30,7 @@ from urdfkit.cli.sim.warnings import GroupedWarnings
 from urdfkit.errors import SimulationError, UsageError, suggestion
 
 if TYPE_CHECKING:
+    from urdfkit.bridges.bridge import Bridges
     from urdfkit.cli.sim.run_report import Effort
     from urdfkit.sim.simulator import Simulator
 
@@ -142,6 +144,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     add_controllers(parser)
     add_renderer(parser)
     add_repair_options(parser)
+    add_bridges(parser)
     add("--json", action="store_true", help="print one JSON value")
     parser.epilog = (
         "examples:\n"
@@ -156,7 +159,10 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.cmd_ramp is not None and arguments.cmd_vel is None:
         raise UsageError("sim run: --cmd-ramp requires --cmd-vel")
     require_packages("sim run", "sim", {name: name for name in ("numpy", "trimesh", "numba", "rosbags")})
+    from urdfkit.app.page import note
     from urdfkit.app.simulation import image_files, save_options
+    from urdfkit.app.simulation.bridging.bridges import bridged
+    from urdfkit.app.simulation.bridging.real_time import RunControls
     from urdfkit.atomic import write_bytes
     from urdfkit.cli.sim import scan_files
     from urdfkit.cli.sim.run_report import as_json, as_text
@@ -164,15 +170,19 @@ def run(arguments: argparse.Namespace) -> int:
     save_options.check_places("--save-image", (each.file for each in arguments.save_image))
     save_options.check_places("--save-scan", (each.file for each in arguments.save_scan))
     check_record(arguments)
+    options = bridge_options(arguments)
     save_options.check_places("--save-world", [Path(arguments.save_world)] if arguments.save_world is not None else [])
     simulator = load(arguments)
     command(simulator, arguments)
     images = image_files.find_topics(simulator, arguments.save_image)
     ranges = scan_files.find_topics(simulator, arguments.save_scan)
-    with recording(simulator, arguments) as subscribe_to_new:
+    with (
+        bridged(simulator, options, RunControls(simulator), note) as bridges,
+        recording(simulator, arguments) as subscribe_to_new,
+    ):
         if arguments.record is not None:
             simulator.every(NEW_TOPIC_PERIOD, subscribe_to_new)
-        spent = advance(simulator, arguments.duration, arguments.until)
+        spent = advance(simulator, arguments.duration, arguments.until, bridges)
     for file, content in [*image_files.contents(simulator, images), *scan_files.contents(simulator, ranges)]:
         write_bytes(file, content)
     if arguments.save_world is not None:
@@ -324,23 +334,31 @@ def publish_at(simulator: Simulator, wanted: option_values.TopicMessage) -> None
     simulator.at(wanted.t, lambda: simulator.bus.publish(wanted.topic, kind, message))
 
 
-def advance(simulator: Simulator, seconds: float, until: str | None) -> Effort:
-    """Advance, with progress on a terminal; return the time spent.
+def advance(simulator: Simulator, seconds: float, until: str | None, bridges: Bridges) -> Effort:
+    """Advance, with progress on a terminal, in real time with bridges; return the time spent.
 
     Raises:
         UrdfkitError: the simulation diverged, or the condition cannot be evaluated.
     """
+    from urdfkit.app.simulation.bridging.real_time import advance_in_real_time
     from urdfkit.cli.sim.run_report import Effort
     from urdfkit.cli.sim.until_condition import Condition
 
     joints = (*simulator.kinematics.joint_names, *simulator.kinematics.mimic_names)
     condition = Condition(until, joints) if until is not None else None
     total = round(seconds / simulator.dt)
+
+    def ended() -> bool:
+        return simulator.state.step >= total or (condition is not None and bool(condition(simulator.state)))
+
     chunk = max(1, round(CHUNK / simulator.dt)) if condition is None else 1
     shown = time.perf_counter() if sys.stderr.isatty() else float("inf")
     cpu, own, wall = time.process_time(), time.thread_time(), time.perf_counter()
     try:
-        while simulator.state.step < total and not (condition is not None and condition(simulator.state)):
+        while not ended():
+            if bridges:
+                advance_in_real_time(simulator, bridges, ended)
+                break
             simulator.step(min(chunk, total - simulator.state.step))
             if time.perf_counter() - shown > PROGRESS:
                 shown = time.perf_counter()

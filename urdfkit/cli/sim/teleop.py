@@ -10,6 +10,7 @@ from urdfkit.cli.robot_arguments.launch_arguments import add_launch_arguments, w
 from urdfkit.cli.robot_arguments.macro_option import add_macro, with_macro
 from urdfkit.cli.robot_arguments.robot_loading import load_robot
 from urdfkit.cli.robot_arguments.unused_arguments import note_unused
+from urdfkit.cli.sim.bridge_options import add_bridges, bridge_options
 from urdfkit.cli.sim.controllers_option import add_controllers
 from urdfkit.cli.sim.record_option import add_record, check_record, recording
 from urdfkit.cli.sim.renderer_option import add_renderer
@@ -40,6 +41,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     add_record(parser)
     add_page_options(parser)
     add_terminal(parser)
+    add_bridges(parser)
     parser.add_argument(
         "--watchers-may",
         action="append",
@@ -57,12 +59,14 @@ def configure(parser: argparse.ArgumentParser) -> None:
 def run(arguments: argparse.Namespace) -> int:
     """Simulate and serve until interrupted."""
     require_page("sim teleop", "sim", modules=("numba", "rosbags"))
+    from urdfkit.app.simulation.bridging.bridges import bridged
     from urdfkit.app.simulation.simulation_handle import driving
     from urdfkit.description.sdf import load_world
     from urdfkit.description.xml.cost_limit import loading_limit
     from urdfkit.resources import find_model
 
     check_record(arguments)
+    bridges = bridge_options(arguments)
     arguments.no_browser = arguments.no_browser or bool(arguments.terminal)
     from_terminal = check_terminal(arguments, browser=opens_browser(arguments))
     with until_interrupted():
@@ -91,6 +95,7 @@ def run(arguments: argparse.Namespace) -> int:
                 density=arguments.density,
                 note=print_warning,
             ) as loop,
+            bridged(loop.simulator, bridges, loop, print_warning) as loop.bridges,
             recording(loop.simulator, arguments) as loop.look,
         ):
             if not loop.simulator.command_topics:

@@ -37,8 +37,10 @@ MODEL_STATES_RATE = 100.0
 """Publication rate [Hz]; Gazebo publishes in every step."""
 
 
-def listen(bus: Bus, world: LiveWorld, call_at: Callable[[float, Callable[[], None]], None], note: Note) -> None:
-    """Subscribe to the topics of the services.
+def listen(
+    bus: Bus, world: LiveWorld, call_at: Callable[[float, Callable[[], None]], None], note: Note
+) -> dict[str, Callable[[Any], None]]:
+    """Subscribe to the topics of the services; return topic → the function that executes a request.
 
     Args:
         bus: of the simulation.
@@ -48,6 +50,7 @@ def listen(bus: Bus, world: LiveWorld, call_at: Callable[[float, Callable[[], No
     """
     heard = _Services(world, call_at)
     prefix = f"/world/{world.name}"
+    acts: dict[str, Callable[[Any], None]] = {}
     for topic, type, act in (
         ("/gazebo/set_model_state", MODEL_STATE, heard.set_model_state),
         ("/gazebo/spawn_sdf_model", SPAWN, heard.spawn_model),
@@ -63,6 +66,8 @@ def listen(bus: Bus, world: LiveWorld, call_at: Callable[[float, Callable[[], No
         (f"{prefix}/wrench/clear", ENTITY, heard.clear_wrench),
     ):
         bus.subscribe(topic, type, _reporting(note, topic, act))
+        acts[topic] = act
+    return acts
 
 
 def _reporting(note: Note, topic: str, act: Callable[[Any], None]) -> Callable[[Any], None]:

@@ -1,0 +1,87 @@
+"""Start the bridges of a simulation, and run what their peers send in the thread of the simulation."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from urdfkit.app.page import note
+from urdfkit.app.simulation.bridging.description_text import description_text
+from urdfkit.app.simulation.bridging.services import Controls, simulation_services
+from urdfkit.bridges.bridge import Bridges
+from urdfkit.bridges.graph import Graph
+
+if TYPE_CHECKING:
+    from urdfkit.bridges.websocket.address import Address
+    from urdfkit.bridges.websocket.server import WebSocketServer
+    from urdfkit.sim.simulator import Simulator
+
+DESCRIPTION = "/robot_description"
+STRING = "std_msgs/msg/String"
+
+
+@dataclass(frozen=True)
+class BridgeOptions:
+    """Which bridges to start.
+
+    Attributes:
+        rosbridge: address of the rosbridge server; None for no server.
+        origins: origins of web pages that may connect, in addition to pages of this machine.
+    """
+
+    rosbridge: Address | None = None
+    origins: Sequence[str] = ()
+
+    def __bool__(self) -> bool:
+        """Whether a bridge is started."""
+        return self.rosbridge is not None
+
+
+@contextmanager
+def bridged(
+    simulator: Simulator, options: BridgeOptions, controls: Controls, report: Callable[[str], None]
+) -> Iterator[Bridges]:
+    """Serve the bridges inside the context; yield them.
+
+    Args:
+        simulator: the simulation.
+        options: which bridges.
+        controls: what pauses and resets the simulation.
+        report: receives a line about a message that was dropped.
+
+    Raises:
+        UsageError: a port is in use.
+    """
+    bridges = Bridges()
+    if not options:
+        yield bridges
+        return
+    from urdfkit.bridges.rosbridge.bridge import serve_rosbridge
+    from urdfkit.messages import from_fields
+
+    text = description_text(simulator.robot)
+    simulator.bus.publish(DESCRIPTION, STRING, from_fields(STRING, {"data": text}))
+    graph = Graph(
+        simulator.bus,
+        bridges.calls,
+        lambda: simulator.t,
+        simulation_services(simulator, controls),
+        {DESCRIPTION: text, "/use_sim_time": True},
+    )
+    try:
+        if options.rosbridge is not None:
+            server = serve_rosbridge(graph, options.rosbridge, origins=options.origins, report=report)
+            bridges.add(server)
+            _announce("rosbridge", server)
+        yield bridges
+    finally:
+        bridges.close()
+
+
+def _announce(name: str, server: WebSocketServer) -> None:
+    for url in server.urls:
+        note(f"{name}: {url}")
+    if server.needs_token:
+        note(f"warning: everyone with this address can read and publish all topics of {name}; it is not encrypted")

@@ -1,0 +1,183 @@
+"""Graph: topics and services of a simulation, for peers that a server serves in a thread of its own."""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Callable, Mapping
+from threading import Lock
+from typing import Any
+
+from urdfkit.bridges.bridge import CAPACITY, CallQueue, is_latched, message_topics, publish_received
+from urdfkit.bridges.published_message import PublishedMessage
+from urdfkit.bridges.service import Service
+from urdfkit.bus import Bus, Subscription, absolute, nearest_topic
+from urdfkit.errors import UrdfkitError, UsageError, suggestion
+from urdfkit.messages import full_type_name
+
+MOST_BYTES = 64 * 1024 * 1024
+"""Bytes of messages that may wait for the thread of the server; beyond this the oldest are dropped."""
+
+Receive = Callable[[PublishedMessage], None]
+Post = Callable[[Callable[[], None]], None]
+
+
+class Graph:
+    """Topics and services of a simulation.
+
+    One thread changes the simulation: what peers publish and call waits until the thread of the simulation runs
+    the queue. Messages for peers wait until the thread of the server takes them.
+
+    Args:
+        bus: of the simulation.
+        calls: queue of the calls for the thread of the simulation.
+        clock: returns the simulated time [s].
+        services: services that peers can call.
+        parameters: parameter → value, for protocols that read parameters.
+
+    Attributes:
+        post: runs a function in the thread of the server; the server replaces it.
+    """
+
+    def __init__(
+        self,
+        bus: Bus,
+        calls: CallQueue,
+        clock: Callable[[], float],
+        services: Mapping[str, Service],
+        parameters: Mapping[str, Any] | None = None,
+    ) -> None:
+        self.bus, self.calls, self.clock, self.services = bus, calls, clock, services
+        self.parameters = dict(parameters or {})
+        self.post: Post = lambda call: call()
+        self._samples: deque[tuple[tuple[Receive, ...], PublishedMessage]] = deque()
+        self._bytes, self._posted, self._lock = 0, False, Lock()
+        self._feeds: dict[str, _Feed] = {}
+
+    def close(self) -> None:
+        """End all subscriptions."""
+        for feed in self._feeds.values():
+            feed.close()
+        self._feeds.clear()
+
+    # In the thread of the server
+
+    @property
+    def topics(self) -> dict[str, str]:
+        """Topic → type, without requests of services."""
+        return {topic.name: topic.type for topic in message_topics(self.bus)}
+
+    def type_of(self, topic: str, requested: str | None = None) -> str:
+        """Return the type of a topic.
+
+        Args:
+            topic: absolute name.
+            requested: type that a peer names; a topic that does not exist yet gets it.
+
+        Raises:
+            UsageError: the topic has another type, or is unknown and none was requested.
+        """
+        full = None if not requested else full_type_name(requested)
+        actual = next((each.type for each in self.bus.topics if each.name == topic), None)
+        if actual is None:
+            if full is None:
+                raise UsageError(f"no topic `{topic}`{suggestion(nearest_topic(topic, list(self.topics)))}")
+            return full
+        if full is not None and full != actual:
+            raise UsageError(f"topic `{topic}` has type {actual}, not {full}")
+        return actual
+
+    def subscribe(self, topic: str, type: str, receive: Receive) -> Callable[[], None]:
+        """Call `receive` with every message of a topic, in the thread of the server; return what ends it."""
+        name = absolute(topic)
+        feed = self._feeds.get(name)
+        if feed is None:
+            feed = self._feeds[name] = _Feed(self, name, type)
+            self.call(feed.open)
+        feed.receivers = (*feed.receivers, receive)
+        if is_latched(name):
+            self.call(lambda: feed.latest(receive))
+
+        def end() -> None:
+            feed.receivers = tuple(each for each in feed.receivers if each is not receive)
+            if not feed.receivers and self._feeds.get(name) is feed:
+                del self._feeds[name]
+                self.call(feed.close)
+
+        return end
+
+    def call(self, function: Callable[[], None]) -> None:
+        """Run a function in the thread of the simulation, before its next step.
+
+        Raises:
+            UsageError: too many calls wait.
+        """
+        if not self.calls.add(function):
+            raise UsageError(f"{CAPACITY} calls wait for the simulation; this one is dropped")
+
+    def publish(self, topic: str, message: Any, failed: Callable[[str], None]) -> None:
+        """Publish a message; `failed` receives the reason if a subscriber cannot use it."""
+        self.call(lambda: publish_received(self.bus, topic, message, lambda reason: self.post(lambda: failed(reason))))
+
+    def request(self, service: Service, message: Any, done: Callable[[Any, str | None], None]) -> None:
+        """Call a service; `done` receives its response, or None and the reason, in the thread of the server."""
+
+        def call() -> None:
+            try:
+                response, reason = service.call(message), None
+            except (UrdfkitError, ArithmeticError, LookupError, TypeError, ValueError) as error:
+                response, reason = None, str(error)
+            self.post(lambda: done(response, reason))
+
+        self.call(call)
+
+    def deliver(self, receivers: tuple[Receive, ...], sample: PublishedMessage) -> None:
+        """Hand a message to peers, in the thread of the server; called by the thread of the simulation."""
+        with self._lock:
+            self._samples.append((receivers, sample))
+            self._bytes += sample.size
+            while self._bytes > MOST_BYTES and len(self._samples) > 1:
+                self._bytes -= self._samples.popleft()[1].size
+            idle, self._posted = not self._posted, True
+        if idle:
+            self.post(self._drain)
+
+    def _drain(self) -> None:
+        with self._lock:
+            samples, self._samples = self._samples, deque()
+            self._bytes, self._posted = 0, False
+        for receivers, sample in samples:
+            for receive in receivers:
+                receive(sample)
+
+
+class _Feed:
+    """The subscription of all peers to one topic."""
+
+    def __init__(self, graph: Graph, topic: str, type: str) -> None:
+        self._graph, self._topic, self._type = graph, topic, type
+        self._subscription: Subscription | None = None
+        self.receivers: tuple[Receive, ...] = ()
+
+    def open(self) -> None:
+        """Subscribe; the type was checked before, and another program may have created the topic since."""
+        try:
+            self._subscription = self._graph.bus.subscribe(self._topic, self._type, self._receive)
+        except UsageError:
+            self._subscription = None
+
+    def close(self) -> None:
+        """End the subscription."""
+        if self._subscription is not None:
+            self._subscription.close()
+
+    def latest(self, receive: Receive) -> None:
+        """Hand the last message to one receiver."""
+        for topic in self._graph.bus.topics:
+            if topic.name == self._topic and topic.count and (message := topic.latest) is not None:
+                self._graph.deliver((receive,), self._sample(message))
+
+    def _receive(self, message: Any) -> None:
+        self._graph.deliver(self.receivers, self._sample(message))
+
+    def _sample(self, message: Any) -> PublishedMessage:
+        return PublishedMessage(self._topic, self._type, message, self._graph.clock())

@@ -1,0 +1,90 @@
+"""Messages as JSON, as rosbridge writes them: bytes in base64, null for numbers that JSON lacks."""
+
+from __future__ import annotations
+
+import base64
+import binascii
+import json
+import math
+from typing import Any
+
+import numpy as np
+
+from urdfkit.errors import UsageError
+from urdfkit.messages import from_fields, full_type_name, typestore
+
+UNUSED = "structure_needs_at_least_one_member"
+"""The field of messages without fields."""
+
+
+def fields_of(message: Any) -> list[str]:
+    """Return the names of the fields of a message; none for a value that is no message."""
+    return [name for name in getattr(message, "__dataclass_fields__", ()) if name not in ("__msgtype__", UNUSED)]
+
+
+def to_json(value: Any) -> str:
+    """Return a message, or the value of a field, as JSON."""
+    if isinstance(value, np.ndarray):
+        return _array(value)
+    if isinstance(value, str):
+        return json.dumps(value)
+    if isinstance(value, bool | np.bool_):
+        return "true" if value else "false"
+    if isinstance(value, int | np.integer):
+        return str(int(value))
+    if isinstance(value, float | np.floating):
+        return repr(float(value)) if math.isfinite(value) else "null"
+    if isinstance(value, list | tuple):
+        return "[" + ",".join(map(to_json, value)) + "]"
+    return "{" + ",".join(f'"{name}":{to_json(getattr(value, name))}' for name in fields_of(value)) + "}"
+
+
+def _array(values: Any) -> str:
+    if values.dtype == np.uint8:
+        return f'"{base64.b64encode(values.tobytes()).decode("ascii")}"'  # needs no escapes
+    items = values.tolist()
+    if values.dtype.kind == "f" and not np.isfinite(values).all():
+        items = [item if math.isfinite(item) else None for item in items]
+    return json.dumps(items, separators=(",", ":"))
+
+
+def from_json(type: str, fields: Any) -> Any:
+    """Return a message with these fields, the others zero or empty.
+
+    Args:
+        type: of the message.
+        fields: as a peer sent them; bytes are base64, or lists of numbers.
+
+    Raises:
+        UsageError: no such type or field, or a value of the wrong kind.
+    """
+    full = full_type_name(type)
+    try:
+        return from_fields(full, _with_bytes(full, fields))
+    except (ArithmeticError, RecursionError, TypeError, ValueError) as error:
+        raise UsageError(f"the message is not a {full}: {error}") from error
+
+
+def _with_bytes(type: str, fields: Any) -> Any:
+    """Return the fields with every base64 text in the place of bytes decoded."""
+    layouts = typestore().fielddefs
+    if not isinstance(fields, dict) or type not in layouts:
+        return fields
+    layout = dict(layouts[type][1])
+    return {name: _decoded(layout[name], value) if name in layout else value for name, value in fields.items()}
+
+
+def _decoded(description: Any, value: Any) -> Any:
+    node, details = int(description[0]), description[1]
+    if node == 2:
+        return _with_bytes(details, value)
+    if node in (3, 4):
+        inner = details[0]
+        if isinstance(value, str) and int(inner[0]) == 1 and inner[1][0] in ("uint8", "octet", "byte", "char"):
+            try:
+                return list(base64.b64decode(value, validate=True))
+            except binascii.Error as error:
+                raise UsageError(f"a field of bytes is not base64: {error}") from error
+        if isinstance(value, list) and int(inner[0]) == 2:
+            return [_decoded(inner, each) for each in value]
+    return value

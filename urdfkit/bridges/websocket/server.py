@@ -1,0 +1,234 @@
+"""WebSocket server of a bridge: tornado in a thread of its own, one peer object for each connection."""
+
+from __future__ import annotations
+
+import asyncio
+import contextlib
+import logging
+import threading
+from collections.abc import Callable, Sequence
+from concurrent.futures import Future
+from typing import Any, Protocol
+from urllib.parse import urlsplit
+
+from tornado.httpserver import HTTPServer
+from tornado.iostream import StreamClosedError
+from tornado.web import Application
+from tornado.websocket import WebSocketClosedError, WebSocketHandler
+
+from urdfkit.bridges.graph import Graph
+from urdfkit.bridges.websocket.address import Address
+from urdfkit.bridges.websocket.send_queue import SendQueue
+from urdfkit.network.access_control import LOOPBACK_NAMES, AccessControl, is_ip_literal
+from urdfkit.network.connection_limit import REQUEST_TIMEOUT, LimitedHTTPServer
+from urdfkit.network.listen_address import bind, urls
+from urdfkit.network.rejection_log import RejectionLog
+
+MAX_INBOUND = 32 * 1024 * 1024
+"""Length of the longest frame of a peer that is accepted [bytes]."""
+MAX_PEERS = 64
+"""Peers that may be connected at once."""
+PING = 20.0
+"""Seconds between pings; a peer that does not answer is disconnected."""
+
+log = logging.getLogger("urdfkit.bridges")
+
+
+class Peer(Protocol):
+    """State of one connection; its methods run in the thread of the server."""
+
+    def receive(self, frame: str | bytes) -> None:
+        """Process a frame of the peer."""
+
+    def close(self) -> None:
+        """End the subscriptions of the peer."""
+
+
+class WebSocketServer:
+    """Server of one bridge.
+
+    Args:
+        graph: the topics and services that peers use.
+        address: to listen on.
+        connect: returns the state of a new connection, whose frames are put into the queue.
+        subprotocols: WebSocket subprotocols; peers must offer one of them, if any.
+        origins: origins of web pages that may connect, in addition to pages of this machine.
+
+    Raises:
+        UsageError: the port is in use or the address cannot be bound.
+
+    Attributes:
+        access: the access rules; peers from other machines need its token.
+        url: address of the server for clients on this machine.
+    """
+
+    def __init__(
+        self,
+        graph: Graph,
+        address: Address,
+        connect: Callable[[SendQueue], Peer],
+        *,
+        subprotocols: Sequence[str] = (),
+        origins: Sequence[str] = (),
+    ) -> None:
+        self._socket, port = bind(*address)
+        self.graph, self.connect, self.subprotocols = graph, connect, tuple(subprotocols)
+        self.needs_token = not address.is_private
+        self.access = AccessControl(port, names=(*LOOPBACK_NAMES, address.host), open_to_network=self.needs_token)
+        self.origins = frozenset(origins)
+        self.rejections = RejectionLog()
+        self.peers = 0
+        base = [url.replace("http", "ws", 1) for url in urls(address.host, port, self.access.token)]
+        self.urls = base if self.needs_token else [url.partition("/?")[0] for url in base]
+        self._loop = asyncio.new_event_loop()
+        self._started: Future[None] = Future()
+        self._thread = threading.Thread(target=self._serve, name=f"urdfkit-bridge-{port}", daemon=True)
+        graph.post = self._post
+        self._thread.start()
+        self._started.result()
+
+    def accepts_origin(self, origin: str | None) -> bool:
+        """Whether a page of this origin may connect; programs send no origin, and files of this machine ``file://``."""
+        if origin in (None, "file://") or origin in self.origins:
+            return True
+        return urlsplit(origin or "").hostname in LOOPBACK_NAMES
+
+    def accepts_host(self, host: str) -> bool:
+        """Whether the Host header names this server."""
+        return self.access.accepts_host(host) or (self.needs_token and is_ip_literal(host.rpartition(":")[0]))
+
+    def update(self) -> None:
+        """Peers request new topics themselves."""
+
+    def close(self) -> None:
+        """Disconnect all peers and end the thread; closing twice is harmless."""
+        if self._thread.is_alive():
+            self._loop.call_soon_threadsafe(self._loop.stop)
+            self._thread.join()
+        self._socket.close()
+        self.graph.close()
+
+    def _post(self, function: Callable[[], None]) -> None:
+        with contextlib.suppress(RuntimeError):  # the loop is closed, so no peer is connected
+            self._loop.call_soon_threadsafe(function)
+
+    def _serve(self) -> None:
+        asyncio.set_event_loop(self._loop)
+        try:
+            http = self._loop.run_until_complete(self._open())
+        except BaseException as error:
+            self._started.set_exception(error)
+            return
+        self._started.set_result(None)
+        try:
+            self._loop.run_forever()
+        finally:
+            self._loop.run_until_complete(_close(http))
+            self._loop.close()
+
+    async def _open(self) -> HTTPServer:
+        application = Application(
+            [(r"/.*", PeerSocket, {"server": self})],
+            websocket_max_message_size=MAX_INBOUND,
+            websocket_ping_interval=PING,
+            websocket_ping_timeout=PING,
+            log_function=lambda handler: None,
+        )
+        http = LimitedHTTPServer(
+            application,
+            max_header_size=16 * 1024,
+            idle_connection_timeout=REQUEST_TIMEOUT,
+            body_timeout=REQUEST_TIMEOUT,
+        )
+        http.add_socket(self._socket)
+        return http
+
+
+async def _close(http: HTTPServer) -> None:
+    http.stop()
+    tasks = [task for task in asyncio.all_tasks() if task is not asyncio.current_task()]
+    with contextlib.suppress(TimeoutError, asyncio.TimeoutError):
+        await asyncio.wait_for(http.close_all_connections(), timeout=1.0)
+    for task in tasks:
+        task.cancel()
+    await asyncio.gather(*tasks, return_exceptions=True)
+
+
+class PeerSocket(WebSocketHandler):
+    """The WebSocket of one peer."""
+
+    def initialize(self, server: WebSocketServer) -> None:
+        """Store the arguments of the route."""
+        self.server = server
+        self._queue = SendQueue()
+        self._peer: Peer | None = None
+        self._sender: asyncio.Task[None] | None = None
+
+    def check_origin(self, origin: str) -> bool:
+        """Accept every origin that `prepare` has accepted."""
+        return self.server.accepts_origin(origin)
+
+    def set_default_headers(self) -> None:
+        """Remove the name of the server."""
+        self.clear_header("Server")
+
+    def prepare(self) -> None:
+        """Reject pages of other sites, unknown hosts, and peers of other machines without the token."""
+        server, request = self.server, self.request
+        tokens = self.get_query_arguments("token")
+        if not server.accepts_host(request.headers.get("Host", "")):
+            self._reject("The host name is not accepted by this server.")
+        elif not server.accepts_origin(request.headers.get("Origin")):
+            self._reject("Web pages of other sites may not connect; see --allow-origin.")
+        elif server.needs_token and not (len(tokens) == 1 and server.access.accepts_token(tokens[0])):
+            self._reject("The address needs its token, ?token=…, which urdfkit printed.")
+        elif server.peers >= MAX_PEERS:
+            self._reject(f"{MAX_PEERS} peers are connected already.", status=503)
+        elif server.subprotocols and not set(self._offered()) & set(server.subprotocols):
+            self._reject(f"Use the WebSocket subprotocol {server.subprotocols[0]}.", status=400)
+
+    def _offered(self) -> list[str]:
+        return [each.strip() for each in self.request.headers.get("Sec-WebSocket-Protocol", "").split(",")]
+
+    def _reject(self, reason: str, *, status: int = 403) -> None:
+        self.server.rejections.add(str(self.request.remote_ip), f"{self.request.method} {self.request.path}", reason)
+        self.set_status(status)
+        self.set_header("Content-Type", "text/plain; charset=utf-8")
+        self.finish(reason + "\n")
+
+    def select_subprotocol(self, subprotocols: list[str]) -> str | None:
+        """Return the first subprotocol of the server that the peer offers."""
+        return next((each for each in self.server.subprotocols if each in subprotocols), None)
+
+    def open(self, *_: str, **__: str) -> None:
+        """Begin to send to the peer."""
+        self.set_nodelay(True)
+        self.server.peers += 1
+        self._peer = self.server.connect(self._queue)
+        self._sender = asyncio.ensure_future(self._send())
+
+    async def _send(self) -> None:
+        with contextlib.suppress(WebSocketClosedError, StreamClosedError):
+            await self._queue.run(self._write)
+            self.close(1013, "too slow")
+
+    async def _write(self, frame: str | bytes) -> None:
+        await self.write_message(frame, binary=isinstance(frame, bytes))
+
+    def on_message(self, message: str | bytes) -> None:
+        """Process a frame of the peer."""
+        if self._peer is not None:
+            self._peer.receive(message)
+
+    def on_close(self) -> None:
+        """End the subscriptions of the peer."""
+        if self._sender is not None:
+            self._sender.cancel()
+        if self._peer is not None:
+            self.server.peers -= 1
+            self._peer.close()
+
+    def write_error(self, status_code: int, **_: Any) -> None:
+        """Respond with the error as one line of text."""
+        self.set_header("Content-Type", "text/plain; charset=utf-8")
+        self.finish(f"{status_code} {self._reason}\n")

@@ -1,0 +1,58 @@
+"""``--rosbridge`` and ``--allow-origin``: let other programs subscribe, publish and call services."""
+
+from __future__ import annotations
+
+import argparse
+from typing import TYPE_CHECKING
+
+from urdfkit.errors import UsageError
+
+if TYPE_CHECKING:
+    from urdfkit.app.simulation.bridging.bridges import BridgeOptions
+    from urdfkit.bridges.websocket.address import Address
+
+ROSBRIDGE_PORT = 9090
+
+
+def add_bridges(parser: argparse.ArgumentParser) -> None:
+    """Add the options."""
+    group = parser.add_argument_group("bridges to other programs (the simulation then runs in real time)")
+    group.add_argument(
+        "--rosbridge",
+        nargs="?",
+        type=_address,
+        const=str(ROSBRIDGE_PORT),
+        metavar="PORT",
+        help=f"serve roslibjs, roslibpy and other clients of rosbridge (default: {ROSBRIDGE_PORT} on this machine; "
+        "HOST:PORT accepts other machines, which need the token in the address)",
+    )
+    group.add_argument(
+        "--allow-origin",
+        action="append",
+        default=[],
+        metavar="ORIGIN",
+        help="accept web pages of this origin, e.g. https://example.org (repeatable; default: pages of this machine)",
+    )
+
+
+def bridge_options(arguments: argparse.Namespace) -> BridgeOptions:
+    """Return the options.
+
+    Raises:
+        UsageError: ``--allow-origin`` without a bridge.
+    """
+    from urdfkit.app.simulation.bridging.bridges import BridgeOptions
+
+    options = BridgeOptions(rosbridge=arguments.rosbridge, origins=arguments.allow_origin)
+    if arguments.allow_origin and not options:
+        raise UsageError("--allow-origin requires --rosbridge")
+    return options
+
+
+def _address(text: str) -> Address:
+    from urdfkit.bridges.websocket.address import parse_address
+
+    try:
+        return parse_address(text)
+    except UsageError as error:
+        raise argparse.ArgumentTypeError(str(error)) from None
