@@ -56,6 +56,7 @@ class Engine(Articulation):
         robots: all robots; the first is this one.
         bodies: name → `FreeBody`, for each body that is free.
         collision_shapes: the shapes that can touch, by their numbers in the engine.
+        kernel: the compiled function that advances the two blocks of `arrays`.
     """
 
     def __init__(
@@ -103,7 +104,8 @@ class Engine(Articulation):
         alone = alone and not self.arrays["numbers"][HAS_PAIRS]
         blocks = self.arrays.floats, self.arrays.integers
         self._advance = bind(self._step_function(alone=alone), *blocks)
-        self._place_links = bind(kernel() if alone else world_kernel(), *blocks)
+        self.kernel = kernel() if alone else world_kernel()
+        self._place_links = bind(self.kernel, *blocks)
         super().__init__(kinematics, self.arrays, 0)
         others_parts = [Articulation(each.kinematics, self.arrays, k) for k, each in enumerate(others, 1)]
         self.robots: tuple[Articulation, ...] = (self, *others_parts)
