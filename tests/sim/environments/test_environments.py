@@ -12,7 +12,7 @@ from urdfkit.sim.batch import Batch
 
 gymnasium = pytest.importorskip("gymnasium")
 
-from urdfkit.sim.environments.registration import ID, register  # noqa: E402
+from urdfkit.sim.environments import ID  # noqa: E402
 
 GOAL = {"task.x": (-1.0, 1.0), "task.y": (-1.0, 1.0), "spawn.yaw": (-3.0, 3.0)}
 
@@ -27,11 +27,6 @@ def goal(batch: Batch) -> tuple[Any, Any, Any]:
 
 def height(batch: Batch) -> tuple[Any, Any, Any]:
     return batch.base_pose[:, 2:3], batch.t, batch.base_pose[:, 2] < -0.5
-
-
-@pytest.fixture(autouse=True)
-def _registered() -> None:
-    register()
 
 
 def make(**options: Any) -> Any:
