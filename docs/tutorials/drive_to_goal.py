@@ -46,7 +46,7 @@ def evaluate(policy, worlds=200):
 OPTIONS = {"vary": VARY, "action_period": 0.1, "time_limit": 10.0}
 
 if __name__ == "__main__":
-    steps = int(sys.argv[1]) if len(sys.argv) > 1 else 300_000
+    steps = int(sys.argv[1]) if len(sys.argv) > 1 else 200_000
     torch.set_num_threads(1)  # the networks are small, and the worlds use all cores
     environment = VecMonitor(RobotVecEnv("simpleton", drive_to_goal, 64, **OPTIONS))
     policy = PPO("MlpPolicy", environment, n_steps=64, batch_size=1024, gamma=0.98, learning_rate=1e-3, seed=0)

@@ -105,6 +105,40 @@ def test_worlds_with_other_bodies_give_the_bytes_of_a_single_simulation(tmp_path
     assert touched > 3
 
 
+def heap(count: int) -> str:
+    """Return a world with boxes that fall on each other beside the robot."""
+    _, _, model = BOXES.partition('  <model name="box">')
+    box = '<model name="NAME">' + model.partition("</model>")[0] + "</model>"
+    boxes = [
+        box.replace("NAME", f"box{k}").replace("0.6 0.05 0.1", f"{0.8 + 0.03 * (k % 3)} {0.02 * k} {0.2 + 0.21 * k}")
+        for k in range(count)
+    ]
+    return BOXES.partition('  <model name="box">')[0] + "".join(boxes) + "</world></sdf>"
+
+
+@pytest.mark.parametrize("model", ["simpleton", "gem_e2", "heap"])
+def test_no_step_reads_scratch_before_it_writes_it(model: str, tmp_path: Path) -> None:
+    options: dict[str, Any] = {"spawn": Spawn(z=0.3, roll=0.4)}
+    if model == "heap":
+        (tmp_path / "heap.sdf").write_text(heap(8))
+        model, options = "simpleton", {"world": tmp_path / "heap.sdf"}
+    batches = [Batch(model, 2, threads=1, **options) for _ in range(2)]
+    random = np.random.default_rng(2)
+    for _ in range(100):
+        actions = random.uniform(-1.0, 1.0, batches[0].actions.shape)
+        for k, batch in enumerate(batches):
+            if k:
+                batch._memory.floats.scratch[:] = np.nan
+                batch._memory.integers.scratch[:] = 1
+            batch.step(actions, 10)
+        for array, other in zip(*map(observed, batches), strict=True):
+            assert array.tobytes() == other.tobytes()
+    memories = [batch._memory for batch in batches]
+    for name in ("s", "v", "memory", "last", "M"):
+        assert memories[0][name].tobytes() == memories[1][name].tobytes()
+    assert np.isfinite(batches[0].positions).all()
+
+
 VARIED = {"chassis.mass": (0.5, 2.0), "left_wheel.mu": (0.1, 0.9), "gravity": (5.0, 12.0), "left_wheel_joint.effort":
           (0.05, 0.3), "right_wheel_joint.friction": (0.0, 0.02), "spawn.x": (-1.0, 1.0), "spawn.yaw": (-3.0, 3.0),
           "task.goal": lambda random: float(random.integers(5))}  # fmt: skip
@@ -283,3 +317,23 @@ def test_unknown_names_and_wrong_actions_are_refused() -> None:
         batch.step(None, -1)
     with pytest.raises(UsageError, match=r"type int64, shape \(2,\)"):
         batch.reset([0, 1])
+
+
+def test_ranges_are_distances_to_static_bodies(tmp_path: Path) -> None:
+    wall = """<model name="wall"><static>true</static><pose>3 0 1 0 0 0</pose><link name="link"><collision name="wall">
+    <geometry><box><size>0.2 20 2</size></box></geometry></collision></link></model>"""
+    world = tmp_path / "wall.sdf"
+    world.write_text(BOXES.replace("</world>", f"{wall}</world>"))
+    batch = Batch("simpleton", 3, world=world, vary={"spawn.x": (-1.0, 1.0), "spawn.yaw": (-0.5, 0.5)}, threads=1)
+    batch.step(np.zeros(2), 10)
+    angles = np.array([-0.2, 0.0, 0.3])
+    rays = 2.0 * np.stack([np.cos(angles), np.sin(angles), 0.0 * angles], axis=1)
+    chassis = batch.placements("chassis")
+    assert np.ptp(np.arctan2(chassis[:, 1, 0], chassis[:, 0, 0])) > 0.1
+    expected = (2.9 - chassis[:, 0, 3, None]) / np.einsum("nj,mj->nm", chassis[:, 0, :3], rays / 2.0)
+    assert batch.ranges("chassis", rays) == pytest.approx(expected, abs=1e-9)
+    assert (batch.ranges("chassis", [[-1.0, 0.0, 0.0]], far=7.0) == 7.0).all()
+    down = batch.ranges("chassis", [[0.0, 0.0, -1.0]])[:, 0]
+    assert down == pytest.approx(chassis[:, 2, 3] / chassis[:, 2, 2], abs=1e-9)
+    with pytest.raises(UsageError, match="a direction of a ray is zero"):
+        batch.ranges("chassis", [[0.0, 0.0, 0.0]])

@@ -5,8 +5,9 @@ from __future__ import annotations
 import os
 from collections.abc import Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
+from math import inf
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -21,6 +22,9 @@ from urdfkit.sim.batch.parameters import Distribution, RandomParameters
 from urdfkit.sim.batch.world_memory import WorldMemory
 from urdfkit.sim.engine.simulation_memory import STEPS
 from urdfkit.sim.simulator import Simulator
+
+if TYPE_CHECKING:
+    from urdfkit.sim.batch.range_finder import RangeFinder
 
 GROUPS_EACH = 4
 """Groups of worlds for each thread: a thread that finishes a group early advances another."""
@@ -90,6 +94,7 @@ class Batch:
         self._columns = np.array([memory.floats.column(name) + dof for name, dof in self.control.targets])
         self._pool = ThreadPoolExecutor(threads) if threads > 1 else None
         self._observations = Observations(self.simulator, memory)
+        self._range_finder: RangeFinder | None = None
         self._contacts = LinkForces(self.simulator, memory)
         limits = dict(zip(self.control.joints, self.control.limits, strict=True))
         self._parameters = RandomParameters(self.simulator, memory, vary or {}, limits, seed)
@@ -244,6 +249,26 @@ class Batch:
             found[:, :3, :3] = memory["R"][:, body].reshape(-1, 3, 3)
             found[:, :3, 3] = memory["P"][:, 0] + memory["r"][:, body]
         return np.asarray(matmul(found, frame.placement.homogeneous[None]))
+
+    def ranges(self, link: str, directions: ArrayLike, far: float = inf) -> Array:
+        """Return distances from a link to the collision shapes of static bodies, as a lidar; shape (n, rays).
+
+        The rays do not hit the robot and bodies that move.
+
+        Args:
+            link: the link whose origin the rays start at.
+            directions: of the rays, in the axes of the link; shape (rays, 3).
+            far: result without a nearer hit [m].
+
+        Raises:
+            UnknownNameError: no such link.
+            UsageError: a direction is zero or not finite.
+        """
+        if self._range_finder is None:
+            from urdfkit.sim.batch.range_finder import RangeFinder  # imports numba
+
+            self._range_finder = RangeFinder(self.simulator)
+        return self._range_finder.measure(self.placements(link), directions, far)
 
 
 def _cores() -> int:

@@ -33,6 +33,7 @@ class Block:
 
     Attributes:
         rows: the fields of each world that are its own; shape (n, size).
+        scratch: the scratch of all groups.
         starts: start of each field, relative to the row of each world; shape (n, fields).
     """
 
@@ -57,6 +58,7 @@ class Block:
         self._values = np.zeros(n * size + constants + count * scratch, dtype=values.dtype)
         self.rows = self._values[: n * size].reshape(n, size)
         self.rows[:, : bounds[0]] = values[: bounds[0]]
+        self.scratch = self._values[n * size + constants :]
         first, behind = size * np.arange(n), n * size
         self.starts = np.zeros((n, len(names)), dtype=np.int64)
         for k, (name, (start, end)) in enumerate(spans.items()):
