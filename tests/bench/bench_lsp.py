@@ -49,7 +49,8 @@ def robot(links: int, mass: str, *, form: str, meshes: int = 0) -> str:
         joint = JOINT.format(joint="joint_${i}", parent="${parent}", link="link_${i}")
         macro = f'  <xacro:macro name="segment" params="i parent">\n{body}{joint}  </xacro:macro>\n'
         calls = [f'  <xacro:segment i="{i}" parent="link_{i - 1}"/>\n' for i in range(1, links)]
-        return "".join([HEAD, macro, '  <link name="link_0"/>\n', *calls, "</robot>\n"]).replace("1.0", mass, 1)
+        first = SEGMENT.format(link="link_0")
+        return "".join([HEAD, macro, first, *calls, "</robot>\n"]).replace("1.0", mass, 1)
     parts = [HEAD]
     for index in range(links):
         segment = SEGMENT.format(link=f"link_{index}")

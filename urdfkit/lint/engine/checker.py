@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 from functools import partial
 from pathlib import Path
 
@@ -35,6 +36,7 @@ if TYPE_CHECKING:
 
 _EVERYWHERE = ("xml", "encoding", "misspelt-directive", "directive-attribute", "too-large", "too-many")
 """Fault kinds reported in included files too; other faults may come from definitions in the including file."""
+_DEFINED_BY_ROBOT = ("undefined-macro", "undefined-property")
 
 
 def model_of(
@@ -172,6 +174,8 @@ class Checker:
         model = model_of(entry.path, options, packages=packages, memory=self.memory, extents=extents)
         self.sources.update(model.expanded.sources)
         self._failures: list[str] = []
+        if not entry.is_library and _is_part(model):
+            entry = Entry(entry.path, entry.only, is_library=True)
         findings = list(self._run_source_rules(model))
         findings += self._run_fault_rules(model, entry)
         if model.expanded.root is not None and not entry.is_library:
@@ -296,6 +300,23 @@ class Checker:
         from urdfkit.lint.rules import RULES
 
         return {rule.code: partial(self._applies, rule) for rule in RULES}
+
+
+def _is_part(model: Model) -> bool:
+    """Return whether a file without a robot's name uses macros and properties that other files of its package define.
+
+    No file includes it, so it is a part of a robot that does not include it any more, or not yet.
+    """
+    lacking = {fault.name for fault in model.expanded.faults if fault.kind in _DEFINED_BY_ROBOT and fault.name}
+    root = model.expanded.root
+    if not lacking or root is None or "name" in root.attributes or model.package is None:
+        return False
+    from urdfkit.lint.project.entry_files import SUFFIXES, near_descriptions
+
+    model.watch(*SUFFIXES)
+    texts = [text for _, text in near_descriptions(model.package, model.expanded.path)]
+    patterns = (rf"<xacro:(?:macro|property|arg)\s[^<>]*\bname\s*=\s*[\"']{re.escape(name)}[\"']" for name in lacking)
+    return all(any(re.search(pattern, text) for text in texts) for pattern in patterns)
 
 
 def too_costly(path: Path, error: CostError) -> EntryResult:

@@ -148,16 +148,30 @@ def _robots_in(folder: Path) -> list[Entry]:
 
 
 def _without_misnamed(paths: list[Path], texts: dict[Path, str]) -> list[Path]:
-    """Leave out fragments that a misspelt include means; the include has a finding, and they depend on its robot."""
+    """Leave out fragments that a misspelt include means, or that a missing file may include.
+
+    The include has a finding, and they depend on its robot.
+    """
     from difflib import get_close_matches
 
     roots = {path: re.search(_ROOT, texts[path]) for path in paths}
     unnamed = [path for path, root in roots.items() if root is not None and not re.search(_NAMED, root[2] or "")]
     if not unnamed or len(unnamed) == len(paths):
         return paths
-    includes = (found for text in texts.values() for found in re.findall(_INCLUDE, text))
-    missing = {(double or single).rpartition("/")[2] for double, single in includes} - {path.name for path in texts}
-    return [path for path in paths if path not in unnamed or not get_close_matches(path.name, missing, 1, 0.85)]
+    includes = {double or single for text in texts.values() for double, single in re.findall(_INCLUDE, text)}
+    names = {path.name for path in texts}
+    missing = {include for include in includes if include.rpartition("/")[2] not in names}
+    folders = {folder.name for path in texts for folder in path.absolute().parents}
+    if any(_is_below(include, folders) for include in missing):
+        return [path for path in paths if path not in unnamed or _is_library(texts[path])]
+    written = {include.rpartition("/")[2] for include in missing}
+    return [path for path in paths if path not in unnamed or not get_close_matches(path.name, written, 1, 0.85)]
+
+
+def _is_below(include: str, folders: set[str]) -> bool:
+    """Return whether an include names a file of one of several packages; a relative path does."""
+    package = re.match(r"\$\(find(?:-pkg-share)?\s+([\w-]+)\)/[^$]*$", include)
+    return package[1] in folders if package is not None else "$" not in include and not include.startswith("/")
 
 
 def _unreached(included: set[Path], robots: dict[Path, str]) -> list[Path]:

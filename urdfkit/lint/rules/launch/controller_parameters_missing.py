@@ -77,6 +77,8 @@ class ControllerParametersMissing(RobotRule):
             lists = [file for file in yamls(model) if any(root.find("controller_list") for root in documents(file)[0])]
             own = [file for file in lists if package_of(Path(file.file)) == package_of(Path(source.file))]
             is_unread = all(loaders(files, file) == [] for file in lists)
+            if any(_is_misspelt(Path(file.file).name, files, model) for file in lists):
+                continue
             if own and is_unread and not any(is_mentioned_elsewhere(Path(file.file).name, model) for file in lists):
                 message = f"no launch file loads {Path(own[0].file).name}, which defines `controller_list`"
                 yield Finding(self.code, self.name, self.severity, message, source.span(tag.start, tag.end))
@@ -111,6 +113,8 @@ def _message(spawner: Spawner, files: list[Source], defined: dict[str, list[tupl
             is_mentioned_elsewhere(Path(each.file).name, model) for each in (source, spawner.source)
         ):
             continue
+        if not namespaces and _is_misspelt(Path(source.file).name, files, model):
+            continue
         if not namespaces:
             return f"no launch file loads {Path(source.file).name}, which defines `{name}`"
         is_here = Path(source.file).name in spawner.source.text  # spawned-controller-undefined reports this file
@@ -121,3 +125,15 @@ def _message(spawner: Spawner, files: list[Source], defined: dict[str, list[tupl
                 there = f"namespace `{there}`" if there else "no namespace"
                 return f"`{name}` is spawned in {here}, but its parameters are in {there}"
     return ""
+
+
+def _is_misspelt(name: str, files: list[Source], model: Model) -> bool:
+    """Return whether a launch file names a missing YAML file with nearly that name, which is reported there."""
+    import re
+
+    from urdfkit.lint.facts.control.yaml_tree import yamls
+    from urdfkit.lint.fix_builders import nearest
+
+    existing = {Path(file.file).name for file in yamls(model)}
+    named = {word for source in files for word in re.findall(r"[\w-]+\.ya?ml\b", source.text)}
+    return nearest(name, named - existing, cutoff=0.85) is not None

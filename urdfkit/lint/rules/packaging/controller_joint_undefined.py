@@ -60,7 +60,7 @@ class ControllerJointUndefined(RobotRule):
             places.add((finding.span.file, finding.span.line, finding.span.column))
             yield finding
         joints = model.robot.joint_by_name
-        for name, settings in loaded_controllers(model) if joints else ():
+        for name, settings in loaded_controllers(model) if joints and not model.is_incomplete else ():
             named = (settings.find("joints"), settings.find("joint"))
             for entry in [one for each in named if each is not None for one in (each.items or (each,))]:
                 place = entry.position

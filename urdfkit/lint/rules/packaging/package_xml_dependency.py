@@ -55,7 +55,7 @@ class PackageXmlDependency(RobotRule):
         if package is None:
             return
         manifest = model.manifest(package)
-        declared = {name_in(manifest), *_dependencies(manifest, neighbours(package))}
+        declared = {name_in(manifest, package.name), *_dependencies(manifest, neighbours(package))}
         for file, source in model.expanded.sources.items():
             uses = "$(find" in source.text or "package://" in source.text
             path = Path(file).absolute()
