@@ -17,11 +17,13 @@ class Topic:
         name: absolute, e.g. ``/simpleton/cmd_vel``.
         type: ROS type name, e.g. ``geometry_msgs/msg/Twist``.
         count: messages published so far.
+        is_input: whether a subscriber created it, as those of commands are; other topics are published.
     """
 
     name: str
     type: str
     count: int = 0
+    is_input: bool = False
     subscribers: list[Callable[[Any], None]] = field(default_factory=list, repr=False)
     _latest: Any = field(default=None, repr=False)
     _build: Callable[[], Any] | None = field(default=None, repr=False)
@@ -115,7 +117,9 @@ class Bus:
 
     def subscribe(self, name: str, type: str, callback: Callable[[Any], None]) -> Subscription:
         """Call `callback` with every message published from now on."""
+        is_new = absolute(name) not in self._topics
         topic = self.advertise(name, type)
+        topic.is_input = topic.is_input or is_new
         topic.subscribers.append(callback)
         return Subscription(topic, callback)
 

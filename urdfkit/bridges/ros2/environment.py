@@ -1,0 +1,81 @@
+"""Variables of ROS 2, and the choice of a library: rclpy, from a sourced ROS or PyPI, else Cyclone DDS."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping, MutableMapping
+from importlib.util import find_spec
+from typing import TYPE_CHECKING
+
+from urdfkit.errors import MissingDependencyError, UsageError
+
+if TYPE_CHECKING:
+    from urdfkit.bridges.ros2.node import Node
+
+HIGHEST_DOMAIN = 232
+RANGE, LOCALHOST_ONLY, DOMAIN = "ROS_AUTOMATIC_DISCOVERY_RANGE", "ROS_LOCALHOST_ONLY", "ROS_DOMAIN_ID"
+BEFORE_RANGE = ("dashing", "eloquent", "foxy", "galactic", "humble")
+"""Distributions that read only ``ROS_LOCALHOST_ONLY``."""
+INSTALL = "--ros2 needs rclpy or Cyclone DDS: source a ROS 2 workspace, or pip install 'urdfkit[ros2]'"
+
+
+def ros_domain(requested: int | None, environment: Mapping[str, str] = os.environ) -> int:
+    """Return the ROS domain: the requested one, else that of ``ROS_DOMAIN_ID``, else 0.
+
+    Raises:
+        UsageError: it is not a number from 0 to 232.
+    """
+    text = str(requested) if requested is not None else environment.get(DOMAIN) or "0"
+    name = "--ros-domain" if requested is not None else DOMAIN
+    if not text.isdecimal() or int(text) > HIGHEST_DOMAIN:
+        raise UsageError(f"{name} is `{text}`; a ROS domain is a number from 0 to {HIGHEST_DOMAIN}")
+    return int(text)
+
+
+def on_this_machine(environment: Mapping[str, str] = os.environ) -> bool:
+    """Return whether discovery stays on this machine: unless a variable of ROS extends it, it does.
+
+    Raises:
+        UsageError: the variable switches discovery off, or has an unknown value.
+    """
+    value = environment.get(RANGE)
+    if value is None:
+        return environment.get(LOCALHOST_ONLY, "1") != "0"
+    if value not in ("LOCALHOST", "SUBNET", "SYSTEM_DEFAULT"):
+        reason = "switches discovery off" if value == "OFF" else "is unknown"
+        raise UsageError(f"{RANGE}={value} {reason}; use LOCALHOST, SUBNET or SYSTEM_DEFAULT")
+    return value == "LOCALHOST"
+
+
+def keep_on_this_machine(environment: MutableMapping[str, str] = os.environ) -> None:
+    """Set the variable that limits the discovery of rclpy to this machine, unless the user has set one."""
+    if on_this_machine(environment) and not {RANGE, LOCALHOST_ONLY} & environment.keys():
+        if environment.get("ROS_DISTRO") in BEFORE_RANGE:
+            environment[LOCALHOST_ONLY] = "1"
+        else:
+            environment[RANGE] = "LOCALHOST"
+
+
+def has_cyclonedds() -> bool:
+    """Return whether the ``cyclonedds`` wheel is installed."""
+    return find_spec("cyclonedds") is not None
+
+
+def open_node(domain: int | None, namespace: str) -> Node:
+    """Return a node of the first library that is installed.
+
+    Raises:
+        MissingDependencyError: none is, or rclpy cannot be imported.
+        UsageError: the domain or the discovery range is not valid.
+    """
+    number = ros_domain(domain)
+    keep_on_this_machine()
+    if find_spec("rclpy") is not None:
+        from urdfkit.bridges.ros2.rclpy_node import RclpyNode
+
+        return RclpyNode(number, namespace)
+    if has_cyclonedds():
+        from urdfkit.bridges.ros2.cyclonedds_node import CycloneddsNode
+
+        return CycloneddsNode(number)
+    raise MissingDependencyError(INSTALL)

@@ -1,0 +1,120 @@
+"""Outputs: topics that a bridge publishes, encoded and sent by a thread of its own while subscribers are matched."""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Callable
+from threading import Event, Thread
+from typing import Any
+
+from urdfkit.bridges.bridge import CallQueue
+from urdfkit.bridges.ros2.node import Quality, Writer
+from urdfkit.bus import Bus, Subscription, Topic
+from urdfkit.messages import typestore
+
+MATCH_PERIOD = 0.05
+"""Seconds between two checks for subscribers."""
+
+
+class Output:
+    """One topic that is published; the bus is subscribed to while the writer has a subscriber, or for good if latched.
+
+    Args:
+        bus: of the simulation.
+        topic: of the bus.
+        writer: its publisher.
+        quality: of the publisher.
+        ready: receives the output for each message.
+    """
+
+    def __init__(
+        self, bus: Bus, topic: Topic, writer: Writer, quality: Quality, ready: Callable[[Output], None]
+    ) -> None:
+        self.writer, self.is_latched, self.was_matched = writer, quality.latched, False
+        self._bus, self._topic, self._ready = bus, topic, ready
+        self._pending: deque[Any] = deque(maxlen=quality.depth)
+        self._subscription: Subscription | None = None
+        if quality.latched:
+            self.open()
+            if topic.count and (latest := topic.latest) is not None:
+                self._receive(latest)
+
+    def open(self) -> None:
+        """Subscribe to the bus, in the thread of the simulation."""
+        if self._subscription is None:
+            self._subscription = self._bus.subscribe(self._topic.name, self._topic.type, self._receive)
+
+    def close(self) -> None:
+        """End the subscription, in the thread of the simulation."""
+        if self._subscription is not None:
+            self._subscription.close()
+            self._subscription = None
+
+    def send(self) -> None:
+        """Encode and publish the oldest message that waits, if it was not replaced by newer ones."""
+        if self._pending:
+            message = self._pending.popleft()
+            self.writer.publish(bytes(typestore().serialize_cdr(message, self._topic.type)))
+
+    def _receive(self, message: Any) -> None:
+        self._pending.append(message)
+        self._ready(self)
+
+
+class OutputThread:
+    """Encodes and sends messages, and reports to the simulation which topics have subscribers.
+
+    Args:
+        calls: of the simulation.
+        report: receives a line if a message cannot be sent.
+    """
+
+    def __init__(self, calls: CallQueue, report: Callable[[str], None]) -> None:
+        self._calls, self._report = calls, report
+        self._outputs: tuple[Output, ...] = ()
+        self._ready: deque[Output] = deque()
+        self._wake, self._stopped = Event(), False
+        self._thread = Thread(target=self._run, name="ros2", daemon=True)
+        self._thread.start()
+
+    def add(self, bus: Bus, topic: Topic, writer: Writer, quality: Quality) -> None:
+        """Publish a topic."""
+        self._outputs = (*self._outputs, Output(bus, topic, writer, quality, self._notify))
+
+    def close(self) -> None:
+        """End the subscriptions and the thread."""
+        for output in self._outputs:
+            output.close()
+        self._stopped = True
+        self._wake.set()
+        self._thread.join(1.0)
+
+    def _notify(self, output: Output) -> None:
+        self._ready.append(output)
+        self._wake.set()
+
+    def _run(self) -> None:
+        import time
+
+        checked = 0.0
+        while not self._stopped:
+            if time.monotonic() - checked >= MATCH_PERIOD:
+                checked = time.monotonic()
+                for output in self._outputs:
+                    self._match(output)
+            self._wake.wait(MATCH_PERIOD)
+            self._wake.clear()
+            while self._ready and not self._stopped and time.monotonic() - checked < MATCH_PERIOD:
+                output = self._ready.popleft()
+                try:
+                    output.send()
+                except Exception as error:  # of a middleware; the simulation continues
+                    self._stopped = True
+                    self._report(f"--ros2 stops publishing: {str(error).splitlines()[0]}")
+            if self._ready:
+                self._wake.set()
+
+    def _match(self, output: Output) -> None:
+        matched = output.is_latched or output.writer.is_matched()
+        if matched != output.was_matched and self._calls.add(output.open if matched else output.close):
+            output.was_matched = matched

@@ -1,0 +1,134 @@
+"""Node of ROS 2 by rclpy, of a sourced ROS or of the ``ros-rclpy`` wheel."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from contextlib import suppress
+from importlib import import_module
+from threading import Thread
+from typing import Any
+
+from urdfkit.bridges.ros2.environment import has_cyclonedds
+from urdfkit.bridges.ros2.node import Node, Quality, UnknownTypeError, Writer
+from urdfkit.errors import MissingDependencyError, ResourceError
+
+NAME = "urdfkit"
+DDS = ("rmw_fastrtps_cpp", "rmw_fastrtps_dynamic_cpp", "rmw_cyclonedds_cpp")
+"""Middlewares whose nodes match topics of Cyclone DDS."""
+
+
+class RclpyNode:
+    """A node with an executor in a thread of its own.
+
+    Types that rclpy lacks, such as tf2_msgs without a ROS, are published by Cyclone DDS if that is installed.
+
+    Args:
+        domain: the ROS domain.
+        namespace: of the node.
+
+    Raises:
+        MissingDependencyError: rclpy cannot be imported.
+        ResourceError: it cannot start.
+    """
+
+    def __init__(self, domain: int, namespace: str) -> None:
+        try:
+            import rclpy
+            from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
+            from rclpy.signals import SignalHandlerOptions
+        except ImportError as error:
+            reason = str(error).splitlines()[0]
+            raise MissingDependencyError(f"this Python cannot import rclpy ({reason}); use that of ROS") from error
+        self._context = rclpy.Context()
+        try:
+            rclpy.init(args=[], context=self._context, domain_id=domain, signal_handler_options=SignalHandlerOptions.NO)
+            self._node = rclpy.create_node(
+                NAME,
+                context=self._context,
+                namespace=namespace,
+                use_global_arguments=False,
+                enable_rosout=False,
+                start_parameter_services=False,
+            )
+        except Exception as error:  # of the middleware, by several classes
+            self._context.try_shutdown()
+            raise ResourceError(f"rclpy cannot start: {str(error).splitlines()[0]}") from error
+        middleware = rclpy.get_rmw_implementation_identifier()
+        self.description = f"rclpy, {middleware}"
+        self._domain, self._is_dds = domain, middleware in DDS
+        self._other: Node | None = None
+        self._executor = SingleThreadedExecutor(context=self._context)
+        self._executor.add_node(self._node)
+
+        def spin() -> None:
+            with suppress(ExternalShutdownException):
+                self._executor.spin()
+
+        self._thread = Thread(target=spin, name="rclpy", daemon=True)
+        self._thread.start()
+
+    def writer(self, topic: str, type: str, quality: Quality) -> Writer:
+        """Create a publisher."""
+        kind = self._type(type)
+        if kind is None:
+            return self._fallback(type).writer(topic, type, quality)
+        return _Writer(self._node.create_publisher(kind, topic, _profile(quality)))
+
+    def subscribe(self, topic: str, type: str, quality: Quality, receive: Callable[[bytes], None]) -> None:
+        """Call `receive`, in the thread of the executor, with each message in CDR."""
+        kind = self._type(type)
+        if kind is None:
+            self._fallback(type).subscribe(topic, type, quality, receive)
+        else:
+            self._node.create_subscription(kind, topic, receive, _profile(quality), raw=True)
+            self._executor.wake()
+
+    def close(self) -> None:
+        """Leave the graph."""
+        if self._other is not None:
+            self._other.close()
+        self._executor.shutdown(timeout_sec=1.0)
+        self._thread.join(1.0)
+        self._node.destroy_node()
+        self._context.try_shutdown()
+
+    def _type(self, name: str) -> Any:
+        """Return the class of a message; None if its package is not installed."""
+        package, kind, message = name.split("/")
+        try:
+            return getattr(import_module(f"{package}.{kind}"), message, None)
+        except ImportError:
+            return None
+
+    def _fallback(self, type: str) -> Node:
+        if self._other is None:
+            if not (self._is_dds and has_cyclonedds()):
+                raise UnknownTypeError(f"rclpy lacks {type}: install its ROS package, or pip install cyclonedds")
+            from urdfkit.bridges.ros2.cyclonedds_node import CycloneddsNode
+
+            self._other = CycloneddsNode(self._domain)
+        return self._other
+
+
+class _Writer:
+    def __init__(self, publisher: Any) -> None:
+        self._publisher = publisher
+
+    def publish(self, data: bytes) -> None:
+        """Publish a message."""
+        self._publisher.publish(data)
+
+    def is_matched(self) -> bool:
+        """Return whether there is a subscriber."""
+        return bool(self._publisher.get_subscription_count())
+
+
+def _profile(quality: Quality) -> Any:
+    from rclpy.qos import DurabilityPolicy, HistoryPolicy, QoSProfile, ReliabilityPolicy
+
+    return QoSProfile(
+        history=HistoryPolicy.KEEP_LAST,
+        depth=quality.depth,
+        reliability=ReliabilityPolicy.RELIABLE if quality.reliable else ReliabilityPolicy.BEST_EFFORT,
+        durability=DurabilityPolicy.TRANSIENT_LOCAL if quality.latched else DurabilityPolicy.VOLATILE,
+    )
