@@ -58,7 +58,7 @@ DEPTH = 0.01
 CPU_SECONDS, BYTES = 300, 6 * 10**9
 POINTER = "version https://git-lfs.github.com/spec/v1\noid sha256:{}\nsize 40584\n".format("0" * 64)
 
-CAUSES = {"I503": ("I505", "X119"), "I502": ("I505",), "E014": ("E010", "E012"), "G601": ("G603",)}
+CAUSES = {"I503": ("I505", "X119"), "I502": ("I505",), "E014": ("E010", "E012")}
 """Code → codes of the findings that name the cause of the same defect instead."""
 
 Case = dict[str, Any]

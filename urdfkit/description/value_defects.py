@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from dataclasses import replace
 from math import isfinite
-from pathlib import Path
 
 from urdfkit.description.urdf.queries import owners
 from urdfkit.description.urdf.repair_record import Repair
@@ -12,9 +11,8 @@ from urdfkit.description.urdf.robot import Joint, Robot
 from urdfkit.description.urdf.version import FIRST_VERSIONS, RATES, VERSIONS, shown, version_of, written_version
 from urdfkit.description.xacro.evaluation.failures import chain_words
 from urdfkit.description.xml.element import Element
-from urdfkit.description.xml.reader import read_source
-from urdfkit.description.xml.start_tag import start_tag
-from urdfkit.errors import ModelError, ResourceError, with_effect
+from urdfkit.description.xml.written_attributes import WrittenAttributes
+from urdfkit.errors import ModelError, with_effect
 from urdfkit.record import record
 
 TYPE_CHECKING = False
@@ -24,7 +22,6 @@ if TYPE_CHECKING:
 
     from urdfkit.description.urdf.repair_record import RepairKind
     from urdfkit.description.urdf.version import Version
-    from urdfkit.description.xml.source import Source
     from urdfkit.position import Position
 
 _EFFECTS = {
@@ -49,23 +46,16 @@ class _Defect:
     joint: str | None = None
     is_note: bool = False
 
-    def repair(self, sources: dict[str, Source | None]) -> Repair:
-        """Return the repair; `sources` caches the files."""
+    def repair(self, sources: WrittenAttributes) -> Repair:
+        """Return the repair; `sources` reads the files."""
         message = with_effect(self.message, self.effect) + chain_words(self.element.origin.expansions)
         severity: Literal["warning", "note"] = "note" if self.is_note else "warning"
         return Repair(self.kind, self.code, message, self.position(sources), self.link, self.joint, severity)
 
-    def position(self, sources: dict[str, Source | None]) -> Position:
+    def position(self, sources: WrittenAttributes) -> Position:
         """Return the position of the attribute, or of the tag if the source has no such attribute."""
         position = self.element.origin.position
-        if position.file not in sources:
-            try:
-                sources[position.file] = read_source(Path(position.file), shown_as=position.file)
-            except ResourceError:
-                sources[position.file] = None
-        source = sources[position.file]
-        tag = start_tag(source, position) if source is not None else None
-        written = tag.attributes.get(self.attribute) if tag is not None else None
+        written = sources.at(position, self.attribute)
         return position if written is None else written.name.start
 
 
@@ -79,7 +69,7 @@ def repaired_values(robot: Robot) -> tuple[Robot, list[Repair]]:
     defects = list(_defects(robot))
     if not defects:
         return robot, []
-    sources: dict[str, Source | None] = {}
+    sources = WrittenAttributes()
     joints = tuple([_with_possible_values(joint) for joint in robot.joints])
     return replace(robot, joints=joints), [defect.repair(sources) for defect in defects]
 
@@ -93,7 +83,7 @@ def require_valid_values(robot: Robot) -> None:
     for defect in _defects(robot):
         if not defect.is_note:
             message = defect.message + chain_words(defect.element.origin.expansions)
-            raise ModelError(message, position=defect.position({}))
+            raise ModelError(message, position=defect.position(WrittenAttributes()))
 
 
 def _defects(robot: Robot) -> Iterator[_Defect]:

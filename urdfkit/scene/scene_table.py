@@ -9,11 +9,13 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from urdfkit.description.packages.existence import is_absolute
 from urdfkit.description.sdf import Cone, Ellipsoid, Plane
 from urdfkit.description.urdf.parser import EMPTY_NAME
 from urdfkit.description.urdf.robot import Collision, Geometry, Link, Material, Mesh, Robot, Visual
 from urdfkit.description.xml.element import Element
 from urdfkit.description.xml.source import Position
+from urdfkit.description.xml.written_attributes import WrittenAttributes
 from urdfkit.errors import KinematicsError, ResourceError
 from urdfkit.meshes.loader import MeshLoader, TriMesh
 from urdfkit.meshes.specular import MATT, Gloss
@@ -74,6 +76,7 @@ class MissingMesh:
         role: ``visual`` or ``collision``.
         error: the reason, with the source position of the mesh.
         uri: the mesh in the description.
+        is_absolute: whether the source has the absolute path of a file, which is valid on one machine only.
     """
 
     name: str
@@ -81,10 +84,13 @@ class MissingMesh:
     role: Role
     error: ResourceError
     uri: str
+    is_absolute: bool = False
 
     @property
     def code(self) -> str:
         """Code of the lint rule that reports the mesh."""
+        if self.is_absolute and self.error.kind == "file":
+            return "G603"
         return _CODES.get(self.error.kind, "G607")
 
 
@@ -158,6 +164,7 @@ def scene_of(robot: Robot, *, strict: bool = True, meshes: MeshLoader | None = N
     retros, labels = _laser_retros(robot), labels_of(robot)
     shapes: list[Shape] = []
     problems: list[MissingMesh] = []
+    sources = WrittenAttributes()
     for link in links:
         names: set[str] = set()
         for role, number, item in _items(link):
@@ -177,7 +184,10 @@ def scene_of(robot: Robot, *, strict: bool = True, meshes: MeshLoader | None = N
                 except ResourceError as error:
                     if strict:
                         raise
-                    problems.append(MissingMesh(name, link.name, role, error, item.geometry.uri))
+                    uri = item.geometry.uri
+                    written = sources.at(_mesh_position(item), "filename") if is_absolute(uri) else None
+                    is_literal = written is not None and written.raw == uri
+                    problems.append(MissingMesh(name, link.name, role, error, uri, is_literal))
                     continue
             color = palette.of(link.name, item) if isinstance(item, Visual) else None
             covered = wrapper.wrapped(item.geometry, mesh, picture) if picture else None

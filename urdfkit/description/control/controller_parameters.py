@@ -1,10 +1,6 @@
 """Parameters of controllers of ros_controllers and ros2_controllers."""
 
-from collections.abc import Iterator
-
-from urdfkit.description.control.controller_types import TYPES
 from urdfkit.description.control.parameter_yaml import Settings
-from urdfkit.errors import DescriptionError
 
 ALWAYS = ("type", "update_rate", "use_sim_time", "is_async", "async_parameters", "params_file", "publish_rate", "pid")
 """Parameters that controllers of every type have."""
@@ -65,58 +61,3 @@ def unknown_parameters(settings: Settings) -> list[Settings]:
         return []
     names = {*table, *ALWAYS}
     return [child for name, child in settings.children.items() if name not in names and "type" not in child.children]
-
-
-_NUMBERS = (
-    *("state_publish_rate", "action_monitor_rate", "stop_trajectory_duration", "publish_rate", "cmd_vel_timeout"),
-    *("reference_timeout", "max_effort", "goal_tolerance", "stall_velocity_threshold", "stall_timeout"),
-    *("wheel_separation_h_multiplier", "wheel_radius_multiplier", "steer_pos_multiplier", "wheel_separation"),
-    *("wheel_radius", "wheel_separation_multiplier", "left_wheel_radius_multiplier", "right_wheel_radius_multiplier"),
-)
-_FLAGS = (
-    *("allow_partial_joints_goal", "allow_nonzero_velocity_at_trajectory_end", "allow_stalling", "open_loop"),
-    *("front_steering", "reduce_wheel_speed_until_steering_reached", "enable_odom_tf", "publish_cmd"),
-    *("publish_limited_velocity", "allow_multiple_cmd_vel_publishers", "use_local_topics"),
-)
-_JOINTS = ("four_wheel_steering_controller/FourWheelSteeringController", "front_steering")
-"""The one type of ROS 1 in which a name of `_FLAGS` is a list of joints."""
-_REQUIRED = {
-    "joint_trajectory_controller/JointTrajectoryController": ("joints", "command_interfaces"),
-    "forward_command_controller/ForwardCommandController": ("interface_name", "joints"),
-    **{
-        f"{kind}_controllers/{name}": (parameter,)
-        for kind in ("position", "velocity", "effort")
-        for name, parameter in (
-            ("JointTrajectoryController", "joints"),
-            (f"JointGroup{kind.title()}Controller", "joints"),
-            ("JointPositionController", "joint"),
-            ("JointVelocityController", "joint"),
-            ("JointEffortController", "joint"),
-            ("GripperActionController", "joint"),
-        )
-    },
-}
-"""Type → parameters without a default."""
-
-
-def invalid_parameters(settings: Settings) -> Iterator[DescriptionError]:
-    """Yield the errors of the parameters of a controller that miss or that are not a number or flag, as required."""
-    kind = settings.group("type").value or ""
-    for name in _REQUIRED.get(kind, ()):
-        if not (found := settings.find(name)) or not (found.items or found.value is not None):
-            try:
-                settings.text(name)
-            except DescriptionError as error:
-                yield error
-    for name in _NUMBERS if kind in TYPES else ():
-        try:
-            settings.number(name, 0.0, unset=True)
-        except DescriptionError as error:
-            yield error
-    for name in _FLAGS if kind in TYPES else ():
-        if (kind, name) == _JOINTS:
-            continue
-        try:
-            settings.flag(name, False)
-        except DescriptionError as error:
-            yield error

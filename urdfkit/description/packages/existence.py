@@ -7,6 +7,7 @@ may not be searched.
 from __future__ import annotations
 
 import os
+import re
 from pathlib import Path
 
 
@@ -23,3 +24,8 @@ def is_folder(path: str | Path) -> bool:
 def exists(path: str | Path) -> bool:
     """Return whether a path is a file or folder, or a link to one."""
     return os.path.exists(path)  # noqa: PTH110
+
+
+def is_absolute(uri: str) -> bool:
+    """Return whether a URI is an absolute path, which is valid on one machine only."""
+    return re.match(r"\s*(?:file:/+[^$]|/|[A-Za-z]:[\\/])", uri) is not None

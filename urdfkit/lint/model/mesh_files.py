@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import re
-
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -65,8 +63,3 @@ def is_remote(uri: str) -> bool:
     """Return whether a URI names a file of another machine."""
     scheme, separator, _ = uri.strip().partition("://")
     return bool(separator) and scheme not in ("package", "model", "file") and "$" not in scheme
-
-
-def is_absolute(uri: str) -> bool:
-    """Return whether a URI is an absolute path, which is valid on one machine only."""
-    return re.match(r"\s*(?:file:/+[^$]|/|[A-Za-z]:[\\/])", uri) is not None

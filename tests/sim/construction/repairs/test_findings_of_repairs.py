@@ -36,6 +36,14 @@ LINKS = {
     "empty shape": (GOOD + BOX.replace("0.2", "0"), "G611"),
     "missing mesh": (GOOD + BOX.replace('box size="0.1 0.2 0.3"', 'mesh filename="no.stl"'), "G601"),
     "missing package": (GOOD + BOX.replace('box size="0.1 0.2 0.3"', 'mesh filename="package://no/no.stl"'), "G602"),
+    "missing mesh with an absolute path": (
+        GOOD + BOX.replace('box size="0.1 0.2 0.3"', 'mesh filename="/no/folder/no.stl"'),
+        "G603",
+    ),
+    "missing mesh of a file URI": (
+        GOOD + BOX.replace('box size="0.1 0.2 0.3"', 'mesh filename="file:///no/folder/no.stl"'),
+        "G603",
+    ),
     "mesh of another machine": (
         GOOD + BOX.replace('box size="0.1 0.2 0.3"', 'mesh filename="http://a.b/c.stl"'),
         "G601",
@@ -79,6 +87,18 @@ def test_every_repair_has_a_finding_of_its_code_at_its_element(tmp_path: Path, b
     findings = lint(path)
     for repair in repairs:
         assert any(reports(finding, repair) for finding in findings), (str(repair), [str(each) for each in findings])
+
+
+def test_an_absolute_path_of_an_expression_is_a_missing_mesh(tmp_path: Path) -> None:
+    path = tmp_path / "r.urdf.xacro"
+    mesh = BOX.replace('box size="0.1 0.2 0.3"', 'mesh filename="${folder}/no.stl"')
+    path.write_text(
+        '<robot name="r" xmlns:xacro="http://www.ros.org/wiki/xacro">\n'
+        f'<xacro:property name="folder" value="/no/folder"/>\n<link name="base">{GOOD}\n{mesh}</link></robot>'
+    )
+    (repair,) = repairs_of(path)
+    assert repair.code == "G601"
+    assert any(reports(finding, repair) for finding in lint(path))
 
 
 @pytest.mark.parametrize("slip", [1e-5, 9e-5, 1.1e-4, 9e-4, 1e-2])

@@ -141,3 +141,85 @@ def test_a_correct_robot_has_no_repairs(tmp_path: Path, tail: str, yaml: str) ->
     folder = tmp_path / "arm"
     folder.mkdir()
     assert unreported(folder, TREE + tail, yaml) == (set(), [])
+
+
+WHEELED = TREE.replace("</robot>", "") + "".join(
+    f'<link name="{name}_link">{INERTIAL}<collision><geometry><sphere radius="0.1"/></geometry></collision></link>\n'
+    f'<joint name="{name}" type="continuous"><parent link="hand"/>'
+    f'<child link="{name}_link"/><origin xyz="{xyz}"/><axis xyz="0 1 0"/></joint>\n'
+    for name, xyz in (("fl", "0.3 0.3 0"), ("fr", "0.3 -0.3 0"), ("rl", "-0.3 0.3 0"), ("rr", "-0.3 -0.3 0"))
+)
+WHEELS = ("fl", "fr", "rl", "rr")
+HARDWARE = "".join(
+    f'<joint name="{name}"><command_interface name="velocity"/><command_interface name="position"/></joint>\n'
+    for name in WHEELS
+)
+TRANSMISSIONS = "".join(
+    f'<transmission name="{name}"><type>transmission_interface/SimpleTransmission</type><joint name="{name}">'
+    "<hardwareInterface>hardware_interface/VelocityJointInterface</hardwareInterface></joint>"
+    f'<actuator name="{name}_motor"/></transmission>\n'
+    for name in WHEELS
+)
+VARIANCES = {"pose_covariance_diagonal": "[1, 1, 1, 1, 1, 1]", "twist_covariance_diagonal": "[1, 1, 1, 1, 1, 1]"}
+STEERING = {"wheelbase": "0.6", "traction_track_width": "0.6", "traction_wheels_radius": "0.1"}
+CONTROLLERS: dict[tuple[str, int], dict[str, str]] = {
+    ("diff_drive_controller/DiffDriveController", 2): {
+        "left_wheel_names": "[fl, rl]",
+        "right_wheel_names": "[fr, rr]",
+        "wheel_separation": "0.6",
+        "wheel_radius": "0.1",
+    },
+    ("diff_drive_controller/DiffDriveController", 1): {
+        "left_wheel": "[fl]",
+        "right_wheel": "[fr]",
+        "wheel_separation": "0.6",
+        "wheel_radius": "0.1",
+        **VARIANCES,
+    },
+    ("ackermann_steering_controller/AckermannSteeringController", 2): {
+        "traction_joints_names": "[rl, rr]",
+        "steering_joints_names": "[fl, fr]",
+        **STEERING,
+    },
+    ("bicycle_steering_controller/BicycleSteeringController", 2): {
+        "traction_joints_names": "[rl]",
+        "steering_joints_names": "[fl]",
+        **STEERING,
+    },
+    ("mecanum_drive_controller/MecanumDriveController", 2): {
+        "front_left_wheel_command_joint_name": "fl",
+        "front_right_wheel_command_joint_name": "fr",
+        "rear_left_wheel_command_joint_name": "rl",
+        "rear_right_wheel_command_joint_name": "rr",
+        "kinematics": "{wheels_radius: 0.1, sum_of_robot_center_projection_on_X_Y_axis: 0.6}",
+    },
+    ("forward_command_controller/ForwardCommandController", 2): {"joints": "[fl]", "interface_name": "velocity"},
+    ("parallel_gripper_action_controller/GripperActionController", 2): {"joint": "fl"},
+}
+OTHERS = ("odom_frame_id", "enable_odom_tf", "pose_covariance_diagonal", "use_stamped_vel", "max_effort_interface")
+
+
+@pytest.mark.parametrize(("kind", "ros"), CONTROLLERS)
+def test_parameters_that_a_controller_cannot_read_have_a_finding(tmp_path: Path, kind: str, ros: int) -> None:
+    parameters = CONTROLLERS[kind, ros]
+    cases: list[dict[str, str]] = [parameters]
+    cases += [{name: value for name, value in parameters.items() if name != missing} for missing in parameters]
+    cases += [{**parameters, name: value} for name in parameters for value in ("often", "[1]", "-1", "{a: often}")]
+    cases += [{**parameters, name: "{a: often}"} for name in OTHERS]
+    head, total, without = f"type: {kind}", 0, []
+    for number, each in enumerate(cases):
+        lines = [f"{name}: {value}" for name, value in each.items()]
+        if ros == 2:
+            indented = "".join(f"    {line}\n" for line in lines)
+            yaml = YAML_2.partition("    a:\n")[0] + f"    a:\n      {head}\na:\n  ros__parameters:\n{indented}"
+            robot = WHEELED + ROS_2.replace("</ros2_control>", HARDWARE + "</ros2_control>")
+        else:
+            yaml = "arm:\n  a:\n" + "".join(f"    {line}\n" for line in (head, *lines))
+            robot = WHEELED + TRANSMISSIONS + ROS_1
+        (tmp_path / str(number)).mkdir()
+        codes, missing = unreported(tmp_path / str(number), robot, yaml)
+        assert number > 0 or (codes, missing) == (set(), [])
+        total += len(codes)
+        without += missing
+    assert without == []
+    assert total > len(parameters)

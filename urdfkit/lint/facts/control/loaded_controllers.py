@@ -15,18 +15,18 @@ from urdfkit.lint.facts.gazebo.plugins import plugins
 from urdfkit.lint.model.model import Model
 
 
-def loaded_controllers(model: Model) -> list[tuple[str, Settings]]:
-    """Return name and parameters of each controller that the Gazebo plugins of a robot load.
+def loaded_controllers(model: Model) -> list[tuple[str, Settings, int]]:
+    """Return name, parameters and version of ROS of each controller that the Gazebo plugins of a robot load.
 
     Files that cannot be read have no controllers.
     """
-    found: list[tuple[str, Settings]] = []
+    found: list[tuple[str, Settings, int]] = []
     for plugin, _, _ in plugins(model.robot):
         spec = match(plugin)
         if spec is not None and spec.kind == "ros2_control":
-            found += _of_manager(model, plugin).items()
+            found += [(name, settings, 2) for name, settings in _of_manager(model, plugin).items()]
         elif spec is not None and spec.kind == "gazebo_ros_control":
-            found += _of_namespace(model, plugin).items()
+            found += [(name, settings, 1) for name, settings in _of_namespace(model, plugin).items()]
     return found
 
 

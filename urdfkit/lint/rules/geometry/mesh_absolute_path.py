@@ -2,8 +2,9 @@
 
 import re
 
+from urdfkit.description.packages.existence import is_absolute
 from urdfkit.lint.fix_builders import new_value
-from urdfkit.lint.model.mesh_files import is_absolute, meshes
+from urdfkit.lint.model.mesh_files import meshes
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
 

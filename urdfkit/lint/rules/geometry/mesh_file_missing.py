@@ -3,9 +3,9 @@
 import re
 from pathlib import Path
 
-from urdfkit.description.packages.existence import is_file
+from urdfkit.description.packages.existence import is_absolute, is_file
 from urdfkit.lint.fix_builders import new_value
-from urdfkit.lint.model.mesh_files import is_absolute, is_remote, meshes, missing
+from urdfkit.lint.model.mesh_files import is_remote, meshes, missing
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
 _MAX_FOLDERS = 4

@@ -53,6 +53,7 @@ class ControllerJointUndefined(RobotRule):
 
         An undefined joint of a controller that a Gazebo plugin of the robot loads is at least a note.
         """
+        from urdfkit.description.control.parameter_defects import JOINT_NAMES
         from urdfkit.lint.facts.control.loaded_controllers import loaded_controllers
 
         places = set()
@@ -60,8 +61,8 @@ class ControllerJointUndefined(RobotRule):
             places.add((finding.span.file, finding.span.line, finding.span.column))
             yield finding
         joints = model.robot.joint_by_name
-        for name, settings in loaded_controllers(model) if joints and not model.is_incomplete else ():
-            named = (settings.find("joints"), settings.find("joint"))
+        for name, settings, _ in loaded_controllers(model) if joints and not model.is_incomplete else ():
+            named = [settings.find(each) for each in JOINT_NAMES]
             for entry in [one for each in named if each is not None for one in (each.items or (each,))]:
                 place = entry.position
                 if entry.value and entry.value not in joints and (place.file, place.line, place.column) not in places:

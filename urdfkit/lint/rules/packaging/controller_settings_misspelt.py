@@ -92,7 +92,7 @@ class ControllerSettingsMisspelt(RobotRule):
 
         loaded = loaded_controllers(model)
         keys = [(source.file, key.line, key.column) for source in yamls(model) for key, _, _ in misspelt(source)]
-        for name, settings in loaded:
+        for name, settings, _ in loaded:
             kind = settings.group("type")
             unknown = [(each.place, each.name) for each in unknown_parameters(settings)]
             unknown = [(at, each) for at, each in unknown if (at.file, at.line, at.column) not in keys]

@@ -54,15 +54,15 @@ class ParameterValueInvalid(RobotRule):
 
     def check(self, model: Model) -> Findings:
         """Yield a finding for each impossible value and each repeated key."""
-        from urdfkit.description.control.controller_parameters import invalid_parameters
+        from urdfkit.description.control.parameter_defects import invalid_parameters
         from urdfkit.lint.facts.control.loaded_controllers import loaded_controllers
 
         places = set()
         for finding in self._in_yaml(model):
             places.add((finding.span.file, finding.span.line))
             yield finding
-        for _, settings in loaded_controllers(model):
-            for error in invalid_parameters(settings):
+        for _, settings, ros in loaded_controllers(model):
+            for error in invalid_parameters(settings, ros):
                 place = error.position
                 if place is not None and (place.file, place.line) not in places:
                     yield self.at(model, place, error.message)

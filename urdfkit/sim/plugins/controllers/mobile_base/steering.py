@@ -8,6 +8,7 @@ from math import atan, tan
 from typing import ClassVar
 
 from urdfkit.description.control import Settings
+from urdfkit.description.control.parameter_defects import STEERED, track_and_radius, traction_and_steering
 from urdfkit.errors import DescriptionError
 from urdfkit.sim.plugins.controllers.command_output import Output
 from urdfkit.sim.plugins.controllers.mobile_base.velocity_reference import usual_reference
@@ -36,11 +37,7 @@ class SteeringController(WheeledBase):
     to zero.
     """
 
-    types: ClassVar[dict[str, str]] = {
-        "bicycle_steering_controller/BicycleSteeringController": "1 1",
-        "tricycle_steering_controller/TricycleSteeringController": "2 1",
-        "ackermann_steering_controller/AckermannSteeringController": "2 2",
-    }
+    types: ClassVar[dict[str, str]] = dict.fromkeys(STEERED, "")
 
     def configure(self) -> None:
         """Read the parameters, advertise and subscribe.
@@ -77,21 +74,20 @@ class SteeringController(WheeledBase):
 
     def _configure_ros_2(self) -> None:
         read = self.settings
-        driven, steered = (int(number) for number in self.types[self.type].split())
-        ahead = read.flag("front_steering", True)  # Humble names the wheels by axle, front or rear
-        rear, front = ("rear", "front") if ahead else ("front", "rear")
-        self._driven = self._joints(("traction_joints_names", f"{rear}_wheels_names"), driven, "velocity")
-        self._steered = self._joints(("steering_joints_names", f"{front}_wheels_names"), steered, "position")
+        driven, steered = STEERED[self.type]
+        front = "front" if read.flag("front_steering", True) else "rear"  # Humble names the wheels by axle
+        of_traction, of_steering = traction_and_steering(read)
+        track, radius = track_and_radius(read)
+        self._driven = self._joints(of_traction, driven, "velocity")
+        self._steered = self._joints(of_steering, steered, "position")
         self._base = self.positive("wheelbase")
         self._track = 0.0
         if driven == 2:
-            self._track = self._positive("traction_track_width", f"{rear}_wheel_track", "wheel_track")
+            self._track = self._positive(*track)
         self._steered_track = self._track
         if steered == 2 and (own := self._first("steering_track_width", f"{front}_wheel_track")):
             self._steered_track = self.positive(own)
-        self._radius = self._positive(
-            "traction_wheels_radius", "traction_wheel_radius", f"{rear}_wheels_radius", f"{rear}_wheel_radius"
-        )
+        self._radius = self._positive(*radius)
         self._command_radius, self._share = self._radius, 1.0
         self._open = read.flag("open_loop", False)
         if read.flag("reduce_wheel_speed_until_steering_reached", False):
