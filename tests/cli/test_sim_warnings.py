@@ -13,7 +13,10 @@ INERTIAL = '<inertial><mass value="1"/><inertia ixx="1" ixy="0" ixz="0" iyy="1" 
 MESH = '<geometry><mesh filename="package://missing_meshes/{}.stl"/></geometry>'
 
 
-def test_a_missing_package_is_one_warning(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+@pytest.mark.parametrize("command", ["run", "teleop"])
+def test_a_missing_package_is_one_warning(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch, command: str
+) -> None:
     links = "".join(
         f'<link name="l{n}">{INERTIAL}\n<visual>{MESH.format(n)}</visual>\n<collision>{MESH.format(n)}</collision>\n'
         f'</link><joint name="j{n}" type="fixed"><parent link="base"/><child link="l{n}"/></joint>\n'
@@ -21,7 +24,9 @@ def test_a_missing_package_is_one_warning(tmp_path: Path, capsys: pytest.Capture
     )
     path = tmp_path / "r.urdf"
     path.write_text(f'<robot name="r">\n<link name="base">{INERTIAL}</link>\n{links}</robot>')
-    assert main(["sim", "run", str(path), "--for", "0.001"]) == 0
+    monkeypatch.setattr("urdfkit.app.simulation.loop.DriveLoop.run", lambda loop: None)
+    options = ["--for", "0.001"] if command == "run" else ["--no-browser"]
+    assert main(["sim", command, str(path), *options]) == 0
     lines = [line for line in capsys.readouterr().err.splitlines() if "missing_meshes" in line]
     assert len(lines) == 1
     assert "(6 more warnings with this cause: " in lines[0]

@@ -1,6 +1,7 @@
 """`urdfkit sim teleop`: simulate a robot in real time and drive it in the browser."""
 
 import argparse
+from contextlib import ExitStack
 
 from urdfkit.app.page import Page, note, require_page, until_interrupted
 from urdfkit.cli.page_options import add_page_options, announce, opens_browser
@@ -14,9 +15,10 @@ from urdfkit.cli.sim.bridge_options import add_bridges, bridge_options
 from urdfkit.cli.sim.controllers_option import add_controllers
 from urdfkit.cli.sim.record_option import add_record, check_record, recording
 from urdfkit.cli.sim.renderer_option import add_renderer
-from urdfkit.cli.sim.repair_options import add_repair_options, print_warning
+from urdfkit.cli.sim.repair_options import add_repair_options
 from urdfkit.cli.sim.ros_distro_option import add_distro
 from urdfkit.cli.sim.terminal_option import add_terminal, check_terminal, terminal_driving
+from urdfkit.cli.sim.warnings import GroupedWarnings
 
 KEYS = """\
 Drive with W A S D, the arrow keys, i j k l u o m , . or the pad; the robot stops when you release them.
@@ -83,21 +85,24 @@ def run(arguments: argparse.Namespace) -> int:
             opened=announce(arguments),
             watchers_may=arguments.watchers_may,
         )
-        with (
-            driving(
-                page,
-                robot,
-                world,
-                ros_distro=arguments.ros_distro,
-                controllers=arguments.controllers,
-                renderer=arguments.renderer,
-                strict=arguments.strict,
-                density=arguments.density,
-                note=print_warning,
-            ) as loop,
-            bridged(loop.simulator, bridges, loop, print_warning) as loop.bridges,
-            recording(loop.simulator, arguments) as loop.look,
-        ):
+        warnings = GroupedWarnings()
+        with ExitStack() as stack:
+            with warnings:
+                loop = stack.enter_context(
+                    driving(
+                        page,
+                        robot,
+                        world,
+                        ros_distro=arguments.ros_distro,
+                        controllers=arguments.controllers,
+                        renderer=arguments.renderer,
+                        strict=arguments.strict,
+                        density=arguments.density,
+                        note=warnings,
+                    )
+                )
+            loop.bridges = stack.enter_context(bridged(loop.simulator, bridges, loop, warnings))
+            loop.look = stack.enter_context(recording(loop.simulator, arguments))
             if not loop.simulator.command_topics:
                 note("this robot has no drive that takes velocity commands")
             elif not from_terminal:
