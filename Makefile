@@ -5,9 +5,10 @@ VENV ?= .venv
 BIN := $(VENV)/bin
 PIP := $(BIN)/python -m pip --disable-pip-version-check
 SOURCES := pyproject.toml tests/constraints.txt
+CODE := $(CURDIR)/build/machine_code
 
 .DEFAULT_GOAL := help
-.PHONY: help run test quick bench fidelity soak clean
+.PHONY: help run test quick bench fidelity soak wheel clean
 
 help:
 	@echo "make run    install into $(VENV) and drive Simpleton in the browser"
@@ -16,6 +17,7 @@ help:
 	@echo "make fidelity  measure us and the peers beside closed forms, into docs/fidelity.md"
 	@echo "make bench  run us and the peers side by side and print ratios"
 	@echo "make soak   compare both engines on 1,000 states of each robot, then drive each for 30 minutes in the house"
+	@echo "make wheel  build a wheel with machine code for processors with and without AVX2, into dist/"
 	@echo "make clean  remove $(VENV) and caches"
 
 run: $(VENV)/.run
@@ -44,6 +46,13 @@ fidelity: $(VENV)/.bench
 soak: $(VENV)/.test
 	$(BIN)/python tests/bench/agreement.py; agreed=$$?; $(BIN)/python tests/bench/soak $(ARGS) && exit $$agreed
 
+wheel: $(VENV)/.run
+	rm -rf $(CODE) urdfkit/machine_code
+	NUMBA_CACHE_DIR=$(CODE) $(BIN)/urdfkit sim warmup
+	NUMBA_CACHE_DIR=$(CODE) NUMBA_ENABLE_AVX=0 $(BIN)/urdfkit sim warmup
+	mv $(CODE)/urdfkit urdfkit/machine_code
+	$(PIP) wheel --quiet --no-deps --wheel-dir dist .
+
 $(VENV)/bin/python:
 	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 10))' || { echo "urdfkit needs Python 3.10 or newer; name one: make PYTHON=python3.11 $(MAKECMDGOALS)"; exit 2; }
 	$(PYTHON) -m venv $(VENV)
@@ -61,5 +70,5 @@ $(VENV)/.bench: $(VENV)/bin/python $(SOURCES)
 	@touch $@ $(VENV)/.run $(VENV)/.test
 
 clean:
-	rm -rf $(VENV) artifacts build dist .mypy_cache .ruff_cache .pytest_cache .hypothesis .import_linter_cache
+	rm -rf $(VENV) artifacts build dist urdfkit/machine_code .mypy_cache .ruff_cache .pytest_cache .hypothesis .import_linter_cache
 	find urdfkit tests -name __pycache__ -type d -prune -exec rm -rf {} +
