@@ -5,9 +5,9 @@ from __future__ import annotations
 import itertools
 import json
 
+from urdfkit.bridges.json_messages import to_json
 from urdfkit.bridges.published_message import PublishedMessage
 from urdfkit.bridges.rosbridge import cbor, png
-from urdfkit.bridges.rosbridge.json_messages import to_json
 from urdfkit.bridges.websocket.send_queue import Encode, Frame
 from urdfkit.errors import UsageError
 

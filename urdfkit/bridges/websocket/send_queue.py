@@ -66,10 +66,10 @@ class SendQueue:
         self.full = False
 
     def reply(self, frame: Frame) -> None:
-        """Send a frame in order; one too many ends `run`."""
-        self._bytes += len(frame)
+        """Send a frame in order; one too many ends `run`. A single frame may have any length."""
         self.full = self.full or self._bytes > MAX_REPLIES
         if not self.full:
+            self._bytes += len(frame)
             self._replies.append(frame)
         self._ready.set()
 

@@ -1,4 +1,4 @@
-"""``--rosbridge`` and ``--allow-origin``: let other programs subscribe, publish and call services."""
+"""``--rosbridge``, ``--foxglove`` and ``--allow-origin``: let other programs subscribe, publish and call services."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ if TYPE_CHECKING:
     from urdfkit.app.simulation.bridging.bridges import BridgeOptions
     from urdfkit.bridges.websocket.address import Address
 
-ROSBRIDGE_PORT = 9090
+ROSBRIDGE_PORT, FOXGLOVE_PORT = 9090, 8765
 
 
 def add_bridges(parser: argparse.ArgumentParser) -> None:
@@ -25,6 +25,15 @@ def add_bridges(parser: argparse.ArgumentParser) -> None:
         metavar="PORT",
         help=f"serve roslibjs, roslibpy and other clients of rosbridge (default: {ROSBRIDGE_PORT} on this machine; "
         "HOST:PORT accepts other machines, which need the token in the address)",
+    )
+    group.add_argument(
+        "--foxglove",
+        nargs="?",
+        type=_address,
+        const=str(FOXGLOVE_PORT),
+        metavar="PORT",
+        help=f"serve Foxglove and other clients of its WebSocket protocol (default: {FOXGLOVE_PORT} on this machine; "
+        "HOST:PORT as above)",
     )
     group.add_argument(
         "--allow-origin",
@@ -43,9 +52,9 @@ def bridge_options(arguments: argparse.Namespace) -> BridgeOptions:
     """
     from urdfkit.app.simulation.bridging.bridges import BridgeOptions
 
-    options = BridgeOptions(rosbridge=arguments.rosbridge, origins=arguments.allow_origin)
+    options = BridgeOptions(rosbridge=arguments.rosbridge, foxglove=arguments.foxglove, origins=arguments.allow_origin)
     if arguments.allow_origin and not options:
-        raise UsageError("--allow-origin requires --rosbridge")
+        raise UsageError("--allow-origin requires --rosbridge or --foxglove")
     return options
 
 

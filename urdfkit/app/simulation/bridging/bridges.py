@@ -12,6 +12,7 @@ from urdfkit.app.simulation.bridging.description_text import description_text
 from urdfkit.app.simulation.bridging.services import Controls, simulation_services
 from urdfkit.bridges.bridge import Bridges
 from urdfkit.bridges.graph import Graph
+from urdfkit.description.packages.resolver import Packages
 
 if TYPE_CHECKING:
     from urdfkit.bridges.websocket.address import Address
@@ -28,15 +29,17 @@ class BridgeOptions:
 
     Attributes:
         rosbridge: address of the rosbridge server; None for no server.
+        foxglove: address of the Foxglove server; None for no server.
         origins: origins of web pages that may connect, in addition to pages of this machine.
     """
 
     rosbridge: Address | None = None
+    foxglove: Address | None = None
     origins: Sequence[str] = ()
 
     def __bool__(self) -> bool:
         """Whether a bridge is started."""
-        return self.rosbridge is not None
+        return self.rosbridge is not None or self.foxglove is not None
 
 
 @contextmanager
@@ -58,26 +61,36 @@ def bridged(
     if not options:
         yield bridges
         return
+    from urdfkit.bridges.foxglove.bridge import FoxgloveServer
     from urdfkit.bridges.rosbridge.bridge import serve_rosbridge
     from urdfkit.messages import from_fields
 
     text = description_text(simulator.robot)
     simulator.bus.publish(DESCRIPTION, STRING, from_fields(STRING, {"data": text}))
-    graph = Graph(
-        simulator.bus,
-        bridges.calls,
-        lambda: simulator.t,
-        simulation_services(simulator, controls),
-        {DESCRIPTION: text, "/use_sim_time": True},
-    )
+    services = simulation_services(simulator, controls)
+    parameters = {DESCRIPTION: text, "/use_sim_time": True}
+
+    def graph() -> Graph:
+        return Graph(simulator.bus, bridges.calls, lambda: simulator.t, services, parameters)
+
     try:
         if options.rosbridge is not None:
-            server = serve_rosbridge(graph, options.rosbridge, origins=options.origins, report=report)
+            server = serve_rosbridge(graph(), options.rosbridge, origins=options.origins, report=report)
             bridges.add(server)
             _announce("rosbridge", server)
+        if options.foxglove is not None:
+            foxglove = FoxgloveServer(
+                graph(), options.foxglove, _packages(simulator).find, origins=options.origins, report=report
+            )
+            bridges.add(foxglove)
+            _announce("foxglove", foxglove)
         yield bridges
     finally:
         bridges.close()
+
+
+def _packages(simulator: Simulator) -> Packages:
+    return simulator.robot.packages or Packages()
 
 
 def _announce(name: str, server: WebSocketServer) -> None:

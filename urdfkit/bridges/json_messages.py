@@ -1,4 +1,4 @@
-"""Messages as JSON, as rosbridge writes them: bytes in base64, null for numbers that JSON lacks."""
+"""Messages as JSON, as rosbridge defines it: bytes in base64, null for numbers that JSON lacks."""
 
 from __future__ import annotations
 

@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from urdfkit.bridges.rosbridge.json_messages import from_json, to_json
+from urdfkit.bridges.json_messages import from_json, to_json
 from urdfkit.errors import UsageError
 from urdfkit.messages import from_fields, message_type
 
