@@ -80,6 +80,11 @@ def test_a_cone_about_an_axis_and_the_summary(capsys: pytest.CaptureFixture[str]
     assert "2 joints move `shoulder_pitch_link`; with fewer than six it reaches few orientations" in err
 
 
+def test_collisions_lower_the_scores(capsys: pytest.CaptureFixture[str]) -> None:
+    every, free = (json.loads(ran(capsys, *ARM, "-q", "--json", *more)[1]) for more in ((), ("--collision-free",)))
+    assert 0 < free["reached"] < every["reached"]
+
+
 def test_refusals(capsys: pytest.CaptureFixture[str]) -> None:
     for words, message in (
         (("--tool-axis", "x"), "reach: --tool-axis requires --down or --cone"),

@@ -217,3 +217,18 @@ def test_command_with_a_file_of_poses(tmp_path: Path, capsys: pytest.CaptureFixt
     found = [solution["collisions"] for solution in json.loads(capsys.readouterr().out)["solutions"]]
     assert found[1] == []
     assert [len(each) for each in found] == [1, 0, 1]
+
+
+@pytest.mark.parametrize("kind", ["revolute", "planar"])
+def test_many_configurations_at_once_collide_as_one_by_one(tmp_path: Path, kind: str) -> None:
+    file = tmp_path / "arm.urdf"
+    file.write_text(arm_with(ball("post", *POST), joint("foot", "base", "post", kind=kind)))
+    robot = load(file)
+    names = ["shoulder", "elbow", *(["foot"] if kind == "revolute" else ["foot/x", "foot/y", "foot/theta"])]
+    check = ConfigurationCheck(robot, names)
+    q = np.random.default_rng(4).uniform(-0.4, 0.4, (400, len(names)))
+    q[:, 0] += 0.6
+    expected = [not check.collisions(dict(zip(names, row.tolist(), strict=True))) for row in q]
+    assert 20 < sum(expected) < 380
+    np.testing.assert_array_equal(check.free(q), expected)
+    assert check.free(q[:0]).shape == (0,)

@@ -14,6 +14,7 @@ from urdfkit.kinematics import Chain, ReachMap, reach_map
 from urdfkit.kinematics.reach import cone_orientations, down_orientations, uniform_orientations
 from urdfkit.kinematics.reach.orientations import rotations
 from urdfkit.kinematics.reach.pose_grid import PoseGrid
+from urdfkit.kinematics.self_collision.configuration_check import ConfigurationCheck
 
 BUNDLED = ("seven_dof_arm", "world", "grasping_frame")
 ARMS = {"panda": PANDA, "ur5": UR5, "bundled": BUNDLED}
@@ -90,6 +91,27 @@ def test_threads_change_no_bit_and_another_seed_few_poses() -> None:
     other = reach_map(chain, seed=1, **options)
     assert other.q.tobytes() != found[0].q.tobytes()
     assert other.reached.sum() == pytest.approx(found[0].reached.sum(), rel=0.01)
+
+
+def test_configurations_without_collisions() -> None:
+    chain = chain_of("bundled")
+    options = {"resolution": 0.15, "orientations": 8}
+    free, every = (reach_map(chain, collision_free=which, **options) for which in (True, False))
+    check = ConfigurationCheck(chain.robot, chain.joint_names)
+    assert check.free(free.q[free.reached]).all()
+    for q in free.q[free.reached][::25]:  # one by one, by the placements of Pinocchio
+        assert check.collisions(dict(zip(chain.joint_names, q.tolist(), strict=True))) == ()
+    assert 0.5 < free.reached.sum() / every.reached.sum() < 0.95
+    # Of the poses that many solutions of inverse kinematics reach without collisions, nearly all are in the map.
+    where = np.argwhere(every.reached)
+    where = where[np.random.default_rng(2).permutation(len(where))[:150]]
+    found = chain.solve(matrices(every, where[:, :3], where[:, 3]), collision_free=True, approach=False).reached
+    cells = np.round((every.origin - free.origin) / 0.15).astype(int) + where[:, :3]
+    inside = ((cells >= 0) & (cells < free.score.shape)).all(axis=1)
+    ours = np.zeros(len(where), dtype=bool)
+    ours[inside] = free.reached[(*cells[inside].T, where[inside, 3])]
+    assert 80 < found.sum() < 150
+    assert ours[found].mean() >= 0.97
 
 
 def test_positions_of_two_links_fill_their_ring(tmp_path: Path) -> None:

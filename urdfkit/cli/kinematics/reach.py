@@ -66,6 +66,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     )
     which.add_argument("--position-only", action="store_true", help="ignore the orientation")
     add("--tool-axis", type=_axis, metavar="AXIS", help="axis of TIP for --down and --cone (default: z)")
+    add("--collision-free", action="store_true", help="reach poses only without collisions between links")
     add("--seed", type=_whole, default=0, metavar="N", help="seed of all random numbers (default: 0)")
     add("-o", "--output", type=Path, metavar="FILE", help="write the map to a .npz, .json or .ply file")
     add("--json", action="store_true", help="print one JSON value")
@@ -101,6 +102,7 @@ def run(arguments: argparse.Namespace) -> int:
         resolution=arguments.resolution,
         orientations=_orientations(arguments),
         position_only=arguments.position_only,
+        collision_free=arguments.collision_free,
         seed=arguments.seed,
         progress=_show if shows else _silent,
     )

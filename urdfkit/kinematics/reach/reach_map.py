@@ -11,6 +11,7 @@ from urdfkit.errors import KinematicsError
 from urdfkit.kinematics.chain import TOLERANCE, Chain
 from urdfkit.kinematics.reach.orientations import uniform_orientations
 from urdfkit.kinematics.reach.reach_search import BLOCK, Progress, ReachSearch
+from urdfkit.kinematics.self_collision.configuration_check import ConfigurationCheck
 from urdfkit.linear_algebra import Array
 
 ORIENTATIONS = 50
@@ -57,6 +58,7 @@ def reach_map(
     resolution: float = RESOLUTION,
     orientations: int | ArrayLike = ORIENTATIONS,
     position_only: bool = False,
+    collision_free: bool = False,
     tolerance: tuple[float, float] = TOLERANCE,
     seed: int = 0,
     threads: int | None = None,
@@ -71,6 +73,8 @@ def reach_map(
         resolution: edge of a cell [m].
         orientations: a number of orientations spread evenly over all rotations, or quaternions x y z w, shape (N, 4).
         position_only: ignore the orientation; the score is 1 where the position is reached, else 0.
+        collision_free: count configurations only in which no links collide; see `ConfigurationCheck` for the pairs that
+            are checked.
         tolerance: distance [m] and angle [rad] within which a pose is reached.
         seed: of all random numbers.
         threads: number of threads; that of the processors when None.
@@ -78,10 +82,14 @@ def reach_map(
 
     Raises:
         KinematicsError: a resolution that is not above zero, invalid orientations, or a map that is too large.
+        ResourceError: `collision_free` is set, and a mesh cannot be read.
     """
     if not 0.0 < resolution < np.inf:
         raise KinematicsError(f"the resolution is {resolution:g} m; it must be above zero")
     turns = _quaternions(1 if position_only else orientations)
+    accepts = None
+    if collision_free:
+        accepts = ConfigurationCheck(chain.robot, chain.joint_names, chain.serial.hold).free
     search = ReachSearch(
         chain,
         resolution,
@@ -90,7 +98,7 @@ def reach_map(
         tolerance=tolerance,
         seed=seed,
         threads=threads,
-        accepts=None,
+        accepts=accepts,
         progress=progress,
     )
     grid, count = search.grid, len(turns)

@@ -21,7 +21,7 @@ SAMPLES = 400_000
 """Random configurations."""
 BLOCK = 50_000
 """Configurations or poses per call of the kernel."""
-RESTARTS = 4
+ATTEMPTS = 5
 """Random starts for each pose that no solution of a neighbour leads to."""
 SIMILAR = 2
 """Orientations of the same cell that a solution is tried for."""
@@ -91,14 +91,19 @@ class ReachSearch:
     def _run(self, samples: Array) -> None:
         self._progress("sorting random configurations")
         poses, rows = self._nearest_samples(samples)
-        self._spread(self._solve(poses, samples[rows], 0))
+        self._spread(self._solve(poses, samples[rows]))
         count = len(self.grid.orientations)
-        near = np.repeat(self._near | self.reached.reshape(-1, count).any(axis=1), count)
-        rest = np.flatnonzero(near & ~self.reached)
-        for first in range(0, len(rest), BLOCK):
-            self._progress(f"{self.reached.sum():,} poses reached; {len(rest) - first:,} to try from random starts")
-            new = self._solve(rest[first : first + BLOCK], None, RESTARTS)
-            self._spread(new)
+        random = np.random.default_rng([self._seed, 1])
+        for attempt in range(ATTEMPTS):
+            near = np.repeat(self._near | self.reached.reshape(-1, count).any(axis=1), count)
+            rest = np.flatnonzero(near & ~self.reached)
+            starts = random.integers(0, len(samples), len(rest))
+            found = [rest[:0]]
+            for first in range(0, len(rest), BLOCK):
+                self._progress(f"attempt {attempt + 1} of {ATTEMPTS}: {len(rest) - first:,} poses left to try")
+                part = slice(first, first + BLOCK)
+                found.append(self._solve(rest[part], samples[starts[part]]))
+            self._spread(np.concatenate(found))
 
     def _nearest_samples(self, samples: Array) -> tuple[Indices, Indices]:
         """Return the poses that are the most similar of their cell to any sample, and the best sample of each."""
@@ -133,26 +138,26 @@ class ReachSearch:
                     sources, poses = np.arange(len(new)), cells * len(grid.orientations) + similar[turns, side - 6]
                 left = np.flatnonzero(~self.reached[poses])
                 unique, index = np.unique(poses[left], return_index=True)
-                found.append(self._solve(unique, self.q[new[sources[left[index]]]], 0))
+                found.append(self._solve(unique, self.q[new[sources[left[index]]]]))
             new = np.concatenate(found)
 
-    def _solve(self, poses: Indices, seeds: Array | None, restarts: int) -> Indices:
+    def _solve(self, poses: Indices, seeds: Array) -> Indices:
         """Solve poses, store the solutions, and return the poses that are reached."""
         reached = []
         for first in range(0, len(poses), BLOCK):
             part = poses[first : first + BLOCK]
             solutions = self.chain.solve(
                 self.grid.targets(part),
-                None if seeds is None else seeds[first : first + BLOCK],
+                seeds[first : first + BLOCK],
                 position_only=self._position_only,
                 tolerance=self._tolerance,
-                restarts=restarts,
+                restarts=0,
                 seed=self._seed,
                 threads=self._threads,
                 approach=False,
             )
             hits = np.flatnonzero(solutions.reached)
-            if self._accepts is not None:
+            if self._accepts is not None and len(hits):
                 hits = hits[self._accepts(solutions.q[hits])]
             self.q[part[hits]] = solutions.q[hits]
             self.reached[part[hits]] = True

@@ -1,20 +1,25 @@
-"""Collisions between the links of a robot in one configuration."""
+"""Collisions between the links of a robot in one configuration, or in many."""
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Iterator, Mapping
 from itertools import combinations
 from math import dist
 
 import numpy as np
+from numpy.typing import NDArray
 
 from urdfkit.description.urdf.robot import Robot
 from urdfkit.kinematics.mimic import couplings
 from urdfkit.kinematics.model import Kinematics
+from urdfkit.kinematics.self_collision.box_overlap import overlapping
 from urdfkit.kinematics.self_collision.collision_shapes import box_around, neighbours, shapes_by_link
 from urdfkit.kinematics.self_collision.pair_check import PairCheck
-from urdfkit.kinematics.self_collision.random_configurations import default, joints_from_root
+from urdfkit.kinematics.self_collision.random_configurations import default, joints_from_root, link_poses
 from urdfkit.linear_algebra import Array
+
+BLOCK = 10_000
+"""Configurations whose poses are stored at once."""
 
 
 class ConfigurationCheck:
@@ -38,16 +43,18 @@ class ConfigurationCheck:
 
     def __init__(self, robot: Robot, variables: Collection[str], hold: Mapping[str, float] | None = None) -> None:
         shapes = shapes_by_link(robot)
+        self._robot, self._variables = robot, tuple(variables)
         self._kinematics = Kinematics(robot)
         rest = {name: float(values[0]) for name, values in default(robot).items()}
         self._others = {**rest, **(hold or {})}
         self._frames = {name: self._kinematics.frame(name) for name in shapes}
-        self._centres = {name: box_around(each)[0] for name, each in shapes.items()}
-        radii = {name: float(np.linalg.norm(box_around(each)[1])) for name, each in shapes.items()}
+        self._boxes = {name: box_around(each) for name, each in shapes.items()}
+        radii = {name: float(np.linalg.norm(half)) for name, (_, half) in self._boxes.items()}
         moved = _moving_joints(robot, variables)
         adjacent = neighbours(robot, shapes)
         self.pairs: list[tuple[str, str]] = []
         self._checks: list[tuple[float, PairCheck]] = []
+        self._in_blocks = {*self._others, *self._variables} <= set(rest)  # without planar and floating joints
         placements = self._placements(rest)
         for first, second in combinations(shapes, 2):
             if (first, second) in adjacent or moved[first] == moved[second]:
@@ -60,7 +67,7 @@ class ConfigurationCheck:
     def collisions(self, positions: Mapping[str, float]) -> tuple[tuple[str, str], ...]:
         """Return the pairs of links that collide at these positions of the variables [rad] or [m]."""
         placements = self._placements({**self._others, **positions})
-        centres = {name: rotation @ self._centres[name] + at for name, (rotation, at) in placements.items()}
+        centres = {name: rotation @ self._boxes[name][0] + at for name, (rotation, at) in placements.items()}
         return tuple(
             [
                 (first, second)
@@ -69,6 +76,41 @@ class ConfigurationCheck:
                 and check.collides(*_relative(placements[first], placements[second]))
             ]
         )
+
+    def free(self, q: Array) -> NDArray[np.bool_]:
+        """Return which configurations have no collision; shape (K,). `collisions` takes ten times as long for each.
+
+        Args:
+            q: positions of the variables [rad] or [m]; shape (K, n).
+        """
+        if not self._in_blocks:
+            rows = (dict(zip(self._variables, row, strict=True)) for row in q.tolist())
+            return np.array([not self.collisions(row) for row in rows], dtype=bool)
+        result = np.ones(len(q), dtype=bool)
+        for first in range(0, len(q), BLOCK):
+            part = q[first : first + BLOCK]
+            others = {name: np.full(len(part), value) for name, value in self._others.items()}
+            poses = link_poses(self._robot, others | dict(zip(self._variables, part.T, strict=True)))
+            left = result[first : first + BLOCK]
+            for names, (reach, check) in zip(self.pairs, self._checks, strict=True):
+                for k, rotation, translation in self._near(names, reach, poses, np.flatnonzero(left)):
+                    left[k] = not check.collides(rotation, translation)
+        return result
+
+    def _near(
+        self, names: tuple[str, str], reach: float, poses: dict[str, tuple[Array, Array]], rows: NDArray[np.intp]
+    ) -> Iterator[tuple[int, Array, Array]]:
+        """Yield the rows in which the boxes around two links overlap, with the placement of the second in the first."""
+        (a, p), (b, q) = ((poses[name][0][rows], poses[name][1][rows]) for name in names)
+        (centre, half), (other, other_half) = (self._boxes[name] for name in names)
+        between = q + np.einsum("nij,j->ni", b, other) - p - np.einsum("nij,j->ni", a, centre)
+        near = np.flatnonzero(np.einsum("ni,ni->n", between, between) <= reach**2)
+        turned = np.swapaxes(a[near], 1, 2)
+        rotation = turned @ b[near]
+        translation = np.einsum("nij,nj->ni", turned, q[near] - p[near])
+        offset = np.einsum("nij,nj->ni", turned, between[near])
+        for i in overlapping(rotation, offset, half, other_half).tolist():
+            yield int(rows[near[i]]), rotation[i], translation[i]
 
     def _placements(self, positions: Mapping[str, float]) -> dict[str, tuple[Array, Array]]:
         """Return link → rotation (3, 3) and translation (3,) [m] in the root link, of links with shapes."""
