@@ -163,7 +163,7 @@ class SerialSolver:
         work = array("d", bytes(8 * (AXIS * len(chain.indices) + 10 * size + 8)))
         function("forward", self._compiling)(
             *(chain.steps.buffer_info()[0], chain.indices.buffer_info()[0], len(chain.indices), size),
-            *(numbers.buffer_info()[0], 1, result.buffer_info()[0], None, 12 if position_only else 4),
+            *(numbers.buffer_info()[0], 1, result.buffer_info()[0], 0, 12 if position_only else 4),
             work.buffer_info()[0],
         )
         return result[0]
