@@ -13,15 +13,16 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from urdfkit.description import Robot
-from urdfkit.errors import UsageError
-from urdfkit.linear_algebra import Array, matmul
+from urdfkit.errors import UnknownNameError, UsageError
+from urdfkit.linear_algebra import Array
 from urdfkit.scene.pose_matrices import pose_matrices
 from urdfkit.sim.batch.joint_control import Control, JointControl
 from urdfkit.sim.batch.observations import LinkForces, Observations
 from urdfkit.sim.batch.parameters import Distribution, RandomParameters
 from urdfkit.sim.batch.world_memory import WorldMemory
-from urdfkit.sim.engine.simulation_memory import STEPS
+from urdfkit.sim.engine.simulation_memory import ADVANCE, LINK_POSES, STEPS, TERMS
 from urdfkit.sim.simulator import Simulator
+from urdfkit.sim.state.arguments import nearest
 
 if TYPE_CHECKING:
     from urdfkit.sim.batch.range_finder import RangeFinder
@@ -145,7 +146,7 @@ class Batch:
         self.diverged[chosen] = False
         self._parameters.draw(chosen)
         for world in chosen.tolist():
-            self._memory.advance[world](1, True)
+            self._memory.advance[world](1, TERMS)
             self._observations.read(world, world + 1)
 
     def close(self) -> None:
@@ -170,7 +171,7 @@ class Batch:
         first, beyond = span
         diverged = self.diverged
         for world, advance in enumerate(self._memory.advance[first:beyond], first):
-            if not diverged[world] and advance(steps, False) < steps:
+            if not diverged[world] and advance(steps, ADVANCE) < steps:
                 diverged[world] = True
         self._observations.read(first, beyond)
 
@@ -219,7 +220,7 @@ class Batch:
 
     @property
     def links(self) -> tuple[str, ...]:
-        """Names of the links, in the order of `contact_forces`."""
+        """Names of the links, in the order of `contact_forces` and `link_poses`."""
         return tuple(self.simulator.kinematics.link_names)
 
     def contact_forces(self) -> Array:
@@ -230,25 +231,16 @@ class Batch:
         """
         return self._contacts.read()
 
-    def placements(self, link: str) -> Array:
-        """Return the placement of a link in each world; shape (n, 4, 4).
+    def link_poses(self) -> Array:
+        """Return x y z [m] and quaternion x y z w of each link in the world.
 
-        Raises:
-            UnknownNameError: no such link.
+        Returns:
+            The same array in each call, overwritten; shape (n, links, 7).
         """
-        kinematics = self.simulator.kinematics
-        frame = kinematics.model.frames[kinematics.frame(link)]
-        found = np.zeros((self.n, 4, 4))
-        found[:, 3, 3] = 1.0
-        if frame.parentJoint == 0:
-            found[:] = pose_matrices(np.array([self.simulator.state.base_pose]))[0]
-        else:
-            memory, body = self._memory, frame.parentJoint - 1
-            for world in np.flatnonzero(~self.diverged).tolist():
-                memory.advance[world](1, True)
-            found[:, :3, :3] = memory["R"][:, body].reshape(-1, 3, 3)
-            found[:, :3, 3] = memory["P"][:, 0] + memory["r"][:, body]
-        return np.asarray(matmul(found, frame.placement.homogeneous[None]))
+        self._memory["read_s"][:] = self._memory["s"]
+        for advance in self._memory.advance:
+            advance(0, LINK_POSES)
+        return self._memory["link_pose"][:, : len(self.links)]
 
     def ranges(self, link: str, directions: ArrayLike, far: float = inf) -> Array:
         """Return distances from a link to the collision shapes of static bodies, as a lidar; shape (n, rays).
@@ -268,7 +260,10 @@ class Batch:
             from urdfkit.sim.batch.range_finder import RangeFinder  # imports numba
 
             self._range_finder = RangeFinder(self.simulator)
-        return self._range_finder.measure(self.placements(link), directions, far)
+        if link not in self.links:
+            raise UnknownNameError(f"no link `{link}`{nearest(link, self.links)}")
+        poses = self.link_poses()[:, self.links.index(link)]
+        return self._range_finder.measure(pose_matrices(poses), directions, far)
 
 
 def _cores() -> int:

@@ -12,9 +12,9 @@ from numpy.typing import NDArray
 from urdfkit.compilation.native import bind
 from urdfkit.sim.engine.simulation_memory import FLOATS, INTEGERS, Arrays, At
 
-SCRATCH = frozenset({"A", "B", "Y", "columns", "pair_work", "pair_work_indices"})
+SCRATCH = frozenset({"A", "B", "Y", "columns", "pair_work", "pair_work_indices", "read_R", "read_p"})
 """Arrays that a step writes before it reads them: worlds that advance one after the other share them."""
-CONSTANT = frozenset({"vertices", "pair_numbers", "pair_indices"})
+CONSTANT = frozenset({"vertices", "link_R", "link_p", "pair_numbers", "pair_indices"})
 """Arrays that are never written, and are large in worlds with meshes: all worlds share them."""
 ALIGNMENT = 8
 """Entries to which the rows are rounded up: a line of the processor's cache."""
@@ -96,7 +96,7 @@ class WorldMemory:
     Attributes:
         floats: the floats of all worlds.
         integers: the integers of all worlds.
-        advance: for each world, a function of the number of steps and of `only_terms`, see `world_step.advance`.
+        advance: for each world, a function of the number of steps and of an action, see `world_step.advance`.
     """
 
     def __init__(self, arrays: Arrays, groups: NDArray[Any], kernel: Callable[..., int]) -> None:
