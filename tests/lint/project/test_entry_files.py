@@ -5,6 +5,7 @@ from pathlib import Path
 import pytest
 
 from urdfkit.cli import main
+from urdfkit.lint import lint
 from urdfkit.lint.project.entry_files import find_entries
 
 XACRO = 'xmlns:xacro="http://www.ros.org/wiki/xacro"'
@@ -61,3 +62,39 @@ def test_what_waits_to_be_merged_includes_its_parts(folder, capsys, has_package,
     # The fragment alone: an error, or a note if the package defines its parent link elsewhere.
     assert main(["lint", "--quiet", "--select", "X,T,J", "."]) == (0 if has_package else 1)
     assert "T201" in capsys.readouterr().out
+
+
+PARTS = {
+    "package.xml": "<package><name>arm_description</name></package>",
+    "urdf/arm.urdf.xacro": '<robot name="arm"><xacro:include filename="{}"/><link name="base"/></robot>',
+    "urdf/chain.xacro": '<robot><xacro:tube name="upper" length="${reach}"/><link name="a"/></robot>',
+    "urdf/tube.xacro": '<robot><xacro:macro name="tube" params="name"><link name="b"/></xacro:macro></robot>',
+}
+
+
+@pytest.mark.parametrize(
+    ("include", "is_reached"),
+    [
+        ("parts.xacro", False),
+        ("$(find arm_description)/urdf/parts.xacro", False),
+        ("$(find gripper_description)/urdf/parts.xacro", True),
+        ("$(find arm_description)/urdf/arm.gazebo", True),
+    ],
+)
+def test_parts_that_a_missing_file_may_include_are_not_linted_by_themselves(tmp_path, include, is_reached):
+    for name, text in PARTS.items():
+        path = tmp_path / "arm_description" / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text.replace("{}", include))
+    found = {entry.path.name: entry.is_library for entry in find_entries([tmp_path])}
+    assert found == {"arm.urdf.xacro": False, "tube.xacro": True, **({"chain.xacro": False} if is_reached else {})}
+
+
+@pytest.mark.parametrize(("name", "codes"), [("", set()), (' name="chain"', {"X103"})])
+def test_a_part_that_uses_macros_of_its_robot_lacks_none(tmp_path, name, codes):
+    for file, text in PARTS.items():
+        path = tmp_path / "arm_description" / file
+        path.parent.mkdir(parents=True, exist_ok=True)
+        text = text.replace("{}", "tube.xacro").replace(' length="${reach}"', "").replace("<robot>", f"<robot{name}>")
+        path.write_text(text.replace("<robot", '<robot xmlns:xacro="http://www.ros.org/wiki/xacro"'))
+    assert {finding.code for finding in lint(tmp_path) if finding.code.startswith("X")} == codes

@@ -114,13 +114,14 @@ def around(package: Path) -> list[Path]:
     near = neighbours(package)
     needed = {other: dependencies_in(manifest(folder)) for other, folder in near.items()}
     users = {name, *(other for other, names in needed.items() if name in names or _misspelt(name, names - {*near}))}
+    # Packages of the same robot that use these, such as bringup; their dependency on the description may be missing.
+    stem = f"{name.partition('_')[0]}_"
+    users |= {other for other, names in needed.items() if other.startswith(stem) and names & (users - {name})}
     # Packages that only these packages use, such as controllers, belong to the same robot.
-    parts = {other for user in users - {name} for other in needed.get(user, ()) if other in near}
-    parts = {
-        part
-        for part in parts - needed.get(name, set())
-        if {other for other, names in needed.items() if part in names} <= users
-    }
+    folders = {other: {other, folder.name} for other, folder in near.items()}
+    used_by = {part: {other for other, names in needed.items() if names & folders[part]} - {part} for part in near}
+    parts = {part for part, others in used_by.items() if others and others <= users and others != {name}}
+    parts -= needed.get(name, set())
     own = [folder for other, folder in near.items() if folder == package or other in users | parts]
     files = [file for folder in own for file in list(_files(folder, 0))[:_MAX_FILES]]
     return [*files, *(file for folder in own for name in BUILD if (file := folder / name).is_file())]

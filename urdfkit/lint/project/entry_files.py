@@ -160,7 +160,7 @@ def _without_misnamed(paths: list[Path], texts: dict[Path, str]) -> list[Path]:
         return paths
     includes = {double or single for text in texts.values() for double, single in re.findall(_INCLUDE, text)}
     names = {path.name for path in texts}
-    missing = {include for include in includes if include.rpartition("/")[2] not in names}
+    missing = {each for each in includes if each.endswith(SUFFIXES) and each.rpartition("/")[2] not in names}
     folders = {folder.name for path in texts for folder in path.absolute().parents}
     if any(_is_below(include, folders) for include in missing):
         return [path for path in paths if path not in unnamed or _is_library(texts[path])]

@@ -82,7 +82,10 @@ class PackageXmlDependency(RobotRule):
                 manifest = model.manifest(package)
                 needed = _dependencies(manifest, neighbours(package))
                 declared[package] = {name_in(manifest, package.name), package.name, *needed}
-            for name, start, end in packages_used(source):
+            # A dependency on the package itself, which is reported, stands for the missing one.
+            own = model.manifest(package)
+            is_own = name_in(own, package.name) in dependencies_in(own)
+            for name, start, end in () if is_own else packages_used(source):
                 if name not in declared[package]:
                     declared[package].add(name)
                     yield self._missing(name, source, start, end)
