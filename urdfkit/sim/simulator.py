@@ -283,6 +283,13 @@ class Simulator:
             raise SimulationError(f"the period is {period:g} s; it must be greater than zero")
         self._schedule(start, period, call)
 
+    def set_clock_rate(self, rate: float) -> None:
+        """Set the rate of ``/clock`` [Hz] from now on; zero or less means every step."""
+        clock = self._scheduler.publications[0]
+        clock.rate = rate
+        clock.schedule(self.dt, self.state.step)
+        self._scheduler.invalidate()
+
     def _schedule(self, t: float, period: float, call: Callable[[], None]) -> None:
         if not isfinite(number(t, "the time of a call", "s")):
             raise SimulationError(f"the time of a call is {t:g} s; it must be finite")

@@ -20,12 +20,16 @@ WAIT = 0.5
 """Seconds between two checks whether the node is closed."""
 BATCH = 100
 """Messages read at once."""
+SILENT = '<CycloneDDS><Domain Id="any"><Tracing><OutputFile>/dev/null</OutputFile></Tracing></Domain></CycloneDDS>'
+"""Cyclone DDS would report the type information of other participants that it cannot read."""
 LOCALHOST = """\
-<CycloneDDS><Domain Id="any"><General><AllowMulticast>false</AllowMulticast>
-<Interfaces><NetworkInterface address="127.0.0.1"/></Interfaces></General>
+<CycloneDDS><Domain Id="any"><Tracing><OutputFile>/dev/null</OutputFile></Tracing>
+<General><AllowMulticast>false</AllowMulticast>
+<Interfaces><NetworkInterface address="127.0.0.1"/><NetworkInterface autodetermine="true"/></Interfaces></General>
 <Discovery><ParticipantIndex>auto</ParticipantIndex><MaxAutoParticipantIndex>99</MaxAutoParticipantIndex>
 <Peers><Peer address="127.0.0.1"/></Peers></Discovery></Domain></CycloneDDS>"""
-"""Discovery on this machine: without multicast, participants are searched for at the ports of their indices."""
+"""Discovery on this machine: without multicast, participants are searched for at the ports of their indices on loopback.
+Nodes that are not limited to this machine receive on another interface, so that one is used too."""
 
 
 class CycloneddsNode:
@@ -46,8 +50,8 @@ class CycloneddsNode:
         from cyclonedds.domain import Domain, DomainParticipant
 
         try:
-            local = on_this_machine(environment) and "CYCLONEDDS_URI" not in environment
-            self._domain = Domain(domain, LOCALHOST) if local else None
+            configured = environment.get("CYCLONEDDS_URI")
+            self._domain = Domain(domain, configured or (LOCALHOST if on_this_machine(environment) else SILENT))
             self._participant = DomainParticipant(domain)
         except DDSException as error:
             raise ResourceError(f"cannot join ROS domain {domain}: {error}") from error
@@ -57,13 +61,13 @@ class CycloneddsNode:
         self._thread = Thread(target=self._read, name="cyclonedds", daemon=True)
         self._thread.start()
 
-    def writer(self, topic: str, type: str, quality: Quality) -> _Writer:
+    def writer(self, topic: str, type: str, quality: Quality) -> _CycloneddsWriter:
         """Create a publisher."""
         from cyclonedds.pub import DataWriter
 
         writer = DataWriter(self._participant, self._topic(topic, type), qos=_policies(quality))
         self._entities.append(writer)
-        return _Writer(writer)
+        return _CycloneddsWriter(writer)
 
     def subscribe(self, topic: str, type: str, quality: Quality, receive: Callable[[bytes], None]) -> None:
         """Call `receive`, in the thread of the readers, with each message in CDR."""
@@ -84,7 +88,7 @@ class CycloneddsNode:
         del self._received, self._participant, self._domain
 
     def _read(self) -> None:
-        """Read what has arrived. Callbacks of the library would deadlock with writers, which hold Python's lock."""
+        """Read arrived messages. Callbacks of the library would deadlock with writers, which hold Python's lock."""
         from cyclonedds._clayer import ddspy_take
         from cyclonedds.core import InstanceState, SampleState, ViewState
 
@@ -108,7 +112,7 @@ class CycloneddsNode:
         return made
 
 
-class _Writer:
+class _CycloneddsWriter:
     def __init__(self, writer: Any) -> None:
         from cyclonedds._clayer import ddspy_write
 

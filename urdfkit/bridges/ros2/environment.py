@@ -1,22 +1,16 @@
-"""Variables of ROS 2, and the choice of a library: rclpy, from a sourced ROS or PyPI, else Cyclone DDS."""
+"""Variables of ROS 2: the domain, and how far discovery reaches."""
 
 from __future__ import annotations
 
 import os
 from collections.abc import Mapping, MutableMapping
-from importlib.util import find_spec
-from typing import TYPE_CHECKING
 
-from urdfkit.errors import MissingDependencyError, UsageError
-
-if TYPE_CHECKING:
-    from urdfkit.bridges.ros2.node import Node
+from urdfkit.errors import UsageError
 
 HIGHEST_DOMAIN = 232
 RANGE, LOCALHOST_ONLY, DOMAIN = "ROS_AUTOMATIC_DISCOVERY_RANGE", "ROS_LOCALHOST_ONLY", "ROS_DOMAIN_ID"
 BEFORE_RANGE = ("dashing", "eloquent", "foxy", "galactic", "humble")
 """Distributions that read only ``ROS_LOCALHOST_ONLY``."""
-INSTALL = "--ros2 needs rclpy or Cyclone DDS: source a ROS 2 workspace, or pip install 'urdfkit[ros2]'"
 
 
 def ros_domain(requested: int | None, environment: Mapping[str, str] = os.environ) -> int:
@@ -54,28 +48,3 @@ def keep_on_this_machine(environment: MutableMapping[str, str] = os.environ) -> 
             environment[LOCALHOST_ONLY] = "1"
         else:
             environment[RANGE] = "LOCALHOST"
-
-
-def has_cyclonedds() -> bool:
-    """Return whether the ``cyclonedds`` wheel is installed."""
-    return find_spec("cyclonedds") is not None
-
-
-def open_node(domain: int | None, namespace: str) -> Node:
-    """Return a node of the first library that is installed.
-
-    Raises:
-        MissingDependencyError: none is, or rclpy cannot be imported.
-        UsageError: the domain or the discovery range is not valid.
-    """
-    number = ros_domain(domain)
-    keep_on_this_machine()
-    if find_spec("rclpy") is not None:
-        from urdfkit.bridges.ros2.rclpy_node import RclpyNode
-
-        return RclpyNode(number, namespace)
-    if has_cyclonedds():
-        from urdfkit.bridges.ros2.cyclonedds_node import CycloneddsNode
-
-        return CycloneddsNode(number)
-    raise MissingDependencyError(INSTALL)

@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Callable
 from contextlib import suppress
 from importlib import import_module
+from importlib.util import find_spec
 from threading import Thread
 from typing import Any
 
-from urdfkit.bridges.ros2.environment import has_cyclonedds
 from urdfkit.bridges.ros2.node import Node, Quality, UnknownTypeError, Writer
 from urdfkit.errors import MissingDependencyError, ResourceError
 
@@ -72,7 +72,7 @@ class RclpyNode:
         kind = self._type(type)
         if kind is None:
             return self._fallback(type).writer(topic, type, quality)
-        return _Writer(self._node.create_publisher(kind, topic, _profile(quality)))
+        return _RclpyWriter(self._node.create_publisher(kind, topic, _profile(quality)))
 
     def subscribe(self, topic: str, type: str, quality: Quality, receive: Callable[[bytes], None]) -> None:
         """Call `receive`, in the thread of the executor, with each message in CDR."""
@@ -102,7 +102,7 @@ class RclpyNode:
 
     def _fallback(self, type: str) -> Node:
         if self._other is None:
-            if not (self._is_dds and has_cyclonedds()):
+            if not (self._is_dds and find_spec("cyclonedds") is not None):
                 raise UnknownTypeError(f"rclpy lacks {type}: install its ROS package, or pip install cyclonedds")
             from urdfkit.bridges.ros2.cyclonedds_node import CycloneddsNode
 
@@ -110,7 +110,7 @@ class RclpyNode:
         return self._other
 
 
-class _Writer:
+class _RclpyWriter:
     def __init__(self, publisher: Any) -> None:
         self._publisher = publisher
 

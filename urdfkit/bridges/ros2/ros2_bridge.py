@@ -7,7 +7,7 @@ from collections.abc import Callable
 
 from urdfkit.bridges.bridge import CallQueue, message_topics, publish_received
 from urdfkit.bridges.ros2.node import Node, Quality, UnknownTypeError, publisher_quality
-from urdfkit.bridges.ros2.output import OutputThread
+from urdfkit.bridges.ros2.published_topics import OutputThread
 from urdfkit.bus import Bus, Topic, absolute
 from urdfkit.errors import UsageError
 from urdfkit.messages import typestore

@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 from typing import TYPE_CHECKING
 
+from urdfkit.cli.sim.ros2_options import add_ros2, ros2_options
 from urdfkit.errors import UsageError
 
 if TYPE_CHECKING:
@@ -42,18 +43,25 @@ def add_bridges(parser: argparse.ArgumentParser) -> None:
         metavar="ORIGIN",
         help="accept web pages of this origin, e.g. https://example.org (repeatable; default: pages of this machine)",
     )
+    add_ros2(parser)
 
 
 def bridge_options(arguments: argparse.Namespace) -> BridgeOptions:
     """Return the options.
 
     Raises:
-        UsageError: ``--allow-origin`` without a bridge.
+        UsageError: ``--allow-origin`` without a bridge, or invalid options of ``--ros2``.
+        MissingDependencyError: no library for ``--ros2`` is installed.
     """
     from urdfkit.app.simulation.bridging.bridges import BridgeOptions
 
-    options = BridgeOptions(rosbridge=arguments.rosbridge, foxglove=arguments.foxglove, origins=arguments.allow_origin)
-    if arguments.allow_origin and not options:
+    options = BridgeOptions(
+        rosbridge=arguments.rosbridge,
+        foxglove=arguments.foxglove,
+        origins=arguments.allow_origin,
+        ros2=ros2_options(arguments),
+    )
+    if arguments.allow_origin and options.rosbridge is None and options.foxglove is None:
         raise UsageError("--allow-origin requires --rosbridge or --foxglove")
     return options
 

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 from urdfkit.app.page import note
 from urdfkit.app.simulation.bridging.description_text import description_text
+from urdfkit.app.simulation.bridging.ros2_connection import Ros2Options, connect_to_ros2
 from urdfkit.app.simulation.bridging.services import Controls, simulation_services
 from urdfkit.bridges.bridge import Bridges
 from urdfkit.bridges.graph import Graph
@@ -31,15 +32,17 @@ class BridgeOptions:
         rosbridge: address of the rosbridge server; None for no server.
         foxglove: address of the Foxglove server; None for no server.
         origins: origins of web pages that may connect, in addition to pages of this machine.
+        ros2: options of the connection with ROS 2; None for no connection.
     """
 
     rosbridge: Address | None = None
     foxglove: Address | None = None
     origins: Sequence[str] = ()
+    ros2: Ros2Options | None = None
 
     def __bool__(self) -> bool:
         """Whether a bridge is started."""
-        return self.rosbridge is not None or self.foxglove is not None
+        return any(each is not None for each in (self.rosbridge, self.foxglove, self.ros2))
 
 
 @contextmanager
@@ -56,6 +59,7 @@ def bridged(
 
     Raises:
         UsageError: a port is in use.
+        ResourceError: the graph of ROS 2 cannot be joined.
     """
     bridges = Bridges()
     if not options:
@@ -84,6 +88,8 @@ def bridged(
             )
             bridges.add(foxglove)
             _announce("foxglove", foxglove)
+        if options.ros2 is not None:
+            connect_to_ros2(simulator, options.ros2, bridges, report)
         yield bridges
     finally:
         bridges.close()

@@ -1,4 +1,4 @@
-"""Outputs: topics that a bridge publishes, encoded and sent by a thread of its own while subscribers are matched."""
+"""Topics that a bridge publishes, encoded and sent by a thread of its own while subscribers are matched."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ MATCH_PERIOD = 0.05
 """Seconds between two checks for subscribers."""
 
 
-class Output:
+class PublishedTopic:
     """One topic that is published; the bus is subscribed to while the writer has a subscriber, or for good if latched.
 
     Args:
@@ -28,7 +28,7 @@ class Output:
     """
 
     def __init__(
-        self, bus: Bus, topic: Topic, writer: Writer, quality: Quality, ready: Callable[[Output], None]
+        self, bus: Bus, topic: Topic, writer: Writer, quality: Quality, ready: Callable[[PublishedTopic], None]
     ) -> None:
         self.writer, self.is_latched, self.was_matched = writer, quality.latched, False
         self._bus, self._topic, self._ready = bus, topic, ready
@@ -71,15 +71,15 @@ class OutputThread:
 
     def __init__(self, calls: CallQueue, report: Callable[[str], None]) -> None:
         self._calls, self._report = calls, report
-        self._outputs: tuple[Output, ...] = ()
-        self._ready: deque[Output] = deque()
+        self._outputs: tuple[PublishedTopic, ...] = ()
+        self._ready: deque[PublishedTopic] = deque()
         self._wake, self._stopped = Event(), False
         self._thread = Thread(target=self._run, name="ros2", daemon=True)
         self._thread.start()
 
     def add(self, bus: Bus, topic: Topic, writer: Writer, quality: Quality) -> None:
         """Publish a topic."""
-        self._outputs = (*self._outputs, Output(bus, topic, writer, quality, self._notify))
+        self._outputs = (*self._outputs, PublishedTopic(bus, topic, writer, quality, self._notify))
 
     def close(self) -> None:
         """End the subscriptions and the thread."""
@@ -89,7 +89,7 @@ class OutputThread:
         self._wake.set()
         self._thread.join(1.0)
 
-    def _notify(self, output: Output) -> None:
+    def _notify(self, output: PublishedTopic) -> None:
         self._ready.append(output)
         self._wake.set()
 
@@ -114,7 +114,7 @@ class OutputThread:
             if self._ready:
                 self._wake.set()
 
-    def _match(self, output: Output) -> None:
+    def _match(self, output: PublishedTopic) -> None:
         matched = output.is_latched or output.writer.is_matched()
         if matched != output.was_matched and self._calls.add(output.open if matched else output.close):
             output.was_matched = matched
