@@ -173,6 +173,12 @@ def test_sdf_without_xacro_is_refused(name: str, capsys: pytest.CaptureFixture[s
     assert len(captured.err.splitlines()) == 1
 
 
+def test_mjcf_is_refused(capsys: pytest.CaptureFixture[str]) -> None:
+    Path("m.xml").write_text('<mujoco model="m"><worldbody/></mujoco>')
+    assert main(["expand", "m.xml"]) == 2
+    assert capsys.readouterr() == ("", "urdfkit: m.xml:1:1: this is an MJCF file (MuJoCo) without xacro\n")
+
+
 def test_sdf_with_xacro_is_expanded(capsys: pytest.CaptureFixture[str]) -> None:
     Path("world.sdf.xacro").write_text(
         '<sdf version="1.7" xmlns:xacro="http://www.ros.org/wiki/xacro"><world name="w${1 + 1}"/></sdf>'

@@ -70,7 +70,7 @@ def _run(arguments: argparse.Namespace) -> int:
     if arguments.compare:
         return _compare(typed, model.arguments, packages)
     expanded = expand(typed, arguments=model.arguments, packages=packages, run_xacro=True, texts=texts)
-    _refuse_sdf(expanded, typed)
+    _refuse_other_formats(expanded, typed)
     if not arguments.quiet:
         _show_notes(expanded, model)
     if arguments.output is None:
@@ -82,18 +82,20 @@ def _run(arguments: argparse.Namespace) -> int:
     return 0
 
 
-def _refuse_sdf(expanded: Expanded, path: str) -> None:
-    """Raise if a file is SDF without xacro, in which nothing is to be expanded.
+def _refuse_other_formats(expanded: Expanded, path: str) -> None:
+    """Raise if a file is of another format than URDF and without xacro, so that nothing is to be expanded.
 
     Raises:
-        ModelError: the file is SDF without xacro.
+        ModelError: the file is of another format, without xacro.
     """
+    from urdfkit.description.loading import OTHER_ROOTS
+
     root = expanded.root
-    if root is not None and root.tag in ("sdf", "gazebo"):
+    if root is not None and (kind := OTHER_ROOTS.get(root.tag)) is not None:
         if any("xmlns:xacro" in source.text for source in expanded.sources.values()):
             return
-        message = f"this is an SDF file without xacro; simulate it with `urdfkit sim run --world {path}`"
-        raise ModelError(message, position=root.origin.position)
+        hint = f"; simulate it with `urdfkit sim run --world {path}`" if root.tag in ("sdf", "gazebo") else ""
+        raise ModelError(f"this is {kind} without xacro{hint}", position=root.origin.position)
 
 
 def _compare(path: str, arguments: dict[str, str], packages: Packages) -> int:

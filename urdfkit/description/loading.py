@@ -23,7 +23,7 @@ from urdfkit.description.xml.source import absolute
 from urdfkit.errors import ModelError, UsageError, did_you_mean
 from urdfkit.resources import ModelArgument, find_model
 
-_OTHER_ROOTS = {
+OTHER_ROOTS = {
     "sdf": "an SDF file",
     "gazebo": "an SDF file",
     "mujoco": "an MJCF file (MuJoCo)",
@@ -32,6 +32,7 @@ _OTHER_ROOTS = {
     "launch": "a launch file",
     "package": "a package manifest",
 }
+"""Root element of a file that is no robot description → its format."""
 
 
 def load(
@@ -266,7 +267,7 @@ def check_is_robot(root: Element) -> None:
     """
     if root.tag == "robot":
         return
-    kind = _OTHER_ROOTS.get(root.tag.lower())
+    kind = OTHER_ROOTS.get(root.tag.lower())
     what = f"this is {kind}, not a robot description" if kind else f"the root element is <{root.tag}>, not <robot>"
     raise ModelError(f"{what}{'' if kind else did_you_mean(root.tag, ['robot'])}", position=root.origin.position)
 

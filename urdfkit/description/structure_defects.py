@@ -205,9 +205,11 @@ class _Structure:
                     f"link `{joint.child}` is the child of two joints, `{other.name}` "
                     f"({other.element.origin.position}) and `{joint.name}`"
                 )
-                element = joint.element.find("child") or joint.element
+                is_repeated = joint.element.get("name") == other.element.get("name")
+                child = joint.element.find("child") or joint.element
+                code, element = ("T207", joint.element) if is_repeated else ("T205", child)
                 effect = f"joint `{joint.name}` is left out"
-                self._add(message, effect, "T205", element, link=joint.child, joint=joint.name)
+                self._add(message, effect, code, element, link=joint.child, joint=joint.name)
         self.links += [Link(name, None, (), (), element) for name, element in undefined.items()]
         self._detached.update(undefined)
         if self.defects:
@@ -287,13 +289,13 @@ class _Structure:
 
     def release_mimics(self) -> None:
         """Remove the <mimic> of joints whose master does not exist."""
-        names = {joint.name for joint in self.joints}
+        names, by_name = {joint.name for joint in self.joints}, self.robot.joint_by_name
         for i, joint in enumerate(self.joints):
             mimic = joint.mimic
             if mimic is None or mimic.joint in names:
                 continue
-            if mimic.joint not in self.robot.joint_by_name:  # else the joint was left out
-                hint = self._similar(mimic.joint, self.robot.joint_by_name)
+            if mimic.joint not in by_name:  # else the joint was left out
+                hint = self._similar(mimic.joint, (name for name in by_name if name != joint.name))
                 message = f"joint `{joint.name}` mimics the unknown joint `{mimic.joint}`{hint}"
                 self._add(message, "it moves by itself", "J416", mimic.element, joint=joint.name)
             self.joints[i] = replace(joint, mimic=None)

@@ -83,7 +83,7 @@ def _follow(joints: Mapping[str, Joint], joint: Joint, resolved: dict[str, Coupl
             raise KinematicsError(f"mimic joints form a cycle: {circle}", position=place)
         master = joints.get(at.mimic.joint)
         if master is None:
-            hint = did_you_mean(at.mimic.joint, joints)
+            hint = did_you_mean(at.mimic.joint, [name for name in joints if name not in passed])
             raise KinematicsError(
                 f"joint `{at.name}` mimics the unknown joint `{at.mimic.joint}`{hint}", position=place
             )

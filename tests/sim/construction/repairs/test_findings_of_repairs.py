@@ -209,6 +209,32 @@ def test_an_impossible_mimic_is_repaired_and_reported(tmp_path: Path, type: str)
         assert any(reports(finding, repair) for finding in findings), str(repair)
 
 
+def test_a_repeated_joint_that_is_left_out_has_the_finding_of_repeated_names(tmp_path: Path) -> None:
+    joint = '<joint name="j" type="fixed"><parent link="a"/><child link="b"/></joint>\n'
+    path = tmp_path / "r.urdf"
+    path.write_text(
+        f'<robot name="r"><link name="a">{GOOD}</link>\n<link name="b">{GOOD}</link>\n{joint}{joint}</robot>'
+    )
+    repairs = Simulator(path, note=lambda _: None).repairs
+    assert {repair.code for repair in repairs} == {"T207"}
+    findings = lint(path)
+    for repair in repairs:
+        assert any(reports(finding, repair) for finding in findings), str(repair)
+
+
+def test_an_unknown_mimic_joint_is_not_suggested_to_be_the_joint_itself(tmp_path: Path) -> None:
+    path = tmp_path / "r.urdf"
+    path.write_text(
+        f'<robot name="r"><link name="world"/><link name="a">{GOOD}</link>\n'
+        '<joint name="j" type="continuous"><parent link="world"/><child link="a"/><axis xyz="0 1 0"/>'
+        '<mimic joint="jj"/></joint></robot>'
+    )
+    (repair,) = Simulator(path, note=lambda _: None).repairs
+    assert repair.code == "J416"
+    assert "mimics the unknown joint `jj`" in repair.message
+    assert "did you mean" not in repair.message
+
+
 def test_links_that_are_fixed_to_each_other_are_one_repair(tmp_path: Path) -> None:
     path = tmp_path / "r.urdf"
     path.write_text(
