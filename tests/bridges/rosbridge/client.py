@@ -16,6 +16,7 @@ end = time.monotonic() + 120
 while time.monotonic() < end and not (poses and poses[-1]["position"]["x"] > 1.0 and images):
     driving.publish(roslibpy.Message({"linear": {"x": 0.5}}))
     time.sleep(0.05)
+x, image = poses[-1]["position"]["x"], images[-1]
 reset = roslibpy.Service(ros, "/gazebo/reset_simulation", "std_srvs/Empty").call(
     roslibpy.ServiceRequest({}), timeout=60
 )
@@ -26,8 +27,8 @@ print(
         {
             "topics": ros.get_topics(),
             "types": {name: ros.get_topic_type(name) for name in ros.get_topics()},
-            "x": poses[-1]["position"]["x"],
-            "image": [images[-1][name] for name in ("encoding", "width", "height")],
+            "x": x,
+            "image": [image[name] for name in ("encoding", "width", "height")],
             "reset": dict(reset),
             "delete": dict(remove.call(request, timeout=60)),
             "description": ros.get_param("/robot_description"),
