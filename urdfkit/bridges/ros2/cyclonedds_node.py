@@ -25,11 +25,11 @@ SILENT = '<CycloneDDS><Domain Id="any"><Tracing><OutputFile>/dev/null</OutputFil
 LOCALHOST = """\
 <CycloneDDS><Domain Id="any"><Tracing><OutputFile>/dev/null</OutputFile></Tracing>
 <General><AllowMulticast>false</AllowMulticast>
-<Interfaces><NetworkInterface address="127.0.0.1"/><NetworkInterface autodetermine="true"/></Interfaces></General>
+<Interfaces><NetworkInterface address="127.0.0.1"/></Interfaces></General>
 <Discovery><ParticipantIndex>auto</ParticipantIndex><MaxAutoParticipantIndex>99</MaxAutoParticipantIndex>
 <Peers><Peer address="127.0.0.1"/></Peers></Discovery></Domain></CycloneDDS>"""
-"""Discovery on this machine: without multicast, participants are found by the ports of their indices on loopback.
-Nodes that are not limited to this machine receive on another interface, so that one is used too."""
+"""Discovery on this machine: without multicast, participants are searched for at the loopback ports of their
+indices."""
 
 
 class CycloneddsNode:

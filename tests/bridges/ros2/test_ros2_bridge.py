@@ -1,0 +1,175 @@
+"""The bridge to ROS 2, on a node without a network, and variables and options of ROS."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import Any
+
+import pytest
+
+from tests.time_limit import PATIENCE
+from urdfkit.bridges.bridge import CallQueue
+from urdfkit.bridges.ros2.environment import keep_on_this_machine, on_this_machine, ros_domain
+from urdfkit.bridges.ros2.node import Quality, UnknownTypeError
+from urdfkit.bridges.ros2.ros2_bridge import Ros2Bridge, check_namespace
+from urdfkit.bus import Bus
+from urdfkit.cli import main
+from urdfkit.errors import UsageError
+from urdfkit.messages import from_fields, typestore
+
+STRING, TWIST = "std_msgs/msg/String", "geometry_msgs/msg/Twist"
+
+
+@dataclass
+class Published:
+    quality: Quality
+    matched: bool = False
+    sent: list[bytes] = field(default_factory=list)
+
+    def publish(self, data: bytes) -> None:
+        self.sent.append(data)
+
+    def is_matched(self) -> bool:
+        return self.matched
+
+
+class RecordedNode:
+    description = "recorded"
+
+    def __init__(self, lacks: str = "") -> None:
+        self.lacks, self.closed = lacks, False
+        self.published: dict[str, Published] = {}
+        self.subscribed: dict[str, Callable[[bytes], None]] = {}
+
+    def writer(self, topic: str, type: str, quality: Quality) -> Published:
+        if type == self.lacks:
+            raise UnknownTypeError(f"no {type}")
+        self.published[topic] = Published(quality)
+        return self.published[topic]
+
+    def subscribe(self, topic: str, type: str, quality: Quality, receive: Callable[[bytes], None]) -> None:
+        self.subscribed[topic] = receive
+
+    def close(self) -> None:
+        self.closed = True
+
+
+def until(condition: Callable[[], Any], calls: CallQueue) -> None:
+    end = time.monotonic() + PATIENCE
+    while not condition():
+        assert time.monotonic() < end, "the condition did not become true in time"
+        calls.wait(0.01)
+        calls.take()
+
+
+def string(text: str) -> Any:
+    return from_fields(STRING, {"data": text})
+
+
+def test_a_topic_is_encoded_only_while_a_subscriber_is_matched() -> None:
+    bus, calls, node = Bus(), CallQueue(), RecordedNode()
+    bus.advertise("/chatter", STRING)
+    bridge = Ros2Bridge(bus, calls, node, report=pytest.fail)
+    bus.publish("/chatter", STRING, string("unheard"))
+    assert not bus.has_subscribers("/chatter")
+    node.published["/chatter"].matched = True
+    until(lambda: bus.has_subscribers("/chatter"), calls)
+    bus.publish("/chatter", STRING, string("heard"))
+    until(lambda: node.published["/chatter"].sent, calls)
+    (data,) = node.published["/chatter"].sent
+    assert typestore().deserialize_cdr(data, STRING).data == "heard"
+    node.published["/chatter"].matched = False
+    until(lambda: not bus.has_subscribers("/chatter"), calls)
+    bridge.close()
+    assert node.closed
+
+
+def test_latched_topics_are_sent_without_waiting_for_a_subscriber() -> None:
+    bus, calls, node = Bus(), CallQueue(), RecordedNode()
+    bus.publish("/robot_description", STRING, string("<robot/>"))
+    bridge = Ros2Bridge(bus, calls, node, report=pytest.fail)
+    until(lambda: node.published["/robot_description"].sent, calls)
+    assert node.published["/robot_description"].quality == Quality(latched=True, depth=1)
+    bridge.close()
+
+
+def test_commands_reach_the_bus_in_the_thread_of_the_simulation() -> None:
+    bus, calls, node = Bus(), CallQueue(), RecordedNode()
+    speeds: list[float] = []
+    bus.subscribe("/cmd_vel", TWIST, lambda message: speeds.append(message.linear.x))
+    lines: list[str] = []
+    bridge = Ros2Bridge(bus, calls, node, namespace="/r1", report=lines.append)
+    assert not node.published
+    node.subscribed["/r1/cmd_vel"](bytes(typestore().serialize_cdr(from_fields(TWIST, {"linear": {"x": 0.5}}), TWIST)))
+    assert speeds == []
+    calls.take()
+    assert speeds == [0.5]
+    node.subscribed["/r1/cmd_vel"](b"\0\1\0\0short")
+    calls.take()
+    assert speeds == [0.5]
+    assert lines[0].startswith("`/cmd_vel`: a message that is no geometry_msgs/msg/Twist was dropped")
+    bridge.close()
+
+
+def test_topics_are_followed_and_missing_types_reported_in_one_line() -> None:
+    bus, calls, node, lines = Bus(), CallQueue(), RecordedNode(lacks=STRING), list[str]()
+    bridge = Ros2Bridge(bus, calls, node, namespace="/r1", report=lines.append)
+    for name, type in (("/a", STRING), ("/b", STRING), ("/clock", "rosgraph_msgs/msg/Clock"), ("/no-name", TWIST)):
+        bus.advertise(name, type)
+    bus.advertise("/spawn", "gazebo_msgs/srv/SpawnModel_Request")
+    bridge.update()
+    assert list(node.published) == ["/clock"]
+    assert lines == [
+        "`/r1/no-name` is no valid topic name in ROS 2; it is not bridged",
+        f"/r1/a, /r1/b: not on ROS 2; no {STRING}",
+    ]
+    bridge.close()
+
+
+def test_variables_of_ros() -> None:
+    assert ros_domain(None, {}) == 0
+    assert ros_domain(None, {"ROS_DOMAIN_ID": "7"}) == 7
+    assert ros_domain(3, {"ROS_DOMAIN_ID": "7"}) == 3
+    assert on_this_machine({})
+    assert not on_this_machine({"ROS_AUTOMATIC_DISCOVERY_RANGE": "SUBNET"})
+    assert not on_this_machine({"ROS_LOCALHOST_ONLY": "0"})
+    for before, added in (
+        ({}, {"ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST"}),
+        ({"ROS_DISTRO": "humble"}, {"ROS_LOCALHOST_ONLY": "1"}),
+        ({"ROS_AUTOMATIC_DISCOVERY_RANGE": "SUBNET"}, {}),
+    ):
+        environment = dict(before)
+        keep_on_this_machine(environment)
+        assert environment == {**before, **added}
+    with pytest.raises(UsageError, match="ROS_DOMAIN_ID is `x`"):
+        ros_domain(None, {"ROS_DOMAIN_ID": "x"})
+    with pytest.raises(UsageError, match="switches discovery off"):
+        on_this_machine({"ROS_AUTOMATIC_DISCOVERY_RANGE": "OFF"})
+
+
+def test_namespaces() -> None:
+    assert [check_namespace(each) for each in ("", "/", "r1", "/a/b/")] == ["", "", "/r1", "/a/b"]
+    with pytest.raises(UsageError, match="--namespace is `a-b`"):
+        check_namespace("a-b")
+
+
+@pytest.mark.parametrize(
+    ("options", "line"),
+    [
+        (["--namespace", "r1"], "--namespace is an option of the bridge to ROS 2: add --ros2"),
+        (["--ros2", "--ros-domain", "233"], "--ros-domain is `233`; a ROS domain is a number from 0 to 232"),
+    ],
+)
+def test_invalid_options_are_one_line(options: list[str], line: str, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["sim", "run", "simpleton", "--for", "1", *options]) == 2
+    assert capsys.readouterr().err == f"urdfkit: {line}\n"
+
+
+def test_without_a_library_one_line_names_it(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr("urdfkit.bridges.ros2.node_selection.find_spec", lambda name: None)
+    assert main(["sim", "run", "simpleton", "--for", "1", "--ros2"]) == 2
+    assert "pip install 'urdfkit[ros2]'" in capsys.readouterr().err
