@@ -8,7 +8,7 @@ SOURCES := pyproject.toml tests/constraints.txt
 CODE := $(CURDIR)/build/machine_code
 
 .DEFAULT_GOAL := help
-.PHONY: help run test quick bench fidelity soak wheel clean
+.PHONY: help run test quick ros2-nodes bench fidelity soak wheel clean
 
 help:
 	@echo "make run    install into $(VENV) and drive Simpleton in the browser"
@@ -45,6 +45,17 @@ fidelity: $(VENV)/.bench
 
 soak: $(VENV)/.test
 	$(BIN)/python tests/bench/agreement.py; agreed=$$?; $(BIN)/python tests/bench/soak $(ARGS) && exit $$agreed
+
+# rclpy with Fast DDS in environments of their own: the tests of --ros2 run real nodes with them.
+ros2-nodes: $(VENV)/ros2-kilted/.done $(VENV)/ros2-jazzy/.done
+
+$(VENV)/ros2-kilted/.done: PREFIX := ros
+$(VENV)/ros2-jazzy/.done: PREFIX := ros-jazzy
+$(VENV)/ros2-%/.done: $(VENV)/bin/python
+	$(PYTHON) -m venv $(@D)
+	$(@D)/bin/python -m pip --disable-pip-version-check install --quiet \
+	  $(addprefix $(PREFIX)-,rclpy rmw-fastrtps-cpp geometry-msgs nav-msgs rosgraph-msgs sensor-msgs std-msgs)
+	@touch $@
 
 wheel: $(VENV)/.run
 	rm -rf $(CODE) urdfkit/machine_code

@@ -1,0 +1,125 @@
+"""`--ros2` seen by nodes of real rclpy, Kilted and Jazzy, in environments of their own: ``make ros2-nodes``."""
+
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+import sys
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+pytest.importorskip("cyclonedds")
+
+from urdfkit.sim import Simulator
+
+ROOT = Path(__file__).parents[3]
+DISTRIBUTIONS = ("kilted", "jazzy")
+LOCAL = {"ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST"}
+
+
+def node_python(distribution: str) -> Path:
+    """Return the Python of the environment with rclpy; skip the test without one."""
+    found = ROOT / ".venv" / f"ros2-{distribution}" / "bin" / "python"
+    if not found.exists():
+        pytest.skip(f"needs rclpy of {distribution}: make ros2-nodes")
+    return found
+
+
+@contextmanager
+def simulated(robot: str, domain: int) -> Iterator[subprocess.Popen[str]]:
+    """Run ``urdfkit sim run ROBOT --ros2`` until the end of the block."""
+    command = [
+        sys.executable,
+        "-m",
+        "urdfkit",
+        "sim",
+        "run",
+        robot,
+        "--for",
+        "600",
+        "--ros2",
+        "--ros-domain",
+        str(domain),
+    ]
+    environment = {**os.environ, **LOCAL}
+    process = subprocess.Popen(command, stderr=subprocess.PIPE, stdout=subprocess.DEVNULL, text=True, env=environment)
+    assert process.stderr is not None
+    try:
+        for line in process.stderr:
+            if line.startswith("ros2: topics are published by cyclonedds"):
+                break
+        else:
+            pytest.fail("the simulation has not started")
+        yield process
+    finally:
+        process.kill()
+        process.wait()
+        process.stderr.close()
+
+
+def node(distribution: str, domain: int, seconds: float, command: str = "", odometry: str = "") -> dict[str, Any]:
+    """Run a real node and return what it has seen."""
+    words = [str(Path(__file__).parent / "real_node.py"), str(seconds), command, odometry]
+    environment = {name: value for name, value in os.environ.items() if not name.startswith("PYTHON")}
+    environment |= {**LOCAL, "ROS_DOMAIN_ID": str(domain)}
+    done = subprocess.run(
+        [node_python(distribution), *words], capture_output=True, text=True, env=environment, check=False
+    )
+    assert done.returncode == 0, done.stderr
+    found: dict[str, Any] = json.loads(done.stdout.splitlines()[-1])
+    return found
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("distribution", DISTRIBUTIONS)
+def test_a_real_node_drives_the_robot_a_metre(distribution: str) -> None:
+    domain = 41 + DISTRIBUTIONS.index(distribution)
+    node_python(distribution)
+    with simulated("simpleton", domain):
+        time.sleep(1.0)  # the node joins late
+        found = node(distribution, domain, 90.0, "/simpleton/cmd_vel", "/simpleton/odom")
+    assert found["x"] > 1.0
+    assert found["odometry"] > 20
+    assert found["descriptions"] == 1
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("robot", ["simpleton", "mybot", "rrbot", "diff_wheeled_robot", "heterogeneous"])
+def test_a_real_node_sees_all_topics_with_their_types_and_quality(robot: str) -> None:
+    node_python("kilted")
+    expected = {each.name: each.type for each in Simulator(robot).bus.topics if "/msg/" in each.type}
+    with simulated(robot, 43):
+        found = node("kilted", 43, 4.0)
+    types = {name: kinds for name, kinds in found["types"].items() if name in expected}
+    assert types == {name: [kind] for name, kind in expected.items()}
+    latched = {name for name, quality in found["publishers"].items() if quality[1] == "TRANSIENT_LOCAL"}
+    assert latched - {"/rosout", "/parameter_events"} == {"/robot_description", "/tf_static"} & found["types"].keys()
+    assert found["publishers"]["/clock"][0] == "BEST_EFFORT"
+
+
+@pytest.mark.slow
+def test_a_late_joiner_gets_the_static_transforms_by_cyclonedds_alone() -> None:
+    code = (
+        "import sys, time; from urdfkit.bridges.ros2.cyclonedds_node import CycloneddsNode; "
+        "from urdfkit.bridges.ros2.node import Quality; from urdfkit.messages import typestore; "
+        "found = []; node = CycloneddsNode(44); "
+        "quality = Quality(reliable=True, latched=True, depth=1); "
+        "node.subscribe('/tf_static', 'tf2_msgs/msg/TFMessage', quality, found.append)\n"
+        "end = time.monotonic() + 30\n"
+        "while not found and time.monotonic() < end: time.sleep(0.05)\n"
+        "message = typestore().deserialize_cdr(found[0], 'tf2_msgs/msg/TFMessage')\n"
+        "print(*(each.child_frame_id for each in message.transforms)); node.close()"
+    )
+    with simulated("simpleton", 44):
+        time.sleep(1.0)
+        done = subprocess.run(
+            [sys.executable, "-c", code], capture_output=True, text=True, env={**os.environ, **LOCAL}, check=False
+        )
+    assert done.returncode == 0, done.stderr
+    assert "camera" in done.stdout
