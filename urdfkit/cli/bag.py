@@ -8,7 +8,7 @@ from urdfkit.cli.parser import HelpFormatter
 
 def configure(parser: argparse.ArgumentParser) -> None:
     """Add the subcommands."""
-    parser.epilog = "example:\n  urdfkit bag info run.mcap"
+    parser.epilog = "examples:\n  urdfkit bag info run.mcap\n  urdfkit bag info lab.bag --json"
     subcommands = parser.add_subparsers(dest="subcommand", metavar="SUBCOMMAND", required=True)
     summary = "print duration, topics, types and numbers of messages of a recording"
     info = subcommands.add_parser("info", help=summary, description=summary, formatter_class=HelpFormatter)
