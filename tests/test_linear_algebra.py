@@ -13,8 +13,8 @@ from urdfkit.linear_algebra import inverse_placement, matmul, symmetric_eigen, v
 from urdfkit.scene.pose_matrices import pose_matrices
 
 ROOMS = ("kinematics", "scene", "sim")
-APART = ("gl", "self_collision")
-"""What computes nothing that is simulated or published: OpenGL, and the search for colliding pairs of links."""
+APART = ("gl", "self_collision", "reach", "torch_chain", "trimesh_shapes")
+"""What computes nothing that is simulated or published: OpenGL, searches for collisions and reach, and exports."""
 
 
 @pytest.mark.parametrize(

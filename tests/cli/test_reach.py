@@ -26,7 +26,7 @@ def test_the_arrays_are_those_of_python(capsys: pytest.CaptureFixture[str], tmp_
     file = tmp_path / "map.npz"
     code, out, err = ran(capsys, *ARM, "--json", "-o", str(file))
     values = json.loads(out)
-    assert (code, err) == (0, f"wrote {file}\n")
+    assert (code, err.splitlines()[-1]) == (0, f"wrote {file}")  # after a compilation, where nothing is cached
     expected = reach_map(Chain("seven_dof_arm", None, "grasping_frame"), resolution=0.2, orientations=8)
     with np.load(file) as arrays:
         assert (str(arrays["base"]), str(arrays["tip"]), float(arrays["resolution"])) == (
