@@ -16,7 +16,7 @@ from tests.time_limit import PATIENCE
 
 ROOT = Path(__file__).parents[2]
 PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md"))]
-SERVES = ("view", "sim teleop")
+SERVES = ("view", "sim teleop", "replay")
 
 MODEL = """<?xml version="1.0"?>
 <robot name="robot" xmlns:xacro="http://www.ros.org/wiki/xacro">
