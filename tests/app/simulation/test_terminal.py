@@ -99,6 +99,7 @@ class Session:
             import fcntl
 
             fcntl.ioctl(0, termios.TIOCSCTTY, 0)
+            signal.signal(signal.SIGINT, signal.SIG_DFL)  # ignored where the tests are started in the background
 
         self.process = subprocess.Popen(
             command, stdin=other, stdout=other, stderr=other, start_new_session=True, preexec_fn=owns_terminal
