@@ -39,6 +39,7 @@ def add_bridges(parser: argparse.ArgumentParser) -> None:
     group.add_argument(
         "--allow-origin",
         action="append",
+        type=_origin,
         default=[],
         metavar="ORIGIN",
         help="accept web pages of this origin, e.g. https://example.org (repeatable; default: pages of this machine)",
@@ -73,3 +74,14 @@ def _address(text: str) -> Address:
         return parse_address(text)
     except UsageError as error:
         raise argparse.ArgumentTypeError(str(error)) from None
+
+
+def _origin(text: str) -> str:
+    """An origin as browsers send it: in lower case, without a slash at the end."""
+    from urllib.parse import urlsplit
+
+    origin = text.rstrip("/").lower()
+    parts = urlsplit(origin)
+    if origin != "null" and (not parts.scheme or not parts.netloc or origin != f"{parts.scheme}://{parts.netloc}"):
+        raise argparse.ArgumentTypeError(f"`{text}` is not an origin; use https://HOST or http://HOST:PORT")
+    return origin
