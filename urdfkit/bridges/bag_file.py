@@ -11,6 +11,12 @@ from urdfkit.errors import MissingDependencyError, ResourceError
 
 SUFFIXES = (".mcap", ".db3", ".bag")
 NANOSECONDS = 1e9
+REASONS = {
+    "File end magic is invalid.": "its end is missing, as after a crash or an incomplete download; "
+    "`mcap recover FILE -o NEW` saves the rest",
+    "File magic is invalid.": "it is not an MCAP file",
+}
+"""Reasons of errors of rosbags, in words of users."""
 
 
 class RecordedTopic(NamedTuple):
@@ -56,6 +62,8 @@ class BagFile:
             raise ResourceError(f"no file {self.path}{near_path(self.path)}")
         if self.path.is_file() and self.path.suffix not in SUFFIXES:
             raise ResourceError(f"{self.path} is not a recording: recordings are {', '.join(SUFFIXES)} files")
+        if self.path.is_dir() and not (self.path / "metadata.yaml").exists():
+            raise ResourceError(f"{self.path} is not a recording: a folder of ros2 bag contains metadata.yaml")
         try:
             from rosbags.highlevel import AnyReader
 
@@ -70,7 +78,8 @@ class BagFile:
             )
             self.count = self._reader.message_count
         except Exception as error:  # damaged files raise errors of every kind
-            raise ResourceError(f"{self.path} cannot be read as a recording: {_first_line(error)}") from error
+            reason = REASONS.get(_first_line(error), _first_line(error))
+            raise ResourceError(f"{self.path} cannot be read as a recording: {reason}") from error
         self.begin, self.end = 0.0, 0.0
         if self.count:
             self.begin = self._reader.start_time / NANOSECONDS

@@ -18,7 +18,7 @@ from urdfkit.app.replay.timeline import PoseTimeline, Timeline
 from urdfkit.bridges.bag_file import BagFile
 from urdfkit.bridges.recorder import Recorder
 from urdfkit.cli import main
-from urdfkit.errors import ResourceError
+from urdfkit.errors import ResourceError, UsageError
 from urdfkit.kinematics import Kinematics
 from urdfkit.scene.pose_matrices import pose_matrices
 from urdfkit.sim import Simulator
@@ -145,6 +145,27 @@ def test_files_that_are_no_recordings_are_refused_in_one_line(name: str, content
     assert "\n" not in str(refused.value)
     with pytest.raises(ResourceError, match="no file"):
         BagFile(tmp_path / "missing.mcap")
+
+
+def test_unfinished_files_and_folders_without_metadata_are_named(tmp_path: Path) -> None:
+    ros = Messages(2)
+    file = write_bag(tmp_path / "a.mcap", [("/joint_states", 0.1 * k, ros.joints(k, {})) for k in range(5)])
+    unfinished = tmp_path / "b.mcap"
+    unfinished.write_bytes(next(file.glob("*.mcap")).read_bytes()[:-20])
+    with pytest.raises(ResourceError, match="its end is missing"):
+        BagFile(unfinished)
+    (tmp_path / "folder").mkdir()
+    with pytest.raises(ResourceError, match=r"metadata\.yaml"):
+        BagFile(tmp_path / "folder")
+
+
+def test_an_unknown_fixed_frame_is_refused(tmp_path: Path) -> None:
+    kinematics, ros = arm(tmp_path), Messages(2)
+    written: list[Written] = [("/tf", 0.0, ros.transforms(0.0, ("odom", "base", turned(0, 2, 0))))]
+    with BagFile(write_bag(tmp_path / "a.mcap", written)) as bag:
+        with pytest.raises(UsageError, match="no frame `nope` in the recording"):
+            RecordedRobot(bag, kinematics, fixed_frame="nope")
+        assert RecordedRobot(bag, kinematics, fixed_frame="base").fixed_frame == "base"
 
 
 def test_without_a_description_the_robot_has_to_be_named(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

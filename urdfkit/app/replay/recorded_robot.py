@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from urdfkit.app.replay.recorded_frames import RecordedFrames
 from urdfkit.app.replay.timeline import PoseTimeline, Timeline
 from urdfkit.bridges.bag_file import BagFile
+from urdfkit.errors import UsageError
 from urdfkit.kinematics import Kinematics
 from urdfkit.scene.pose_matrices import pose_matrices
 from urdfkit.sim.state.quaternion import from_matrix
@@ -31,6 +32,9 @@ class RecordedRobot:
         fixed_frame: frame in which poses are given; None for the one of `FIXED_FRAMES` or the root of the transforms.
         progress: called with the read part of the recording, 0 to 1.
 
+    Raises:
+        UsageError: the recording has transforms, and none of the fixed frame.
+
     Attributes:
         frames: the transforms.
         fixed_frame: the frame in which poses are given.
@@ -50,6 +54,9 @@ class RecordedRobot:
         self._odometry: PoseTimeline | None = None
         self._read(bag, progress)
         self._prefix = self.frames.prefix(kinematics.root)
+        valid = len(self.frames) == 0 or fixed_frame in (None, self._fixed_frame()) or fixed_frame in self.frames
+        if not valid:
+            raise UsageError(f"--fixed-frame: no frame `{fixed_frame}` in the recording")
         self.fixed_frame = fixed_frame or self._fixed_frame()
 
     def _read(self, bag: BagFile, progress: Callable[[float], None]) -> None:
