@@ -61,6 +61,15 @@ def test_an_update_replaces_only_lines_of_ours(tmp_path, capsys):
     assert old.read_text() == new
 
 
+def test_an_update_refuses_a_urdf_and_leaves_it_as_it_is(tmp_path, capsys):
+    urdf = tmp_path / "arm.urdf"
+    text = '<robot name="arm">\n  <link name="a"><collision></collision></link>\n</robot>\n'
+    urdf.write_text(text)
+    assert main(["srdf", "seven_dof_arm", *QUICK, "--update", str(urdf)]) == 2
+    assert "is a URDF, not an SRDF" in capsys.readouterr().err
+    assert urdf.read_text() == text
+
+
 @pytest.mark.parametrize(
     ("words", "message"),
     [

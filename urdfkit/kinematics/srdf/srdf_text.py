@@ -16,6 +16,8 @@ _OURS = re.compile(
 )
 _PAIR = re.compile(r"<disable_collisions\b[^<>]*>")
 _COMMENT = re.compile(r"<!--.*?-->", re.DOTALL)
+_URDF = re.compile(r"<(?:visual|collision|inertial|parent)\b")
+"""Elements of a URDF that no SRDF has."""
 
 
 def new_srdf(
@@ -58,8 +60,10 @@ def updated_srdf(old: str, matrix: CollisionMatrix, file: str) -> str:
         file: its name, for the message.
 
     Raises:
-        DescriptionError: the text has no ``</robot>``.
+        DescriptionError: the text has no ``</robot>``, or is a URDF.
     """
+    if "</robot>" in old and _URDF.search(_COMMENT.sub("", old)):
+        raise DescriptionError(f"{file} is a URDF, not an SRDF; it is left as it is")
     hidden = [match.span() for match in _COMMENT.finditer(old)]
     found = [match for match in _OURS.finditer(old) if not any(a <= match.start() < b for a, b in hidden)]
     kept = old
