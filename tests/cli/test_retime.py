@@ -58,6 +58,20 @@ def test_limits_come_from_the_command_line_then_moveit_then_the_robot(place, cap
     assert chosen["limits"] == {"velocity": [1, 1.5], "acceleration": [5, 2], "jerk": [20, 20]}
 
 
+@pytest.mark.parametrize(
+    ("text", "there"),
+    [
+        ("joint_limits:\n  shoulder_pan: {has_acceleration_limits: true, max_acceleration: 7.0}\n", "`shoulder_pan`"),
+        ("shoulder: {limit: {velocity: 1.0}}\n", "no joints"),
+    ],
+)
+def test_a_file_of_limits_without_a_joint_of_the_path_is_refused(place, capsys, text, there):
+    (place / "limits.yaml").write_text(text)
+    options = ("--joint-limits", "limits.yaml", "--acceleration", "3")
+    line = refusal(capsys, "retime", "arm.urdf", "path.csv", *options)
+    assert f"limits.yaml limits no joint of the path: it has {there} under `joint_limits`" in line
+
+
 def test_the_motion_is_written_as_csv_npz_and_json(place, capsys):
     for name in ("m.csv", "m.npz", "m.json"):
         assert main(["retime", "arm.urdf", "path.csv", "--acceleration", "5", "-o", name]) == 0

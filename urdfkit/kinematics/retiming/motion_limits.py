@@ -62,7 +62,8 @@ def motion_limits(
         file: MoveIt's joint_limits.yaml; its limits replace those of the robot.
 
     Raises:
-        KinematicsError: a joint is unknown, has several degrees of freedom or no limit, or a limit is not positive.
+        KinematicsError: a joint is unknown, has several degrees of freedom or no limit, a limit is not positive, or the
+            file has none of the joints.
         DescriptionError: the file cannot be read, or a value in it is not of its type.
     """
     chosen = {"acceleration": acceleration or {}, "jerk": jerk or {}}
@@ -72,6 +73,9 @@ def motion_limits(
             hint = did_you_mean(unknown, joints)
             raise KinematicsError(f"limit of {kind} of `{unknown}`: the path has no joint of this name{hint}")
     moveit = _joint_limits(file) if file is not None else {}
+    if file is not None and not moveit.keys() & set(joints):
+        there = ", ".join(f"`{name}`" for name in moveit) or "no joints"
+        raise KinematicsError(f"{file} limits no joint of the path: it has {there} under `joint_limits`")
     movable = [_movable(robot, name) for name in joints]
     lower, upper = np.array([_positions(joint, moveit.get(joint.name)) for joint in movable]).reshape(-1, 2).T
     rates: dict[str, list[float | None]] = {
