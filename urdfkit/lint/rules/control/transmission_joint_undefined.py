@@ -12,7 +12,8 @@ class TransmissionJointUndefined(RobotRule):
 
     ## What it does
     Compares the joints of ``<transmission>`` with the joints of the robot. If the robot uses gazebo_ros_control, a
-    joint without exactly one degree of freedom, such as a fixed joint, is a warning.
+    joint without exactly one degree of freedom, such as a fixed joint, is a warning. It is not if the transmission has
+    several joints: the model of a robot's dynamics may end at a fixed joint.
 
     ## Why is this bad?
     The transmission is skipped with a log message, and controllers for the joint do not start. A simulation with
@@ -68,7 +69,7 @@ class TransmissionJointUndefined(RobotRule):
                     continue
                 if part.name in joints:
                     kind = joints[part.name].type
-                    if kind in UNDRIVEN and has_gazebo_ros_control(model.robot):
+                    if kind in UNDRIVEN and len(transmission.joints) == 1 and has_gazebo_ros_control(model.robot):
                         yield self.at(
                             model,
                             part.element,

@@ -103,7 +103,7 @@ def _output(transmission: Transmission, settings: Settings, setup: Setup, period
     """
     name, place = transmission.name or "", transmission.element.origin.position
     by_name = setup.kinematics.robot.joint_by_name
-    for part in transmission.joints:
+    for part in transmission.joints if len(transmission.joints) == 1 else ():
         if (written := by_name.get(part.name or "")) is not None and written.type in UNDRIVEN:
             fault = f"joint `{written.name}` is {written.type}: no transmission can drive it"
             raise SimulationError(fault, position=part.element.origin.position, code="C701")
