@@ -135,6 +135,7 @@ def test_a_run_is_recorded_and_the_same_run_gives_the_same_bytes(
     count = {topic: sum(name == topic for name, _, _ in found) for topic, _, _ in found}
     assert count["/clock"] == 100
     assert count["/tf_static"] == 1
+    assert count["/robot_description"] == 1
     assert count["/odom"] == 100
     times = [t for _, t, _ in found]
     assert times == sorted(times)

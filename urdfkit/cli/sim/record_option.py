@@ -93,8 +93,10 @@ def recording(simulator: Simulator, arguments: argparse.Namespace) -> Iterator[C
     if arguments.record is None:
         yield lambda: None
         return
+    from urdfkit.app.simulation.bridging.description_text import publish_description
     from urdfkit.bridges.recorder import Recorder
 
+    publish_description(simulator)
     recorder = Recorder(simulator.bus, arguments.record, lambda: simulator.t, _options(arguments))
     try:
         yield recorder.subscribe_new_topics

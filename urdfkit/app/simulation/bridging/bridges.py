@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from urdfkit.app.page import note
-from urdfkit.app.simulation.bridging.description_text import description_text
+from urdfkit.app.simulation.bridging.description_text import DESCRIPTION, publish_description
 from urdfkit.app.simulation.bridging.ros2_connection import Ros2Options, connect_to_ros2
 from urdfkit.app.simulation.bridging.services import Controls, simulation_services
 from urdfkit.bridges.bridge import Bridges
@@ -19,9 +19,6 @@ if TYPE_CHECKING:
     from urdfkit.bridges.websocket.address import Address
     from urdfkit.bridges.websocket.server import WebSocketServer
     from urdfkit.sim.simulator import Simulator
-
-DESCRIPTION = "/robot_description"
-STRING = "std_msgs/msg/String"
 
 
 @dataclass(frozen=True)
@@ -67,10 +64,8 @@ def bridged(
         return
     from urdfkit.bridges.foxglove.bridge import FoxgloveServer
     from urdfkit.bridges.rosbridge.bridge import serve_rosbridge
-    from urdfkit.messages import from_fields
 
-    text = description_text(simulator.robot)
-    simulator.bus.publish(DESCRIPTION, STRING, from_fields(STRING, {"data": text}))
+    text = publish_description(simulator)
     services = simulation_services(simulator, controls)
     parameters = {DESCRIPTION: text, "/use_sim_time": True}
 

@@ -2,10 +2,27 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
 from xml.sax.saxutils import escape, quoteattr
 
 from urdfkit.description import Robot
 from urdfkit.description.xml.element import Element
+
+if TYPE_CHECKING:
+    from urdfkit.sim.simulator import Simulator
+
+DESCRIPTION = "/robot_description"
+STRING = "std_msgs/msg/String"
+
+
+def publish_description(simulator: Simulator) -> str:
+    """Publish the description of a simulated robot on `DESCRIPTION`, unless it has been published; return it."""
+    from urdfkit.messages import from_fields
+
+    text = description_text(simulator.robot)
+    if simulator.bus.latest(DESCRIPTION) is None:
+        simulator.bus.publish(DESCRIPTION, STRING, from_fields(STRING, {"data": text}))
+    return text
 
 
 def description_text(robot: Robot) -> str:
