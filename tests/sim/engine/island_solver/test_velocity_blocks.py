@@ -8,7 +8,7 @@ import pytest
 from urdfkit.sim.engine.island_solver.velocity_blocks import hold
 from urdfkit.sim.engine.kernel_cache import load_compiled, world_digest
 from urdfkit.sim.engine.kernel_world import world
-from urdfkit.sim.engine.simulation_memory import allocate
+from urdfkit.sim.engine.simulation_memory import LETTERS, allocate
 from urdfkit.sim.engine.solver.row_states import AT_LOW, HOLDS, SLIDES
 
 
@@ -26,7 +26,7 @@ def problem(rng, sizes, touching, points=4, mu=5.0):
     trees, dofs = len(sizes), sum(sizes)
     rows = 3 * points * len(touching)
     width = 2 * max(sizes)
-    counts = dict.fromkeys("bdskpmcrateyqfni", 1)
+    counts = dict.fromkeys(LETTERS, 1)
     counts |= {
         "d": dofs,
         "r": rows,
@@ -35,7 +35,7 @@ def problem(rng, sizes, touching, points=4, mu=5.0):
         "y": rows * width,
         "q": max(rows, dofs) ** 2,
     }
-    a = allocate([counts[letter] for letter in "bdskpmcrateyqfni"], width=width)
+    a = allocate([counts[letter] for letter in LETTERS], width=width)
     first = np.concatenate([[0], np.cumsum(sizes)])
     a["tree_dof"][:] = first
     a["island_next"][:] = [*range(1, trees), -1]
