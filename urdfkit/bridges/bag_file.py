@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Collection, Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from types import TracebackType
 from typing import Any, NamedTuple
@@ -11,6 +13,7 @@ from urdfkit.errors import MissingDependencyError, ResourceError
 
 SUFFIXES = (".mcap", ".db3", ".bag")
 NANOSECONDS = 1e9
+_MODULE = "rosbags.usertypes"
 REASONS = {
     "File end magic is invalid.": "its end is missing, as after a crash or an incomplete download; "
     "`mcap recover FILE -o NEW` saves the rest",
@@ -71,8 +74,9 @@ class BagFile:
         except ImportError as error:
             raise MissingDependencyError("recordings need rosbags, 0.11 or newer: pip install -U rosbags") from error
         try:
-            self._reader = AnyReader([self.path], default_typestore=typestore())
-            self._reader.open()
+            with kept_message_types():
+                self._reader = AnyReader([self.path], default_typestore=typestore())
+                self._reader.open()
             self.topics = tuple(
                 RecordedTopic(each.topic, each.msgtype, each.msgcount) for each in self._reader.connections
             )
@@ -136,6 +140,20 @@ class BagFile:
     def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, at: TracebackType | None) -> None:
         """Close the file."""
         self.close()
+
+
+@contextmanager
+def kept_message_types() -> Iterator[None]:
+    """Keep the classes of our messages inside the context: rosbags replaces the module in which pickle finds them."""
+    from urdfkit.messages import typestore
+
+    typestore()
+    ours = sys.modules.get(_MODULE)
+    try:
+        yield
+    finally:
+        if ours is not None:
+            sys.modules[_MODULE] = ours
 
 
 def _first_line(error: Exception) -> str:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import pickle
 from pathlib import Path
 from typing import Any
 
@@ -20,6 +21,7 @@ from urdfkit.bridges.recorder import Recorder
 from urdfkit.cli import main
 from urdfkit.errors import ResourceError, UsageError
 from urdfkit.kinematics import Kinematics
+from urdfkit.messages import from_fields
 from urdfkit.scene.pose_matrices import pose_matrices
 from urdfkit.sim import Simulator
 
@@ -173,3 +175,10 @@ def test_without_a_description_the_robot_has_to_be_named(tmp_path: Path, capsys:
     file = write_bag(tmp_path / "a.mcap", [("/joint_states", 0.0, ros.joints(0.0, {}))])
     assert main(["replay", str(file), "--no-browser", "--port", "0"]) == 2
     assert "contains no robot description: name the robot" in capsys.readouterr().err
+
+
+def test_messages_can_be_pickled_after_a_recording_was_read(tmp_path: Path) -> None:
+    ros = Messages(2)
+    sent = from_fields("gazebo_msgs/msg/ModelStates", {"name": ["box"]})
+    with BagFile(write_bag(tmp_path / "a.mcap", [("/joint_states", 0.0, ros.joints(0.0, {}))])):
+        assert pickle.loads(pickle.dumps(sent)).name == ["box"]

@@ -9,10 +9,13 @@ from typing import Any
 import numpy as np
 from rosbags.typesys import Stores, get_types_from_msg, get_typestore
 
+from urdfkit.bridges.bag_file import kept_message_types
+
 STORES = {1: get_typestore(Stores.ROS1_NOETIC), 2: get_typestore(Stores.ROS2_JAZZY)}
 if "tf2_msgs/msg/TFMessage" not in STORES[1].types:
     definition = "geometry_msgs/TransformStamped[] transforms"
-    STORES[1].register(get_types_from_msg(definition, "tf2_msgs/msg/TFMessage"))
+    with kept_message_types():
+        STORES[1].register(get_types_from_msg(definition, "tf2_msgs/msg/TFMessage"))
 Written = tuple[str, float, Any]
 """Topic, time [s], message."""
 
