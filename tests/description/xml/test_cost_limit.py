@@ -72,6 +72,25 @@ def test_expand_is_one_line(tmp_path, monkeypatch, capsys) -> None:
     assert error.count("\n") == 1
 
 
+def test_a_signal_while_the_block_ends_is_ignored(monkeypatch) -> None:
+    original = signal.setitimer
+
+    def setitimer(timer: int, *arguments: float) -> object:
+        if timer == signal.ITIMER_PROF:
+            signal.raise_signal(signal.SIGPROF)
+        return original(timer, *arguments)
+
+    with CostLimit(1e-6, memory=0):
+        monkeypatch.setattr(signal, "setitimer", setitimer)
+
+
+def test_memory_that_the_process_used_before_does_not_count() -> None:
+    with CostLimit(60.0, memory=50_000_000):  # the interpreter with pytest alone takes more
+        begin = time.process_time()
+        while time.process_time() - begin < 0.3:
+            pass
+
+
 @pytest.mark.parametrize("command", [["tf"], ["info"], ["view", "--html", "r.html"]])
 def test_loading_a_robot_is_limited(command, file, monkeypatch, capsys) -> None:
     from urdfkit.description.xml import cost_limit

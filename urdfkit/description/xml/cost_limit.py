@@ -18,9 +18,9 @@ if TYPE_CHECKING:
 LOADING = 60.0
 """Seconds of CPU for loading a robot with its meshes, or a simulation without compiling the engine."""
 MEMORY = 10**9
-"""Bytes of memory of a process that reads descriptions."""
+"""Bytes of memory that reading a description adds to the process."""
 LOADING_MEMORY = 8 * 10**9
-"""Bytes of memory of a process that loads a robot or a simulation, with the libraries and the meshes."""
+"""Bytes of memory that loading a robot or a simulation adds to the process, with the libraries and the meshes."""
 _PERIOD = 0.1
 """Seconds of CPU between two checks."""
 _PHASES = {
@@ -67,7 +67,7 @@ class CostLimit:
 
     Args:
         seconds: CPU time of the process for the block [s]; 0 for no limit.
-        memory: memory of the process [byte].
+        memory: growth of the largest memory of the process [byte].
         option: option of the command that sets the CPU time; empty if it has none.
     """
 
@@ -110,18 +110,27 @@ class CostLimit:
     def _check(self, _number: int, frame: FrameType | None) -> None:
         import time
 
-        if _excluded is None:
+        if _excluded is None or _is_boundary(frame):
             return
-        peak = _peak()
         if time.process_time() - self._begin - _excluded > self.seconds:
             what = f"more than {self.seconds:g} s of CPU"
-        elif peak > self.memory and peak > self._peak:
+        elif _peak() - self._peak > self.memory:
             what = f"more than {self.memory / 1e9:g} GB of memory"
         else:
             return
         if not self._what:
             self._what, self._phase, self._position = what, _phase(frame), _position(frame)
         raise _ExceededError
+
+
+def _is_boundary(frame: FrameType | None) -> bool:
+    """Return whether the signal arrived while a limit begins or ends, where nobody would handle the exception."""
+    boundary = (CostLimit.__enter__.__code__, CostLimit.__exit__.__code__)
+    while frame is not None:
+        if frame.f_code in boundary:
+            return True
+        frame = frame.f_back
+    return False
 
 
 def loading_limit() -> CostLimit:
