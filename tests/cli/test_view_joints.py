@@ -109,6 +109,36 @@ def test_a_link_follows_the_handle_within_its_limits(page, until, keep) -> None:
     keep(page, "drag-rings")
 
 
+def test_solutions_to_choose_from_and_the_motions_that_are_lost(page, until, keep) -> None:
+    page.evaluate("urdfkit.page.select({ link: 'left' })")
+    page.get_by_role("button", name="Drag the selected link").click()
+    until(lambda: "singular: no translation along z of base" in page.locator("#ik-lost").inner_text())
+    until(lambda: page.evaluate("urdfkit.ik.lost.visible"))
+    keep(page, "singular")
+    page.evaluate("urdfkit.page.setJoints({ bend: -0.8, tip: 0.9 })")
+    until(lambda: page.locator("#ik-lost").inner_text() == "")
+    assert not page.evaluate("urdfkit.ik.lost.visible")
+    where = "urdfkit.kinematics.forward(urdfkit.page.values).get('left').slice(0, 3)"
+    pose = page.evaluate(where)
+    page.get_by_role("button", name="Solutions").click()
+    until(lambda: page.locator("#ik-count").inner_text().startswith("1 of "))
+    count = page.evaluate("urdfkit.ik.choice.found.length")
+    assert count >= 2
+    seen = set()
+    for k in range(count):
+        until(lambda k=k: page.locator("#ik-count").inner_text() == f"{k + 1} of {count}")
+        wanted = page.evaluate(f"urdfkit.ik.choice.found[{k}]")
+        until(lambda w=wanted: all(values(page)[name] == pytest.approx(w[name]) for name in w))
+        assert page.evaluate(where) == pytest.approx(pose, abs=1e-4)
+        seen.add(tuple(round(values(page)[name], 3) for name in ("turn", "bend", "tip")))
+        page.get_by_role("button", name="Next solution").click()
+    assert len(seen) == count
+    keep(page, "solutions")
+    page.get_by_label("bend [rad]").fill("0.123")
+    page.get_by_label("bend [rad]").press("Enter")
+    page.get_by_role("button", name="Solutions").wait_for()  # those solutions had another pose
+
+
 @pytest.mark.parametrize("turn", [False, True])
 def test_inverse_kinematics_finds_what_can_be_reached(page, turn: bool) -> None:
     """200 random goals of a real arm, from its zero: at least 98 in 100, inside the limits."""

@@ -16,7 +16,7 @@ from urdfkit.description import Robot, load
 from urdfkit.errors import KinematicsError
 from urdfkit.kinematics.serial.kernel.native_code import Compiling, function
 from urdfkit.kinematics.serial.serial_chain import SerialChain
-from urdfkit.kinematics.serial.serial_solver import ROW, SerialSolver, SolverOptions
+from urdfkit.kinematics.serial.serial_solver import APPROACHES, ROW, SerialSolver, SolverOptions
 from urdfkit.kinematics.serial.solutions import Solutions
 from urdfkit.linear_algebra import Array
 
@@ -167,7 +167,7 @@ class Chain:
             KinematicsError: an unknown preference, targets or seeds of another shape, or numbers that are no pose.
             ResourceError: `collision_free` is set, and a mesh cannot be read.
         """
-        options = SolverOptions(position_only, *tolerance, prefer, restarts, seed, approach)
+        options = SolverOptions(position_only, *tolerance, prefer, restarts, seed, APPROACHES if approach else 0)
         shape, rows = self._solve(targets, seeds, options, 1, threads)
         collisions = None
         if collision_free:

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, cast
 
 from urdfkit.app.page import note
 from urdfkit.app.repair_findings import note_repairs, with_repairs
+from urdfkit.app.viewer.link_solver import LinkSolver
 from urdfkit.app.viewer.shown_robot import MissingMeshes, ShownRobot
 from urdfkit.errors import UrdfkitError
 
@@ -35,12 +36,14 @@ POINT_STAMPED = "geometry_msgs/msg/PointStamped"
 
 
 def request_schemas() -> dict[str, Schema]:
-    """Return the requests of the page: a fix by the number of its finding, a point in a link's frame."""
+    """Return the requests of the page: a fix by its finding's number, a point in a link's frame, a link's pose."""
+    from urdfkit.app.viewer.link_solver import request_schema
     from urdfkit.view.protocol.page_requests import Schema, numbers, text, whole
 
     return {
         "fix": Schema({"finding": whole()}),
         "point": Schema({"frame": text(), "position": numbers(3)}, changes=False),
+        **request_schema(),
     }
 
 
@@ -69,6 +72,7 @@ class Session:
         self._noted = {repair.message for repair in shown.repairs}
         self._failure: tuple[float, UrdfkitError] | None = None
         self.positions: dict[str, float] = {}
+        self._solver = LinkSolver(shown.kinematics.robot)
         self.bus = Bus()
         self.bus.subscribe(JOINT_STATES, "sensor_msgs/msg/JointState", self._place)
 
@@ -119,6 +123,8 @@ class Session:
             done = self.findings.apply_fix(request.values["finding"])
             note(f"fixed {done}")
             return {"done": done}
+        if request.name == "ik":
+            return self._solver.answer(request.values, self.positions)
         frame, position = request.values["frame"], request.values["position"]
         self.shown.kinematics.frame(frame)
         self._publish_point(frame, position)
@@ -184,6 +190,7 @@ class Session:
         from urdfkit.view.content.meshcat_objects import draw, link_path
 
         kinematics, scene = self.shown.kinematics, self.shown.scene
+        self._solver = LinkSolver(kinematics.robot)
         self.positions = {name: self.positions.get(name, at) for name, at in home(kinematics).items()}
         q = kinematics.configuration(self.positions)
         positions = kinematics.positions(q) | self.positions

@@ -124,7 +124,7 @@ class CostLimit:
 
 
 def _is_boundary(frame: FrameType | None) -> bool:
-    """Return whether the signal arrived while a limit begins or ends, where nobody would handle the exception."""
+    """Return whether the signal arrived while a limit begins or ends, where no handler would catch the exception."""
     boundary = (CostLimit.__enter__.__code__, CostLimit.__exit__.__code__)
     while frame is not None:
         if frame.f_code in boundary:

@@ -95,7 +95,7 @@ class CollisionFreeSearch:
             return dist(other.q, start)
 
         for k in range(SEARCHES):
-            every = replace(options, prefer="all", seed=options.seed + k, approach=False)
+            every = replace(options, prefer="all", seed=options.seed + k, approaches=0)
             others = self._solver.solve(target, start, every, rows=MOST)
             free = (other for other in map(self.checked, others) if other.reached and not other.collisions)
             if (best := min(free, key=rank, default=None)) is not None:

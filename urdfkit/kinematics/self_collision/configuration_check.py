@@ -15,7 +15,7 @@ from urdfkit.kinematics.model import Kinematics
 from urdfkit.kinematics.self_collision.box_overlap import overlapping
 from urdfkit.kinematics.self_collision.collision_shapes import box_around, neighbours, shapes_by_link
 from urdfkit.kinematics.self_collision.pair_check import PairCheck
-from urdfkit.kinematics.self_collision.random_configurations import default, joints_from_root, link_poses
+from urdfkit.kinematics.self_collision.random_configurations import default, joints_from_root, link_poses, ranges
 from urdfkit.linear_algebra import Array
 
 BLOCK = 10_000
@@ -63,6 +63,11 @@ class ConfigurationCheck:
             if not check.collides(*_relative(placements[first], placements[second])):
                 self.pairs.append((first, second))
                 self._checks.append((radii[first] + radii[second], check))
+
+    def hold(self, positions: Mapping[str, float]) -> None:
+        """Put other joints at these positions [rad] or [m]; the pairs that are checked stay the same."""
+        self._others.update(positions)
+        self._in_blocks = self._in_blocks and set(positions) <= set(ranges(self._robot))
 
     def collisions(self, positions: Mapping[str, float]) -> tuple[tuple[str, str], ...]:
         """Return the pairs of links that collide at these positions of the variables [rad] or [m]."""

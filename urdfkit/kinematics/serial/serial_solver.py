@@ -39,8 +39,8 @@ class SolverOptions:
         prefer: ``first``, ``nearest`` (to the start), ``manipulability`` or ``all``.
         restarts: maximum number of random starts per target.
         seed: number of the random stream.
-        approach: whether the nearest configuration is computed for a target that cannot be reached; otherwise one
-            with a small error is returned, in less time.
+        approaches: number of descents to the configuration nearest to a target that cannot be reached, the first from
+            the start; with 0, one with a small error is returned, in less time.
     """
 
     position_only: bool = False
@@ -49,7 +49,7 @@ class SolverOptions:
     prefer: str = "first"
     restarts: int = 200
     seed: int = 0
-    approach: bool = True
+    approaches: int = APPROACHES
 
     def __post_init__(self) -> None:
         """Check the values.
@@ -69,10 +69,9 @@ class SolverOptions:
     def numbers(self, rows: int = 1) -> array[float]:
         """Return the options of the kernel: see `serial.kernel.search.search`."""
         angular = 0.0 if self.position_only else 1.0
-        kept, approaches = PREFERENCES[self.prefer], APPROACHES if self.approach else 0
-        seed = self.seed % 2**53
+        kept, seed = PREFERENCES[self.prefer], self.seed % 2**53
         return array(
-            "d", (LINEAR, angular, self.distance, self.angle, self.restarts, kept, rows, MORE, seed, approaches)
+            "d", (LINEAR, angular, self.distance, self.angle, self.restarts, kept, rows, MORE, seed, self.approaches)
         )
 
 
@@ -192,6 +191,14 @@ class SerialSolver:
             if min(abs(value - variable.lower), abs(value - variable.upper)) <= AT_LIMIT
         ]
 
+    def wide_limits(self) -> array[float]:
+        """Return limits for `solve` in which turning joints have none."""
+        limits = array("d", self.chain.limits)
+        for k, variable in enumerate(self.chain.variables):
+            if variable.is_periodic:
+                limits[LIMIT * k : LIMIT * (k + 1)] = array("d", (-math.inf, math.inf, -math.pi, math.pi, 1.0, 1.0))
+        return limits
+
     def reason(self, target: Sequence[float], solution: Solution, options: SolverOptions) -> str:
         """Return why a target is not reached, in words.
 
@@ -205,12 +212,8 @@ class SerialSolver:
         is_near = solution.position_error <= options.distance
         if solution.collisions and is_near and (options.position_only or solution.rotation_error <= options.angle):
             return "collision " + ", ".join(f"`{first}`–`{second}`" for first, second in solution.collisions)
-        limits = array("d", self.chain.limits)
-        for k, variable in enumerate(self.chain.variables):
-            if variable.is_periodic:
-                limits[LIMIT * k : LIMIT * (k + 1)] = array("d", (-math.inf, math.inf, -math.pi, math.pi, 1.0, 1.0))
-        free = replace(options, position_only=options.position_only or not is_near, prefer="first", approach=False)
-        wide = self.solve(target, solution.q, free, limits=limits)[0]
+        free = replace(options, position_only=options.position_only or not is_near, prefer="first", approaches=0)
+        wide = self.solve(target, solution.q, free, limits=self.wide_limits())[0]
         if wide.reached:
             names = self.at_limits(solution.q) or [
                 variable.name

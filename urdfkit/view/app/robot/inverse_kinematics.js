@@ -1,14 +1,19 @@
-// Dragging a link: inverse kinematics computes the joint positions for the pose of the handle.
+// Dragging a link: inverse kinematics computes the joint positions for the pose of the handle, on the server if there is one.
 /* global MeshCat */
 
 import { check, h, short } from "../page/dom.js";
 import { Gizmo, nearest } from "../viewport/gizmo.js";
+import { LinkSolver } from "./link_solver.js";
+import { LostMotions } from "./lost_motions.js";
+import { SolutionChoice } from "./solution_choice.js";
 import { compose } from "./pose.js";
 
 const THREE = MeshCat.THREE;
 const HAND = "M12 2v20M2 12h20M12 2l-3 3M12 2l3 3M12 22l-3-3M12 22l3-3M2 12l3-3M2 12l3 3M22 12l-3-3M22 12l-3 3";
-const RESTARTS = 3; // additional starting points per move of the handle
+const RESTARTS = 3; // additional starting points per move of the handle, without a server
 const ALL = 40; // … and when the handle is released
+const DISCRETE = 6; // joints from which a pose with its orientation has few solutions, a position alone infinitely many
+const COMPILING = 1000; // ms until the server is queried again while it compiles the solver
 const SIZE = 0.14; // of the smaller of height and width of the viewport
 
 export class Dragging {
@@ -16,9 +21,14 @@ export class Dragging {
     this.page = page;
     this.viewer = page.viewport.viewer;
     this.gizmo = new Gizmo();
-    this.viewer.scene.add(this.gizmo);
+    this.lost = new LostMotions();
+    this.viewer.scene.add(this.gizmo, this.lost);
+    this.solver = new LinkSolver(page);
+    this.choice = new SolutionChoice(page, (answered) => this.#solutions(answered));
+    this.words = h("span.quiet", { id: "ik-lost" });
     this.drag = null;
     this.turn = false;
+    this.free = false; // without collisions between links
     this.label = null;
     const { pane } = page.viewport;
     pane.addEventListener("pointerdown", (event) => this.#down(event), { capture: true });
@@ -29,6 +39,7 @@ export class Dragging {
     page.on("select", () => this.show());
     page.on("robot", () => this.show());
     page.on("poses", () => this.gizmo.visible && page.viewport.dirty());
+    page.on("joints", () => this.drag || this.#inspect());
   }
 
   /** The link with the handle: the selected link, if a joint moves it. */
@@ -42,18 +53,51 @@ export class Dragging {
   show() {
     this.gizmo.visible = this.link !== null;
     this.gizmo.rings = this.turn;
+    this.choice.clear();
+    this.#showLost([]);
+    this.#inspect();
     this.page.viewport.dirty();
+  }
+
+  // Request which motions the link loses in the present configuration.
+  #inspect() {
+    const { link, turn } = this;
+    if (!link || !this.solver.ready) return;
+    this.solver.request({ link, turn }, (answer) => {
+      if (!answer) setTimeout(() => this.#inspect(), COMPILING);
+      else if (link === this.link) this.#showLost(answer.lost);
+    });
+  }
+
+  #showLost(motions) {
+    this.words.textContent = motions.length ? `singular: no ${motions.map(({ words }) => words.replaceAll("`", "")).join(", no ")}` : "";
+    if (this.link) {
+      const scene = this.viewer.scene.getWorldQuaternion(new THREE.Quaternion());
+      this.lost.show(motions, this.#root.getWorldQuaternion(new THREE.Quaternion()).premultiply(scene.invert()));
+    }
+    this.page.viewport.dirty();
+  }
+
+  #solutions(answered) {
+    const { link, page } = this;
+    const { kinematics } = page.robot;
+    if (!this.solver.ready) return answered(null);
+    const turn = this.turn || kinematics.movers(link).length >= DISCRETE;
+    this.solver.request({ link, pose: kinematics.forward(page.values).get(link), turn, limits: !page.ignoreLimits, collision_free: this.free, all: true }, answered);
   }
 
   // The handle is at the frame of the link, or at the target while it is dragged; its size on the screen is constant.
   #place() {
+    this.lost.visible = this.gizmo.visible && this.lost.children.length > 0;
     if (!this.gizmo.visible) return;
     const at = this.drag?.at ?? this.page.labels.at(this.link);
     if (!at) return;
     this.gizmo.position.copy(this.viewer.scene.worldToLocal(at.clone()));
+    this.lost.position.copy(this.viewer.scene.worldToLocal(this.page.labels.at(this.link).clone()));
     const { camera } = this.viewer;
     const height = camera.isOrthographicCamera ? (2 * camera.userData.halfHeight) / camera.zoom : 2 * camera.position.distanceTo(at) * Math.tan((camera.fov * Math.PI) / 360);
     this.gizmo.scale.setScalar(SIZE * height * Math.min(1, this.page.viewport.aspect));
+    this.lost.scale.copy(this.gizmo.scale);
   }
 
   #down(event) {
@@ -64,6 +108,7 @@ export class Dragging {
     event.stopImmediatePropagation();
     event.preventDefault();
     this.page.labels.tip(null);
+    this.choice.clear();
     const { link, page } = this;
     const at = page.labels.at(link);
     const axis = handle.axis?.clone().transformDirection(this.viewer.scene.matrixWorld) ?? null;
@@ -100,15 +145,32 @@ export class Dragging {
     this.#reach(RESTARTS);
   }
 
-  // While the handle moves there is time for a few starting points, different ones each time; on release, for all.
+  // Without a server there is time for a few starting points while the handle moves, different ones each time; on release, for all.
   #reach(restarts) {
     const { drag, page } = this;
+    if (this.solver.ready) {
+      const { link, goal } = drag;
+      const values = { link, pose: goal, turn: this.turn, limits: !page.ignoreLimits, collision_free: this.free };
+      this.solver.request(values, (answer) => (answer ? this.#take(drag, answer) : this.#reachHere(drag, restarts)));
+    } else this.#reachHere(drag, restarts);
+  }
+
+  #take(drag, { solutions, collisions, position_error: error, rotation_error: turned, reason, lost }) {
+    drag.reached = true; // there is nothing left to try
+    if (!collisions.length) this.page.setJoints(solutions[0]);
+    if (drag.link !== this.link) return;
+    if (this.drag === drag) this.#showError({ error, turned, reason }, collisions);
+    this.#showLost(lost);
+  }
+
+  #reachHere(drag, restarts) {
+    const { page } = this;
     const found = page.robot.kinematics.inverse(drag.link, drag.goal, drag.values, { turn: this.turn, limits: !page.ignoreLimits, restarts, first: drag.tried });
     drag.reached = found.reached;
     drag.tried = found.reached ? 0 : drag.tried + restarts;
     Object.assign(drag.values, found.values);
     page.setJoints(found.values);
-    this.#showError(found);
+    if (this.drag === drag) this.#showError(found);
     page.viewport.dirty();
   }
 
@@ -134,8 +196,10 @@ export class Dragging {
     return axis.clone().transformDirection(this.#root.matrixWorld.clone().invert());
   }
 
-  #showError({ error, turned }) {
-    const away = error > 5e-4 ? `${short(1000 * error, 0)} mm out of reach` : turned > 5e-3 && this.turn ? `${short((turned * 180) / Math.PI, 0)}° out of reach` : "";
+  #showError({ error, turned, reason }, collisions = []) {
+    const cause = reason?.startsWith("limit") ? `: ${reason.replaceAll("`", "")}` : "";
+    const far = error > 5e-4 ? `${short(1000 * error, 0)} mm out of reach` : turned > 5e-3 && this.turn ? `${short((turned * 180) / Math.PI, 0)}° out of reach` : "";
+    const away = collisions.length ? `collision of ${collisions[0].join(" and ")}` : far && far + cause;
     if (!away && this.label) this.#quiet();
     else if (away && !this.label) this.label = this.page.labels.add(h("span.measure-label"), () => this.drag?.at ?? null);
     if (this.label) this.label.textContent = away;
@@ -163,7 +227,8 @@ export class Dragging {
 export function ik(page) {
   const dragging = new Dragging(page);
   const hold = check("Keep the orientation, show rings", { id: "ik-turn", changed: (on) => ((dragging.turn = on), dragging.show()) });
-  const strip = h("div#ik-strip", { hidden: true }, h("span.quiet"), hold.label);
+  const free = check("Without collisions", { id: "ik-free", title: "only configurations in which no links collide", changed: (on) => ((dragging.free = on), dragging.choice.clear()) });
+  const strip = h("div#ik-strip", { hidden: true }, h("span.quiet"), hold.label, free.label, dragging.choice.element, dragging.words);
   document.getElementById("viewport").append(strip);
   page.tools.tool({ id: "ik", title: "Drag the selected link", icon: HAND, modes: ["view"], order: 40, clicks: false });
   page.shortcut({ key: "k", does: "drag the selected link", group: "Tools", run: () => page.tools.hold(page.tools.held === "ik" ? null : "ik") });
@@ -171,7 +236,8 @@ export function ik(page) {
     strip.hidden = page.tools.held !== "ik";
     const name = page.selected?.link ?? page.selected?.joint;
     strip.firstChild.textContent = dragging.link ? `Drag the handle of ${dragging.link}.` : name ? "No joint moves this link." : "Click the link to drag.";
-    hold.label.hidden = !dragging.link;
+    for (const part of [hold.label, free.label, dragging.choice.element]) part.hidden = !dragging.link;
+    for (const part of [free.label, dragging.choice.element]) part.hidden ||= !dragging.solver.ready;
   };
   for (const event of ["tool", "select", "robot"]) page.on(event, showHint);
   page.expose("ik", dragging);
