@@ -9,6 +9,7 @@ from pathlib import Path
 import pytest
 import yaml
 
+from urdfkit.cli import format as format_command
 from urdfkit.cli import lint
 from urdfkit.cli.parser import Parser, add_common
 
@@ -16,18 +17,19 @@ ROOT = Path(__file__).parents[2]
 
 
 def parsed(words: list[str]):
-    assert words[:2] == ["urdfkit", "lint"]
-    parser = Parser(prog="lint")
-    lint.configure(parser)
+    command = {"lint": lint, "format": format_command}[words[1]]
+    parser = Parser(prog=words[1])
+    command.configure(parser)
     add_common(parser)
     return parser.parse_args(words[2:])
 
 
 def test_hooks_of_pre_commit():
     hooks = yaml.safe_load((ROOT / ".pre-commit-hooks.yaml").read_text())
-    assert [hook["id"] for hook in hooks] == ["urdfkit-lint", "urdfkit-lint-fix"]
+    assert [hook["id"] for hook in hooks] == ["urdfkit-lint", "urdfkit-lint-fix", "urdfkit-format"]
     for hook in hooks:
-        assert parsed([*shlex.split(hook["entry"]), "urdf/a.urdf.xacro"]).fix is hook["id"].endswith("fix")
+        options = vars(parsed([*shlex.split(hook["entry"]), "urdf/a.urdf.xacro"]))
+        assert options.get("fix", False) is hook["id"].endswith("fix")
         assert re.search(hook["files"], "urdf/a.urdf.xacro")
         assert re.search(hook["files"], "urdf/a.urdf")
         assert not re.search(hook["files"], "a.xacro.py")

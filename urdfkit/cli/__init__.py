@@ -27,6 +27,7 @@ COMMANDS = {
     "new": "create a robot, world or package; add a sensor, an arm or controllers",
     "import": "turn a bare URDF, such as a CAD export, into ROS packages",
     "lint": "find and fix the defects of a URDF or xacro",
+    "format": "format URDF and xacro files: indentation, white space, one element per line",
     "rule": "print the page of a lint rule, or list all rules",
     "lsp": "run the language server: diagnostics, hover, definitions, completion, fixes",
     "expand": "expand xacro to URDF; needs no ROS",
@@ -47,7 +48,10 @@ COMMANDS = {
 }
 """Command → its description. The module ``urdfkit.cli.<command>`` implements it; ``import_`` is ``import``."""
 
-_FOLDERS = dict.fromkeys(("tf", "ik", "jacobian", "reach", "retime", "srdf"), "kinematics")
+_FOLDERS = {
+    **dict.fromkeys(("tf", "ik", "jacobian", "reach", "retime", "srdf"), "kinematics"),
+    **dict.fromkeys(("replay", "bag"), "recordings"),
+}
 """Command → the package in ``urdfkit.cli`` that its module is in."""
 
 

@@ -12,12 +12,15 @@
     arguments = {use_camera = "true"}       # values for $(arg …)
     [lint.per-file-ignores]
     "urdf/generated/*" = ["E008", "I"]
+    [format]                                # in pyproject.toml: [tool.urdfkit.format]
+    indent = 4                              # spaces for each level; 2 by default
 """
 
 from __future__ import annotations
 
 from pathlib import Path
 
+from urdfkit.description.xml.formatting import INDENT, MAX_INDENT
 from urdfkit.errors import UsageError, did_you_mean
 from urdfkit.record import field, record
 
@@ -26,7 +29,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
     from typing import Any
 
-_KINDS = {"list": "a list", "dict": "a table", "str": "a string"}
+_KINDS = {"list": "a list", "dict": "a table", "str": "a string", "int": "an integer"}
 _MARKS = (".git", ".hg", ".catkin_workspace", ".colcon")
 
 
@@ -44,6 +47,7 @@ class LintSettings:
         baseline: the baseline file.
         arguments: values for ``$(arg …)``.
         per_file: pattern of files → codes not to report in them.
+        indent: number of spaces for each level, for `urdfkit format`.
     """
 
     file: Path | None = None
@@ -55,6 +59,7 @@ class LintSettings:
     baseline: Path | None = None
     arguments: Mapping[str, str] = field(default_factory=dict)
     per_file: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
+    indent: int = INDENT
 
     def matches(self, path: Path, pattern: str) -> bool:
         """Return whether a pattern of this file matches `path` or a folder above it."""
@@ -108,7 +113,7 @@ def read(file: Path) -> LintSettings:
         raise UsageError(f"{file} is not valid TOML: {error}") from error
     if file.name == "pyproject.toml":
         table = table.get("tool", {}).get("urdfkit", {})
-    _check(file, "", table, {"lint": dict})
+    _check(file, "", table, {"lint": dict, "format": dict})
     lint: dict[str, Any] = table.get("lint", {})
     _check(file, "lint.", lint, {key: kind for key, (kind, _) in _KEYS.items()})
     values: dict[str, Any] = {"file": file}
@@ -116,6 +121,11 @@ def read(file: Path) -> LintSettings:
         _, convert = _KEYS[key]
         name = {"per-file-ignores": "per_file"}.get(key, key.replace("-", "_"))
         values[name] = convert(file, f"lint.{key}", value)
+    layout: dict[str, Any] = table.get("format", {})
+    _check(file, "format.", layout, {"indent": int})
+    values["indent"] = layout.get("indent", INDENT)
+    if not 1 <= values["indent"] <= MAX_INDENT:
+        raise UsageError(f"{file}: `format.indent` is {values['indent']}; use 1 to {MAX_INDENT} spaces")
     settings = LintSettings(**values)
     _check_words(settings)
     return settings

@@ -57,7 +57,7 @@ def suppressions(document: Document) -> list[Suppression]:
     found = []
     for start, end, text in document.comments:
         written = _COMMENT.match(text)
-        if written is not None:
+        if written is not None and written[1] != "format":  # a range that `urdfkit format` keeps as it is
             first, last = _covered(document, start, end)
             found.append(Suppression(written[1], _codes(written[2]), document.source.position(start), first, last))
     return found

@@ -118,7 +118,7 @@ def _of_folder(folder: Path) -> list[Entry]:
 
 def descriptions(folder: Path) -> Iterator[tuple[Path, str]]:
     """Yield every description and fragment in a folder with its text, without comments."""
-    yield from ((path, _text(path)) for path in _walk(folder, 0))
+    yield from ((path, _text(path)) for path in walk(folder))
 
 
 def near_descriptions(package: Path | None, path: Path) -> Iterator[tuple[Path, str]]:
@@ -132,7 +132,7 @@ def near_descriptions(package: Path | None, path: Path) -> Iterator[tuple[Path, 
 
 
 def _robots_in(folder: Path) -> list[Entry]:
-    texts = {path: _text(path) for path in _walk(folder, 0)}
+    texts = {path: _text(path) for path in walk(folder)}
     robots = {path: text for path, text in texts.items() if _is_robot(text) or _is_broken(text)}
     included = _included(robots)
     alone = [path for path in robots if path not in included]
@@ -205,7 +205,7 @@ def _of_file(path: Path) -> list[Entry]:
     package = next((folder for folder in path.absolute().parents if (folder / "package.xml").is_file()), None)
     if package is not None:
         place = path.resolve()
-        robots = {other: text for other in _walk(package, 0) if _is_robot(text := _text(other))}
+        robots = {other: text for other in walk(package) if _is_robot(text := _text(other))}
     else:
         place = Path(os.path.abspath(path))  # noqa: PTH100 - keep symbolic links
         robots = _nearby(place.parent)
@@ -353,7 +353,8 @@ def _is_fragment(text: str) -> bool:
     )
 
 
-def _walk(folder: Path, depth: int) -> Iterator[Path]:
+def walk(folder: Path, depth: int = 0) -> Iterator[Path]:
+    """Yield the descriptions and fragments in a folder, sorted, without hidden, built and ignored folders."""
     try:
         with os.scandir(folder) as scan:
             children = sorted(scan, key=lambda child: child.name)
@@ -364,7 +365,7 @@ def _walk(folder: Path, depth: int) -> Iterator[Path]:
     for child in children:
         if child.is_dir(follow_symlinks=False):
             if depth < _MAX_DEPTH and child.name not in _SKIPPED and not child.name.startswith("."):
-                yield from _walk(folder / child.name, depth + 1)
+                yield from walk(folder / child.name, depth + 1)
         # A dangling symbolic link, such as an editor's lock file, is not a file.
         elif child.name.lower().endswith(SUFFIXES) and child.is_file():
             yield folder / child.name
