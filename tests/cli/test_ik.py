@@ -187,7 +187,12 @@ def test_the_solution_nearest_to_the_start(capsys: pytest.CaptureFixture[str], a
         (["finger_a"], "ik: pass one of --xyz X,Y,Z and --targets FILE"),
         (["finger_a", "--xyz", "1,2"], "ik: --xyz expects 3 finite numbers separated by commas, got `1,2`"),
         (["finger_a", "--xyz", "1,2,nan"], "ik: --xyz expects 3 finite numbers separated by commas, got `1,2,nan`"),
-        (["finger_a", "--xyz", "1,2,3", "--quat", "0,0,0,0"], "ik: --quat 0,0,0,0: the quaternion must not be zero"),
+        (["finger_a", "--xyz", "1,2,3", "--quat", "0,0,0,0"], "the quaternion has the length 0; use one of length 1"),
+        (
+            ["finger_a", "--xyz", "1,2,3", "--quat", "0,0,3,4"],
+            "has the length 5; use one of length 1, such as 0,0,0.6,0.8",
+        ),
+        (["finger_a", "--xyz", "1e300,2,3"], "target is no pose: its numbers must be finite and below 1e6"),
         (["finger_a", "--xyz", "1,2,3", "--quat", "0,0,0,1", "--rpy", "0,0,0"], "ik: pass one of --quat and --rpy"),
         (
             ["finger_a", "--xyz", "1,2,3", "--tolerance", "0,1"],
@@ -215,7 +220,10 @@ def test_the_solution_nearest_to_the_start(capsys: pytest.CaptureFixture[str], a
         (["finger_a", "--targets", "broken.npy"], "not readable as .npy"),
         (["finger_a", "--targets", "words.csv"], "words.csv:2: `1,2,3,0,0,0,one` are not numbers"),
         (["finger_a", "--targets", "short.csv"], "short.csv:1: expected 7 numbers x,y,z,qx,qy,qz,qw, got 3"),
-        (["finger_a", "--targets", "zero.npy"], "target 1 is no pose"),
+        (["finger_a", "--targets", "zero.npy"], "the quaternion of pose 1 has the length 0; use one of length 1"),
+        (["finger_a", "--targets", "nan.npy"], "target 1 is no pose"),
+        (["finger_a", "--targets", "first.csv"], "first.csv:1: `1,2,3,0,0,0,one` are not numbers"),
+        (["finger_a", "--targets", "header.csv"], "ik: --targets header.csv: the file has no poses"),
     ],
 )
 def test_refusals(
@@ -229,6 +237,9 @@ def test_refusals(
     monkeypatch.chdir(tmp_path)
     np.save("wide.npy", np.zeros((2, 6)))
     np.save("zero.npy", [[0, 0, 0, 0, 0, 0, 1], [0] * 7])
+    np.save("nan.npy", [[0, 0, 0, 0, 0, 0, 1], [0, 0, np.nan, 0, 0, 0, 1]])
+    Path("first.csv").write_text("1,2,3,0,0,0,one\n")
+    Path("header.csv").write_text("x,y,z,qx,qy,qz,qw\n")
     np.savez("no_array.npz", a=np.zeros(3), b=np.zeros(3))
     Path("broken.npy").write_bytes(b"nothing")
     Path("words.csv").write_text("0,0,0,0,0,0,1\n1,2,3,0,0,0,one\n")

@@ -78,6 +78,11 @@ def test_repeated_waypoints_count_once():
     assert motion.waypoint_times.tolist() == [0.0, 0.0, pytest.approx(motion.duration)]
 
 
+def test_too_many_samples_are_refused():
+    with pytest.raises(KinematicsError, match=r"samples per second exceed 1e\+07 samples; use a lower rate"):
+        retime(np.array([[0.0] * JOINTS, [1.0] * JOINTS]), limits_of(), rate=1e9)
+
+
 def test_a_path_without_motion_and_positions_beyond_limits_are_refused():
     with pytest.raises(KinematicsError, match="two different waypoints"):
         retime(np.zeros((3, JOINTS)), limits_of())

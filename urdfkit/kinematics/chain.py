@@ -314,7 +314,8 @@ class Chain:
         if invalid:
             where = f" {invalid - 1}" if shape else ""
             raise KinematicsError(
-                f"target{where} is no pose: its numbers must be finite, a quaternion not zero, and a matrix a rotation"
+                f"target{where} is no pose: its numbers must be finite and below 1e6, a quaternion not zero, and a "
+                "matrix a rotation"
             )
         return shape, result
 

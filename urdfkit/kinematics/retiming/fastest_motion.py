@@ -32,6 +32,8 @@ GRID = 100
 """Points per segment of the path in toppra's grid."""
 WINDOWS = np.geomspace(0.002, 2.0, 60)
 """Windows that are tried, over the duration of toppra's motion."""
+MOST = 10_000_000
+"""Samples of a motion at most."""
 TOLERANCE = 1e-9
 """Excess of a position over its limit that is rounding [rad] or [m]."""
 
@@ -105,6 +107,8 @@ def retime(waypoints: ArrayLike, limits: MotionLimits, *, rate: float = 100.0) -
     dense = np.linspace(0.0, duration, FINE * SAMPLES * len(points))
     slowing = _excess(path, progress, dense, limits)
     end = duration * slowing
+    if end * rate > MOST:
+        raise KinematicsError(f"{end:.4g} s at {rate:g} samples per second exceed {MOST:.0e} samples; use a lower rate")
     time = np.append(np.arange(0.0, end - 1e-9 * end, 1.0 / rate), end)
     position, velocity, acceleration, _ = _motion(path, progress, time / slowing)
     passed = np.interp(knots, progress(dense)[0], dense) * slowing

@@ -150,7 +150,9 @@ class SerialSolver:
             *(result.buffer_info()[0], work.buffer_info()[0]),
         )
         if invalid:
-            raise KinematicsError("target is no pose: its numbers must be finite, and its quaternion not zero")
+            raise KinematicsError(
+                "target is no pose: its numbers must be finite and below 1e6, and its quaternion not zero"
+            )
         length = size + ROW
         found = [solution_of_row(result[k : k + length], size) for k in range(0, len(result), length)]
         return [solution for solution in found if solution.reached] or found[:1]

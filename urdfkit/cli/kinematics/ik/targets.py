@@ -13,6 +13,10 @@ if TYPE_CHECKING:
     from urdfkit.linear_algebra import Array
 
 
+UNIT = 0.01
+"""Difference of a quaternion's length from 1 beyond which it is taken for a mistake, not for rounded numbers."""
+
+
 def numbers(text: str, count: int, option: str) -> list[float]:
     """Return the finite numbers of a word, separated by commas.
 
@@ -46,8 +50,12 @@ def pose_of(arguments: argparse.Namespace) -> list[float] | None:
     if arguments.rpy is not None:
         return [*xyz, *quaternion_of(numbers(arguments.rpy, 3, "--rpy"))]
     quaternion = numbers(arguments.quat, 4, "--quat") if arguments.quat is not None else [0.0, 0.0, 0.0, 1.0]
-    if math.hypot(*quaternion) < 1e-9:
-        raise UsageError(f"ik: --quat {arguments.quat}: the quaternion must not be zero")
+    length = math.hypot(*quaternion)
+    if abs(length - 1.0) > UNIT:
+        unit = f", such as {','.join(f'{x / length:.6g}' for x in quaternion)}" if length > 1e-9 else ""
+        raise UsageError(
+            f"ik: --quat {arguments.quat}: the quaternion has the length {length:.4g}; use one of length 1{unit}"
+        )
     return [*xyz, *quaternion]
 
 
@@ -87,7 +95,16 @@ def poses_of_file(path: Path) -> Array:
         raise UsageError(f"ik: --targets {path}: not readable as {suffix}: {error}") from error
     if poses.dtype.kind not in "fiu" or (poses.shape[1:] not in ((7,), (4, 4))):
         raise UsageError(f"ik: --targets {path}: expected an array of shape (N, 7) or (N, 4, 4), got {poses.shape}")
-    return np.ascontiguousarray(poses, dtype=float)
+    if not len(poses):
+        raise UsageError(f"ik: --targets {path}: the file has no poses")
+    poses = np.ascontiguousarray(poses, dtype=float)
+    lengths = np.sqrt(np.einsum("ni,ni->n", poses[:, 3:], poses[:, 3:])) if poses.ndim == 2 else np.ones(1)
+    if (wrong := np.flatnonzero(np.abs(lengths - 1.0) > UNIT)).size:
+        raise UsageError(
+            f"ik: --targets {path}: the quaternion of pose {wrong[0]} has the length {lengths[wrong[0]]:.4g}; use one "
+            "of length 1"
+        )
+    return poses
 
 
 def _array_named_targets(path: Path, loaded: object) -> Array:
@@ -96,6 +113,14 @@ def _array_named_targets(path: Path, loaded: object) -> Array:
     if name not in names:
         raise UsageError(f"ik: --targets {path}: no array `targets`; its arrays: {', '.join(names) or 'none'}")
     return loaded[name]  # type: ignore[index, no-any-return]
+
+
+def _is_number(text: str) -> bool:
+    try:
+        float(text)
+    except ValueError:
+        return False
+    return True
 
 
 def _poses_of_csv(path: Path) -> Array:
@@ -111,7 +136,7 @@ def _poses_of_csv(path: Path) -> Array:
         try:
             found.append([float(cell) for cell in row])
         except ValueError:
-            if number > 1:
+            if number > 1 or any(map(_is_number, row)):
                 raise UsageError(f"ik: {path}:{number}: `{','.join(row)}` are not numbers") from None
             continue
         if len(found[-1]) != 7:

@@ -1,7 +1,5 @@
 """The functions of the kernel that Python calls, on blocks of memory."""
 
-import math
-
 from urdfkit.kinematics.serial.kernel.chain_forward import AXIS, geometric_jacobian, place
 from urdfkit.kinematics.serial.kernel.compilation import Floats, Integers, inlined, shifted, stack
 from urdfkit.kinematics.serial.kernel.damped_step import volume
@@ -9,6 +7,8 @@ from urdfkit.kinematics.serial.kernel.search import ROW, search
 
 POSE, MATRIX = 7, 16
 """Numbers of a target: x y z and a quaternion x y z w, or a homogeneous matrix by rows."""
+FARTHEST = 1e6
+"""Length [m] of the numbers of a target from which it is no pose: squares of far larger ones overflow."""
 
 
 def forward(
@@ -72,8 +72,8 @@ def read_target(target: Floats, width: int, goal: Floats) -> bool:
     """
     total = 0.0
     for k in range(width):
-        total += target[k]
-    if not math.isfinite(total):
+        total += target[k] * target[k]
+    if not total < FARTHEST * FARTHEST:  # nor is a sum with a number that is not finite
         return False
     if width == MATRIX:
         for r in range(3):
