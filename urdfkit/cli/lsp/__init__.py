@@ -16,6 +16,7 @@ from urdfkit.errors import MissingDependencyError
 if TYPE_CHECKING:
     from pygls.lsp.server import LanguageServer
 
+    from urdfkit.cli.lsp.session import EditorSession
     from urdfkit.lint.project.options import Options
 
 
@@ -91,6 +92,7 @@ def server_for(options: Options) -> LanguageServer:
     kind = types.TextDocumentSyncKind.Incremental
     server = LanguageServer("urdfkit", __version__, text_document_sync_kind=kind, protocol_cls=Protocol)
     session = EditorSession(server, Project(options))
+    _add_document_features(server, session)
 
     @server.feature(types.TEXT_DOCUMENT_DID_OPEN)
     def opened(params: types.DidOpenTextDocumentParams) -> None:
@@ -148,3 +150,36 @@ def server_for(options: Options) -> LanguageServer:
         return session.actions(params.text_document.uri, params.range)
 
     return server
+
+
+def _add_document_features(server: LanguageServer, session: EditorSession) -> None:
+    from lsprotocol import types
+
+    from urdfkit.cli.lsp.document_features import DocumentFeatures
+    from urdfkit.lint.editor.semantic_tokens import TYPES
+
+    features = DocumentFeatures(session)
+
+    @server.feature(types.TEXT_DOCUMENT_DOCUMENT_SYMBOL)
+    def symbols(params: types.DocumentSymbolParams) -> list[types.DocumentSymbol]:
+        return features.symbols(params.text_document.uri)
+
+    @server.feature(types.WORKSPACE_SYMBOL)
+    def workspace_symbols(params: types.WorkspaceSymbolParams) -> list[types.WorkspaceSymbol]:
+        return features.workspace_symbols(params.query)
+
+    @server.feature(types.TEXT_DOCUMENT_FOLDING_RANGE)
+    def folds(params: types.FoldingRangeParams) -> list[types.FoldingRange]:
+        return features.folds(params.text_document.uri)
+
+    @server.feature(types.TEXT_DOCUMENT_FORMATTING)
+    def format(params: types.DocumentFormattingParams) -> list[types.TextEdit]:
+        return features.format(params.text_document.uri)
+
+    @server.feature(types.TEXT_DOCUMENT_SEMANTIC_TOKENS_FULL, types.SemanticTokensLegend(TYPES, ()))
+    def tokens(params: types.SemanticTokensParams) -> types.SemanticTokens:
+        return features.tokens(params.text_document.uri)
+
+    @server.feature(types.TEXT_DOCUMENT_INLAY_HINT)
+    def hints(params: types.InlayHintParams) -> list[types.InlayHint]:
+        return features.hints(params.text_document.uri, params.range)

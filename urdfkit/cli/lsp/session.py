@@ -21,6 +21,8 @@ if TYPE_CHECKING:
     from urdfkit.lint.editor.cursor import Cursor
     from urdfkit.lint.editor.open_files import Analysis, Project
     from urdfkit.lint.finding import Edit
+    from urdfkit.lint.model.model import Model
+    from urdfkit.lint.model.tags import Document
 
 PAUSE = 0.005
 """Seconds without a change before a text is checked: key presses in quick succession count once."""
@@ -58,7 +60,7 @@ class EditorSession:
 
     def changed(self, uri: str) -> None:
         """Read the text of a document; publish its findings when no change follows within `PAUSE`."""
-        if self._update(uri) is None:
+        if self.update(uri) is None:
             return
         if uri in self._waiting:
             self._waiting[uri].cancel()
@@ -87,7 +89,7 @@ class EditorSession:
         self._schedule_collection()
         for file, findings in self.project.findings(path).items():
             its = uri if file == path else file.as_uri()
-            source = self._source(file)
+            source = self.source(file)
             shown = [diagnostic(finding, source) for finding in findings if finding.file == source.file]
             if file == path:
                 shown += map(failure, self.project.failures(path))
@@ -115,10 +117,11 @@ class EditorSession:
                 self._published.add(uri)
             self.server.text_document_publish_diagnostics(types.PublishDiagnosticsParams(uri, diagnostics, version))
 
-    def _source(self, file: Path) -> Source:
+    def source(self, file: Path) -> Source:
+        """Return the current text of a file."""
         return read_source(file, shown_as=shown_path(file), texts=self.project.texts)
 
-    def _update(self, uri: str) -> Path | None:
+    def update(self, uri: str) -> Path | None:
         """Return the file of a URI after reading its text from the editor, or from disk where it is not open.
 
         Returns:
@@ -135,7 +138,7 @@ class EditorSession:
     def _at(self, uri: str, position: types.Position) -> tuple[list[Analysis], Cursor, Path] | None:
         from urdfkit.lint.editor.cursor import Cursor
 
-        path = self._update(uri)
+        path = self.update(uri)
         if path is None:
             return None
         analyses = [analysis for analysis in self.project.analyses(path) if analysis.model is not None]
@@ -145,6 +148,12 @@ class EditorSession:
             if document.source.text or len(analyses) == 1:
                 return analyses, Cursor(document, offset_of(document.source, position)), path
         return None
+
+    def analysed(self, uri: str) -> tuple[Model, Document] | None:
+        """Return the model that a document belongs to, and the document; None if it cannot be read."""
+        found = self._at(uri, types.Position(0, 0))
+        model = found[0][0].model if found is not None else None
+        return (model, found[1].document) if found is not None and model is not None else None
 
     def hover(self, uri: str, position: types.Position) -> types.Hover | None:
         """Return the documentation of the element or name at a position."""
@@ -235,10 +244,10 @@ class EditorSession:
 
     def actions(self, uri: str, within: types.Range) -> list[types.CodeAction]:
         """Return the fixes of the findings in a range."""
-        path = self._update(uri)
+        path = self.update(uri)
         if path is None:
             return []
-        source = self._source(path)
+        source = self.source(path)
         found = []
         for finding in self.project.findings(path)[path]:
             shown = diagnostic(finding, source)
@@ -261,13 +270,13 @@ class EditorSession:
         found = []
         for span in spans:
             file = Path.cwd() / span.file
-            found.append(types.Location(file.as_uri(), range_of(self._source(file), span)))
+            found.append(types.Location(file.as_uri(), range_of(self.source(file), span)))
         return found
 
     def _edit(self, edits: Iterable[Edit]) -> types.WorkspaceEdit:
         changes: dict[str, list[Any]] = {}
         for edit in edits:
             file = Path.cwd() / edit.span.file
-            change = types.TextEdit(range_of(self._source(file), edit.span), edit.text)
+            change = types.TextEdit(range_of(self.source(file), edit.span), edit.text)
             changes.setdefault(file.as_uri(), []).append(change)
         return types.WorkspaceEdit(changes=changes)

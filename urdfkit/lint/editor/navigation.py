@@ -7,6 +7,7 @@ from pathlib import Path
 
 from urdfkit.description.packages.existence import is_file
 from urdfkit.errors import UsageError
+from urdfkit.lint.editor.launch_occurrences import in_launch_files
 from urdfkit.lint.editor.symbol_occurrences import EXPANDED, in_settings, of_model, parameters_around
 from urdfkit.lint.finding import Edit
 
@@ -78,7 +79,7 @@ def references(models: Sequence[Model], cursor: Cursor, *, with_definition: bool
         return sorted(_of_parameter(models, cursor, *parameter, with_definition=with_definition))
     for model in models:
         wanted = {(one.kind, one.name) for one in at(model, cursor)}
-        for other in (*of_model(model), *in_settings(model)):
+        for other in (*of_model(model), *in_settings(model), *in_launch_files(model)):
             if (other.kind, other.name) in wanted and (with_definition or not other.defines):
                 found[other.span] = None
     return sorted(found)
@@ -147,7 +148,8 @@ def rename(models: Sequence[Model], cursor: Cursor, name: str) -> list[Edit]:
             raise UsageError(f"{one.kind} `{name}` already exists")
         if one.kind == "property" and _is_parameter(model, one.name):
             raise UsageError(f"`{one.name}` is the parameter of a macro too: rename it by hand")
-        same = [other for other in (*every, *in_settings(model)) if (other.kind, other.name) == (one.kind, one.name)]
+        others = (*every, *in_settings(model), *in_launch_files(model))
+        same = [other for other in others if (other.kind, other.name) == (one.kind, one.name)]
         if not any(other.defines for other in same):
             raise UsageError(f"{one.kind} `{one.name}` is not defined in these files")
         for other in same:

@@ -108,26 +108,36 @@ class Project:
         return list(dict.fromkeys(one.failure for one in self.analyses(path) if one.is_ours))
 
     def probe(self, entry: Path, path: Path, offset: int, written: str) -> list[str]:
-        """Return the values of a text inserted into a file, one for each expansion.
+        """Return the values of a text inserted into a file, one for each expansion; see `probe_all`."""
+        return self.probe_all(entry, path, [(offset, written)])[0]
+
+    def probe_all(self, entry: Path, path: Path, probes: Sequence[tuple[int, str]]) -> list[list[str]]:
+        """Return the values of texts inserted into a file, in one expansion.
 
         Args:
             entry: the model to expand.
             path: the file.
-            offset: where to insert an element with the text in an attribute.
-            written: the text, including its ``${…}``.
+            probes: where to insert an element with a text in an attribute, and the text, including its ``${…}``.
+
+        Returns:
+            For each text its different values; several if a macro is expanded several times.
         """
         text = self.texts.get(str(path))
         text = path.read_text("utf-8", "replace") if text is None else text
-        quoted = written.replace("&", "&amp;").replace('"', "&quot;").replace("<", "&lt;")
-        mark = f'<urdfkit_probe value="{quoted}"/>'
-        texts = {**self.texts, str(path): text[:offset] + mark + text[offset:]}
+        for number, (offset, written) in sorted(enumerate(probes), key=lambda each: each[1][0], reverse=True):
+            quoted = written.replace("&", "&amp;").replace('"', "&quot;").replace("<", "&lt;")
+            mark = f'<urdfkit_probe number="{number}" value="{quoted}"/>'
+            text = text[:offset] + mark + text[offset:]
+        texts = {**self.texts, str(path): text}
+        found: list[dict[str, None]] = [{} for _ in probes]
         try:
-            model = model_of(entry, Options(**{**self.options.__dict__, "texts": texts}))
+            root = model_of(entry, Options(**{**self.options.__dict__, "texts": texts})).expanded.root
         except UrdfkitError:
-            return []
-        root = model.expanded.root
-        values = [e.get("value") or "" for e in root.walk() if e.tag == "urdfkit_probe"] if root is not None else []
-        return [value for value in dict.fromkeys(values) if "$" not in value]
+            root = None
+        for element in root.walk() if root is not None else ():
+            if element.tag == "urdfkit_probe" and "$" not in (value := element.get("value") or ""):
+                found[int(element.get("number") or 0)][value] = None
+        return [list(values) for values in found]
 
     def _analysis(self, entry: Entry) -> Analysis:
         if entry not in self._analyses:

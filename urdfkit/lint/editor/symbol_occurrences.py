@@ -53,7 +53,7 @@ def of_model(model: Model) -> list[Occurrence]:
     found = dict.fromkeys(_expanded(model))
     macros = set(model.expanded.macros)
     for file in model.expanded.sources:
-        found.update(dict.fromkeys(_written(model.document(file), macros)))
+        found.update(dict.fromkeys(written_occurrences(model.document(file), macros)))
     return list(found)
 
 
@@ -129,7 +129,13 @@ def _text(model: Model, element: Element, kind: str, name: str) -> Iterator[Occu
     yield Occurrence(kind, name, source.span(start, end), False, source.text[start:end])
 
 
-def _written(document: Document, macros: set[str]) -> Iterator[Occurrence]:
+def written_occurrences(document: Document, macros: set[str]) -> Iterator[Occurrence]:
+    """Yield the macros, properties, arguments and included files in the text of a file.
+
+    Args:
+        document: the file.
+        macros: names of the macros of the model.
+    """
     source = document.source
 
     def occurrence(kind: str, name: str, start: int, *, defines: bool = False) -> Occurrence:
