@@ -49,6 +49,8 @@ class TriMesh:
         face_gloss: specular colour, 0..1, and exponent of each triangle; shape (m, 4), float32, or None.
         missing: names of referenced image files that are missing or invalid.
         broken: names of referenced image files that exist but are not valid images.
+        open_vertices: whether the file names no material for the vertex; shape (n,), or None if so for all or no
+            vertices.
         hash: hexadecimal digest of all of the above: equal meshes have equal hashes.
     """
 
@@ -63,16 +65,30 @@ class TriMesh:
     missing: tuple[str, ...] = ()
     face_gloss: NDArray[np.float32] | None = field(default=None, repr=False)
     broken: tuple[str, ...] = ()
+    open_vertices: NDArray[np.bool_] | None = field(default=None, repr=False)
 
     def __post_init__(self) -> None:
         digest = hashlib.sha256("".join(texture.hash for texture in self.textures).encode())
-        for name in ("vertices", "faces", "normals", "colors", "uv", "face_textures", "face_gloss"):
+        for name in ("vertices", "faces", "normals", "colors", "uv", "face_textures", "face_gloss", "open_vertices"):
             array = getattr(self, name)
             if array is not None:
                 array.flags.writeable = False
                 digest.update(f"{name}{array.shape}".encode())
                 digest.update(np.ascontiguousarray(array).data)
         object.__setattr__(self, "hash", digest.hexdigest()[:32])
+
+    @property
+    def has_own_colors(self) -> bool:
+        """Whether the file has colours or textures."""
+        return self.colors is not None or bool(self.textures)
+
+    def with_open_color(self, rgba: tuple[float, float, float, float]) -> "TriMesh":
+        """Return the mesh with a colour, 0..1, where the file names no material."""
+        if self.open_vertices is None or self.colors is None:
+            return self
+        colors = self.colors.copy()
+        colors[self.open_vertices] = np.rint(255.0 * np.clip(rgba, 0.0, 1.0))
+        return replace(self, colors=colors, open_vertices=None)
 
     @cached_property
     def bounds(self) -> NDArray[np.float64]:
@@ -209,6 +225,7 @@ def _merge(path: Path, parts: list[tuple[Any, Any]], scale: NDArray[np.float64],
     """Merge the parts into one mesh, scaled; vertices with equal attributes become one."""
     vertices, faces, normals, colors, uvs, wrapped, glosses = [], [], [], [], [], [], []
     textures: dict[str, Texture] = {}
+    linear_colors = path.suffix.lower() in (".glb", ".gltf")
     start = 0
     for part, transform in parts:
         linear = scale[:, None] * transform[:3, :3]
@@ -223,8 +240,8 @@ def _merge(path: Path, parts: list[tuple[Any, Any]], scale: NDArray[np.float64],
         vertices.append(points)
         faces.append(triangles + start)
         normals.append(normals_in(part, linear))
-        colors.append(colors_in(part))
-        texture = texture_in(part)
+        colors.append(colors_in(part, linear=linear_colors))
+        texture = texture_in(part, linear=linear_colors)
         uvs.append(places_in(part) if places or texture is not None else None)
         if texture is not None:
             textures.setdefault(texture.hash, texture)
@@ -233,13 +250,15 @@ def _merge(path: Path, parts: list[tuple[Any, Any]], scale: NDArray[np.float64],
         start += len(points)
     if not start or not sum(map(len, faces)):
         raise ResourceError(f"mesh {path.name} has no triangles")
-    fields: list[tuple[str, Any, int]] = [("position", np.float32, 3)]
+    fields: list[tuple[str, Any, int] | tuple[str, Any]] = [("position", np.float32, 3)]
     if has_uv := any(uv is not None for uv in uvs):
         fields.append(("uv", np.float32, 2))
     if has_normals := all(each is not None for each in normals):
         fields.append(("normal", np.float32, 3))
     if has_colors := any(each is not None for each in colors):
         fields.append(("color", np.uint8, 4))
+    if is_open := has_colors and any(each is None for each in colors):
+        fields.append(("open", np.uint32))
     corners = np.zeros(start, dtype=fields)
     corners["position"] = np.concatenate(vertices).astype(np.float32) + np.float32(0)  # -0.0 becomes 0.0
     if not np.isfinite(corners["position"]).all():
@@ -250,6 +269,8 @@ def _merge(path: Path, parts: list[tuple[Any, Any]], scale: NDArray[np.float64],
         corners["normal"] = _filled(normals, vertices, 3, 0.0)
     if has_colors:
         corners["color"] = _filled(colors, vertices, 4, 255.0)
+    if is_open:
+        corners["open"] = np.repeat([each is None for each in colors], [len(points) for points in vertices])
     rows, index = _unique(corners.view(np.uint32).reshape(start, -1))
     unique = rows.view(corners.dtype).reshape(-1)
     return TriMesh(
@@ -260,6 +281,7 @@ def _merge(path: Path, parts: list[tuple[Any, Any]], scale: NDArray[np.float64],
         uv=np.ascontiguousarray(unique["uv"]) if has_uv else None,
         textures=tuple(textures.values()),
         face_textures=np.concatenate(wrapped).astype(np.int32) if textures else None,
+        open_vertices=unique["open"] != 0 if is_open else None,
         face_gloss=np.concatenate(glosses) if any(each[:, 3].any() for each in glosses) else None,
     )
 

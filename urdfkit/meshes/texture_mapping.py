@@ -44,8 +44,8 @@ class Wrapper:
             name: name of the image in the description.
 
         Returns:
-            The mesh with the texture; if the image is missing or invalid, the mesh with its name in `missing`; None
-            without texture coordinates.
+            The mesh with the texture where its file names no material, as in RViz; if the image is missing or invalid,
+            the mesh with its name in `missing`; None without texture coordinates.
         """
         if name not in self._textures:
             try:
@@ -62,8 +62,19 @@ class Wrapper:
             return found and replace(found, missing=(*found.missing, name), broken=broken)
         if found.uv is None:
             return None
+        if found.has_own_colors:
+            return _filled(found, texture)
         wrapped = np.zeros(len(found.faces), dtype=np.int32)
-        return replace(found, colors=None, textures=(texture,), face_textures=wrapped, missing=(), broken=())
+        return replace(found, textures=(texture,), face_textures=wrapped, missing=(), broken=())
+
+
+def _filled(mesh: TriMesh, texture: Texture) -> TriMesh:
+    """Return a mesh with the texture on the triangles for which its file names no material."""
+    if mesh.open_vertices is None:
+        return mesh
+    which = np.full(len(mesh.faces), -1, dtype=np.int32) if mesh.face_textures is None else mesh.face_textures.copy()
+    which[mesh.open_vertices[mesh.faces[:, 0]]] = len(mesh.textures)
+    return replace(mesh, textures=(*mesh.textures, texture), face_textures=which)
 
 
 def solid(geometry: Geometry) -> TriMesh | None:

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from urdfkit.description.packages.existence import is_file
+from urdfkit.meshes.material_colors import factor_of, linear_of, srgb_bytes, to_bytes
 
 MAX_EDGE = 4096
 """Largest edge length of a texture; larger ones are halved until they fit [px]."""
@@ -43,8 +44,13 @@ class Texture:
         object.__setattr__(self, "hash", digest.hexdigest()[:32])
 
 
-def texture_of(material: Any) -> Texture | None:
-    """Return the texture of a material of trimesh with its colour factor; None without one.
+def texture_of(material: Any, *, linear: bool) -> Texture | None:
+    """Return the texture of a material of trimesh, multiplied by its colour; None without one.
+
+    Args:
+        material: the material.
+        linear: whether its colour is linear and multiplies linear values, as in glTF; otherwise it is sRGB and
+            multiplies sRGB values, as ``Kd`` of an OBJ file in RViz and three.js.
 
     Raises:
         OSError: the picture is broken.
@@ -54,11 +60,14 @@ def texture_of(material: Any) -> Texture | None:
     if picture is None:
         return None
     pixels = _pixels(picture)
-    factor = getattr(material, "baseColorFactor", None)
-    if factor is not None:
-        scale = np.asarray(factor, dtype=float)
-        scale = scale / (255.0 if np.asarray(factor).dtype.kind in "ui" else 1.0)
-        pixels = np.rint(pixels * np.append(scale, 1.0)[:4]).astype(np.uint8)
+    factor = factor_of(material)
+    if linear and getattr(material, "alphaMode", None) in (None, "OPAQUE"):
+        pixels[..., 3] = 255
+    if factor is not None and (factor != 1.0).any():
+        scaled = np.arange(256)[:, None] / 255.0 * factor  # each channel is a function of a byte
+        table = srgb_bytes(linear_of(np.arange(256) / 255.0)[:, None] * factor) if linear else to_bytes(scaled)
+        table[:, 3] = to_bytes(scaled[:, 3])
+        pixels = table[pixels, np.arange(4)]
     return Texture(pixels)
 
 

@@ -38,7 +38,7 @@ class Shape:
         geometry: box, cylinder, sphere, capsule or mesh as written; in a world, plane, ellipsoid and cone, too.
         placement: of the shape in its body, shape (4, 4), read-only.
         rgba: colour and opacity, 0..1; the colour is `DEFAULT`'s where the description names none.
-        has_color: whether the description names a colour; if not, the mesh's own colours are to be shown.
+        has_color: whether `rgba` replaces the mesh's own colours; if not, these are shown with the opacity of `rgba`.
         mesh: the triangles of a mesh, its scale applied; None for the other geometries.
         laser_retro: intensity that a lidar measures.
         label: label that a segmentation camera measures; 0 for none.
@@ -190,15 +190,18 @@ def scene_of(robot: Robot, *, strict: bool = True, meshes: MeshLoader | None = N
                     problems.append(MissingMesh(name, link.name, role, error, uri, is_literal))
                     continue
             color = palette.of(link.name, item) if isinstance(item, Visual) else None
+            own = role == "visual" and mesh is not None and mesh.has_own_colors
             covered = wrapper.wrapped(item.geometry, mesh, picture) if picture else None
             mesh = covered or mesh
             rgba = color or DEFAULT
+            if own and mesh is not None:  # the colour fills what the file leaves open; its opacity applies to all
+                mesh, rgba = mesh.with_open_color((*rgba[:3], 1.0)), (*DEFAULT[:3], rgba[3])
             if role == "visual" and (opacity := palette.opacity(link.name)) < 1.0:
                 rgba = (*rgba[:3], rgba[3] * opacity)
             placed = pose_matrix(item.origin)
             retro, label = retros.get(link.name, 0.0), labels.get(link.name, labels.get("", 0))
             gloss = palette.gloss(link.name) if role == "visual" else MATT
-            shown = bool(color and not covered)
+            shown = bool(color and not covered and not own)
             looks = rgba, shown, mesh, retro, label, gloss, position
             shapes.append(Shape(name, link.name, role, item.geometry, placed, *looks))
     return Scene(tuple(link.name for link in links), tuple(shapes), tuple(problems))

@@ -29,7 +29,7 @@ def paint_of(table: RayTable) -> tuple[Any, ...]:
     colors, features = np.ones((len(table.shapes), 4)), np.zeros(len(table.shapes), dtype=np.int64)
     glosses = np.zeros((len(table.shapes), 4))
     for k, shape in enumerate(table.shapes):
-        own = shape.mesh is not None and not shape.has_color and has_own_colors(shape.mesh)
+        own = shape.mesh is not None and not shape.has_color and shape.mesh.has_own_colors
         colors[k] = (1.0, 1.0, 1.0, shape.rgba[3]) if own else shape.rgba
         smooth = shape.mesh is not None and shape.mesh.normals is not None
         features[k] = SMOOTH * smooth + COLORED * own
@@ -70,11 +70,6 @@ def mip_levels(pixels: NDArray[np.uint8]) -> Iterator[NDArray[np.uint8]]:
                 even, odd = (exact.take(np.arange(half) * 2 + k, axis=axis) for k in (0, 1))
                 exact = (even + odd) / 2
         yield np.rint(exact).astype(np.uint8)
-
-
-def has_own_colors(mesh: TriMesh) -> bool:
-    """Whether a mesh has its own colours or textures."""
-    return mesh.colors is not None or bool(mesh.textures)
 
 
 def attributes_of(mesh: TriMesh, textures_by_hash: dict[str, tuple[int, Texture]]) -> NDArray[np.float32]:

@@ -1,0 +1,151 @@
+"""Materials of OBJ, COLLADA and glTF files, and what a URDF material adds where a file names none."""
+
+from __future__ import annotations
+
+import io
+import json
+import struct
+from pathlib import Path
+
+import numpy as np
+import pytest
+import trimesh
+from PIL import Image
+
+from urdfkit.description import load
+from urdfkit.meshes.loader import MeshLoader, TriMesh
+from urdfkit.scene import Shape, scene_of
+
+SQUARE = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n"
+FACE = "f 1/1 2/2 3/3\n"
+
+
+def obj(folder: Path, materials: str, faces: str) -> TriMesh:
+    (folder / "a.mtl").write_text(materials)
+    (folder / "a.obj").write_text(f"mtllib a.mtl\n{SQUARE}{faces}")
+    return MeshLoader().load(folder / "a.obj")
+
+
+def corner_colors(mesh: TriMesh) -> list[list[int]]:
+    assert mesh.colors is not None
+    return sorted({tuple(row) for row in mesh.colors[mesh.faces[:, 0]].tolist()})
+
+
+@pytest.mark.parametrize(
+    ("opacity", "alpha"), [("d 0.5", 128), ("Tr 0.25", 191), ("", 255), ("d 0", 255), ("Tr 1", 255)]
+)
+def test_the_opacity_of_an_obj_material(tmp_path: Path, opacity: str, alpha: int) -> None:
+    assert corner_colors(obj(tmp_path, f"newmtl a\nKd 1 0.2 0\n{opacity}\n", f"usemtl a\n{FACE}")) == [
+        (255, 51, 0, alpha)
+    ]
+
+
+def test_the_colour_of_an_obj_material_multiplies_its_texture(tmp_path: Path) -> None:
+    Image.new("RGB", (2, 2), (200, 100, 50)).save(tmp_path / "t.png")
+    mesh = obj(tmp_path, "newmtl a\nKd 0.5 0.5 1\nd 0.5\nmap_Kd t.png\n", f"usemtl a\n{FACE}")
+    assert mesh.textures[0].pixels[0, 0].tolist() == [100, 50, 50, 128]
+
+
+def glb(material: dict, image: Image.Image | None = None) -> bytes:
+    """Return a triangle with a material, written by hand after the specification of glTF 2.0."""
+    points = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0]], "<f4").tobytes() + np.zeros((3, 2), "<f4").tobytes()
+    file = io.BytesIO()
+    if image is not None:
+        image.save(file, "PNG")
+    picture = file.getvalue()
+    header = {
+        "asset": {"version": "2.0"},
+        "scenes": [{"nodes": [0]}],
+        "scene": 0,
+        "nodes": [{"mesh": 0}],
+        "meshes": [{"primitives": [{"attributes": {"POSITION": 0, "TEXCOORD_0": 1}, "material": 0}]}],
+        "accessors": [
+            {"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3", "min": [0, 0, 0], "max": [1, 1, 0]},
+            {"bufferView": 1, "componentType": 5126, "count": 3, "type": "VEC2"},
+        ],
+        "materials": [material],
+        "buffers": [{"byteLength": 60 + len(picture)}],
+        "bufferViews": [
+            {"buffer": 0, "byteOffset": 0, "byteLength": 36},
+            {"buffer": 0, "byteOffset": 36, "byteLength": 24},
+        ],
+    }
+    if image is not None:
+        header["bufferViews"].append({"buffer": 0, "byteOffset": 60, "byteLength": len(picture)})
+        header |= {"images": [{"bufferView": 2, "mimeType": "image/png"}], "textures": [{"source": 0}]}
+    text = json.dumps(header).encode()
+    text += b" " * (-len(text) % 4)
+    content = points + picture
+    content += b"\0" * (-len(content) % 4)
+    chunks = struct.pack("<II", len(text), 0x4E4F534A) + text + struct.pack("<II", len(content), 0x004E4942) + content
+    return b"glTF" + struct.pack("<II", 2, 12 + len(chunks)) + chunks
+
+
+def test_the_colours_of_gltf_are_linear(tmp_path: Path) -> None:
+    (tmp_path / "a.glb").write_bytes(glb({"pbrMetallicRoughness": {"baseColorFactor": [0.5, 0.0, 1.0, 0.25]}}))
+    # 0.5 linear is 188 of 255 in sRGB; a material is opaque unless it has the mode BLEND or MASK.
+    assert corner_colors(MeshLoader().load(tmp_path / "a.glb")) == [(188, 0, 255, 255)]
+    blend = {"pbrMetallicRoughness": {"baseColorFactor": [0.5, 0.0, 1.0, 0.25]}, "alphaMode": "BLEND"}
+    (tmp_path / "b.glb").write_bytes(glb(blend))
+    assert corner_colors(MeshLoader().load(tmp_path / "b.glb")) == [(188, 0, 255, 64)]
+
+
+def test_the_colour_of_gltf_multiplies_linear_texels(tmp_path: Path) -> None:
+    material = {"pbrMetallicRoughness": {"baseColorFactor": [0.25, 1, 1, 1], "baseColorTexture": {"index": 0}}}
+    (tmp_path / "a.glb").write_bytes(glb(material, Image.new("RGBA", (2, 2), (188, 188, 0, 10))))
+    pixel = MeshLoader().load(tmp_path / "a.glb").textures[0].pixels[0, 0].tolist()
+    assert pixel[1:] == [188, 0, 255]
+    assert pixel[0] == pytest.approx(99, abs=1)  # linear 0.503 / 4 = 0.126 is 99 in sRGB
+
+
+def shape_of(folder: Path, urdf: str) -> Shape:
+    (folder / "robot.urdf").write_text(f'<robot name="r"><link name="a"><visual>{urdf}</visual></link></robot>')
+    return scene_of(load(folder / "robot.urdf")).shapes[0]
+
+
+MESH = '<geometry><mesh filename="a.obj"/></geometry>'
+BLUE = '<material name="m"><color rgba="0 0 1 0.5"/></material>'
+
+
+def test_a_urdf_colour_fills_what_the_file_leaves_open(tmp_path: Path) -> None:
+    obj(tmp_path, "newmtl red\nKd 1 0 0\n", f"usemtl red\n{FACE}usemtl unknown\nf 1/1 3/3 4/4\n")
+    shape = shape_of(tmp_path, MESH + BLUE)
+    assert not shape.has_color
+    assert corner_colors(shape.mesh) == [(0, 0, 255, 255), (255, 0, 0, 255)]
+    assert shape.rgba[3] == 0.5  # the opacity applies to all, as in RViz
+    grey = shape_of(tmp_path, MESH)
+    assert corner_colors(grey.mesh) == [(178, 178, 178, 255), (255, 0, 0, 255)]
+    assert grey.rgba[3] == 1.0
+
+
+def test_a_urdf_colour_paints_a_file_without_materials(tmp_path: Path) -> None:
+    (tmp_path / "a.obj").write_text(SQUARE + FACE)
+    shape = shape_of(tmp_path, MESH + BLUE)
+    assert (shape.has_color, shape.rgba, shape.mesh.colors) == (True, (0.0, 0.0, 1.0, 0.5), None)
+
+
+@pytest.mark.parametrize("suffix", [".dae", ".glb"])
+def test_a_file_with_one_material_keeps_it(tmp_path: Path, suffix: str) -> None:
+    box = trimesh.creation.box()
+    color = np.array([0.5, 0.25, 1.0, 1.0])
+    box.visual = trimesh.visual.TextureVisuals(
+        uv=np.zeros((8, 2)), material=trimesh.visual.material.PBRMaterial(baseColorFactor=color)
+    )
+    box.export(tmp_path / f"a{suffix}")
+    shape = shape_of(tmp_path, f'<geometry><mesh filename="a{suffix}"/></geometry>{BLUE}')
+    (found,) = corner_colors(shape.mesh)
+    expected = {".dae": (128, 64, 255), ".glb": (188, 137, 255)}[suffix]
+    assert np.abs(np.array(found[:3]) - expected).max() <= 1
+    assert not shape.has_color
+
+
+def test_a_urdf_texture_fills_what_the_file_leaves_open(tmp_path: Path) -> None:
+    Image.new("RGB", (2, 2), (9, 8, 7)).save(tmp_path / "t.png")
+    texture = '<material name="m"><texture filename="t.png"/></material>'
+    obj(tmp_path, "newmtl red\nKd 1 0 0\n", f"usemtl red\n{FACE}usemtl unknown\nf 1/1 3/3 4/4\n")
+    mesh = shape_of(tmp_path, MESH + texture).mesh
+    colors = mesh.colors[mesh.faces[:, 0]].tolist()
+    assert [colors[k] for k in range(2) if mesh.face_textures[k] < 0] == [[255, 0, 0, 255]]
+    assert sorted(mesh.face_textures.tolist()) == [-1, 0]
+    obj(tmp_path, "newmtl red\nKd 1 0 0\n", f"usemtl red\n{FACE}")
+    assert shape_of(tmp_path, MESH + texture).mesh.textures == ()
