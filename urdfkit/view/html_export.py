@@ -7,7 +7,6 @@ import hashlib
 import json
 import posixpath
 import re
-import zlib
 from collections.abc import Callable, Sequence
 from typing import Any
 
@@ -69,12 +68,12 @@ class Recording:
         Raises:
             MissingDependencyError: meshcat is not installed.
         """
-        meshes = {name: zlib.compress(packed, 9) for name, packed in self.geometries}
         recording = {
             "commands": [_base64(packed) for packed in self._commands.values()],
             "texts": list(self._texts.values()),
             "poses": _base64(self._poses) if self._poses is not None else None,
-            "meshes": {name: _base64(packed) for name, packed in meshes.items()},
+            "meshes": {name: _base64(packed) for name, packed in self.geometries},
+            "textures": {name: _base64(image) for name, image in self.geometries.images},
         }
         modules = {path.relative_to(APP).as_posix(): path.read_text("utf-8") for path in sorted(APP.rglob("*.js"))}
         imports = {_PREFIX + name: _address("text/javascript", _bare(name, text)) for name, text in modules.items()}

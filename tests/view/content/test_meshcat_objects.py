@@ -92,6 +92,14 @@ def test_a_mesh_with_its_own_colours_shows_them_unless_the_description_names_one
     assert [(bool(own), color) for own, color in flags] == [(True, 0xFFFFFF), (False, 0)]
 
 
+def test_a_glossy_shape_is_smoother_than_a_matt_one() -> None:
+    glossy = Shape("n", "arm", "visual", Box((1, 1, 1)), np.eye(4), gloss=(0.5, 0.5, 0.5, 128.0))
+    window, _ = drawn(shape(Box((1, 1, 1))), glossy)
+    matt, shiny = (command["object"]["materials"][0]["roughness"] for command in window.of("set_object").values())
+    assert 2 / shiny**4 - 2 == pytest.approx(128.0)
+    assert 0.3 < shiny < matt < 1
+
+
 @pytest.mark.parametrize(("radius", "length"), [(0.1, 0.5), (1.0, 0.0), (0.3, 2.0)])
 def test_capsule(radius: float, length: float) -> None:
     made = capsule(radius, length)

@@ -7,7 +7,6 @@ import json
 import logging
 import random
 import re
-import struct
 from urllib.parse import urlsplit
 
 import pytest
@@ -259,10 +258,32 @@ def test_geometry_is_served_by_its_content_and_may_be_kept(client, server) -> No
     )
     answer = client.log_in().get(f"/geometry/{name}")
     assert answer.status == 200
-    assert struct.unpack_from("<III", answer.body) == (24, 12, 0)
+    assert answer.body == gzip.decompress(server.geometries.get(name))
     assert "immutable" in answer.headers["cache-control"]
+    answer = client.get(f"/geometry/{name}", Accept_Encoding="gzip, br")
+    assert (answer.headers["content-encoding"], answer.body) == ("gzip", server.geometries.get(name))
     client.cookie = None
     assert client.get(f"/geometry/{name}").status == 403
+
+
+def test_textures_are_served_in_the_sizes_of_the_page(client, server) -> None:
+    import numpy as np
+
+    from urdfkit.meshes.textures import Texture
+    from urdfkit.scene import TriMesh
+
+    corners = np.eye(3, dtype=np.float32)
+    texture = Texture(np.full((8, 8, 4), 200, np.uint8))
+    server.geometries.add(
+        TriMesh(corners, np.array([[0, 1, 2]], np.int32), uv=corners[:, :2].copy(), textures=(texture,))
+    )
+    ((name, image),) = server.geometries.images
+    answer = client.log_in().get(f"/texture/{name}?edge=1024")
+    assert (answer.status, answer.headers["content-type"], answer.body) == (200, "image/webp", image)
+    assert client.get(f"/texture/{name}?edge=7").status == 404
+    assert client.get(f"/texture/{'0' * 64}").status == 404
+    client.cookie = None
+    assert client.get(f"/texture/{name}").status == 403
 
 
 def test_refusals_are_logged_without_the_key(client, server, caplog) -> None:

@@ -23,6 +23,8 @@ LINKS = "/robot/links"
 COLLISION_RGBA = (0.95, 0.55, 0.10, 0.45)
 """Colour of collision geometry."""
 CAPSULE_SEGMENTS = 24
+MATT_ROUGHNESS = 0.65
+"""Roughness of surfaces for which the description defines no specular properties: that of painted plastic."""
 
 # The axis of a cylinder is y in meshcat and z in URDF.
 Y_TO_Z = np.array([[1.0, 0, 0, 0], [0, 0, -1.0, 0], [0, 1.0, 0, 0], [0, 0, 0, 1.0]])
@@ -106,20 +108,36 @@ def geometry_of(shape: Shape, geometries: GeometryStore) -> tuple[Any, NDArray[n
     return None, np.eye(4)
 
 
+class SurfaceMaterial(meshcat.geometry.GenericMaterial):  # type: ignore[misc]
+    """The material of a shape, see `viewport/surfaces.js`."""
+
+    _type = "MeshStandardMaterial"
+
+
 def material(shape: Shape) -> Any:
     """Return the material of a shape."""
-    own = shape.role == "visual" and shape.mesh is not None and shape.mesh.colors is not None and not shape.has_color
-    rgba = COLLISION_RGBA if shape.role == "collision" else (1.0, 1.0, 1.0, 1.0) if own else shape.rgba
+    own = shape.role == "visual" and shape.mesh is not None and shape.mesh.has_own_colors and not shape.has_color
+    rgba = COLLISION_RGBA if shape.role == "collision" else (1.0, 1.0, 1.0, shape.rgba[3]) if own else shape.rgba
     red, green, blue = (round(255 * min(1.0, max(0.0, float(c)))) for c in rgba[:3])
     opacity = min(1.0, max(0.0, float(rgba[3])))
-    return meshcat.geometry.MeshPhongMaterial(
+    return SurfaceMaterial(
         color=(red << 16) | (green << 8) | blue,
         opacity=opacity,
         transparent=opacity < 1.0,
-        vertexColors=bool(own),
-        shininess=18,
-        specular=0x222222,
+        vertexColors=own and shape.mesh is not None and shape.mesh.colors is not None,
+        roughness=roughness(shape),
+        metalness=0.0,
     )
+
+
+def roughness(shape: Shape) -> float:
+    """Return the roughness, 0..1, that has highlights as wide as those of the specular exponent of a shape.
+
+    Source: Walter et al., *Microfacet Models for Refraction through Rough Surfaces* (2007): exponent = 2 / alpha^2 - 2,
+    where alpha is the square of the roughness.
+    """
+    exponent = shape.gloss[3]
+    return float((2.0 / (exponent + 2.0)) ** 0.25) if exponent > 0.0 else MATT_ROUGHNESS
 
 
 def capsule(radius: float, length: float) -> TriMesh:

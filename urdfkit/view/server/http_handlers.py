@@ -1,13 +1,15 @@
-"""HTTP routes: the page, its files, meshes and the WebSocket."""
+"""HTTP routes: the page, its files, meshes, textures and the WebSocket."""
 
 import gzip
 from functools import lru_cache
 from importlib.util import find_spec
 from pathlib import Path
 
+from tornado.ioloop import IOLoop
 from tornado.web import Application, HTTPError
 
 from urdfkit.errors import MissingDependencyError
+from urdfkit.view.content.mesh_store import EDGES
 from urdfkit.view.protocol import websocket_messages
 from urdfkit.view.server.authenticated_handler import NO_COOKIE, AuthenticatedHandler
 from urdfkit.view.server.page_socket import PageSocket
@@ -34,6 +36,7 @@ def application(server: PageServer) -> Application:
             (r"/frame", FramedPage, {"server": server}),
             (r"/app/([\w./-]+)", AppFile, {"server": server}),
             (r"/geometry/([0-9a-f]{64})", GeometryHandler, {"server": server}),
+            (r"/texture/([0-9a-f]{64})", TextureHandler, {"server": server}),
             (r"/ws", PageSocket, {"server": server}),
         ],
         default_handler_class=NotFound,
@@ -157,11 +160,34 @@ class AppFile(AuthenticatedHandler):
 class GeometryHandler(AuthenticatedHandler):
     """A mesh by the hash of its content."""
 
-    def get(self, name: str) -> None:
-        """Serve one mesh."""
-        packed = self.server.geometries.get(name)
+    async def get(self, name: str) -> None:
+        """Serve one mesh, packed in another thread so that poses are sent meanwhile."""
+        packed = await IOLoop.current().run_in_executor(None, self.server.geometries.get, name)
         if packed is None:
             raise HTTPError(404)
-        self.set_header("Content-Type", "application/octet-stream")
-        self.set_header("Cache-Control", "private, max-age=31536000, immutable")  # the name is a content hash
-        self.finish(packed)
+        if "gzip" in self.request.headers.get("Accept-Encoding", ""):
+            self.set_header("Content-Encoding", "gzip")
+        else:
+            packed = gzip.decompress(packed)
+        send_immutable(self, "application/octet-stream", packed)
+
+
+class TextureHandler(AuthenticatedHandler):
+    """A texture by the hash of its content."""
+
+    async def get(self, name: str) -> None:
+        """Serve one texture; ``edge`` is the largest length of its edges in pixels."""
+        edge = self.get_query_argument("edge", str(EDGES[-1]))
+        if edge not in map(str, EDGES):
+            raise HTTPError(404)
+        image = await IOLoop.current().run_in_executor(None, self.server.geometries.image, name, int(edge))
+        if image is None:
+            raise HTTPError(404)
+        send_immutable(self, "image/webp", image)
+
+
+def send_immutable(handler: AuthenticatedHandler, kind: str, content: bytes) -> None:
+    """Send content that browsers may keep, because the name is a hash of it."""
+    handler.set_header("Content-Type", kind)
+    handler.set_header("Cache-Control", "private, max-age=31536000, immutable")
+    handler.finish(content)

@@ -61,9 +61,15 @@ export class Offline {
 async function mesh(name) {
   const packed = recording.meshes[name];
   if (!packed) throw new Error("not in this file");
-  const stream = new Blob([bytes(packed)]).stream().pipeThrough(new DecompressionStream("deflate"));
+  const stream = new Blob([bytes(packed)]).stream().pipeThrough(new DecompressionStream("gzip"));
   return new Response(stream).arrayBuffer();
+}
+
+async function texture(name) {
+  if (!recording.textures[name]) throw new Error("not in this file");
+  return new Blob([bytes(recording.textures[name])], { type: "image/webp" });
 }
 
 window.urdfkitConnection = Offline;
 window.urdfkitMesh = mesh;
+window.urdfkitTexture = texture;

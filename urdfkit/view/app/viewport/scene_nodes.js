@@ -1,6 +1,8 @@
 // The scene: executes meshcat commands, fetches each mesh once, applies packed poses.
 /* global MeshCat */
 
+import { decoded } from "./mesh_decoding.js";
+import { keepTextures, texture } from "./textures.js";
 import { placeholder } from "./placeholders.js";
 
 const THREE = MeshCat.THREE;
@@ -12,8 +14,10 @@ export class Scene {
   constructor(viewport) {
     this.viewport = viewport;
     this.viewer = viewport.viewer;
-    this.meshes = new Map(); // content hash → promise of a BufferGeometry
+    this.meshes = new Map(); // content hash → promise of its parts, see mesh_decoding.js
+    this.hidden = new Map(); // path → function that requests the mesh of a shape when it is shown
     this.used = new Set(); // meshes of the current robot
+    this.textures = new Set(); // and their textures
     this.waiting = new Set();
     this.groups = { visual: new Map(), collision: new Map() };
     this.shown = { visual: true, collision: false };
@@ -41,6 +45,7 @@ export class Scene {
     if (command.type === "delete" && path.length === 1) {
       this.generation += 1;
       this.used = new Set();
+      this.textures = new Set();
     }
     if (command.type === "delete") this.#forget(path.join("/"));
     const geometry = command.type === "set_object" ? command.object.geometries?.[0] : null;
@@ -54,6 +59,7 @@ export class Scene {
     for (const groups of Object.values(this.groups)) {
       for (const path of groups.keys()) if (path === above || path.startsWith(`${above}/`)) groups.delete(path);
     }
+    for (const path of this.hidden.keys()) if (path.startsWith(`${above}/`)) this.hidden.delete(path);
   }
 
   #group(path) {
@@ -74,8 +80,10 @@ export class Scene {
       material.userData.opacity ??= material.opacity;
       material.wireframe = this.look.wireframe;
       material.opacity = material.userData.opacity * this.look.opacity * (this.faded.has(object) ? FAINT : 1);
-      const clear = material.opacity < 1;
-      if (material.transparent !== clear) Object.assign(material, { transparent: clear, depthWrite: !clear, needsUpdate: true });
+      material.userData.clear ??= material.transparent; // by its texture or the colours of its vertices
+      const clear = material.opacity < 1 || material.userData.clear;
+      if (material.transparent !== clear) Object.assign(material, { transparent: clear, needsUpdate: true });
+      material.depthWrite = !(material.opacity < 1);
     });
   }
 
@@ -97,34 +105,63 @@ export class Scene {
 
   show(role, shown) {
     this.shown[role] = shown;
+    if (shown) for (const [path, request] of [...this.hidden]) if (path.split("/")[3] === role) request();
     for (const group of this.groups[role].values()) group.visible = shown;
     this.viewport.dirty();
   }
 
+  // The mesh of a hidden role is requested when the role is shown.
   #shared(path, object, name) {
+    const key = path.join("/");
+    this.used.add(name);
+    const generation = this.generation;
+    const request = () => {
+      this.hidden.delete(key);
+      if (generation === this.generation) this.#request(path, object, name);
+    };
+    if (this.shown[path[3]] === false) this.hidden.set(key, request);
+    else request();
+  }
+
+  #request(path, object, name) {
     const generation = this.generation;
     const task = this.#mesh(name)
-      .then((geometry) => {
+      .then(async (parts) => {
+        const shape = new THREE.Group();
+        for (const part of parts) shape.add(await this.#part(part, object.materials[0]));
         if (generation !== this.generation) return; // the robot was replaced in the meantime
-        const mesh = new THREE.Mesh(geometry, new THREE.MaterialLoader().parse(object.materials[0]));
-        mesh.castShadow = path[3] !== "collision";
-        mesh.receiveShadow = true;
-        this.viewer.set_object(path, mesh);
-        if (path[3] in this.groups) this.#style(mesh);
-        const node = this.byLink.get(this.owner(mesh));
+        for (const mesh of shape.children) Object.assign(mesh, { castShadow: path[3] !== "collision", receiveShadow: true });
+        this.viewer.set_object(path, shape.children.length === 1 ? shape.children[0] : shape);
+        const group = this.groups[path[3]]?.get(path.slice(0, 4).join("/"));
+        if (group) this.#style(group);
+        const node = this.byLink.get(this.owner(group ?? shape));
         if (node) delete node.userData.middle; // its centre has changed
-        this.arrived?.(mesh);
+        this.arrived?.(shape);
         this.viewport.dirty();
       })
       .catch((error) => console.warn(`mesh ${name.slice(0, 8)}: ${error.message}`))
-      .finally(() => this.waiting.delete(task));
+      .finally(() => {
+        this.waiting.delete(task);
+        this.loading?.(this.waiting.size);
+      });
     this.waiting.add(task);
+    this.loading?.(this.waiting.size);
+  }
+
+  async #part({ geometry, texture: name, clear }, written) {
+    const material = new THREE.MaterialLoader().parse(written);
+    if (clear) Object.assign(material, { transparent: true });
+    if (name) {
+      this.textures.add(name);
+      const map = await texture(name).catch(() => null); // without its image, the surface has its plain colour
+      if (map) Object.assign(material, { map, vertexColors: false });
+    }
+    return new THREE.Mesh(geometry, material);
   }
 
   #mesh(name) {
-    this.used.add(name);
     if (!this.meshes.has(name)) {
-      const mesh = (window.urdfkitMesh ?? fetched)(name).then(unpack);
+      const mesh = (window.urdfkitMesh ?? fetched)(name).then(decoded);
       mesh.catch(() => this.meshes.delete(name));
       this.meshes.set(name, mesh);
     }
@@ -133,7 +170,9 @@ export class Scene {
 
   /** Resolves when all requested meshes are loaded. */
   async settled() {
+    if (!this.groups.visual.size) for (const request of [...this.hidden.values()]) request(); // for `bounds`
     while (this.waiting.size) await Promise.allSettled([...this.waiting]);
+    keepTextures(this.textures);
   }
 
   /** Bounding box of the robot without world and markers; of everything if the robot has no shapes. */
@@ -147,6 +186,21 @@ export class Scene {
     const size = box.getSize(new THREE.Vector3()).length();
     if (!(size > 0)) box.setFromObject(this.viewer.scene_tree.find(["robot"]).object);
     return box;
+  }
+
+  /** Height of the lowest vertex of the robot [m]; 0 without shapes. */
+  lowest() {
+    let lowest = Infinity;
+    const point = new THREE.Vector3();
+    const add = (object) => {
+      const position = object.isMesh && object.geometry.getAttribute("position");
+      for (let i = 0; i < (position?.count ?? 0); i++) {
+        lowest = Math.min(lowest, point.fromBufferAttribute(position, i).applyMatrix4(object.matrixWorld).y);
+      }
+    };
+    for (const node of this.own) node.updateWorldMatrix(true, true);
+    for (const group of this.#groupsOf("visual", this.own)) group.traverse(add);
+    return Number.isFinite(lowest) ? lowest : 0;
   }
 
   #groupsOf(role, nodes) {
@@ -184,7 +238,7 @@ export class Scene {
   use(model) {
     this.model = model.number;
     this.nodes = model.nodes.map((path) => this.viewer.scene_tree.find(path.split("/").filter(Boolean)).object);
-    const names = model.nodes.map((path) => decoded(path.split("/").pop()));
+    const names = model.nodes.map((path) => unescaped(path.split("/").pop()));
     this.byLink = new Map(this.nodes.map((node, i) => [names[i], node]));
     this.linkOf = new Map(this.nodes.map((node, i) => [node, names[i]]));
     // Names of links have no slash; names of world bodies do.
@@ -226,7 +280,7 @@ export class Scene {
 }
 
 // As link_path in meshcat_objects.py: components of a path contain no slash.
-function decoded(part) {
+function unescaped(part) {
   return part.replaceAll("%2F", "/").replaceAll("%25", "%");
 }
 
@@ -234,25 +288,4 @@ async function fetched(name) {
   const answer = await fetch(`/geometry/${name}${location.search}`); // a page in a frame sends its token
   if (!answer.ok) throw new Error(`${answer.status}`);
   return answer.arrayBuffer();
-}
-
-function unpack(buffer) {
-  const [vertices, triangles, coloured] = new Uint32Array(buffer, 0, 3);
-  const geometry = new THREE.BufferGeometry();
-  let at = 12;
-  const take = (Kind, size, count) => {
-    const attribute = new THREE.BufferAttribute(new Kind(buffer, at, size * count), size);
-    at += size * count * Kind.BYTES_PER_ELEMENT;
-    return attribute;
-  };
-  geometry.setAttribute("position", take(Float32Array, 3, vertices));
-  geometry.setAttribute("normal", take(Float32Array, 3, vertices));
-  const index = take(Uint32Array, 3, triangles);
-  geometry.setIndex(new THREE.BufferAttribute(index.array, 1));
-  if (coloured) {
-    const colours = take(Uint8Array, 4, vertices);
-    colours.normalized = true;
-    geometry.setAttribute("color", colours);
-  }
-  return geometry;
 }
