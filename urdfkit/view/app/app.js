@@ -76,6 +76,13 @@ page.connection = new (window.urdfkitConnection ?? Connection)({
 });
 page.expose("connection", page.connection);
 
+// In the viewer, a robot stands on the ground, wherever its root link is.
+function stand() {
+  if (page.mode !== "view") return;
+  viewport.floor = scene.lowest();
+  viewport.at(0, 0, 0, false);
+}
+
 function applied(sequence, time) {
   page.send("ack", { sequence });
   const followed = scene.nodes[page.followed ?? root]; // the driven robot
@@ -85,10 +92,12 @@ function applied(sequence, time) {
   if (!fitted) {
     fitted = true;
     scene.settled().then(() => {
+      stand();
       document.body.dataset.ready = page.fit();
     });
   } else if (changed && page.mode === "view") {
     scene.settled().then(() => {
+      stand();
       if (viewport.outgrown(scene.bounds())) page.fit(null);
     });
   }

@@ -3,11 +3,13 @@
 
 import { soft, sparing } from "./graphics_device.js";
 import { gridMaterial } from "./ground_grid.js";
+import { SunShadow } from "./sun_shadow.js";
+import { studio } from "./surfaces.js";
 
 const THREE = MeshCat.THREE;
 const THEMES = {
-  light: { sky: 0xeef1f5, major: 0xaab4c2, minor: 0xd3dae3, shadow: 0.22, hemisphere: 0.78 },
-  dark: { sky: 0x161b23, major: 0x49566a, minor: 0x2a3340, shadow: 0.45, hemisphere: 0.7 },
+  light: { sky: 0xeef1f5, major: 0xaab4c2, minor: 0xd3dae3, shadow: 0.3 },
+  dark: { sky: 0x161b23, major: 0x49566a, minor: 0x2a3340, shadow: 0.5 },
 };
 const FOV = 42;
 const ROOM = 1.3; // factor by which a robot may outgrow the fitted view
@@ -25,6 +27,7 @@ export class Viewport {
     this.viewer.renderer.shadowMap.autoUpdate = false; // shadows change when objects move, not when the camera moves
     this.#wait();
     this.radius = 0.5;
+    this.floor = 0; // height of the ground [m]
     this.followed = null;
     this.aspect = 1;
     this.#light();
@@ -49,7 +52,11 @@ export class Viewport {
   #wait() {
     const render = this.viewer.render.bind(this.viewer);
     this.empty = true;
-    this.viewer.render = () => void (this.empty || render());
+    this.viewer.render = () => {
+      if (this.empty) return;
+      if (this.viewer.renderer.shadowMap.needsUpdate) this.sunShadow.fit();
+      render();
+    };
     setTimeout(() => this.begin(), PATIENCE);
   }
 
@@ -82,7 +89,6 @@ export class Viewport {
     const theme = THEMES[dark ? "dark" : "light"];
     const scene = this.viewer.scene;
     scene.background = new THREE.Color(theme.sky);
-    this.hemisphere.intensity = theme.hemisphere;
     this.shade.material.opacity = theme.shadow;
     const { major, minor } = this.grid.material.uniforms;
     major.value.set(theme.major);
@@ -98,23 +104,15 @@ export class Viewport {
 
   #light() {
     // The children of the scene use the axes of the robot, z up.
-    this.hemisphere = new THREE.HemisphereLight(0xffffff, 0x8f98a3, 0.75);
-    this.hemisphere.position.set(0, 0, 1);
-    const fill = new THREE.DirectionalLight(0xffffff, 0.22);
-    fill.position.set(-3, -4, 2);
-    this.sun = new THREE.DirectionalLight(0xffffff, 0.5);
-    this.sun.castShadow = true;
-    this.sun.shadow.mapSize.set(1024, 1024);
-    this.sun.shadow.bias = -0.0006;
-    this.sun.shadow.normalBias = 0.004;
-    this.sun.shadow.radius = 3;
-    this.viewer.scene.add(this.hemisphere, fill, this.sun, this.sun.target);
+    const { sky, fill, sun } = studio();
+    this.viewer.scene.add(sky, fill, sun, sun.target);
+    this.sunShadow = new SunShadow(this.viewer, sun);
   }
 
   #ground() {
     this.ground = new THREE.Group();
     this.viewer.scene.add(this.ground);
-    this.shade = new THREE.Mesh(new THREE.PlaneGeometry(60, 60), new THREE.ShadowMaterial({ opacity: 0.25 }));
+    this.shade = new THREE.Mesh(new THREE.PlaneGeometry(400, 400), new THREE.ShadowMaterial({ opacity: 0.25 }));
     this.shade.receiveShadow = true;
     this.grid = new THREE.Mesh(new THREE.PlaneGeometry(400, 400), gridMaterial());
     this.grid.renderOrder = -1;
@@ -158,9 +156,6 @@ export class Viewport {
     camera.far = Math.max(200, radius * 200);
     controls.minDistance = radius / 10;
     controls.maxDistance = radius * 60;
-    const reach = radius * 2.2;
-    Object.assign(this.sun.shadow.camera, { left: -reach, right: reach, top: reach, bottom: -reach, near: 0.01, far: radius * 12 });
-    this.sun.shadow.camera.updateProjectionMatrix();
     this.haze();
     controls.update();
     this.fitted = { sphere, place: this.#place() };
@@ -184,14 +179,11 @@ export class Viewport {
 
   /** Set the position of the root link [m, z up]; light, ground and optionally the camera follow it. */
   at(x, y, z, follow) {
-    const stands = [x, y, z, this.radius, follow];
+    const stands = [x, y, z, this.radius, follow, this.floor];
     if (this.stands?.every((value, i) => value === stands[i])) return;
     this.stands = stands;
     const major = this.cell * 5;
-    this.ground.position.set(Math.round(x / major) * major, Math.round(y / major) * major, 0);
-    const r = this.radius;
-    this.sun.target.position.set(x, y, z);
-    this.sun.position.set(x + 1.6 * r, y - 1.2 * r, z + 5 * r);
+    this.ground.position.set(Math.round(x / major) * major, Math.round(y / major) * major, this.floor);
     if (follow && this.followed) {
       const [fx, fy, fz] = this.followed;
       const move = new THREE.Vector3(x - fx, z - fz, -(y - fy));

@@ -1,0 +1,53 @@
+// How surfaces look: materials are lit in linear colours and mapped to the screen without burnt-out highlights.
+/* global MeshCat */
+
+const THREE = MeshCat.THREE;
+
+// The colours of a robot are sRGB and the page has no colour management, because lines and labels use plain colours.
+// So the shader of the surfaces converts: to linear before the light, and back after it. In between, "neutral" tone
+// mapping keeps colours as they are up to 0.8 and compresses only what is brighter (Khronos PBR Neutral).
+const TO_LINEAR = `
+  #include <color_fragment>
+  diffuseColor.rgb = pow(diffuseColor.rgb, vec3(2.2));`;
+
+// Reflections of a studio: a bright ceiling, walls, a dark floor, and a softbox. They give black parts their shape.
+const REFLECTIONS = `
+  vec3 eye = normalize(vViewPosition);
+  vec3 up = viewMatrix[1].xyz;
+  vec3 mirrored = reflect(-eye, normal);
+  float height = dot(mirrored, up);
+  float blur = 0.15 + 0.85 * roughnessFactor;
+  float radiance = mix(0.18, 0.85, smoothstep(-blur, blur, height));
+  vec3 softbox = normalize(mat3(viewMatrix) * vec3(-0.35, 0.8, 0.5));
+  radiance += 1.1 * (1.0 - roughnessFactor) * smoothstep(1.0 - 0.6 * blur, 1.0, dot(mirrored, softbox));
+  float grazing = pow(1.0 - clamp(dot(normal, eye), 0.0, 1.0), 5.0);
+  gl_FragColor.rgb += radiance * (0.04 + (max(0.04, 0.6 * (1.0 - roughnessFactor)) - 0.04) * grazing);`;
+
+const TO_SCREEN = `
+  const float start = 0.76;
+  float peak = max(gl_FragColor.r, max(gl_FragColor.g, gl_FragColor.b));
+  if (peak > start) {
+    float rest = 1.0 - start;
+    float mapped = 1.0 - rest * rest / (peak + rest - start);
+    gl_FragColor.rgb *= mapped / peak;
+    float share = 1.0 - 1.0 / (0.15 * (peak - mapped) + 1.0);
+    gl_FragColor.rgb = mix(gl_FragColor.rgb, vec3(mapped), share);
+  }
+  gl_FragColor.rgb = pow(gl_FragColor.rgb, vec3(1.0 / 2.2));`;
+
+const shader = THREE.ShaderLib.standard;
+shader.fragmentShader = shader.fragmentShader
+  .replace("#include <color_fragment>", TO_LINEAR)
+  .replace("#include <tonemapping_fragment>", REFLECTIONS + TO_SCREEN);
+
+/** The lights, in the axes of the robot: sky and floor, a sun with shadows, and a weak light from the other side. */
+export function studio() {
+  const sky = new THREE.HemisphereLight(0xffffff, 0xffffff, 1);
+  sky.position.set(0, 0, 1);
+  sky.color.setScalar(0.58);
+  sky.groundColor.setScalar(0.3);
+  const fill = new THREE.DirectionalLight(0xffffff, 0.3);
+  fill.position.set(-3, -4, 2);
+  const sun = new THREE.DirectionalLight(0xffffff, 0.48);
+  return { sky, fill, sun };
+}
