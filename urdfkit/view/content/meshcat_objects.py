@@ -109,7 +109,7 @@ def geometry_of(shape: Shape, geometries: GeometryStore) -> tuple[Any, NDArray[n
 
 
 class SurfaceMaterial(meshcat.geometry.GenericMaterial):  # type: ignore[misc]
-    """The material of a shape, see `viewport/surfaces.js`."""
+    """The material of a shape, see `appearance/surfaces.js`."""
 
     _type = "MeshStandardMaterial"
 

@@ -1,8 +1,8 @@
 // The scene: executes meshcat commands, fetches each mesh once, applies packed poses.
 /* global MeshCat */
 
-import { decoded } from "./mesh_decoding.js";
-import { keepTextures, texture } from "./textures.js";
+import { decoded } from "../appearance/mesh_decoding.js";
+import { keepTextures, texture } from "../appearance/textures.js";
 import { placeholder } from "./placeholders.js";
 
 const THREE = MeshCat.THREE;

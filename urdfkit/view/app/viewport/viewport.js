@@ -3,8 +3,8 @@
 
 import { soft, sparing } from "./graphics_device.js";
 import { gridMaterial } from "./ground_grid.js";
-import { SunShadow } from "./sun_shadow.js";
-import { studio } from "./surfaces.js";
+import { SunShadow } from "../appearance/sun_shadow.js";
+import { studio } from "../appearance/surfaces.js";
 
 const THREE = MeshCat.THREE;
 const THEMES = {

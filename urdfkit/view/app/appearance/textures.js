@@ -1,7 +1,7 @@
 // Textures of meshes: fetched once by their content hash, in a size that the device can draw.
 /* global MeshCat */
 
-import { soft } from "./graphics_device.js";
+import { soft } from "../viewport/graphics_device.js";
 
 const THREE = MeshCat.THREE;
 const EDGE = soft || Math.min(screen.width, screen.height) < 500 ? 1024 : 2048; // px; the server offers 512, 1024 and 2048

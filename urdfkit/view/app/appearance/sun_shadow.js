@@ -1,7 +1,7 @@
 // The shadow of the sun covers everything that casts one, so that no shadow is cut off, however far a robot drives.
 /* global MeshCat */
 
-import { soft } from "./graphics_device.js";
+import { soft } from "../viewport/graphics_device.js";
 
 const THREE = MeshCat.THREE;
 const TOWARDS = new THREE.Vector3(0.3, -0.22, 1).normalize(); // direction of the sun, z up
