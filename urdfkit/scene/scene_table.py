@@ -194,7 +194,7 @@ def scene_of(robot: Robot, *, strict: bool = True, meshes: MeshLoader | None = N
             covered = wrapper.wrapped(item.geometry, mesh, picture) if picture else None
             mesh = covered or mesh
             rgba = color or DEFAULT
-            if own and mesh is not None:  # the colour fills what the file leaves open; its opacity applies to all
+            if own and mesh is not None:  # the colour is that of parts without material; its opacity is that of all
                 mesh, rgba = mesh.with_open_color((*rgba[:3], 1.0)), (*DEFAULT[:3], rgba[3])
             if role == "visual" and (opacity := palette.opacity(link.name)) < 1.0:
                 rgba = (*rgba[:3], rgba[3] * opacity)

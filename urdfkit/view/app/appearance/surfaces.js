@@ -5,7 +5,7 @@ const THREE = MeshCat.THREE;
 
 // The colours of a robot are sRGB and the page has no colour management, because lines and labels use plain colours.
 // So the shader of the surfaces converts: to linear before the light, and back after it. In between, "neutral" tone
-// mapping keeps colours as they are up to 0.8 and compresses only what is brighter (Khronos PBR Neutral).
+// mapping keeps colours up to 0.8 as they are and compresses brighter ones (Khronos PBR Neutral).
 const TO_LINEAR = `
   #include <color_fragment>
   diffuseColor.rgb = pow(diffuseColor.rgb, vec3(2.2));`;
