@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 _TRUTHS = {"true": True, "yes": True, "on": True, "1": True, "false": False, "no": False, "off": False, "0": False}
 _MAX_DEPTH = 30
 _MAX_NODES = 100_000
-_MAX_FLOW_NODES = 2000
+_MAX_FLOW_DEPTH = 2000
 _DEEP_LINE = r"(?:[-?][ \t]+){200}"
 """Lists in lists in one line: ``- - - 1``."""
 
@@ -232,8 +232,24 @@ def loader_of(text: str) -> Any:
 
     import yaml
 
-    is_shallow = text.count("[") + text.count("{") < _MAX_FLOW_NODES and not re.search(_DEEP_LINE, text)
+    is_shallow = _flow_depth(text) < _MAX_FLOW_DEPTH and not re.search(_DEEP_LINE, text)
     return getattr(yaml, "CSafeLoader", yaml.SafeLoader) if is_shallow else yaml.SafeLoader
+
+
+def _flow_depth(text: str) -> int:
+    """Return an upper bound of the nesting of lists and mappings in brackets.
+
+    Brackets that one line opens and closes add nothing, except next to quotes and comments, which may contain brackets.
+    """
+    depth = most = 0
+    for line in text.splitlines():
+        opened = line.count("[") + line.count("{")
+        if not opened:
+            continue
+        most = max(most, opened)
+        is_plain = not ('"' in line or "'" in line or "#" in line)
+        depth += max(0, opened - line.count("]") - line.count("}")) if is_plain else opened
+    return depth + most
 
 
 def _composed(text: str) -> Any:

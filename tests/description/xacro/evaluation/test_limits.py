@@ -39,9 +39,8 @@ def _macros(count: int, body: str) -> str:
     return "".join(f'<xacro:macro name="m{i + 1}">{body.format(i)}</xacro:macro>' for i in range(count))
 
 
-MERGES = "a0: &a0 {k: 1}\n" + "".join(
-    f"a{i + 1}: &a{i + 1} {{<<: [{', '.join([f'*a{i}'] * 99)}], k{i}: 1}}\n" for i in range(12)
-)
+KEYS = ", ".join(f"k{key}: 1" for key in range(700))
+MERGES = f"base: &base {{{KEYS}}}\n" + "".join(f"a{number}: {{<<: *base}}\n" for number in range(700))
 HOSTILE = {
     "recursion": (
         '<xacro:macro name="m" params="a"><xacro:m a="1"/></xacro:macro><xacro:m a="1"/>',

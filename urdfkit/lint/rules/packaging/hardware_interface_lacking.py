@@ -71,14 +71,16 @@ class HardwareInterfaceLacking(RobotRule):
         """Yield a finding for each interface that a controller requires and its joint lacks."""
         if not model.robot.ros2_control:
             return
+        from urdfkit.lint.facts.control.hardware_interfaces import meant_joints
         from urdfkit.lint.facts.control.ros2_controllers import PARAMETERS, declared, offered
         from urdfkit.lint.facts.control.yaml_tree import yamls
 
         sources = [source for source in yamls(model) if PARAMETERS in source.text]
         hardware = offered(model) if sources else None
+        misspelt = meant_joints(model.robot) if hardware is not None else set()
         for source in sources if hardware is not None else ():
             for controller in declared(source):
-                yield from self._missing_interfaces(source, controller, hardware or {}, model)
+                yield from self._missing_interfaces(source, controller, hardware or {}, misspelt, model)
                 yield from self._unknown_sensor(source, controller, hardware or {})
 
     def _unknown_sensor(
@@ -96,14 +98,18 @@ class HardwareInterfaceLacking(RobotRule):
             yield Finding(self.code, self.name, self.severity, message, span_of(source, sensor))
 
     def _missing_interfaces(
-        self, source: Source, controller: DeclaredController, hardware: dict[str, dict[bool, list[str]]], model: Model
+        self,
+        source: Source,
+        controller: DeclaredController,
+        hardware: dict[str, dict[bool, list[str]]],
+        misspelt: set[str],
+        model: Model,
     ) -> Findings:
-        from urdfkit.lint.facts.control.hardware_interfaces import meant_interface, meant_joints
+        from urdfkit.lint.facts.control.hardware_interfaces import meant_interface
         from urdfkit.lint.facts.control.ros2_controllers import wanted
         from urdfkit.lint.facts.control.yaml_tree import span_of
 
         reported: set[tuple[int, int]] = set()
-        misspelt = meant_joints(model.robot)
         for requirement in wanted(controller):
             interfaces = hardware.get(requirement.joint)
             position = (requirement.where.line, requirement.where.column)
