@@ -9,9 +9,9 @@ from typing import Any
 
 from urdfkit.bridges.bridge import CAPACITY, CallQueue, is_latched, message_topics, publish_received
 from urdfkit.bridges.published_message import PublishedMessage
-from urdfkit.bridges.service import Service
+from urdfkit.bridges.service import Service, respond
 from urdfkit.bus import Bus, Subscription, absolute, nearest_topic
-from urdfkit.errors import UrdfkitError, UsageError, suggestion
+from urdfkit.errors import UsageError, suggestion
 from urdfkit.messages import full_type_name
 
 MOST_BYTES = 64 * 1024 * 1024
@@ -121,14 +121,10 @@ class Graph:
     def request(self, service: Service, message: Any, done: Callable[[Any, str | None], None]) -> None:
         """Call a service; `done` receives its response, or None and the reason, in the thread of the server."""
 
-        def call() -> None:
-            try:
-                response, reason = service.call(message), None
-            except (UrdfkitError, ArithmeticError, LookupError, TypeError, ValueError) as error:
-                response, reason = None, str(error)
-            self.post(lambda: done(response, reason))
+        def answer(found: Any, reason: str | None) -> None:
+            self.post(lambda: done(found, reason))
 
-        self.call(call)
+        self.call(lambda: respond(service, message, answer))
 
     def deliver(self, receivers: tuple[Receive, ...], sample: PublishedMessage) -> None:
         """Hand a message to peers, in the thread of the server; called by the thread of the simulation."""

@@ -6,6 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
+from urdfkit.errors import UrdfkitError
 from urdfkit.messages import from_fields
 
 
@@ -37,3 +38,12 @@ class Service:
 def response(type: str, **values: Any) -> Any:
     """Return the response of a service type with these fields."""
     return from_fields(f"{type}_Response", values or None)
+
+
+def respond(service: Service, request: Any, done: Callable[[Any, str | None], None]) -> None:
+    """Call a service in the thread of the simulation; `done` receives its response, or None and the reason."""
+    try:
+        found, reason = service.call(request), None
+    except (UrdfkitError, ArithmeticError, LookupError, TypeError, ValueError) as error:
+        found, reason = None, str(error)
+    done(found, reason)

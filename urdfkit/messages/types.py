@@ -95,6 +95,31 @@ def typestore() -> Any:
     return found
 
 
+def register_types(name: str, text: str) -> dict[str, Any]:
+    """Add the types of a definition that were unknown; return type → layout of all that it contains.
+
+    Args:
+        name: of the type that the text defines, e.g. ``lab_msgs/msg/Arm``.
+        text: definition in the notation of ``.msg`` files, with those of its fields as publishers send it.
+
+    Raises:
+        UsageError: the text is no definition.
+    """
+    from rosbags.typesys import TypesysError, get_types_from_msg
+
+    from urdfkit.errors import UsageError
+
+    store = typestore()
+    try:
+        found: dict[str, Any] = get_types_from_msg(text, name)
+        store.register({each: layout for each, layout in found.items() if each not in store.fielddefs})
+    except TypesysError as error:
+        raise UsageError(f"the definition of {name} cannot be read: {str(error).splitlines()[0]}") from error
+    for cached in (message_type, _types, _layouts):
+        cached.cache_clear()
+    return found
+
+
 def full_type_name(name: str) -> str:
     """Turn ``geometry_msgs/Twist`` into ``geometry_msgs/msg/Twist``; keep full names."""
     parts = name.split("/")

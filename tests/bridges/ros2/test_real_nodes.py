@@ -107,7 +107,7 @@ def test_a_real_node_sees_all_topics_with_their_types_and_quality(robot: str) ->
 def test_a_late_joiner_gets_the_static_transforms_by_cyclonedds_alone() -> None:
     code = (
         "import sys, time; from urdfkit.bridges.ros2.cyclonedds_node import CycloneddsNode; "
-        "from urdfkit.bridges.ros2.node import Quality; from urdfkit.messages import typestore; "
+        "from urdfkit.bridges.node.node import Quality; from urdfkit.messages import typestore; "
         "found = []; node = CycloneddsNode(44); "
         "quality = Quality(reliable=True, latched=True, depth=1); "
         "node.subscribe('/tf_static', 'tf2_msgs/msg/TFMessage', quality, found.append)\n"

@@ -11,9 +11,11 @@ import pytest
 
 from tests.time_limit import PATIENCE
 from urdfkit.bridges.bridge import CallQueue
+from urdfkit.bridges.node.node import Done, Quality, UnknownTypeError
+from urdfkit.bridges.node.node_bridge import NodeBridge, check_namespace
+from urdfkit.bridges.ros2.cdr import decode, encode
 from urdfkit.bridges.ros2.environment import keep_on_this_machine, on_this_machine, ros_domain
-from urdfkit.bridges.ros2.node import Quality, UnknownTypeError
-from urdfkit.bridges.ros2.ros2_bridge import Ros2Bridge, check_namespace
+from urdfkit.bridges.service import Service
 from urdfkit.bus import Bus
 from urdfkit.cli import main
 from urdfkit.errors import UsageError
@@ -36,7 +38,8 @@ class Published:
 
 
 class RecordedNode:
-    description = "recorded"
+    description, ros, option = "recorded", "ROS 2", "--ros2"
+    encode, decode = staticmethod(encode), staticmethod(decode)
 
     def __init__(self, lacks: str = "") -> None:
         self.lacks, self.closed = lacks, False
@@ -51,6 +54,12 @@ class RecordedNode:
 
     def subscribe(self, topic: str, type: str, quality: Quality, receive: Callable[[bytes], None]) -> None:
         self.subscribed[topic] = receive
+
+    def topics(self) -> dict[str, str]:
+        return {}
+
+    def serve(self, service: Service, call: Callable[[Any, Done], None]) -> None:
+        raise UnknownTypeError(service.type)
 
     def close(self) -> None:
         self.closed = True
@@ -71,7 +80,7 @@ def string(text: str) -> Any:
 def test_a_topic_is_encoded_only_while_a_subscriber_is_matched() -> None:
     bus, calls, node = Bus(), CallQueue(), RecordedNode()
     bus.advertise("/chatter", STRING)
-    bridge = Ros2Bridge(bus, calls, node, report=pytest.fail)
+    bridge = NodeBridge(bus, calls, node, report=pytest.fail)
     bus.publish("/chatter", STRING, string("unheard"))
     assert not bus.has_subscribers("/chatter")
     node.published["/chatter"].matched = True
@@ -89,7 +98,7 @@ def test_a_topic_is_encoded_only_while_a_subscriber_is_matched() -> None:
 def test_latched_topics_are_sent_without_waiting_for_a_subscriber() -> None:
     bus, calls, node = Bus(), CallQueue(), RecordedNode()
     bus.publish("/robot_description", STRING, string("<robot/>"))
-    bridge = Ros2Bridge(bus, calls, node, report=pytest.fail)
+    bridge = NodeBridge(bus, calls, node, report=pytest.fail)
     until(lambda: node.published["/robot_description"].sent, calls)
     assert node.published["/robot_description"].quality == Quality(latched=True, depth=1)
     bridge.close()
@@ -100,7 +109,7 @@ def test_commands_reach_the_bus_in_the_thread_of_the_simulation() -> None:
     speeds: list[float] = []
     bus.subscribe("/cmd_vel", TWIST, lambda message: speeds.append(message.linear.x))
     lines: list[str] = []
-    bridge = Ros2Bridge(bus, calls, node, namespace="/r1", report=lines.append)
+    bridge = NodeBridge(bus, calls, node, namespace="/r1", report=lines.append)
     assert not node.published
     node.subscribed["/r1/cmd_vel"](bytes(typestore().serialize_cdr(from_fields(TWIST, {"linear": {"x": 0.5}}), TWIST)))
     assert speeds == []
@@ -115,7 +124,7 @@ def test_commands_reach_the_bus_in_the_thread_of_the_simulation() -> None:
 
 def test_topics_are_followed_and_missing_types_reported_in_one_line() -> None:
     bus, calls, node, lines = Bus(), CallQueue(), RecordedNode(lacks=STRING), list[str]()
-    bridge = Ros2Bridge(bus, calls, node, namespace="/r1", report=lines.append)
+    bridge = NodeBridge(bus, calls, node, namespace="/r1", report=lines.append)
     for name, type in (("/a", STRING), ("/b", STRING), ("/clock", "rosgraph_msgs/msg/Clock"), ("/no-name", TWIST)):
         bus.advertise(name, type)
     bus.advertise("/spawn", "gazebo_msgs/srv/SpawnModel_Request")

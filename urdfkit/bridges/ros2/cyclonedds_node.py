@@ -10,14 +10,18 @@ from collections.abc import Callable, Mapping
 from threading import Thread
 from typing import Any
 
+from urdfkit.bridges.node.node import Done, Quality, UnknownTypeError
+from urdfkit.bridges.ros2.cdr import decode, encode
 from urdfkit.bridges.ros2.cyclonedds_types import hide_type_information, idl_type
 from urdfkit.bridges.ros2.environment import on_this_machine
-from urdfkit.bridges.ros2.node import Quality, UnknownTypeError
+from urdfkit.bridges.service import Service
 from urdfkit.errors import ResourceError
 from urdfkit.messages import typestore
 
 WAIT = 0.5
 """Seconds between two checks whether the node is closed."""
+DISCOVERED = 10_000
+"""Publishers that are listed."""
 BATCH = 100
 """Messages read at once."""
 SILENT = '<CycloneDDS><Domain Id="any"><Tracing><OutputFile>/dev/null</OutputFile></Tracing></Domain></CycloneDDS>'
@@ -43,7 +47,7 @@ class CycloneddsNode:
         ResourceError: the domain cannot be joined.
     """
 
-    description = "cyclonedds"
+    description, ros, option = "cyclonedds", "ROS 2", "--ros2"
 
     def __init__(self, domain: int, environment: Mapping[str, str] = os.environ) -> None:
         from cyclonedds.core import DDSException, WaitSet
@@ -56,6 +60,8 @@ class CycloneddsNode:
         except DDSException as error:
             raise ResourceError(f"cannot join ROS domain {domain}: {error}") from error
         self._entities: list[Any] = []
+        self._discovered: Any = None
+        self._topics: dict[str, str] = {}
         self._readers: tuple[tuple[Any, Callable[[bytes], None]], ...] = ()
         self._received, self._closed = WaitSet(self._participant), False
         self._thread = Thread(target=self._read, name="cyclonedds", daemon=True)
@@ -79,6 +85,27 @@ class CycloneddsNode:
         self._entities += (reader, condition)
         self._readers = (*self._readers, (reader, receive))
         self._received.attach(condition)
+
+    def topics(self) -> dict[str, str]:
+        """Return topic → type of the participants of the domain; they are discovered within a second."""
+        if self._discovered is None:
+            from cyclonedds.builtin import BuiltinDataReader, BuiltinTopicDcpsPublication
+
+            self._discovered = BuiltinDataReader(self._participant, BuiltinTopicDcpsPublication)
+        for sample in self._discovered.read(N=DISCOVERED):
+            if sample.topic_name.startswith("rt/"):
+                self._topics[sample.topic_name[2:]] = sample.type_name.replace("::dds_::", "/").replace("::", "/")[:-1]
+        return dict(sorted(self._topics.items()))
+
+    def serve(self, service: Service, call: Callable[[Any, Done], None]) -> None:
+        """Refuse the service: Cyclone DDS for Python has none.
+
+        Raises:
+            UnknownTypeError: always.
+        """
+        raise UnknownTypeError(f"Cyclone DDS does not serve {service.name}; rclpy does")
+
+    encode, decode = staticmethod(encode), staticmethod(decode)
 
     def close(self) -> None:
         """Leave the domain."""

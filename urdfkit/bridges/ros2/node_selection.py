@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from importlib.util import find_spec
 
+from urdfkit.bridges.node.node import Node
 from urdfkit.bridges.ros2.environment import keep_on_this_machine, ros_domain
-from urdfkit.bridges.ros2.node import Node
 from urdfkit.errors import MissingDependencyError
 
 INSTALL = "--ros2 needs rclpy or Cyclone DDS: source a ROS 2 workspace, or pip install 'urdfkit[ros2]'"
 
 
-def open_node(domain: int | None, namespace: str) -> Node:
+def open_node(domain: int | None, namespace: str, report: Callable[[str], None] = lambda line: None) -> Node:
     """Return a node of the first library that is installed.
 
     Raises:
@@ -23,7 +24,7 @@ def open_node(domain: int | None, namespace: str) -> Node:
     if find_spec("rclpy") is not None:
         from urdfkit.bridges.ros2.rclpy_node import RclpyNode
 
-        return RclpyNode(number, namespace)
+        return RclpyNode(number, namespace, report)
     if find_spec("cyclonedds") is not None:
         from urdfkit.bridges.ros2.cyclonedds_node import CycloneddsNode
 

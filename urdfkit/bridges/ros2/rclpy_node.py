@@ -6,10 +6,13 @@ from collections.abc import Callable
 from contextlib import suppress
 from importlib import import_module
 from importlib.util import find_spec
+from queue import Queue
 from threading import Thread
 from typing import Any
 
-from urdfkit.bridges.ros2.node import Node, Quality, UnknownTypeError, Writer
+from urdfkit.bridges.node.node import Done, Node, Quality, UnknownTypeError, Writer
+from urdfkit.bridges.ros2.cdr import decode, encode
+from urdfkit.bridges.service import Service
 from urdfkit.errors import MissingDependencyError, ResourceError
 
 NAME = "urdfkit"
@@ -25,13 +28,16 @@ class RclpyNode:
     Args:
         domain: the ROS domain.
         namespace: of the node.
+        report: receives lines about services that failed.
 
     Raises:
         MissingDependencyError: rclpy cannot be imported.
         ResourceError: it cannot start.
     """
 
-    def __init__(self, domain: int, namespace: str) -> None:
+    ros, option = "ROS 2", "--ros2"
+
+    def __init__(self, domain: int, namespace: str, report: Callable[[str], None] = lambda line: None) -> None:
         try:
             import rclpy
             from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
@@ -39,6 +45,7 @@ class RclpyNode:
         except ImportError as error:
             reason = str(error).splitlines()[0]
             raise MissingDependencyError(f"this Python cannot import rclpy ({reason}); use that of ROS") from error
+        self._report = report
         self._context = rclpy.Context()
         try:
             rclpy.init(args=[], context=self._context, domain_id=domain, signal_handler_options=SignalHandlerOptions.NO)
@@ -82,6 +89,36 @@ class RclpyNode:
         else:
             self._node.create_subscription(kind, topic, receive, _profile(quality), raw=True)
             self._executor.wake()
+
+    def topics(self) -> dict[str, str]:
+        """Return topic → type of the graph."""
+        found = {name: kinds[0] for name, kinds in self._node.get_topic_names_and_types() if kinds}
+        return found | ({} if self._other is None else self._other.topics())
+
+    def serve(self, service: Service, call: Callable[[Any, Done], None]) -> None:
+        """Serve a service, if its type is installed."""
+        from rclpy.serialization import deserialize_message, serialize_message
+
+        kind = self._type(service.type)
+        if kind is None:
+            raise UnknownTypeError(f"rclpy lacks {service.type}")
+
+        def answer(request: Any, response: Any) -> Any:
+            """Wait for the thread of the simulation."""
+            answers: Queue[tuple[Any, str | None]] = Queue()
+            call(decode(serialize_message(request), service.request), lambda *each: answers.put(each))
+            found, reason = answers.get()
+            if reason is not None:  # a service of ROS 2 has no other way to report a failure than its response
+                self._report(f"{service.name}: {reason}")
+                if hasattr(response, "status_message"):
+                    response.status_message = reason
+                return response
+            return deserialize_message(encode(found, service.response), type(response))
+
+        self._node.create_service(kind, service.name, answer)
+        self._executor.wake()
+
+    encode, decode = staticmethod(encode), staticmethod(decode)
 
     def close(self) -> None:
         """Leave the graph."""

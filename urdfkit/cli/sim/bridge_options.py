@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 from typing import TYPE_CHECKING
 
-from urdfkit.cli.sim.ros2_options import add_ros2, ros2_options
+from urdfkit.cli.sim.ros_options import add_ros, ros_options
 from urdfkit.errors import UsageError
 
 if TYPE_CHECKING:
@@ -44,7 +44,7 @@ def add_bridges(parser: argparse.ArgumentParser) -> None:
         metavar="ORIGIN",
         help="accept web pages of this origin, e.g. https://example.org (repeatable; default: pages of this machine)",
     )
-    add_ros2(parser)
+    add_ros(parser)
 
 
 def bridge_options(arguments: argparse.Namespace) -> BridgeOptions:
@@ -60,7 +60,7 @@ def bridge_options(arguments: argparse.Namespace) -> BridgeOptions:
         rosbridge=arguments.rosbridge,
         foxglove=arguments.foxglove,
         origins=arguments.allow_origin,
-        ros2=ros2_options(arguments),
+        ros=ros_options(arguments),
     )
     if arguments.allow_origin and options.rosbridge is None and options.foxglove is None:
         raise UsageError("--allow-origin requires --rosbridge or --foxglove")

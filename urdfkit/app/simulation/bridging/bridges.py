@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 from urdfkit.app.page import note
 from urdfkit.app.simulation.bridging.description_text import DESCRIPTION, publish_description
-from urdfkit.app.simulation.bridging.ros2_connection import Ros2Options, connect_to_ros2
+from urdfkit.app.simulation.bridging.ros_connection import RosOptions, connect_to_ros
 from urdfkit.app.simulation.bridging.services import Controls, simulation_services
 from urdfkit.bridges.bridge import Bridges
 from urdfkit.bridges.graph import Graph
@@ -29,17 +29,17 @@ class BridgeOptions:
         rosbridge: address of the rosbridge server; None for no server.
         foxglove: address of the Foxglove server; None for no server.
         origins: origins of web pages that may connect, in addition to pages of this machine.
-        ros2: options of the connection with ROS 2; None for no connection.
+        ros: options of the connections with ROS; None for no connection.
     """
 
     rosbridge: Address | None = None
     foxglove: Address | None = None
     origins: Sequence[str] = ()
-    ros2: Ros2Options | None = None
+    ros: RosOptions | None = None
 
     def __bool__(self) -> bool:
         """Whether a bridge is started."""
-        return any(each is not None for each in (self.rosbridge, self.foxglove, self.ros2))
+        return any(each is not None for each in (self.rosbridge, self.foxglove, self.ros))
 
 
 @contextmanager
@@ -56,7 +56,7 @@ def bridged(
 
     Raises:
         UsageError: a port is in use.
-        ResourceError: the graph of ROS 2 cannot be joined.
+        ResourceError: a graph of ROS cannot be joined.
     """
     bridges = Bridges()
     if not options:
@@ -83,8 +83,8 @@ def bridged(
             )
             bridges.add(foxglove)
             _announce("foxglove", foxglove)
-        if options.ros2 is not None:
-            connect_to_ros2(simulator, options.ros2, bridges, report)
+        if options.ros is not None:
+            connect_to_ros(simulator, options.ros, bridges, services, report)
         yield bridges
     finally:
         bridges.close()

@@ -1,16 +1,18 @@
-"""Ros2Bridge: the topics of a simulation on the graph of ROS 2, and the commands of its nodes in the simulation."""
+"""NodeBridge: the topics of a simulation on the graph of ROS, and the commands of its nodes in the simulation."""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
+from types import MappingProxyType
+from typing import Any
 
 from urdfkit.bridges.bridge import CallQueue, message_topics, publish_received
-from urdfkit.bridges.ros2.node import Node, Quality, UnknownTypeError, publisher_quality
-from urdfkit.bridges.ros2.published_topics import OutputThread
+from urdfkit.bridges.node.node import Done, Node, Quality, UnknownTypeError, publisher_quality
+from urdfkit.bridges.node.published_topics import OutputThread
+from urdfkit.bridges.service import Service, respond
 from urdfkit.bus import Bus, Topic, absolute
 from urdfkit.errors import UsageError
-from urdfkit.messages import typestore
 
 GLOBAL = ("/clock", "/tf", "/tf_static")
 """Topics without the namespace: nodes in a namespace use them under these names too."""
@@ -21,36 +23,48 @@ def check_namespace(namespace: str) -> str:
     """Return a namespace with a leading slash, or nothing for the root.
 
     Raises:
-        UsageError: it is no valid namespace in ROS 2.
+        UsageError: it is no valid namespace in ROS.
     """
     name = absolute(namespace)
     if name == "/":
         return ""
     if not VALID_NAME.fullmatch(name):
-        raise UsageError(f"--namespace is `{namespace}`; ROS 2 permits letters, digits and underscores between slashes")
+        raise UsageError(f"--namespace is `{namespace}`; ROS permits letters, digits and underscores between slashes")
     return name
 
 
-class Ros2Bridge:
-    """Publishes the topics of a simulation on ROS 2, and subscribes to its topics for commands.
+class NodeBridge:
+    """Publishes the topics of a simulation on a graph, and subscribes to its topics for commands.
 
     Args:
         bus: of the simulation.
         calls: of the simulation.
         node: on the graph.
+        services: that nodes can call, if the node can serve them.
         namespace: before the names of the topics, from `check_namespace`.
         report: receives lines about topics and messages that cannot be used, each once.
+
+    Attributes:
+        served: number of the services that nodes can call.
     """
 
     def __init__(
-        self, bus: Bus, calls: CallQueue, node: Node, *, namespace: str = "", report: Callable[[str], None]
+        self,
+        bus: Bus,
+        calls: CallQueue,
+        node: Node,
+        *,
+        services: Mapping[str, Service] = MappingProxyType({}),
+        namespace: str = "",
+        report: Callable[[str], None],
     ) -> None:
         self._bus, self._calls, self._node, self._namespace = bus, calls, node, namespace
         self._report_line = report
         self._reported: set[str] = set()
         self._seen: set[str] = set()
         self._closed = False
-        self._outputs = OutputThread(calls, self._report)
+        self._outputs = OutputThread(calls, node, self._report)
+        self.served = sum(self._serve(service) for service in services.values())
         self.update()
 
     def update(self) -> None:
@@ -65,14 +79,14 @@ class Ros2Bridge:
                 continue
             name = topic.name if topic.name in GLOBAL else self._namespace + topic.name
             if not VALID_NAME.fullmatch(name):
-                self._report(f"`{name}` is no valid topic name in ROS 2; it is not bridged")
+                self._report(f"`{name}` is no valid topic name in {self._node.ros}; it is not bridged")
                 continue
             try:
                 self._follow(topic, name)
             except UnknownTypeError as error:
                 missing.setdefault(str(error), []).append(name)
         for reason, names in missing.items():
-            self._report(f"{', '.join(names)}: not on ROS 2; {reason}")
+            self._report(f"{', '.join(names)}: not on {self._node.ros}; {reason}")
 
     def close(self) -> None:
         """Leave the graph."""
@@ -88,12 +102,23 @@ class Ros2Bridge:
             quality = publisher_quality(name)
             self._outputs.add(self._bus, topic, self._node.writer(name, topic.type, quality), quality)
 
+    def _serve(self, service: Service) -> bool:
+        def call(request: Any, done: Done) -> None:
+            if not self._calls.add(lambda: respond(service, request, done)):
+                done(None, "too many calls wait for the simulation")
+
+        try:
+            self._node.serve(service, call)
+        except UnknownTypeError:
+            return False
+        return True
+
     def _receiver(self, topic: Topic) -> Callable[[bytes], None]:
-        name, type, bus = topic.name, topic.type, self._bus
+        name, type, bus, node = topic.name, topic.type, self._bus, self._node
 
         def receive(data: bytes) -> None:
             try:
-                message = typestore().deserialize_cdr(data, type)
+                message = node.decode(data, type)
             except Exception as error:  # of a malformed message, by several classes
                 self._report(f"`{name}`: a message that is no {type} was dropped ({error})")
                 return

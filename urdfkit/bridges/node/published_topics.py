@@ -8,9 +8,8 @@ from threading import Event, Thread
 from typing import Any
 
 from urdfkit.bridges.bridge import CallQueue
-from urdfkit.bridges.ros2.node import Quality, Writer
+from urdfkit.bridges.node.node import Node, Quality, Writer
 from urdfkit.bus import Bus, Subscription, Topic
-from urdfkit.messages import typestore
 
 MATCH_PERIOD = 0.05
 """Seconds between two checks for subscribers."""
@@ -22,16 +21,23 @@ class PublishedTopic:
     Args:
         bus: of the simulation.
         topic: of the bus.
+        node: encodes the messages.
         writer: its publisher.
         quality: of the publisher.
         ready: receives the output for each message.
     """
 
     def __init__(
-        self, bus: Bus, topic: Topic, writer: Writer, quality: Quality, ready: Callable[[PublishedTopic], None]
+        self,
+        bus: Bus,
+        topic: Topic,
+        node: Node,
+        writer: Writer,
+        quality: Quality,
+        ready: Callable[[PublishedTopic], None],
     ) -> None:
         self.writer, self.is_latched, self.was_matched = writer, quality.latched, False
-        self._bus, self._topic, self._ready = bus, topic, ready
+        self._bus, self._topic, self._node, self._ready = bus, topic, node, ready
         self._pending: deque[Any] = deque(maxlen=quality.depth)
         self._subscription: Subscription | None = None
         if quality.latched:
@@ -54,7 +60,7 @@ class PublishedTopic:
         """Encode and publish the oldest message that waits, if it was not replaced by newer ones."""
         if self._pending:
             message = self._pending.popleft()
-            self.writer.publish(bytes(typestore().serialize_cdr(message, self._topic.type)))
+            self.writer.publish(self._node.encode(message, self._topic.type))
 
     def _receive(self, message: Any) -> None:
         self._pending.append(message)
@@ -66,20 +72,21 @@ class OutputThread:
 
     Args:
         calls: of the simulation.
+        node: on the graph.
         report: receives a line if a message cannot be sent.
     """
 
-    def __init__(self, calls: CallQueue, report: Callable[[str], None]) -> None:
-        self._calls, self._report = calls, report
+    def __init__(self, calls: CallQueue, node: Node, report: Callable[[str], None]) -> None:
+        self._calls, self._node, self._report = calls, node, report
         self._outputs: tuple[PublishedTopic, ...] = ()
         self._ready: deque[PublishedTopic] = deque()
         self._wake, self._stopped = Event(), False
-        self._thread = Thread(target=self._run, name="ros2", daemon=True)
+        self._thread = Thread(target=self._run, name="ros-output", daemon=True)
         self._thread.start()
 
     def add(self, bus: Bus, topic: Topic, writer: Writer, quality: Quality) -> None:
         """Publish a topic."""
-        self._outputs = (*self._outputs, PublishedTopic(bus, topic, writer, quality, self._notify))
+        self._outputs = (*self._outputs, PublishedTopic(bus, topic, self._node, writer, quality, self._notify))
 
     def close(self) -> None:
         """End the subscriptions and the thread."""
@@ -110,7 +117,7 @@ class OutputThread:
                     output.send()
                 except Exception as error:  # of a middleware; the simulation continues
                     self._stopped = True
-                    self._report(f"--ros2 stops publishing: {str(error).splitlines()[0]}")
+                    self._report(f"{self._node.option} stops publishing: {str(error).splitlines()[0]}")
             if self._ready:
                 self._wake.set()
 

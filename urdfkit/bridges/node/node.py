@@ -1,17 +1,21 @@
-"""Node: interface of a node of ROS 2 to a bridge, which exchanges messages in CDR."""
+"""Node: interface of a node of ROS 1 or ROS 2 to bridges and commands."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Protocol
+from typing import Any, Protocol
 
 from urdfkit.bridges.bridge import is_latched
+from urdfkit.bridges.service import Service
 from urdfkit.errors import MissingDependencyError
 
 DEPTH = 10
 """Messages that a publisher keeps for a slow subscriber, as ROS's own default."""
 CLOCK = "/clock"
+
+Done = Callable[[Any, "str | None"], None]
+"""Receives the response of a service, or None and the reason."""
 
 
 class UnknownTypeError(MissingDependencyError):
@@ -43,24 +47,33 @@ def publisher_quality(topic: str) -> Quality:
     return Quality(reliable=False, depth=1) if topic == CLOCK else Quality()
 
 
+def subscription_quality(topic: str) -> Quality:
+    """Return the quality of a subscription that accepts publishers of every kind."""
+    return Quality(latched=True, depth=100) if is_latched(topic) else Quality(reliable=False)
+
+
 class Writer(Protocol):
     """Publisher of one topic."""
 
     def publish(self, data: bytes) -> None:
-        """Publish a message in CDR, with its header of four bytes; does not wait for a subscriber."""
+        """Publish an encoded message; does not wait for a subscriber."""
 
     def is_matched(self) -> bool:
         """Return whether there is a subscriber."""
 
 
 class Node(Protocol):
-    """A node of ROS 2, used by any thread.
+    """A node on the graph, used by any thread.
 
     Attributes:
         description: the library, for the user.
+        ros: ``ROS 1`` or ``ROS 2``.
+        option: the option that opened it, such as ``--ros2``.
     """
 
     description: str
+    ros: str
+    option: str
 
     def writer(self, topic: str, type: str, quality: Quality) -> Writer:
         """Create a publisher.
@@ -70,10 +83,26 @@ class Node(Protocol):
         """
 
     def subscribe(self, topic: str, type: str, quality: Quality, receive: Callable[[bytes], None]) -> None:
-        """Call `receive`, in a thread of the library, with each message in CDR.
+        """Call `receive`, in a thread of the library, with each encoded message.
 
         Raises:
             UnknownTypeError: the library lacks the type.
+        """
+
+    def encode(self, message: Any, type: str) -> bytes:
+        """Return a message as the graph transmits it."""
+
+    def decode(self, data: bytes, type: str) -> Any:
+        """Return a transmitted message; raises errors of several classes if it is malformed."""
+
+    def topics(self) -> dict[str, str]:
+        """Return topic → type of the graph."""
+
+    def serve(self, service: Service, call: Callable[[Any, Done], None]) -> None:
+        """Serve a service; `call` receives each request and what sends its response.
+
+        Raises:
+            UnknownTypeError: the library lacks the type, or services.
         """
 
     def close(self) -> None:

@@ -1,0 +1,126 @@
+"""`--ros1` seen by Debian's rospy and rosbag, and by a master that disappears."""
+
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from threading import Thread
+from typing import Any
+
+import pytest
+
+from tests.bridges.ros1.conftest import Master, debian_environment
+from tests.time_limit import PATIENCE
+from urdfkit.app.simulation.bridging.bridges import BridgeOptions, bridged
+from urdfkit.app.simulation.bridging.real_time import RunControls, advance_in_real_time
+from urdfkit.app.simulation.bridging.ros_connection import RosOptions
+from urdfkit.bridges.bag_file import BagFile
+from urdfkit.bridges.node.node import Quality
+from urdfkit.bridges.ros1.ros1_node import Ros1Node
+from urdfkit.cli import main
+from urdfkit.messages import from_fields
+from urdfkit.sim import Simulator
+
+pytestmark = pytest.mark.rospy
+STRING = "std_msgs/msg/String"
+
+
+@contextmanager
+def on_ros1(simulator: Simulator, lines: list[str]) -> Iterator[None]:
+    """Simulate in real time with ``--ros1`` until the end of the block."""
+    stopped: list[bool] = []
+    controls = RunControls(simulator)
+    with bridged(simulator, BridgeOptions(ros=RosOptions(ros1=True)), controls, lines.append) as bridges:
+        thread = Thread(target=advance_in_real_time, args=(simulator, bridges, lambda: bool(stopped)))
+        thread.start()
+        try:
+            yield
+        finally:
+            stopped.append(True)
+            thread.join()
+
+
+def until(condition: Any) -> None:
+    end = time.monotonic() + PATIENCE
+    while not condition():
+        assert time.monotonic() < end, "the condition did not become true in time"
+        time.sleep(0.02)
+
+
+@pytest.mark.slow
+def test_a_rospy_node_drives_the_robot_a_metre_and_rosbag_records_it(master: Master, tmp_path: Path) -> None:
+    bag, lines = tmp_path / "run.bag", list[str]()
+    topics = ["/simpleton/odom", "/tf", "/tf_static", "/clock"]
+    with on_ros1(Simulator("simpleton"), lines):
+        record = ["/usr/lib/rosbag/record", "-O", str(bag), *topics]
+        recorder = subprocess.Popen(record, env=debian_environment(master.uri), stdout=subprocess.DEVNULL)
+        try:
+            node = ["/usr/bin/python3", str(Path(__file__).parent / "rospy_node.py")]
+            done = subprocess.run(
+                node, env=debian_environment(master.uri), capture_output=True, text=True, timeout=PATIENCE, check=False
+            )
+        finally:
+            recorder.terminate()
+            recorder.wait(PATIENCE)
+    assert done.returncode == 0, done.stderr
+    seen = json.loads(done.stdout.splitlines()[-1])
+    assert seen["driven"] > 1.0 > 0.5 > seen["x"]
+    assert seen["stamps"] > 10
+    assert seen["description"] == seen["parameter"] == "</robot>"
+    assert "camera" in seen["links"]
+    assert (seen["width"], seen["K"][8]) == (800, 1.0)
+    assert {"/gazebo/reset_simulation", "/gazebo/spawn_sdf_model"} <= set(seen["services"])
+    assert seen["type"] == "gazebo_msgs/SpawnModel"
+    with BagFile(bag) as recorded:
+        assert {each.name for each in recorded.topics} == set(topics)
+        last = [recorded.message(each) for each in recorded.messages(topics=["/simpleton/odom"])]
+    assert max(each.pose.pose.position.x for each in last) > 1.0
+    assert lines == []
+
+
+def test_nodes_find_each_other_and_again_after_the_master_was_gone(master: Master) -> None:
+    lines, received = list[str](), list[Any]()
+    first, second = Ros1Node(report=lines.append), Ros1Node(name="/other", report=lines.append)
+    try:
+        writer = first.writer("/chatter", STRING, Quality(latched=True))
+        writer.publish(first.encode(from_fields(STRING, {"data": "early"}), STRING))
+        second.subscribe("/chatter", STRING, Quality(), lambda data: received.append(second.decode(data, STRING)))
+        until(lambda: received)
+        assert received[0].data == "early"
+        assert second.topics() == {"/chatter": STRING}
+        master.stop()
+        until(lambda: lines)
+        assert lines[0] == f"ros1: the master at {master.uri} is gone; the simulation continues"
+        writer.publish(first.encode(from_fields(STRING, {"data": "alone"}), STRING))
+        until(lambda: len(received) == 2)
+        master.start()
+        until(lambda: "ros1: the master is back" in lines)
+        until(lambda: second.topics() == {"/chatter": STRING})
+    finally:
+        second.close()
+        first.close()
+
+
+def test_a_node_with_another_type_is_refused_in_one_line(master: Master) -> None:
+    lines = list[str]()
+    first, second = Ros1Node(), Ros1Node(name="/other", report=lines.append)
+    try:
+        first.writer("/chatter", STRING, Quality())
+        second.subscribe("/chatter", "std_msgs/msg/Bool", Quality(), lambda data: None)
+        until(lambda: lines)
+    finally:
+        second.close()
+        first.close()
+    assert "has type std_msgs/String" in lines[0]
+
+
+def test_without_a_master_one_line_says_so(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+    monkeypatch.setitem(os.environ, "ROS_MASTER_URI", "http://127.0.0.1:9")
+    assert main(["sim", "run", "simpleton", "--for", "0.01", "--ros1"]) == 2
+    line = capsys.readouterr().err.splitlines()[-1]
+    assert line.startswith("urdfkit: no ROS master at http://127.0.0.1:9: start roscore, or set ROS_MASTER_URI")

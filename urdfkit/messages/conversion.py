@@ -1,0 +1,49 @@
+"""Conversion of messages between two sets of types, such as those of ROS 1 and ROS 2, by the names of their fields."""
+
+from __future__ import annotations
+
+from typing import Any
+
+ZERO: dict[str, Any] = {"string": "", "wstring": "", "bool": False, "float32": 0.0, "float64": 0.0}
+"""Base type → value of a missing field; 0 for others."""
+
+
+def converted(message: Any, type: str, store: Any) -> Any:
+    """Return a message as the class that a typestore has for its type; arrays of numbers are not copied.
+
+    Upper and lower case of fields do not matter; fields that the message lacks are zero or empty, and those that the
+    type lacks are left out.
+
+    Args:
+        message: of any class with the fields.
+        type: e.g. ``sensor_msgs/msg/CameraInfo``.
+        store: a typestore of rosbags.
+    """
+    kind = store.types[type]
+    if isinstance(message, kind):
+        return message
+    values = {}
+    for name, (node, details) in store.fielddefs[type][1]:
+        value = getattr(message, name, None)
+        if value is None:
+            value = getattr(message, name.swapcase(), None)
+        values[name] = _value(value, int(node), details, store)
+    return kind(**values)
+
+
+def _value(value: Any, node: int, details: Any, store: Any) -> Any:
+    """Return the value of a field by rosbags' description of it: (node type, details)."""
+    if node == 2:
+        return converted(value, details, store)
+    if node == 1:
+        return ZERO.get(details[0], 0) if value is None else value
+    inner, length = details
+    if int(inner[0]) == 2:
+        entries = [None] * (length if node == 3 else 0) if value is None else value
+        return [converted(each, inner[1], store) for each in entries]
+    if value is None:
+        import numpy as np
+
+        base = inner[1][0]
+        return [] if base == "string" else np.zeros(length if node == 3 else 0, dtype=base)
+    return value
