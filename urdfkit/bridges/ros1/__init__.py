@@ -1,4 +1,5 @@
-"""A node of ROS 1 without rospy: the XML-RPC of the master and of nodes, and messages by TCPROS.
+"""A node of ROS 1 without rospy.
 
-https://wiki.ros.org/ROS/Technical%20Overview
+It speaks XML-RPC with the master and with other nodes, and TCPROS for messages and services:
+https://wiki.ros.org/ROS/Technical%20Overview.
 """
