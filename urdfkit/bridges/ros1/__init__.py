@@ -1,5 +1,5 @@
 """A node of ROS 1 without rospy.
 
-It speaks XML-RPC with the master and with other nodes, and TCPROS for messages and services:
+It uses XML-RPC with the master and with other nodes, and TCPROS for messages and services:
 https://wiki.ros.org/ROS/Technical%20Overview.
 """

@@ -13,11 +13,11 @@ from xmlrpc.client import Error
 from urdfkit.bridges.node.node import Done, Quality, UnknownTypeError
 from urdfkit.bridges.ros1.environment import bind_host, is_remote, master_uri, own_host
 from urdfkit.bridges.ros1.node_functions import NodeFunctions
-from urdfkit.bridges.ros1.publication import Publication
 from urdfkit.bridges.ros1.ros1_types import ANY, decode, definition, encode, full_name, register, ros1_name
 from urdfkit.bridges.ros1.service_server import ServiceServer
-from urdfkit.bridges.ros1.subscription import Subscription
 from urdfkit.bridges.ros1.tcpros import TIMEOUT, TcprosError, read_header, write_header
+from urdfkit.bridges.ros1.topic_publisher import TopicPublisher
+from urdfkit.bridges.ros1.topic_subscriber import TopicSubscriber
 from urdfkit.bridges.ros1.xml_rpc import NodeServer, call
 from urdfkit.bridges.service import Service
 from urdfkit.errors import ResourceError, UsageError
@@ -55,8 +55,8 @@ class Ros1Node:
         self.name, self.report = name, report
         self.uri = master_uri(master, environment)
         self._closed = Event()
-        self._publications: dict[str, Publication] = {}
-        self._subscriptions: dict[str, Subscription] = {}
+        self._publications: dict[str, TopicPublisher] = {}
+        self._subscriptions: dict[str, TopicSubscriber] = {}
         self._services: dict[str, ServiceServer] = {}
         self._call_master("getPid")  # before anything is opened
         host = bind_host(environment)
@@ -73,9 +73,9 @@ class Ros1Node:
         elif host != "127.0.0.1":
             report("warning: everyone on the network can read and publish all topics of ROS 1; it is not encrypted")
 
-    def writer(self, topic: str, type: str, quality: Quality) -> Publication:
+    def writer(self, topic: str, type: str, quality: Quality) -> TopicPublisher:
         """Create a publisher."""
-        made = self._publications[topic] = Publication(self.name, topic, definition(type), quality)
+        made = self._publications[topic] = TopicPublisher(self.name, topic, definition(type), quality)
         self._call_master("registerPublisher", topic, ros1_name(type), self._api)
         return made
 
@@ -93,7 +93,7 @@ class Ros1Node:
                 except UsageError as error:
                     raise TcprosError(str(error)) from error
 
-        made = Subscription(self.name, topic, expected, receive, connected, self.report)
+        made = TopicSubscriber(self.name, topic, expected, receive, connected, self.report)
         self._subscriptions[topic] = made
         made.follow(self._call_master("registerSubscriber", topic, expected[0], self._api))
 

@@ -1,4 +1,4 @@
-"""Subscription: one topic that this node receives, with a thread for each publisher."""
+"""TopicSubscriber: one topic that this node receives, with a thread for each publisher."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from urdfkit.bridges.ros1.xml_rpc import call
 Receive = Callable[[bytes], None]
 
 
-class Subscription:
+class TopicSubscriber:
     """Subscriber to one topic.
 
     Args:

@@ -1,4 +1,4 @@
-"""Publication: one topic that this node publishes, with a queue and a thread for each subscriber."""
+"""TopicPublisher: one topic that this node publishes, with a queue and a thread for each subscriber."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from urdfkit.bridges.ros1.ros1_types import ANY, Definition
 from urdfkit.bridges.ros1.tcpros import LENGTH, TcprosError, write_header
 
 
-class Publication:
+class TopicPublisher:
     """Publisher of one topic.
 
     Args:
