@@ -11,8 +11,8 @@ ZERO: dict[str, Any] = {"string": "", "wstring": "", "bool": False, "float32": 0
 def converted(message: Any, type: str, store: Any) -> Any:
     """Return a message as the class that a typestore has for its type; arrays of numbers are not copied.
 
-    Upper and lower case of fields do not matter; fields that the message lacks are zero or empty, and those that the
-    type lacks are left out.
+    Upper and lower case of fields do not matter; missing fields are zero or empty, and further ones are
+    dropped.
 
     Args:
         message: of any class with the fields.

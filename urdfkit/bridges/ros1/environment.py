@@ -36,7 +36,7 @@ def own_host(environment: Mapping[str, str] = os.environ) -> str:
 
 
 def bind_host(environment: Mapping[str, str] = os.environ) -> str:
-    """Return the address to listen on: all interfaces if other machines know this one by name, else the loopback."""
+    """Return the address to listen on: all interfaces if this machine has a name in the network, else the loopback."""
     return "127.0.0.1" if is_loopback(own_host(environment)) else "0.0.0.0"
 
 

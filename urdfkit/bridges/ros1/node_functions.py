@@ -13,7 +13,7 @@ Answer = tuple[int, str, Any]
 
 
 class Announced(Protocol):
-    """What a node tells others about itself.
+    """State of a node that others can request.
 
     Attributes:
         name: of the node.

@@ -38,7 +38,7 @@ class Ros1Node:
         environment: variables of the process.
 
     Raises:
-        UsageError: the address is none.
+        UsageError: the address is invalid.
         ResourceError: no master runs there.
     """
 
@@ -106,7 +106,7 @@ class Ros1Node:
     encode, decode = staticmethod(encode), staticmethod(decode)
 
     def topics(self) -> dict[str, str]:
-        """Return topic → type of the topics that the master knows."""
+        """Return topic → type of the topics of the master."""
         return {name: full_name(type) for name, type in sorted(self._call_master("getTopicTypes"))}
 
     def serve(self, service: Service, call: Callable[[Any, Done], None]) -> None:

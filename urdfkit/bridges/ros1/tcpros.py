@@ -33,7 +33,7 @@ def read_header(connection: socket.socket) -> dict[str, str]:
     """Return the connection header of a peer.
 
     Raises:
-        TcprosError: it is none, or reports an error.
+        TcprosError: it is malformed, or reports an error.
     """
     content = read_block(connection, MAX_HEADER)
     found: dict[str, str] = {}

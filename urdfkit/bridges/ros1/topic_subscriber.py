@@ -41,7 +41,7 @@ class TopicSubscriber:
         self._lock = Lock()
 
     def follow(self, publishers: Sequence[str]) -> None:
-        """Connect to new publishers, and disconnect from those that are not in the list.
+        """Connect to new publishers, and disconnect from publishers outside the list.
 
         Args:
             publishers: addresses of nodes.

@@ -29,7 +29,7 @@ def call(uri: str, function: str, *arguments: Any) -> Any:
 
     Raises:
         OSError: nothing answers within `TIMEOUT`.
-        xmlrpc.client.Error: the answer reports a failure, or is none.
+        xmlrpc.client.Error: the answer reports a failure, or is malformed.
     """
     with ServerProxy(uri, transport=_TimedTransport()) as proxy:
         answer: Any = getattr(proxy, function)(*arguments)
