@@ -61,13 +61,16 @@ def _store() -> Any:
     from urdfkit.messages.sensors import SENSOR_MESSAGES
     from urdfkit.messages.services import SERVICE_MESSAGES
     from urdfkit.messages.simulation import WORLD_MESSAGES
+    from urdfkit.messages.simulation_interfaces import SIMULATION_INTERFACES
     from urdfkit.messages.vision import VISION_MESSAGES
 
     try:
         from rosbags.typesys import Stores, get_types_from_msg, get_typestore
     except ImportError:
         return None
-    definitions_by_name = CONTROL_MESSAGES | WORLD_MESSAGES | SENSOR_MESSAGES | VISION_MESSAGES | SERVICE_MESSAGES
+    definitions_by_name = (
+        CONTROL_MESSAGES | WORLD_MESSAGES | SENSOR_MESSAGES | VISION_MESSAGES | SERVICE_MESSAGES | SIMULATION_INTERFACES
+    )
     store = get_typestore(Stores.ROS2_HUMBLE)
     definitions: dict[str, Any] = {}
     for name, text in definitions_by_name.items():

@@ -26,9 +26,10 @@ from urdfkit.messages.simulation import (
 )
 from urdfkit.sim.plugins.builtin_publishers import Publication
 from urdfkit.sim.state.poses import pose_from
-from urdfkit.sim.state.quaternion import product, rotate
+from urdfkit.sim.state.quaternion import rotate
 from urdfkit.sim.state.robot_state import State
 from urdfkit.sim.world.live_world import LiveWorld
+from urdfkit.sim.world.pose_messages import composed, point_in_frame, pose_message, seven_of, six_of, three
 from urdfkit.sim.world.spawn_requests import SpawnRequest, spawn_request, spawn_request_of_text
 
 Note = Callable[[str], None]
@@ -86,21 +87,21 @@ class _Services:
 
     def set_model_state(self, message: Any) -> None:
         """Place a model with a velocity, in the frame of a model or link if one is named."""
-        pose, twist = _seven(message.pose), _six(message.twist)
+        pose, twist = seven_of(message.pose), six_of(message.twist)
         frame = message.reference_frame
         if frame not in ("", "world", "map"):
             around = self._pose(frame)
             turn = around[3:]
-            pose = _composed(around, pose)
+            pose = composed(around, pose)
             twist = (*rotate(turn, twist[:3]), *rotate(turn, twist[3:]))
         self._world.place(message.model_name, pose_from(pose), twist)
 
     def spawn_model(self, message: Any) -> None:
         """Spawn the model of a document."""
         request = spawn_request_of_text(message.model_xml, self._world.package_path)
-        pose = _seven(message.initial_pose)
+        pose = seven_of(message.initial_pose)
         if message.reference_frame not in ("", "world", "map"):
-            pose = _composed(self._pose(message.reference_frame), pose)
+            pose = composed(self._pose(message.reference_frame), pose)
         self._spawn(request, message.model_name, pose)
 
     def delete_model(self, message: Any) -> None:
@@ -111,16 +112,16 @@ class _Services:
         """Push a body from a given time for a given duration, in the axes and at a point of a named frame."""
         world, frame = self._world, message.reference_frame
         force, torque, point = (
-            _three(message.wrench.force),
-            _three(message.wrench.torque),
-            _three(message.reference_point),
+            three(message.wrench.force),
+            three(message.wrench.torque),
+            three(message.reference_point),
         )
         body = self._pose(message.body_name)
         if frame not in ("", "world", "map"):
             around = self._pose(frame)
             force, torque = rotate(around[3:], force), rotate(around[3:], torque)
-            point_in_world = _composed(around, (*point, 0.0, 0.0, 0.0, 1.0))
-            point = _inverted(body, point_in_world[:3])
+            point_in_world = composed(around, (*point, 0.0, 0.0, 0.0, 1.0))
+            point = point_in_frame(body, point_in_world[:3])
         elif any(point):
             # Without a frame, gazebo_ros interprets the point relative to the body's origin, in world axes.
             point = rotate((-body[3], -body[4], -body[5], body[6]), point)
@@ -155,7 +156,7 @@ class _Services:
         name = message.name or request.source.name
         if message.allow_renaming:
             name = self._world.free_name(name)
-        self._spawn(request, name, _seven(message.pose))
+        self._spawn(request, name, seven_of(message.pose))
 
     def remove(self, message: Any) -> None:
         """Remove a model."""
@@ -163,7 +164,7 @@ class _Services:
 
     def set_pose(self, message: Any) -> None:
         """Place a model; its velocity is unchanged, as in gz."""
-        self._world.place(message.entity.name, pose_from(_seven(message.pose)))
+        self._world.place(message.entity.name, pose_from(seven_of(message.pose)))
 
     def wrench(self, message: Any) -> None:
         """Push a link for one step."""
@@ -178,7 +179,7 @@ class _Services:
         self._world.release(message.name)
 
     def _push(self, message: Any, seconds: float | None) -> None:
-        force, torque = _three(message.wrench.force), _three(message.wrench.torque)
+        force, torque = three(message.wrench.force), three(message.wrench.torque)
         self._world.push(message.entity.name, force, torque, for_seconds=seconds)
 
     def _spawn(self, request: SpawnRequest, name: str, pose: Sequence[float]) -> None:
@@ -210,41 +211,9 @@ class ModelStates(Publication):
         states = [(world.pose(name), world.twist(name)) for name in names]
 
         def build() -> Any:
-            poses = [_pose_message(pose) for pose, _ in states]
+            poses = [pose_message(pose) for pose, _ in states]
             twist = message_type("geometry_msgs/msg/Twist")
             twists = [twist(vector(each[:3]), vector(each[3:])) for _, each in states]
             return message_type(MODEL_STATES)(list(names), poses, twists)
 
         return build
-
-
-def _pose_message(pose: Sequence[float]) -> Any:
-    point = message_type("geometry_msgs/msg/Point")(*map(float, pose[:3]))
-    quaternion = message_type("geometry_msgs/msg/Quaternion")(*map(float, pose[3:]))
-    return message_type("geometry_msgs/msg/Pose")(point, quaternion)
-
-
-def _three(message: Any) -> tuple[float, float, float]:
-    return float(message.x), float(message.y), float(message.z)
-
-
-def _six(twist: Any) -> tuple[float, ...]:
-    return (*_three(twist.linear), *_three(twist.angular))
-
-
-def _seven(pose: Any) -> tuple[float, ...]:
-    """Return a pose; a quaternion of zeros, the default of messages, is the identity."""
-    q = pose.orientation
-    turn = (float(q.x), float(q.y), float(q.z), float(q.w))
-    return (*_three(pose.position), *(turn if any(turn) else (0.0, 0.0, 0.0, 1.0)))
-
-
-def _composed(outer: Sequence[float], inner: Sequence[float]) -> tuple[float, ...]:
-    x, y, z = rotate(outer[3:], inner[:3])
-    return outer[0] + x, outer[1] + y, outer[2] + z, *product(outer[3:], inner[3:])
-
-
-def _inverted(frame: Sequence[float], point: Sequence[float]) -> tuple[float, float, float]:
-    """Return a point of the world in a frame."""
-    x, y, z, w = frame[3:]
-    return rotate((-x, -y, -z, w), [a - b for a, b in zip(point, frame[:3], strict=True)])

@@ -8,9 +8,10 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from urdfkit.app.page import note
+from urdfkit.app.simulation.bridging.controls import Controls
 from urdfkit.app.simulation.bridging.description_text import DESCRIPTION, publish_description
 from urdfkit.app.simulation.bridging.ros_connection import RosOptions, connect_to_ros
-from urdfkit.app.simulation.bridging.services import Controls, simulation_services
+from urdfkit.app.simulation.bridging.services import simulation_services
 from urdfkit.bridges.bridge import Bridges
 from urdfkit.bridges.graph import Graph
 from urdfkit.description.packages.resolver import Packages

@@ -1,10 +1,12 @@
-"""Services of a simulation for the peers of bridges, by the names and types of Gazebo Classic and gz."""
+"""Services of a simulation for the peers of bridges, by the names and types of Gazebo Classic, gz and the standard."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any, Protocol
+from typing import Any
 
+from urdfkit.app.simulation.bridging.controls import Controls
+from urdfkit.app.simulation.bridging.simulation_interfaces import standard_services
 from urdfkit.bridges.service import Service, response
 from urdfkit.errors import SimulationError, UrdfkitError
 from urdfkit.sim.simulator import Simulator
@@ -14,16 +16,6 @@ MOST_STEPS = 10_000
 """Steps of one request."""
 
 Act = Callable[[Any], object]
-
-
-class Controls(Protocol):
-    """What pauses and resets a running simulation."""
-
-    def reset(self) -> None:
-        """Reset the simulation."""
-
-    def pause(self, paused: bool) -> None:
-        """Pause or continue."""
 
 
 def simulation_services(simulator: Simulator, controls: Controls) -> dict[str, Service]:
@@ -54,6 +46,7 @@ def simulation_services(simulator: Simulator, controls: Controls) -> dict[str, S
     ):
         add(name, type, _part(requests[name], part))
     add(f"{world}/control", "ros_gz_interfaces/srv/ControlWorld", lambda it: _control(simulator, controls, it))
+    found |= {service.name: service for service in standard_services(simulator, controls)}
     return found
 
 
