@@ -44,7 +44,7 @@ class _ResultError(Exception):
 
 def standard_services(simulator: Simulator, controls: Controls) -> list[Service]:
     """Return the services, e.g. ``/step_simulation``."""
-    made = _Services(simulator, controls)
+    made = _StandardServices(simulator, controls)
     calls: dict[str, Callable[[Any], dict[str, Any]]] = {
         "GetSimulatorFeatures": made.features,
         "GetEntities": made.entities,
@@ -84,7 +84,7 @@ def _answering(type: str, call: Callable[[Any], dict[str, Any]]) -> Callable[[An
     return answer
 
 
-class _Services:
+class _StandardServices:
     def __init__(self, simulator: Simulator, controls: Controls) -> None:
         self._simulator, self._controls = simulator, controls
         self._stopped = False
