@@ -70,13 +70,14 @@ class BagFile:
         try:
             from rosbags.highlevel import AnyReader
 
-            from urdfkit.messages import typestore
+            from urdfkit.messages import register_layouts, typestore
         except ImportError as error:
             raise MissingDependencyError("recordings need rosbags, 0.11 or newer: pip install -U rosbags") from error
         try:
             with kept_message_types():
                 self._reader = AnyReader([self.path], default_typestore=typestore())
                 self._reader.open()
+                register_layouts(self._reader.typestore.fielddefs)
             self.topics = tuple(
                 RecordedTopic(each.topic, each.msgtype, each.msgcount) for each in self._reader.connections
             )

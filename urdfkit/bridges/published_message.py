@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
-from urdfkit.messages import typestore
+from urdfkit.messages.conversion import encode_cdr
 
 
 class PublishedMessage:
@@ -34,4 +34,4 @@ class PublishedMessage:
 
     def cdr(self) -> bytes:
         """Return the message in CDR, the encoding of ROS 2."""
-        return self.encoded("cdr", lambda it: bytes(typestore().serialize_cdr(it.message, it.type)))  # type: ignore[no-any-return]
+        return self.encoded("cdr", lambda it: encode_cdr(it.message, it.type))  # type: ignore[no-any-return]

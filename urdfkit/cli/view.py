@@ -1,7 +1,10 @@
 """`urdfkit view`: show a robot in the browser with a slider for every joint; changed files are reloaded."""
 
+from __future__ import annotations
+
 import argparse
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from urdfkit.app.page import Page, note, require_page, until_interrupted
 from urdfkit.cli.page_options import add_page_options, announce
@@ -12,6 +15,10 @@ from urdfkit.cli.robot_arguments.macro_option import add_macro, with_macro
 from urdfkit.cli.robot_arguments.required_arguments import listing_required_arguments
 from urdfkit.cli.robot_arguments.robot_loading import add_strict
 from urdfkit.cli.robot_arguments.unused_arguments import note_unused
+from urdfkit.errors import UsageError
+
+if TYPE_CHECKING:
+    from urdfkit.app.viewer.shown_robot import ShownRobot
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
@@ -23,6 +30,12 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--html", metavar="FILE", help="write a self-contained page with sliders that needs no server, and exit"
     )
+    parser.add_argument(
+        "--live",
+        metavar="SOURCE",
+        help="show the state of a real robot: ros1, ros2 or rosbridge://HOST:PORT; and drive it from the page",
+    )
+    parser.add_argument("--fixed-frame", metavar="FRAME", help="with --live: frame in which everything is shown")
     add_strict(parser, "a placeholder for a missing mesh")
     parser.epilog = (
         "examples:\n  urdfkit view simpleton\n  urdfkit view urdf/robot.urdf.xacro use_camera:=true --port 8080\n"
@@ -32,6 +45,10 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     """Serve until interrupted, or write the page to a file."""
+    if arguments.fixed_frame is not None and arguments.live is None:
+        raise UsageError("--fixed-frame is an option of --live ros1, ros2 or rosbridge://HOST:PORT")
+    if arguments.live is not None and arguments.html is not None:
+        raise UsageError("--html writes a page without a server, so it cannot be combined with --live")
     require_page("view", "view", modules=("rosbags",))
     from urdfkit.app.repair_findings import note_repairs
     from urdfkit.app.simulation.save_options import check_places
@@ -62,7 +79,19 @@ def run(arguments: argparse.Namespace) -> int:
         return 0
     with until_interrupted():
         shown = read()
+        if arguments.live is not None:
+            _follow(arguments, shown)
+            return 0
         page = Page("view", host=arguments.host, port=arguments.port, opened=announce(arguments))
         with viewing(page, model, shown, strict=arguments.strict) as session:
             session.run()
     return 0
+
+
+def _follow(arguments: argparse.Namespace, shown: ShownRobot) -> None:
+    """Show a live robot until interrupted."""
+    from urdfkit.app.replay.live_view import following
+
+    page = Page("sim", host=arguments.host, port=arguments.port, opened=announce(arguments))
+    with following(page, shown, arguments.live, note, fixed_frame=arguments.fixed_frame) as session:
+        session.run()

@@ -4,8 +4,21 @@ from __future__ import annotations
 
 from typing import Any
 
+from urdfkit.messages import typestore
+
 ZERO: dict[str, Any] = {"string": "", "wstring": "", "bool": False, "float32": 0.0, "float64": 0.0}
 """Base type → value of a missing field; 0 for others."""
+
+
+def encode_cdr(message: Any, type: str) -> bytes:
+    """Return a message in CDR, the encoding of ROS 2, with its header of four bytes."""
+    store = typestore()
+    return bytes(store.serialize_cdr(converted(message, type, store), type))
+
+
+def decode_cdr(data: bytes, type: str) -> Any:
+    """Return the message of its bytes in CDR; raises errors of several classes if they are malformed."""
+    return typestore().deserialize_cdr(data, type)
 
 
 def converted(message: Any, type: str, store: Any) -> Any:

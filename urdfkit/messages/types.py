@@ -3,7 +3,7 @@
 rosbags and numpy are imported on first use, not with this module. Twists are linear first; quaternions x, y, z, w.
 """
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from functools import cache
 from typing import Any
 
@@ -112,15 +112,21 @@ def register_types(name: str, text: str) -> dict[str, Any]:
 
     from urdfkit.errors import UsageError
 
-    store = typestore()
     try:
         found: dict[str, Any] = get_types_from_msg(text, name)
-        store.register({each: layout for each, layout in found.items() if each not in store.fielddefs})
+        register_layouts(found)
     except TypesysError as error:
         raise UsageError(f"the definition of {name} cannot be read: {str(error).splitlines()[0]}") from error
-    for cached in (message_type, _types, _layouts):
-        cached.cache_clear()
     return found
+
+
+def register_layouts(layouts: Mapping[str, Any]) -> None:
+    """Add the unknown ones of types, by rosbags' descriptions of their fields."""
+    store = typestore()
+    if new := {name: layout for name, layout in layouts.items() if name not in store.fielddefs}:
+        store.register(new)
+        for cached in (message_type, _types, _layouts):
+            cached.cache_clear()
 
 
 def full_type_name(name: str) -> str:

@@ -11,15 +11,15 @@ import pytest
 
 from tests.time_limit import PATIENCE
 from urdfkit.bridges.bridge import CallQueue
-from urdfkit.bridges.node.node import Done, Quality, UnknownTypeError
+from urdfkit.bridges.node.node import Done, End, Quality, UnknownTypeError
 from urdfkit.bridges.node.node_bridge import NodeBridge, check_namespace
-from urdfkit.bridges.ros2.cdr import decode, encode
 from urdfkit.bridges.ros2.environment import keep_on_this_machine, on_this_machine, ros_domain
 from urdfkit.bridges.service import Service
 from urdfkit.bus import Bus
 from urdfkit.cli import main
 from urdfkit.errors import UsageError
 from urdfkit.messages import from_fields, typestore
+from urdfkit.messages.conversion import decode_cdr, encode_cdr
 
 STRING, TWIST = "std_msgs/msg/String", "geometry_msgs/msg/Twist"
 
@@ -39,7 +39,7 @@ class Published:
 
 class RecordedNode:
     description, ros, option = "recorded", "ROS 2", "--ros2"
-    encode, decode = staticmethod(encode), staticmethod(decode)
+    encode, decode = staticmethod(encode_cdr), staticmethod(decode_cdr)
 
     def __init__(self, lacks: str = "") -> None:
         self.lacks, self.closed = lacks, False
@@ -52,8 +52,9 @@ class RecordedNode:
         self.published[topic] = Published(quality)
         return self.published[topic]
 
-    def subscribe(self, topic: str, type: str, quality: Quality, receive: Callable[[bytes], None]) -> None:
+    def subscribe(self, topic: str, type: str, quality: Quality, receive: Callable[[bytes], None]) -> End:
         self.subscribed[topic] = receive
+        return lambda: None
 
     def topics(self) -> dict[str, str]:
         return {}

@@ -14,9 +14,14 @@ Array = NDArray[np.float64]
 
 
 class RecordedFrames:
-    """The tree of transforms. As in tf2, each frame has one parent: the one of its last transform."""
+    """The tree of transforms. As in tf2, each frame has one parent: the one of its last transform.
 
-    def __init__(self) -> None:
+    Args:
+        length: number of transforms that are kept of each frame; None for all.
+    """
+
+    def __init__(self, length: int | None = None) -> None:
+        self._length = length
         self._parents: dict[str, str] = {}
         self._poses: dict[str, PoseTimeline] = {}
         self._static: set[str] = set()
@@ -28,7 +33,7 @@ class RecordedFrames:
             if child == parent:
                 continue
             if child not in self._poses or (static and child in self._static):
-                self._poses[child] = PoseTimeline()
+                self._poses[child] = PoseTimeline(self._length)
             if static:
                 self._static.add(child)
             self._parents[child] = parent

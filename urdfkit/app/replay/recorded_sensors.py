@@ -7,7 +7,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
-from urdfkit.app.replay.recorded_robot import RecordedRobot
+from urdfkit.app.replay.observed_robot import ObservedRobot
 from urdfkit.app.simulation.features.sensor_views import WIDTH, picture, points
 from urdfkit.bus import Bus, Topic
 from urdfkit.errors import UrdfkitError
@@ -48,12 +48,24 @@ class RecordedSensors:
         clock: wall clock [s].
     """
 
-    def __init__(self, bus: Bus, robot: RecordedRobot, server: Server, clock: Callable[[], float]) -> None:
-        self._robot, self._server, self._clock = robot, server, clock
-        self._views = [_View(topic, KINDS[topic.type]) for topic in bus.topics if topic.type in KINDS]
+    def __init__(self, bus: Bus, robot: ObservedRobot, server: Server, clock: Callable[[], float]) -> None:
+        self._bus, self._robot, self._server, self._clock = bus, robot, server, clock
+        self._views: list[_View] = []
+
+    def find(self) -> None:
+        """Follow the topics that were advertised since the last call, and publish the list of the views."""
+        found = [topic for topic in self._bus.topics if topic.type in KINDS]
+        new = found[len(self._views) :]
+        self._views += [_View(topic, KINDS[topic.type]) for topic in new]
+        if new:
+            self._publish()
 
     def show(self) -> None:
         """Publish the list of the views."""
+        self.find()
+        self._publish()
+
+    def _publish(self) -> None:
         names = [
             {"topic": view.topic.name, "picture": view.kind == PICTURE, "camera": view.kind == PICTURE}
             for view in self._views

@@ -2,37 +2,27 @@
 
 from __future__ import annotations
 
-import math
 import time
-from collections import deque
 from collections.abc import Callable, Iterator
 from threading import Event
 from typing import Any
 
+from urdfkit.app.replay.observed_session import ObservedSession
 from urdfkit.app.replay.recorded_robot import RecordedRobot
-from urdfkit.app.replay.recorded_sensors import RecordedSensors
-from urdfkit.app.simulation.clock_rate import FRAME
-from urdfkit.app.simulation.features.feature import Done, Feature
-from urdfkit.app.simulation.features.plots import Plots
-from urdfkit.app.simulation.features.topic_panel import TopicPanel
-from urdfkit.app.simulation.features.topic_stream import TopicStreams
+from urdfkit.app.simulation.bridging.bridges import BridgeOptions
+from urdfkit.app.simulation.features.feature import Done
 from urdfkit.app.viewer.shown_robot import ShownRobot
 from urdfkit.bridges.bag_file import BagFile, RecordedMessage
 from urdfkit.bus import Bus
-from urdfkit.errors import UrdfkitError
-from urdfkit.sim.state.quaternion import yaw_of
-from urdfkit.view.content.meshcat_objects import draw, link_path
+from urdfkit.messages import CLOCK, from_fields
 from urdfkit.view.protocol.page_requests import Request, Schema, choice, number
 from urdfkit.view.server.server import Server
 
-STATUS = 0.1
-"""Seconds between two status messages to the page."""
 FASTEST = 20.0
 """Speed that the page's "max" stands for."""
-FEATURES: tuple[type[Feature], ...] = (TopicPanel, TopicStreams, Plots)
 
 
-class ReplaySession:
+class ReplaySession(ObservedSession):
     """A recording on the page.
 
     Args:
@@ -45,7 +35,6 @@ class ReplaySession:
         sleep: function that waits for a number of seconds.
 
     Attributes:
-        bus: publishes the messages of the recording.
         t: time since the first message [s].
         speed: recorded seconds per second.
         running: whether time advances.
@@ -62,48 +51,28 @@ class ReplaySession:
         clock: Callable[[], float] = time.monotonic,
         sleep: Callable[[float], None] = time.sleep,
     ) -> None:
-        self._bag, self._shown, self._robot, self.server = bag, shown, robot, server
-        self._loop, self._clock, self._sleep = loop, clock, sleep
-        self.bus, self.t, self.speed, self.running = Bus(), 0.0, 1.0, True
+        bus = Bus()
+        for topic in bag.topics:
+            bus.advertise(topic.name, topic.type)
+        super().__init__(shown, robot, bus, server, clock=clock, sleep=sleep)
+        self._bag, self._loop = bag, loop
+        self.speed, self.running, self._publishes_clock = 1.0, True, False
         self.duration = bag.end - bag.begin
         self._from = self._clock(), 0.0
-        self._reported = -math.inf
-        self._requests: deque[Request] = deque()
-        for topic in bag.topics:
-            self.bus.advertise(topic.name, topic.type)
-        simulation: Any = self  # these features use its bus and its time only
-        self._features = tuple(part(simulation, server, clock) for part in FEATURES)
-        self._sensors = RecordedSensors(self.bus, robot, server, clock)
-        self._takes: dict[str, tuple[Schema, Callable[[Request], Done]]] = {
-            "replay": (
-                Schema(
-                    {"action": choice("show", "play", "pause", "end")}, {"at": number(0), "speed": number(0.05, 20)}
-                ),
-                self._control,
-            ),
-            "speed": (Schema({}, {"factor": number(0.01, 1000)}), self._set_speed),
-        }
-        for feature in self._features:
-            self._takes.update({name: take for name, take in feature.takes.items() if name != "publish"})
-        server.requests.update({name: schema for name, (schema, _) in self._takes.items()})
+        del self._takes["publish"]
+        self._takes["replay"] = (
+            Schema({"action": choice("show", "play", "pause", "end")}, {"at": number(0), "speed": number(0.05, 20)}),
+            self._control,
+        )
+        self._takes["speed"] = Schema({}, {"factor": number(0.01, 1000)}), self._set_speed
+        self.begin()
         self._messages: Iterator[RecordedMessage] = iter(())
         self._next: RecordedMessage | None = None
         self._seek(0.0)
 
     def show(self) -> None:
         """Show the robot and the controls."""
-        kinematics, scene = self._shown.kinematics, self._shown.scene
-        self.server.show(
-            name=kinematics.robot.name or self._bag.path.stem,
-            nodes=[link_path(name) for name in kinematics.link_names],
-            root=kinematics.link_names.index(kinematics.root),
-            draw=lambda server: draw(scene, server, server.geometries),
-        )
-        self.server.publish_latched("teleop", drives=False, robots=[], moves={}, factors={}, speed=0.5, turn=1.0)
-        self.server.publish_latched("findings", findings=[], rules={}, fault=None)
-        self._sensors.show()
-        for feature in self._features:
-            feature.show()
+        super().show()
         self.server.publish_latched("recorder", **self._state())
 
     def run(self, stop: Event | None = None) -> None:
@@ -112,33 +81,36 @@ class ReplaySession:
         Args:
             stop: ends the replay when it is set.
         """
-        stop = stop or Event()
         self._from = self._clock(), self.t
-        while not stop.is_set():
-            self.tick()
-            self._sleep(FRAME)
+        super().run(stop)
 
-    def tick(self) -> None:
-        """Run one iteration: requests, time, messages, poses."""
-        inputs = self.server.inbox.take()
-        for action in inputs.actions:
-            self._act(action)
-        for request in inputs.requests:
-            self._do(request)
+    def advance(self) -> None:
+        """Advance the time, and publish the messages until then."""
         if self.running:
             begun, at = self._from
             self.t = at + (self._clock() - begun) * self.speed
             if self.t >= self.duration:
                 self._at_end()
         self._publish_until(self.t)
-        self.server.publish(self.t, self._robot.link_poses(self._bag.begin + self.t))
-        self._sensors.tick(self._bag.begin + self.t)
-        for feature in self._features:
-            feature.tick()
-        if (now := self._clock()) - self._reported >= STATUS:
-            self._reported = now
-            self.server.broadcast("status", **self._status())
-            self.server.broadcast("recorder", **self._state())
+        if self._publishes_clock:
+            time = from_fields(CLOCK, {"clock": self.time_of_poses()})
+            self.bus.publish("/clock", CLOCK, time)
+
+    def open_bridges(self, options: BridgeOptions, report: Callable[[str], None]) -> None:
+        """Publish the topics on graphs and servers; and the time, if the recording has no ``/clock``."""
+        self._publishes_clock = all(topic.name != "/clock" for topic in self.bus.topics)
+        if self._publishes_clock:
+            self.bus.advertise("/clock", CLOCK)
+        super().open_bridges(options, report)
+
+    def time_of_poses(self) -> float:
+        """Return the time of the poses on the clock of the recording [s]."""
+        return self._bag.begin + self.t
+
+    def report(self) -> None:
+        """Send the status and the state of the controls to the page."""
+        super().report()
+        self.server.broadcast("recorder", **self._state())
 
     def _at_end(self) -> None:
         if self._loop and self.duration > 0.0:
@@ -146,21 +118,14 @@ class ReplaySession:
         else:
             self.t, self.running = self.duration, False
 
-    def _act(self, action: str) -> None:
+    def act(self, action: str) -> None:
+        """Execute a button of the page."""
         if action == "reset":
             self._seek(0.0)
         elif action == "play":
             self._play()
         elif action == "pause":
             self.running = False
-
-    def _do(self, request: Request) -> None:
-        try:
-            values = self._takes[request.name][1](request)
-        except UrdfkitError as error:
-            self.server.answer(request, str(error))
-        else:
-            self.server.answer(request, **(values or {}))
 
     def _control(self, request: Request) -> Done:
         action, values = request.values["action"], request.values
@@ -214,22 +179,6 @@ class ReplaySession:
             "file": self._bag.path.name,
         }
 
-    def _status(self) -> dict[str, Any]:
-        kinematics = self._shown.kinematics
-        pose = self._robot.link_poses(self._bag.begin + self.t)[kinematics.link_names.index(kinematics.root)]
-        return {
-            "time": self.t,
-            "paused": not self.running,
-            "real_time_factor": self.speed,
-            "factor": self.speed,
-            "dt": FRAME,
-            "pose": {"x": float(pose[0]), "y": float(pose[1]), "yaw": yaw_of(pose[3:])},
-            "speed": 0.0,
-            "turn": 0.0,
-            "fixed": False,
-            "tip": kinematics.root,
-            "robots": {},
-            "odometry": {},
-            "driver": None,
-            "watchers": self.server.hub.watchers,
-        }
+    def status(self) -> dict[str, Any]:
+        """Return the status."""
+        return {**super().status(), "paused": not self.running, "real_time_factor": self.speed, "factor": self.speed}

@@ -72,6 +72,9 @@ def replaying(
             session = ReplaySession(bag, shown, robot, server, loop=loop)
             session.show()
             server.publish_latched("progress", label=None)
-        yield session
+        try:
+            yield session
+        finally:
+            session.close()
     finally:
         server.stop()

@@ -11,9 +11,14 @@ Array = NDArray[np.float64]
 
 
 class Timeline:
-    """Values at increasing times."""
+    """Values at increasing times.
 
-    def __init__(self) -> None:
+    Args:
+        length: number of values that are kept; None for all.
+    """
+
+    def __init__(self, length: int | None = None) -> None:
+        self._length = length
         self._times: list[float] = []
         self._values: list[tuple[float, ...]] = []
 
@@ -27,6 +32,8 @@ class Timeline:
                 return
         self._times.insert(k, time)
         self._values.insert(k, value)
+        if self._length is not None and len(self._times) > self._length:
+            del self._times[0], self._values[0]
 
     def at(self, time: float) -> Array:
         """Return the value at a time, linear between the neighbours; the first one before it, the last one after it."""

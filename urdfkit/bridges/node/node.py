@@ -13,7 +13,11 @@ from urdfkit.errors import MissingDependencyError
 DEPTH = 10
 """Messages that a publisher keeps for a slow subscriber, as ROS's own default."""
 CLOCK = "/clock"
+MAPS = ("map", "costmap")
+"""Last parts of the names of topics that map_server and Nav2 publish with transient local durability."""
 
+End = Callable[[], None]
+"""Ends a subscription."""
 Done = Callable[[Any, "str | None"], None]
 """Receives the response of a service, or None and the reason."""
 
@@ -49,7 +53,8 @@ def publisher_quality(topic: str) -> Quality:
 
 def subscription_quality(topic: str) -> Quality:
     """Return the quality of a subscription that accepts publishers of every kind."""
-    return Quality(latched=True, depth=100) if is_latched(topic) else Quality(reliable=False)
+    latched = is_latched(topic) or topic.rpartition("/")[2] in MAPS
+    return Quality(latched=True, depth=100) if latched else Quality(reliable=False)
 
 
 class Writer(Protocol):
@@ -82,8 +87,8 @@ class Node(Protocol):
             UnknownTypeError: the library lacks the type.
         """
 
-    def subscribe(self, topic: str, type: str, quality: Quality, receive: Callable[[bytes], None]) -> None:
-        """Call `receive`, in a thread of the library, with each encoded message.
+    def subscribe(self, topic: str, type: str, quality: Quality, receive: Callable[[bytes], None]) -> End:
+        """Call `receive`, in a thread of the library, with each encoded message; return what ends it.
 
         Raises:
             UnknownTypeError: the library lacks the type.

@@ -10,7 +10,7 @@ from threading import Event, Thread
 from typing import Any, TypeVar
 from xmlrpc.client import Error
 
-from urdfkit.bridges.node.node import Done, Quality, UnknownTypeError
+from urdfkit.bridges.node.node import Done, End, Quality, UnknownTypeError
 from urdfkit.bridges.ros1.environment import bind_host, is_remote, master_uri, own_host
 from urdfkit.bridges.ros1.node_functions import NodeFunctions
 from urdfkit.bridges.ros1.ros1_types import ANY, decode, definition, encode, full_name, register, ros1_name
@@ -79,7 +79,7 @@ class Ros1Node:
         self._call_master("registerPublisher", topic, ros1_name(type), self._api)
         return made
 
-    def subscribe(self, topic: str, type: str, quality: Quality, receive: Callable[[bytes], None]) -> None:
+    def subscribe(self, topic: str, type: str, quality: Quality, receive: Callable[[bytes], None]) -> End:
         """Call `receive` with each message; an unknown type is learned from its publisher."""
         try:
             expected = definition(type)[::2]
@@ -97,11 +97,13 @@ class Ros1Node:
         self._subscriptions[topic] = made
         made.follow(self._call_master("registerSubscriber", topic, expected[0], self._api))
 
-    def unsubscribe(self, topic: str) -> None:
-        """End the subscription to a topic."""
-        if (found := self._subscriptions.pop(topic, None)) is not None:
-            found.close()
-            self._call_master("unregisterSubscriber", topic, self._api)
+        def end() -> None:
+            self._subscriptions.pop(topic, None)
+            made.close()
+            with suppress(ResourceError):
+                self._call_master("unregisterSubscriber", topic, self._api)
+
+        return end
 
     encode, decode = staticmethod(encode), staticmethod(decode)
 

@@ -10,13 +10,13 @@ from collections.abc import Callable, Mapping
 from threading import Thread
 from typing import Any
 
-from urdfkit.bridges.node.node import Done, Quality, UnknownTypeError
-from urdfkit.bridges.ros2.cdr import decode, encode
+from urdfkit.bridges.node.node import Done, End, Quality, UnknownTypeError
 from urdfkit.bridges.ros2.cyclonedds_types import hide_type_information, idl_type
 from urdfkit.bridges.ros2.environment import on_this_machine
 from urdfkit.bridges.service import Service
 from urdfkit.errors import ResourceError
 from urdfkit.messages import typestore
+from urdfkit.messages.conversion import decode_cdr, encode_cdr
 
 WAIT = 0.5
 """Seconds between two checks whether the node is closed."""
@@ -60,7 +60,7 @@ class CycloneddsNode:
         except DDSException as error:
             raise ResourceError(f"cannot join ROS domain {domain}: {error}") from error
         self._entities: list[Any] = []
-        self._discovered: Any = None
+        self._discovered: list[Any] = []
         self._topics: dict[str, str] = {}
         self._readers: tuple[tuple[Any, Callable[[bytes], None]], ...] = ()
         self._received, self._closed = WaitSet(self._participant), False
@@ -75,7 +75,7 @@ class CycloneddsNode:
         self._entities.append(writer)
         return _CycloneddsWriter(writer)
 
-    def subscribe(self, topic: str, type: str, quality: Quality, receive: Callable[[bytes], None]) -> None:
+    def subscribe(self, topic: str, type: str, quality: Quality, receive: Callable[[bytes], None]) -> End:
         """Call `receive`, in the thread of the readers, with each message in CDR."""
         from cyclonedds.core import InstanceState, ReadCondition, SampleState, ViewState
         from cyclonedds.sub import DataReader
@@ -86,15 +86,29 @@ class CycloneddsNode:
         self._readers = (*self._readers, (reader, receive))
         self._received.attach(condition)
 
+        def end() -> None:
+            self._readers = tuple(each for each in self._readers if each[0] is not reader)
+            self._received.detach(condition)
+            self._entities = [each for each in self._entities if each not in (reader, condition)]
+
+        return end
+
     def topics(self) -> dict[str, str]:
         """Return topic → type of the participants of the domain; they are discovered within a second."""
-        if self._discovered is None:
-            from cyclonedds.builtin import BuiltinDataReader, BuiltinTopicDcpsPublication
+        if not self._discovered:
+            from cyclonedds.builtin import (
+                BuiltinDataReader,
+                BuiltinTopicDcpsPublication,
+                BuiltinTopicDcpsSubscription,
+            )
 
-            self._discovered = BuiltinDataReader(self._participant, BuiltinTopicDcpsPublication)
-        for sample in self._discovered.read(N=DISCOVERED):
-            if sample.topic_name.startswith("rt/"):
-                self._topics[sample.topic_name[2:]] = sample.type_name.replace("::dds_::", "/").replace("::", "/")[:-1]
+            kinds = BuiltinTopicDcpsPublication, BuiltinTopicDcpsSubscription
+            self._discovered = [BuiltinDataReader(self._participant, kind) for kind in kinds]
+        for each in self._discovered:
+            for sample in each.read(N=DISCOVERED):
+                if sample.topic_name.startswith("rt/"):
+                    type = sample.type_name.replace("::dds_::", "/").replace("::", "/").removesuffix("_")
+                    self._topics[sample.topic_name[2:]] = type
         return dict(sorted(self._topics.items()))
 
     def serve(self, service: Service, call: Callable[[Any, Done], None]) -> None:
@@ -105,13 +119,14 @@ class CycloneddsNode:
         """
         raise UnknownTypeError(f"Cyclone DDS does not serve {service.name}; rclpy does")
 
-    encode, decode = staticmethod(encode), staticmethod(decode)
+    encode, decode = staticmethod(encode_cdr), staticmethod(decode_cdr)
 
     def close(self) -> None:
         """Leave the domain."""
         self._closed = True
         self._thread.join(2 * WAIT)
         self._entities.clear()
+        self._discovered.clear()
         del self._received, self._participant, self._domain
 
     def _read(self) -> None:

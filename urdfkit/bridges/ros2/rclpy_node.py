@@ -10,10 +10,10 @@ from queue import Queue
 from threading import Thread
 from typing import Any
 
-from urdfkit.bridges.node.node import Done, Node, Quality, UnknownTypeError, Writer
-from urdfkit.bridges.ros2.cdr import decode, encode
+from urdfkit.bridges.node.node import Done, End, Node, Quality, UnknownTypeError, Writer
 from urdfkit.bridges.service import Service
 from urdfkit.errors import MissingDependencyError, ResourceError
+from urdfkit.messages.conversion import decode_cdr, encode_cdr
 
 NAME = "urdfkit"
 DDS = ("rmw_fastrtps_cpp", "rmw_fastrtps_dynamic_cpp", "rmw_cyclonedds_cpp")
@@ -81,14 +81,18 @@ class RclpyNode:
             return self._fallback(type).writer(topic, type, quality)
         return _RclpyWriter(self._node.create_publisher(kind, topic, _profile(quality)))
 
-    def subscribe(self, topic: str, type: str, quality: Quality, receive: Callable[[bytes], None]) -> None:
+    def subscribe(self, topic: str, type: str, quality: Quality, receive: Callable[[bytes], None]) -> End:
         """Call `receive`, in the thread of the executor, with each message in CDR."""
         kind = self._type(type)
         if kind is None:
-            self._fallback(type).subscribe(topic, type, quality, receive)
-        else:
-            self._node.create_subscription(kind, topic, receive, _profile(quality), raw=True)
-            self._executor.wake()
+            return self._fallback(type).subscribe(topic, type, quality, receive)
+        made = self._node.create_subscription(kind, topic, receive, _profile(quality), raw=True)
+        self._executor.wake()
+
+        def end() -> None:
+            self._node.destroy_subscription(made)
+
+        return end
 
     def topics(self) -> dict[str, str]:
         """Return topic → type of the graph."""
@@ -106,19 +110,19 @@ class RclpyNode:
         def answer(request: Any, response: Any) -> Any:
             """Wait for the thread of the simulation."""
             answers: Queue[tuple[Any, str | None]] = Queue()
-            call(decode(serialize_message(request), service.request), lambda *each: answers.put(each))
+            call(decode_cdr(serialize_message(request), service.request), lambda *each: answers.put(each))
             found, reason = answers.get()
             if reason is not None:  # a service of ROS 2 has no other way to report a failure than its response
                 self._report(f"{service.name}: {reason}")
                 if hasattr(response, "status_message"):
                     response.status_message = reason
                 return response
-            return deserialize_message(encode(found, service.response), type(response))
+            return deserialize_message(encode_cdr(found, service.response), type(response))
 
         self._node.create_service(kind, service.name, answer)
         self._executor.wake()
 
-    encode, decode = staticmethod(encode), staticmethod(decode)
+    encode, decode = staticmethod(encode_cdr), staticmethod(decode_cdr)
 
     def close(self) -> None:
         """Leave the graph."""

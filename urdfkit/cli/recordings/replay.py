@@ -4,6 +4,7 @@ import argparse
 from contextlib import ExitStack
 
 from urdfkit.cli.page_options import add_page_options, announce
+from urdfkit.cli.sim.bridge_options import add_bridges, bridge_options
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
@@ -28,6 +29,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument("--loop", action="store_true", help="begin again at the end")
     add_page_options(parser)
+    add_bridges(parser)
     parser.epilog = "examples:\n  urdfkit replay run.mcap simpleton\n  urdfkit replay lab.bag my_robot.urdf --loop"
 
 
@@ -38,8 +40,10 @@ def run(arguments: argparse.Namespace) -> int:
     require_page("replay", "view", modules=("rosbags",))
     from urdfkit.app.replay.replaying import recorded_model, replaying
     from urdfkit.bridges.bag_file import BagFile
+    from urdfkit.cli.sim.warnings import GroupedWarnings
     from urdfkit.resources import find_model
 
+    bridges = bridge_options(arguments)
     with until_interrupted(), ExitStack() as stack:
         bag = stack.enter_context(BagFile(arguments.file))
         words = arguments.model or [str(stack.enter_context(recorded_model(bag)))]
@@ -48,5 +52,7 @@ def run(arguments: argparse.Namespace) -> int:
         session = stack.enter_context(
             replaying(page, bag, model, fixed_frame=arguments.fixed_frame, loop=arguments.loop)
         )
+        if bridges:
+            session.open_bridges(bridges, GroupedWarnings())
         session.run()
     return 0

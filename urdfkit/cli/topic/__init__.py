@@ -23,7 +23,9 @@ SUBCOMMANDS = {
 
 def configure(parser: argparse.ArgumentParser) -> None:
     """Add the subcommands."""
-    parser.epilog = "examples:\n  urdfkit topic list\n  urdfkit topic echo /odom --once"
+    parser.epilog = (
+        "examples:\n  urdfkit topic list\n  urdfkit topic echo /odom --once\n  urdfkit topic hz /scan --live ros2"
+    )
     subcommands = parser.add_subparsers(dest="subcommand", metavar="SUBCOMMAND", required=True)
     for name, (module, summary) in SUBCOMMANDS.items():
         sub = subcommands.add_parser(name, help=summary, description=summary, formatter_class=HelpFormatter)
@@ -31,6 +33,11 @@ def configure(parser: argparse.ArgumentParser) -> None:
             "--url",
             metavar="ADDRESS",
             help="address of the simulation that `sim teleop` prints (default: the running simulation)",
+        )
+        sub.add_argument(
+            "--live",
+            metavar="SOURCE",
+            help="use the topics of another graph: ros1, ros2 or rosbridge://HOST:PORT",
         )
         import_module(f"urdfkit.cli.topic.{module}").configure(sub, name)
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import asyncio
 from collections.abc import AsyncGenerator, Awaitable, Callable, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -49,16 +50,20 @@ def run_with_client(work: Callable[[Client, argparse.Namespace], Awaitable[int]]
     from urdfkit.view.protocol.client import connect
     from urdfkit.view.server.running_simulations import find
 
-    url = find(arguments.url)
-
-    async def connected() -> int:
+    async def connected(url: str) -> int:
         async with await connect(url) as client:
             return await work(client, arguments)
 
-    try:
-        return asyncio.run(connected())
-    except KeyboardInterrupt:
-        return 0
+    with suppress(KeyboardInterrupt):
+        if arguments.live is None:
+            return asyncio.run(connected(find(arguments.url)))
+        from urdfkit.app.replay.topic_session import served_topics
+
+        if arguments.url is not None:
+            raise UsageError("--url names a simulation and --live another graph: use one of them")
+        with served_topics(arguments.live, note) as url:
+            return asyncio.run(connected(url))
+    return 0
 
 
 def positive(text: str) -> int:

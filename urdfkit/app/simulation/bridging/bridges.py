@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 from urdfkit.app.page import note
@@ -14,6 +15,8 @@ from urdfkit.app.simulation.bridging.ros_connection import RosOptions, connect_t
 from urdfkit.app.simulation.bridging.services import simulation_services
 from urdfkit.bridges.bridge import Bridges
 from urdfkit.bridges.graph import Graph
+from urdfkit.bridges.service import Service
+from urdfkit.bus import Bus
 from urdfkit.description.packages.resolver import Packages
 
 if TYPE_CHECKING:
@@ -63,32 +66,62 @@ def bridged(
     if not options:
         yield bridges
         return
-    from urdfkit.bridges.foxglove.bridge import FoxgloveServer
-    from urdfkit.bridges.rosbridge.bridge import serve_rosbridge
-
     text = publish_description(simulator)
+    if options.ros is not None:
+        simulator.set_clock_rate(options.ros.clock_rate)
     services = simulation_services(simulator, controls)
-    parameters = {DESCRIPTION: text, "/use_sim_time": True}
-
-    def graph() -> Graph:
-        return Graph(simulator.bus, bridges.calls, lambda: simulator.t, services, parameters)
-
     try:
-        if options.rosbridge is not None:
-            server = serve_rosbridge(graph(), options.rosbridge, origins=options.origins, report=report)
-            bridges.add(server)
-            _announce("rosbridge", server)
-        if options.foxglove is not None:
-            foxglove = FoxgloveServer(
-                graph(), options.foxglove, _packages(simulator).find, origins=options.origins, report=report
-            )
-            bridges.add(foxglove)
-            _announce("foxglove", foxglove)
-        if options.ros is not None:
-            connect_to_ros(simulator, options.ros, bridges, services, report)
+        open_bridges(
+            bridges, options, simulator.bus, lambda: simulator.t, services, text, _packages(simulator).find, report
+        )
         yield bridges
     finally:
         bridges.close()
+
+
+def open_bridges(
+    bridges: Bridges,
+    options: BridgeOptions,
+    bus: Bus,
+    clock: Callable[[], float],
+    services: Mapping[str, Service],
+    description: str,
+    find_package: Callable[[str], Path],
+    report: Callable[[str], None],
+) -> None:
+    """Open bridges and add them to `bridges`, which closes them.
+
+    Args:
+        bridges: of the simulation or recording.
+        options: which bridges.
+        bus: the topics.
+        clock: returns the time of messages [s].
+        services: that peers can call.
+        description: the robot as URDF.
+        find_package: returns the folder of a package, for its meshes.
+        report: receives a line about a message that was dropped.
+
+    Raises:
+        UrdfkitError: a port is in use, or a graph of ROS cannot be joined.
+    """
+    from urdfkit.bridges.foxglove.bridge import FoxgloveServer
+    from urdfkit.bridges.rosbridge.bridge import serve_rosbridge
+
+    parameters = {DESCRIPTION: description, "/use_sim_time": True}
+
+    def graph() -> Graph:
+        return Graph(bus, bridges.calls, clock, services, parameters)
+
+    if options.rosbridge is not None:
+        server = serve_rosbridge(graph(), options.rosbridge, origins=options.origins, report=report)
+        bridges.add(server)
+        _announce("rosbridge", server)
+    if options.foxglove is not None:
+        foxglove = FoxgloveServer(graph(), options.foxglove, find_package, origins=options.origins, report=report)
+        bridges.add(foxglove)
+        _announce("foxglove", foxglove)
+    if options.ros is not None:
+        connect_to_ros(bus, options.ros, bridges, services, report)
 
 
 def _packages(simulator: Simulator) -> Packages:

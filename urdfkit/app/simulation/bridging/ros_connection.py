@@ -9,7 +9,7 @@ from urdfkit.app.page import note
 from urdfkit.app.simulation.bridging.description_text import DESCRIPTION
 from urdfkit.bridges.bridge import Bridges
 from urdfkit.bridges.service import Service
-from urdfkit.sim.simulator import Simulator
+from urdfkit.bus import Bus
 
 CLOCK_RATE = 1000.0
 """Default rate of ``/clock`` [Hz], that of Gazebo; messages are built only for subscribers."""
@@ -39,7 +39,7 @@ class RosOptions:
 
 
 def connect_to_ros(
-    simulator: Simulator,
+    bus: Bus,
     options: RosOptions,
     bridges: Bridges,
     services: Mapping[str, Service],
@@ -47,18 +47,21 @@ def connect_to_ros(
 ) -> None:
     """Open the connections and add them to the bridges, which close them.
 
+    Args:
+        bus: the topics.
+        options: which connections.
+        bridges: of the simulation or recording.
+        services: that nodes can call.
+        report: receives lines about topics and messages that cannot be used.
+
     Raises:
         UrdfkitError: no library for ROS 2 is installed, no master of ROS 1 runs, or the node cannot start.
     """
     from urdfkit.bridges.node.node import Node
     from urdfkit.bridges.node.node_bridge import NodeBridge
 
-    simulator.set_clock_rate(options.clock_rate)
-
     def add(node: Node, name: str) -> None:
-        bridge = NodeBridge(
-            simulator.bus, bridges.calls, node, services=services, namespace=options.namespace, report=report
-        )
+        bridge = NodeBridge(bus, bridges.calls, node, services=services, namespace=options.namespace, report=report)
         bridges.add(bridge)
         served = f"{bridge.served} services" if bridge.served else "services are not available"
         note(f"{name}: topics are published by {node.description}; {served}")
@@ -68,7 +71,8 @@ def connect_to_ros(
 
         ros1 = Ros1Node(report=report)
         ros1.set_parameter("/use_sim_time", True)
-        ros1.set_parameter(options.namespace + DESCRIPTION, simulator.bus.latest(DESCRIPTION).data)
+        if (description := bus.latest(DESCRIPTION)) is not None:
+            ros1.set_parameter(options.namespace + DESCRIPTION, description.data)
         add(ros1, "ros1")
     if options.ros2:
         from urdfkit.bridges.ros2.node_selection import open_node

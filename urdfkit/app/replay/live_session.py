@@ -1,0 +1,139 @@
+"""Page of a live robot: its state on a graph of ROS, and commands of the page to it."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from typing import Any
+
+from urdfkit.app.replay.live_topics import LiveTopics
+from urdfkit.app.replay.observed_robot import MOTION, ObservedRobot
+from urdfkit.app.replay.observed_session import ObservedSession
+from urdfkit.app.simulation.features.feature import Done
+from urdfkit.app.simulation.features.topic_panel import ECHO
+from urdfkit.app.viewer.shown_robot import ShownRobot
+from urdfkit.bridges.node.node import Node
+from urdfkit.bus import Bus, absolute
+from urdfkit.messages import TWIST, TWIST_STAMPED, from_fields, full_type_name
+from urdfkit.teleop import HELD_LAYOUT, HELD_SPEEDS, STOP, Motion, Teleop
+from urdfkit.view.protocol.page_requests import Request
+from urdfkit.view.server.server import Server
+
+GOALS = {
+    "/goal_pose": "geometry_msgs/msg/PoseStamped",
+    "/initialpose": "geometry_msgs/msg/PoseWithCovarianceStamped",
+}
+"""Topics for goals and initial poses that Nav2 and amcl subscribe to."""
+COMMAND = "cmd_vel"
+PERIOD = 0.05
+"""Seconds between two velocity commands."""
+
+
+class LiveSession(ObservedSession):
+    """A live robot on the page.
+
+    Args:
+        node: on the graph.
+        shown: the robot.
+        robot: its motion.
+        server: the page.
+        report: receives lines about topics that cannot be received.
+        clock: wall clock [s].
+        sleep: function that waits for a number of seconds.
+    """
+
+    def __init__(
+        self,
+        node: Node,
+        shown: ShownRobot,
+        robot: ObservedRobot,
+        server: Server,
+        *,
+        report: Callable[[str], None],
+        clock: Callable[[], float] = time.monotonic,
+        sleep: Callable[[float], None] = time.sleep,
+    ) -> None:
+        super().__init__(shown, robot, Bus(), server, clock=clock, sleep=sleep)
+        self.topics = LiveTopics(node, self.bus, report, clock)
+        self._begun = clock()
+        self._followed = 0
+        self._driven, self._due = False, 0.0
+        schema, _ = self._takes["publish"]
+        self._takes["publish"] = schema, self._publish
+        self.begin()
+        for name, type in GOALS.items():
+            self.bus.advertise(name, type)
+
+    def drive_controls(self) -> dict[str, Any]:
+        """Return the controls of the page: the robot can be driven."""
+        start, name = Teleop(), self._shown.kinematics.robot.name or "robot"
+        robots = [{"name": name, "drives": True}]
+        return {
+            "drives": True,
+            "robots": robots,
+            "moves": HELD_LAYOUT,
+            "factors": HELD_SPEEDS,
+            "speed": start.speed,
+            "turn": start.turn,
+        }
+
+    def act(self, action: str) -> None:
+        """Stop the robot with the button; the others have no effect on a live robot."""
+        if action == "stop":
+            self.server.drive_lock.release()
+            self.server.broadcast("stop")
+            self._command(STOP)
+
+    def advance(self) -> None:
+        """Publish the messages that have arrived, and the command of the driver."""
+        self.t = self._clock() - self._begun
+        keys = self.server.hub.subscribed_keys
+        shown = {key.partition(":")[2] for key in keys if key.startswith((ECHO, "sensor:"))}
+        self.topics.update(shown)
+        if len(self.bus.topics) != self._followed:
+            for topic in self.bus.topics[self._followed :]:
+                if topic.type in MOTION:
+                    self._observe(topic.name, topic.type)
+            self._followed = len(self.bus.topics)
+            self.sensors.find()
+        self._drive()
+
+    def close(self) -> None:
+        """Stop a robot that is driven, and leave the graph."""
+        if self._driven:
+            self._command(STOP)
+        self.topics.close()
+        super().close()
+
+    def _observe(self, name: str, type: str) -> None:
+        self.bus.subscribe(name, type, lambda message: self._robot.add(name, type, message, self.t))
+
+    def _drive(self) -> None:
+        held = self.server.drive_lock.axes
+        if held is None:
+            if self._driven:
+                self._command(STOP)
+            self._driven = False
+        elif self._clock() >= self._due:
+            self._due, self._driven = self._clock() + PERIOD, True
+            x, y, z, turn = held.axes
+            self._command(Teleop(speed=held.speed, turn=held.turn).axes(x, turn, y, z) or STOP)
+
+    def _command(self, motion: Motion) -> None:
+        linear, angular = (dict(zip("xyz", part, strict=True)) for part in motion)
+        fields = {"linear": linear, "angular": angular}
+        topic, type = self._command_topic()
+        message = from_fields(type, {"twist": fields} if type == TWIST_STAMPED else fields)
+        self.topics.publish(topic, type, message)
+
+    def _command_topic(self) -> tuple[str, str]:
+        """Return the first topic of velocity commands whose name ends with `COMMAND`."""
+        found = [each for each in self.bus.topics if each.type in (TWIST, TWIST_STAMPED)]
+        named = [each for each in found if each.name.rpartition("/")[2] == COMMAND]
+        return (named[0].name, named[0].type) if named else (f"/{COMMAND}", TWIST)
+
+    def _publish(self, request: Request) -> Done:
+        name, type = absolute(request.values["topic"]), full_type_name(request.values["type"])
+        self.bus.advertise(name, type)
+        self.topics.publish(name, type, from_fields(type, request.values["message"]))
+        return None

@@ -1,0 +1,125 @@
+"""Topics of a live graph on a bus: a topic is received while the bus has a subscriber to it."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Collection
+from typing import Any
+
+from urdfkit.bridges.bridge import CallQueue
+from urdfkit.bridges.node.node import End, Node, UnknownTypeError, Writer, publisher_quality, subscription_quality
+from urdfkit.bus import Bus, Topic
+from urdfkit.errors import ResourceError, UsageError
+
+SEARCH = 0.5
+"""Seconds between two searches for new topics."""
+
+
+class LiveTopics:
+    """The topics of a graph.
+
+    Args:
+        node: on the graph.
+        bus: publishes the messages that are received.
+        report: receives lines about topics that cannot be received, each once.
+        clock: wall clock [s].
+
+    Attributes:
+        calls: received messages, until `update` publishes them.
+    """
+
+    def __init__(self, node: Node, bus: Bus, report: Callable[[str], None], clock: Callable[[], float]) -> None:
+        self.calls = CallQueue()
+        self._node, self._bus, self._report, self._clock = node, bus, report, clock
+        self._due = 0.0
+        self._ends: dict[str, End] = {}
+        self._writers: dict[str, Writer] = {}
+        self._reported: set[str] = set()
+
+    def update(self, shown: Collection[str] = ()) -> None:
+        """Follow new topics, receive those with subscribers, and publish the messages that have arrived.
+
+        Args:
+            shown: further topics to receive.
+        """
+        if self._clock() >= self._due:
+            self._due = self._clock() + SEARCH
+            self._search()
+        for topic in self._bus.topics:
+            wanted = bool(topic.subscribers) or topic.name in shown
+            if wanted and topic.name not in self._ends:
+                self._ends[topic.name] = self._follow(topic)
+            elif not wanted and topic.name in self._ends:
+                self._ends.pop(topic.name)()
+        self.calls.take()
+
+    def publish(self, topic: str, type: str, message: Any, *, wait: float = 0.0) -> None:
+        """Publish a message on the graph.
+
+        Args:
+            topic: its name.
+            type: of the message.
+            message: the message.
+            wait: longest time to wait for a subscriber of a new publisher [s].
+
+        Raises:
+            UrdfkitError: the library lacks the type, or the master is gone.
+        """
+        if topic not in self._writers:
+            writer = self._writers[topic] = self._node.writer(topic, type, publisher_quality(topic))
+            end = self._clock() + wait
+            while self._clock() < end and not writer.is_matched():
+                time.sleep(0.01)
+        self._writers[topic].publish(self._node.encode(message, type))
+
+    def close(self) -> None:
+        """End all subscriptions and leave the graph."""
+        for end in self._ends.values():
+            end()
+        self._ends.clear()
+        self._node.close()
+
+    def _search(self) -> None:
+        try:
+            found = self._node.topics()
+        except ResourceError as error:
+            self._note(str(error))
+            return
+        for name, type in found.items():
+            try:
+                self._bus.advertise(name, type)
+            except UsageError as error:
+                self._note(str(error))
+
+    def _follow(self, topic: Topic) -> End:
+        try:
+            return self._node.subscribe(topic.name, topic.type, subscription_quality(topic.name), self._receiver(topic))
+        except (UnknownTypeError, ResourceError) as error:
+            self._note(f"{topic.name}: {error}")
+            return lambda: None
+
+    def _receiver(self, topic: Topic) -> Callable[[bytes], None]:
+        """Return a function that publishes a message; it is decoded only for subscribers."""
+
+        def decode(data: bytes) -> Any:
+            try:
+                return self._node.decode(data, topic.type)
+            except Exception as error:  # of a malformed message, by several classes
+                self._note(f"{topic.name}: a message that is no {topic.type} was dropped ({error})")
+                return None
+
+        def publish(data: bytes) -> None:
+            if not topic.subscribers:
+                topic.offer(lambda: decode(data))
+            elif (message := decode(data)) is not None:
+                topic.publish(message)
+
+        def receive(data: bytes) -> None:
+            self.calls.add(lambda: publish(data))
+
+        return receive
+
+    def _note(self, line: str) -> None:
+        if line not in self._reported:
+            self._reported.add(line)
+            self._report(line)
