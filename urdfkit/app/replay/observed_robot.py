@@ -23,7 +23,7 @@ FIXED_FRAMES = ("world", "map", "odom")
 
 
 class ObservedRobot:
-    """A robot that moves as its transforms, joint states and odometry say.
+    """A robot whose transforms, joint states and odometry are received.
 
     Args:
         kinematics: the robot.

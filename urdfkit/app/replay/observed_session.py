@@ -107,7 +107,7 @@ class ObservedSession:
             feature.show()
 
     def drive_controls(self) -> dict[str, Any]:
-        """Return the controls of the page for driving; here there are none."""
+        """Return the controls of the page for driving: nothing can be driven."""
         return {"drives": False, "robots": [], "moves": {}, "factors": {}, "speed": 0.5, "turn": 1.0}
 
     def run(self, stop: Event | None = None) -> None:

@@ -6,6 +6,7 @@ import asyncio
 import json
 from collections.abc import Callable
 from concurrent.futures import Future
+from contextlib import suppress
 from threading import Thread
 from typing import Any
 
@@ -45,6 +46,7 @@ class RosbridgeNode:
         self._receivers: dict[str, Callable[[bytes], None]] = {}
         self._responses: dict[str, Future[Any]] = {}
         self._number, self._closed = 0, False
+        self._sent: Future[Any] | None = None
         self._loop = asyncio.new_event_loop()
         Thread(target=self._loop.run_forever, name="rosbridge", daemon=True).start()
         try:
@@ -116,10 +118,13 @@ class RosbridgeNode:
     def send(self, text: str) -> None:
         """Send a frame; it is dropped when the server is gone."""
         if not self._closed:
-            self._run(self._write(text))
+            self._sent = self._run(self._write(text))
 
     def close(self) -> None:
-        """Disconnect."""
+        """Disconnect, after the last frame was sent."""
+        if self._sent is not None:
+            with suppress(TimeoutError):
+                self._sent.result(1.0)
         self._closed = True
         self._loop.call_soon_threadsafe(self._socket.close)
         self._loop.call_soon_threadsafe(self._loop.stop)

@@ -64,7 +64,7 @@ async def run(client: Client, arguments: argparse.Namespace) -> int:
     values = message_of(words)
     kind = kind or find_topic(rows, name).type
     number = 1 if arguments.once else arguments.number
-    if not arguments.quiet and (name not in row_by_name or not row_by_name[name].subscribers):
+    if not (arguments.quiet or arguments.live) and (name not in row_by_name or not row_by_name[name].subscribers):
         from urdfkit.messages import full_type_name
 
         subscribed = [row.name for row in rows if row.subscribers and row.name != name]
