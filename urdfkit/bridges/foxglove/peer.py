@@ -179,7 +179,9 @@ class FoxglovePeer:
         raise UsageError("parameters are read-only")
 
     def _fetch_asset(self, message: dict[str, Any]) -> None:
-        number = int(message["requestId"])
+        number = message["requestId"]
+        if not isinstance(number, int) or not 0 <= number < 2**32:
+            raise UsageError(f"`requestId` is `{number}`; it must be a number from 0 to {2**32 - 1}")
         try:
             self._queue.reply(asset_frame(number, self._read_asset(str(message["uri"]))))
         except UrdfkitError as error:
