@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import json
 import os
+import site
 import subprocess
 import sys
 import time
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
@@ -32,27 +33,27 @@ def node_python(distribution: str) -> Path:
 
 
 @contextmanager
-def simulated(robot: str, domain: int) -> Iterator[subprocess.Popen[str]]:
-    """Run ``urdfkit sim run ROBOT --ros2`` until the end of the block."""
-    command = [
-        sys.executable,
-        "-m",
-        "urdfkit",
-        "sim",
-        "run",
-        robot,
-        "--for",
-        "600",
-        "--ros2",
-        "--ros-domain",
-        str(domain),
-    ]
+def simulated(
+    robot: str,
+    domain: int,
+    python: Sequence[str | Path] = (sys.executable, "-m", "urdfkit"),
+    library: str = "cyclonedds",
+) -> Iterator[subprocess.Popen[str]]:
+    """Run ``urdfkit sim run ROBOT --ros2`` until the end of the block.
+
+    Args:
+        robot: its name.
+        domain: of ROS 2.
+        python: command that runs urdfkit.
+        library: that publishes the topics.
+    """
+    command = [*python, "sim", "run", robot, "--for", "600", "--ros2", "--ros-domain", str(domain)]
     environment = {**os.environ, **LOCAL}
     process = subprocess.Popen(command, stderr=subprocess.PIPE, stdout=subprocess.DEVNULL, text=True, env=environment)
     assert process.stderr is not None
     try:
         for line in process.stderr:
-            if line.startswith("ros2: topics are published by cyclonedds"):
+            if line.startswith(f"ros2: topics are published by {library}"):
                 break
         else:
             pytest.fail("the simulation has not started")
@@ -123,3 +124,26 @@ def test_a_late_joiner_gets_the_static_transforms_by_cyclonedds_alone() -> None:
         )
     assert done.returncode == 0, done.stderr
     assert "camera" in done.stdout
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("distribution", DISTRIBUTIONS)
+def test_rclpy_publishes_the_topics_and_serves_the_services(distribution: str) -> None:
+    python, domain = node_python(distribution), 45 + DISTRIBUTIONS.index(distribution)
+    version = "import sys; import std_srvs; print(sys.version_info[:2] == " + repr(sys.version_info[:2]) + ")"
+    done = subprocess.run([python, "-c", version], capture_output=True, text=True, check=False)
+    if done.stdout.strip() != "True":
+        pytest.skip("needs rclpy for this version of Python, and std_srvs: make ros2-nodes")
+    code = (
+        f"import site, sys; sys.path.insert(0, {str(ROOT)!r}); site.addsitedir({site.getsitepackages()[0]!r}); "
+        "from urdfkit.cli import main; sys.exit(main())"
+    )
+    with simulated("simpleton", domain, (python, "-c", code), library="rclpy"):
+        found = node(distribution, domain, 90.0, "/simpleton/cmd_vel", "/simpleton/odom")
+        words = [python, str(Path(__file__).parent / "real_client.py")]
+        environment = {name: value for name, value in os.environ.items() if not name.startswith("PYTHON")}
+        environment |= {**LOCAL, "ROS_DOMAIN_ID": str(domain)}
+        done = subprocess.run(words, capture_output=True, text=True, env=environment, check=False)
+    assert found["x"] > 1.0
+    assert found["descriptions"] == 1
+    assert done.stdout.splitlines()[-1:] == ["answered"], done.stderr
