@@ -30,6 +30,7 @@ COMMANDS = {
     "format": "format URDF and xacro files: indentation, white space, one element per line",
     "rule": "print the page of a lint rule, or list all rules",
     "lsp": "run the language server: diagnostics, hover, definitions, completion, fixes",
+    "mcp": "serve lint, fix, ik, sim run and pictures to assistants, by the Model Context Protocol",
     "expand": "expand xacro to URDF; needs no ROS",
     "info": "print links, joints, mass, sensors and drives",
     "inertia": "compute masses and inertias from shapes and compare them with the file",
