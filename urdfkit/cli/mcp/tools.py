@@ -66,7 +66,7 @@ def server_for(calls: Calls, *, allow_fixes: bool) -> MCPServer:
 
     @server.tool(annotations=reads)
     async def rule(code: str) -> str:
-        """Return the page of a lint rule, such as I503: what it checks, why, and an example."""
+        """Return the page of a lint rule, such as I503: the defect, the reason, and an example."""
         return await _in_thread(lambda: calls.run("rule", calls.path(code)))  # type: ignore[no-any-return]
 
     @server.tool(annotations=ToolAnnotations(read_only_hint=not allow_fixes, open_world_hint=False))
