@@ -149,9 +149,12 @@ def test_every_public_name_resolves() -> None:
         _ = urdfkit.nonsense
 
 
+COMMUNITY = ("CITATION.cff", "CODE_OF_CONDUCT.md", "SECURITY.md")
+
+
 def test_top_level_holds_what_the_house_draws() -> None:
-    allowed = {"urdfkit", "templates", "robots", "tests", "docs", "pyproject.toml"}
-    customary = {"README.md", "CHANGELOG.md", "CONTRIBUTING.md", "LICENSE", "Makefile"}
+    allowed = {"urdfkit", "templates", "robots", "tests", "docs", "editors", "pyproject.toml"}
+    customary = {"README.md", "CHANGELOG.md", "CONTRIBUTING.md", "LICENSE", "Makefile", *COMMUNITY}
     listed = subprocess.run(
         ["git", "ls-files"], cwd=ROOT.parent, capture_output=True, text=True, check=False, env={**os.environ}
     )

@@ -45,6 +45,7 @@ COMMANDS = {
     "topic": "inspect and publish topics of a running simulation: list, info, type, find, echo, hz, bw, pub",
     "replay": "show a recording of ROS 1, ROS 2 or urdfkit in the browser",
     "bag": "print the topics of a recording: info",
+    "licenses": "print versions and licences of the dependencies, or a software bill of materials",
     "completion": "print the completion script of bash, zsh or fish",
 }
 """Command → its description. The module ``urdfkit.cli.<command>`` implements it; ``import_`` is ``import``."""
@@ -52,6 +53,7 @@ COMMANDS = {
 _FOLDERS = {
     **dict.fromkeys(("tf", "ik", "jacobian", "reach", "retime", "srdf"), "kinematics"),
     **dict.fromkeys(("replay", "bag"), "recordings"),
+    "licenses": "installation",
 }
 """Command → the package in ``urdfkit.cli`` that its module is in."""
 
@@ -142,6 +144,11 @@ def _run(arguments: list[str]) -> int:
 
         if (parsed := parse_simple(arguments[1:])) is not None:
             return int(_module("lint").run(parsed))
+    if "--version" in arguments and set(arguments) <= {"--version", "-v", "--verbose"} and len(arguments) > 1:
+        from urdfkit.cli.installation.version_report import report
+
+        print(report())
+        return 0
     command = next((a for a in arguments if not a.startswith("-")), None)
     if command is not None and command not in COMMANDS and command == arguments[0]:
         from urdfkit.cli.unknown_command import refuse
@@ -165,7 +172,12 @@ def parser_of(command: str | None, *, complete: bool = True) -> Parser:
         description="From a URDF or xacro to a robot you drive in the browser.",
         epilog="examples:\n  urdfkit new robot scout\n  urdfkit sim teleop simpleton",
     )
-    parser.add_argument("--version", action="version", version=f"urdfkit {_version()}")
+    parser.add_argument(
+        "--version",
+        action="version",
+        version=f"urdfkit {_version()}",
+        help="print the version and exit; with --verbose also versions of the platform and the dependencies",
+    )
     commands = parser.add_subparsers(dest="command", metavar="COMMAND", required=True, prog="urdfkit")
     for name in COMMANDS if complete or command is None else (command,):
         sub = commands.add_parser(name, help=COMMANDS[name], description=COMMANDS[name])

@@ -51,11 +51,11 @@ def run(arguments: argparse.Namespace) -> int:
         import mcp.server.mcpserver  # noqa: F401
     except ImportError as error:
         raise MissingDependencyError("mcp needs mcp: pip install 'urdfkit[mcp]'") from error
-    from urdfkit.cli.mcp.calls import Calls
+    from urdfkit.cli.mcp.calls import ToolCalls
     from urdfkit.cli.mcp.tools import server_for
 
     root = Path(arguments.root).expanduser()
     if not root.is_dir():
         raise ResourceError(f"--root {arguments.root}: no such folder")
-    server_for(Calls(root.resolve(), arguments.time_limit), allow_fixes=arguments.allow_fixes).run("stdio")
+    server_for(ToolCalls(root.resolve(), arguments.time_limit), allow_fixes=arguments.allow_fixes).run("stdio")
     return 0

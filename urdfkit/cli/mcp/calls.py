@@ -26,7 +26,7 @@ _VARIABLES = (
 """Environment variables of the processes; ``$(env …)`` in a description finds no others."""
 
 
-class Calls:
+class ToolCalls:
     """Runs commands of urdfkit for an assistant.
 
     Args:

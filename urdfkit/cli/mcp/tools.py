@@ -18,7 +18,7 @@ from urdfkit import __version__
 from urdfkit.errors import UrdfkitError
 
 if TYPE_CHECKING:
-    from urdfkit.cli.mcp.calls import Calls
+    from urdfkit.cli.mcp.calls import ToolCalls
 
 MAX_SECONDS = 600.0
 """Maximum simulated time of one call [s]."""
@@ -38,7 +38,7 @@ async def _in_thread(call: Callable[[], Any]) -> Any:
         raise ToolError(str(error)) from None
 
 
-def server_for(calls: Calls, *, allow_fixes: bool) -> MCPServer:
+def server_for(calls: ToolCalls, *, allow_fixes: bool) -> MCPServer:
     """Return the server.
 
     Args:

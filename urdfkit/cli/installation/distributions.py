@@ -1,0 +1,58 @@
+"""The installed distributions that urdfkit requires, directly or indirectly, by the metadata of packages."""
+
+from __future__ import annotations
+
+import re
+from importlib.metadata import Distribution, PackageNotFoundError, distribution
+
+_NAME = r"[A-Za-z0-9][\w.-]*"
+_CLASSIFIER = "License :: "
+
+
+def required(name: str = "urdfkit") -> list[Distribution]:
+    """Return the installed distributions that a distribution requires with any of its extras, and itself first.
+
+    Requirements that are not installed, such as those of an extra that is not used, are left out.
+
+    Args:
+        name: the distribution; an empty list if it is not installed, as in a checkout on ``PYTHONPATH``.
+    """
+    found: dict[str, Distribution] = {}
+    pending = [(name, True)]
+    while pending:
+        each, with_extras = pending.pop()
+        key = re.sub(r"[-_.]+", "-", each).lower()
+        if key in found:
+            continue
+        try:
+            package = found[key] = distribution(each)
+        except PackageNotFoundError:
+            continue
+        for line in package.requires or ():
+            wanted = re.match(_NAME, line)
+            if wanted is not None and (with_extras or "extra ==" not in line) and not _is_for_tests(line):
+                pending.append((wanted[0], False))
+    own = found.pop(name, None)
+    rest = sorted(found.values(), key=lambda each: each.metadata["Name"].lower())
+    return [own, *rest] if own is not None else rest
+
+
+def _is_for_tests(requirement: str) -> bool:
+    return re.search(r"extra == [\"'](?:test|bench|docs)[\"']", requirement) is not None
+
+
+def licence(package: Distribution) -> str:
+    """Return the licence of a distribution: its SPDX expression, else classifiers, else the first line of its text."""
+    metadata = package.metadata
+    if expression := spdx_expression(package):
+        return expression
+    classifiers = [str(each) for each in metadata.get_all("Classifier") or () if str(each).startswith(_CLASSIFIER)]
+    if classifiers:
+        return ", ".join(each.rpartition(" :: ")[2] for each in classifiers)
+    text = str(metadata["License"]).strip() if "License" in metadata else ""
+    return text.splitlines()[0][:80] if text else "unknown"
+
+
+def spdx_expression(package: Distribution) -> str:
+    """Return the licence of a distribution as an SPDX expression; empty without one."""
+    return str(package.metadata["License-Expression"]) if "License-Expression" in package.metadata else ""
