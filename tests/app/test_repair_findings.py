@@ -4,6 +4,7 @@ from pathlib import Path
 
 from urdfkit.app.repair_findings import note_repairs, with_repairs
 from urdfkit.description.urdf.repair_record import Repair
+from urdfkit.description.xml.source import Source
 from urdfkit.position import Position
 
 
@@ -43,6 +44,16 @@ def test_a_row_shows_its_source_line(tmp_path: Path, monkeypatch) -> None:
     Path("r.urdf").write_text("<robot>\n <link/>\n</robot>\n")
     assert with_repairs([], [repair("x", 2)])[0]["lines"] == [" <link/>"]
     assert with_repairs([], [Repair("mass", None, "x", None)])[0]["lines"] == []
+
+
+def test_the_source_of_many_rows_is_read_once(tmp_path: Path, monkeypatch) -> None:
+    (tmp_path / "r.urdf").write_text("<robot>\n" * 9)
+    reads, read = [], Source.read
+    monkeypatch.setattr(Source, "read", lambda *words, **options: reads.append(1) or read(*words, **options))
+    at = [Position(str(tmp_path / "r.urdf"), line, 1) for line in range(1, 9)]
+    rows = with_repairs([], [Repair("mesh", "G601", f"no mesh {place.line}", place) for place in at])
+    assert [row["lines"] for row in rows] == [["<robot>"]] * 8
+    assert len(reads) == 1
 
 
 def test_each_repair_is_printed_once(capsys) -> None:

@@ -119,6 +119,12 @@ def undefined_children(n: int) -> Files:
     return urdf(star(similar(n)), *(joint(f"j{i}", "base", name) for i, name in enumerate(misspelt(n))))
 
 
+def misspelt_children(n: int) -> Files:
+    """Return n roots, and joints whose children are these roots, misspelt."""
+    children = (joint(f"j{i}", "base", name) for i, name in enumerate(misspelt(n)))
+    return urdf(*(link(name) for name in similar(n)), *children)
+
+
 def undefined_references(n: int) -> Files:
     """Tags <gazebo> with misspelt references."""
     tags = (f'<gazebo reference="{name}"><mu1>1</mu1></gazebo>\n' for name in misspelt(n))
@@ -416,8 +422,8 @@ MANIFEST = (
 FAMILIES: dict[str, Callable[[int], Files]] = {
     family.__name__: family
     for family in (
-        undefined_parents, undefined_children, undefined_references, undefined_mimics, undefined_materials,
-        undefined_transmissions, undefined_ros2_control, undefined_controllers, valid_controllers,
+        undefined_parents, undefined_children, misspelt_children, undefined_references, undefined_mimics,
+        undefined_materials, undefined_transmissions, undefined_ros2_control, undefined_controllers, valid_controllers,
         one_joint_controllers, unknown_parameters, deep_yaml, indented_yaml, merging_yaml, alias_yaml,
         duplicate_links, duplicate_joints, same_child, several_roots, one_cycle, small_cycles, long_chain, moving_star,
         mimic_chain, suppressions, file_suppressions, unknown_suppressions, overlapping_shapes, unnamed_shapes,

@@ -216,6 +216,14 @@ def test_names_are_compared_only_up_to_the_limit():
     assert errors.nearest("x" * 90_000, ["x" * 90_001]) is None
 
 
+def test_roots_are_not_compared_with_each_misspelt_child(monkeypatch, tmp_path):
+    path = growth.write(tmp_path / "r_description", growth.misspelt_children(30))
+    calls = []
+    monkeypatch.setattr(errors, "nearest", lambda *words, **options: calls.append(1))  # As beyond the limit.
+    assert main(["lint", str(path), "--no-cache", "--select", "T203"]) == 1
+    assert len(calls) <= 3 * 30
+
+
 @pytest.mark.parametrize("seed", range(20))
 def test_suppressions_meet_the_same_findings_as_one_by_one(seed):
     chance = random.Random(seed)

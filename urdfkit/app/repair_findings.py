@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable
+from collections.abc import Callable, Collection, Iterable
+from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -13,7 +14,6 @@ from urdfkit.errors import ResourceError
 
 if TYPE_CHECKING:
     from urdfkit.description.urdf.repair_record import Repair
-    from urdfkit.position import Position
 
 Row = dict[str, Any]
 
@@ -51,12 +51,13 @@ def with_repairs(rows: list[Row], repairs: Iterable[Repair], *, first: int = 1) 
         groups.setdefault(repair.message, []).append(repair)
     by_place = {(row["code"], _real(row["file"]), row["line"]): row for row in reversed(rows)}
     added: list[Row] = []
+    source = cache(_source)
     for message, group in groups.items():
         places = ((repair.code, repair.position) for repair in group if repair.position is not None)
         findings = (by_place.get((code, _real(at.file), at.line)) for code, at in places)
         row = next((row for row in findings if row is not None), None)
         if row is None:
-            row = _row(group[0], first + len(added))
+            row = _row(group[0], first + len(added), source)
             added.append(row)
         row["repair"] = message
         _extend(row, group)
@@ -75,8 +76,9 @@ def _owner(link: str | None, joint: str | None) -> dict[str, str]:
     return {"link": link} if link else {"joint": joint} if joint else {}
 
 
-def _row(repair: Repair, number: int) -> Row:
+def _row(repair: Repair, number: int, source: Callable[[str], Source | None]) -> Row:
     at = repair.position
+    text = None if at is None else source(at.file)
     return {
         "code": repair.code or "",
         "name": "repair",
@@ -91,16 +93,16 @@ def _row(repair: Repair, number: int) -> Row:
         "chains": [],
         "fix": None,
         "number": number,
-        "lines": [] if at is None else _lines(at),
+        "lines": [] if at is None or text is None else [text.line(at.line)],
         "about": [],
     }
 
 
-def _lines(at: Position) -> list[str]:
+def _source(file: str) -> Source | None:
     try:
-        return [Source.read(Path(at.file), shown_as=at.file).line(at.line)]
-    except (ResourceError, IndexError):
-        return []
+        return Source.read(Path(file), shown_as=file)
+    except ResourceError:
+        return None
 
 
 def _real(file: str) -> Path:

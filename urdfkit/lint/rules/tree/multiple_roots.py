@@ -41,6 +41,8 @@ class MultipleRoots(RobotRule):
 
     def check(self, model: Model) -> Findings:
         """Yield a finding for each root except that of the largest tree."""
+        from urdfkit.description.urdf.queries import dangling
+
         robot = model.robot
         roots = robot.roots()
         if len(roots) < 2:
@@ -50,6 +52,9 @@ class MultipleRoots(RobotRule):
         roots = [link for link in roots if link.name not in likely_children and not masked.has_child(link.name)]
         if len(roots) < 2:
             return
+        joint_by_unknown_child: dict[str, str] = {}
+        for joint, name, _ in dangling(robot, "child"):
+            joint_by_unknown_child.setdefault(name, joint.name)
         main = max(roots, key=lambda link: _links_below(robot, link.name))
         for link in roots:
             if link is not main:
@@ -59,7 +64,7 @@ class MultipleRoots(RobotRule):
                     f"link `{link.name}` has no parent, but `{main.name}` is already the root",
                     attribute="name",
                     link=link.name,
-                    help=_suggested_change(robot, link.name, main.name),
+                    help=_suggested_change(joint_by_unknown_child, link.name, main.name),
                 )
 
 
@@ -84,10 +89,10 @@ def _likely_children(robot: Robot) -> set[str]:
     }
 
 
-def _suggested_change(robot: Robot, name: str, root: str) -> str:
-    from urdfkit.errors import did_you_mean
+def _suggested_change(joint_by_unknown_child: dict[str, str], name: str, root: str) -> str:
+    from urdfkit.errors import nearest
 
-    for joint in robot.joints:
-        if joint.child is not None and joint.child not in robot.link_by_name and did_you_mean(joint.child, [name]):
-            return f"write `{name}` as the child of joint `{joint.name}` if `{joint.child}` is a misspelling"
+    child = nearest(name, joint_by_unknown_child)
+    if child is not None:
+        return f"write `{name}` as the child of joint `{joint_by_unknown_child[child]}` if `{child}` is a misspelling"
     return f"add a joint with child `{name}` and parent `{root}`, or another link"
