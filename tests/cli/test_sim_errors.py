@@ -344,7 +344,9 @@ def test_ctrl_c_ends_it_without_a_word(tmp_path: Path) -> None:
     words = command(str(brick), "--world", "void", "--for", "1e6")
     with running(words, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as process:
         assert process.stderr is not None
-        assert "libgazebo_ros_vacuum_gripper.so: not simulated yet" in process.stderr.readline()  # it is about to begin
+        assert (
+            "`libgazebo_ros_vacuum_gripper.so` is not simulated yet" in process.stderr.readline()
+        )  # it is about to begin
         process.send_signal(signal.SIGINT)
         out, err = process.communicate(timeout=PATIENCE)
     assert (process.returncode, out, err) == (130, "", "")

@@ -201,7 +201,7 @@ def _binary_stl(count: int, triangles: bytes) -> bytes:
             b"ply\nformat binary_little_endian 1.0\nelement vertex 999999999999\n",
             r"mesh a\.ply cannot be read",
         ),
-        ("a.glb", b"glTF\x02\0\0\0\xff\xff\xff\xff", r"mesh a\.glb cannot be read"),
+        ("a.glb", b"glTF\x02\0\0\0\xff\xff\xff\xff", r"mesh a\.glb is truncated"),
         ("a.dae", b"<COLLADA", r"mesh a\.dae cannot be read"),
         ("a.dae", b"<?xml version='1.0'?><html/>", r"mesh a\.dae "),
         (
@@ -231,7 +231,7 @@ def test_a_missing_file_names_the_nearest(loader: MeshLoader, tmp_path: Path) ->
     with pytest.raises(ResourceError, match=r"missing mesh file"):
         loader.load(tmp_path / "nowhere" / "box.stl")
     (tmp_path / "folder.stl").mkdir()
-    with pytest.raises(ResourceError, match=r"missing mesh file"):
+    with pytest.raises(ResourceError, match=r"mesh folder\.stl is a folder"):
         loader.load(tmp_path / "folder.stl")
 
 

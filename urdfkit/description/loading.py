@@ -8,6 +8,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from urdfkit.description.packages.resolver import Packages
+from urdfkit.description.repair_positions import at_attributes
 from urdfkit.description.structure_defects import repaired_structure
 from urdfkit.description.urdf.parser import parse
 from urdfkit.description.urdf.robot import Robot
@@ -140,7 +141,7 @@ def _repaired(robot: Robot) -> Robot:
     repaired, defects = repaired_structure(robot)
     repaired, values = repaired_values(repaired)
     repairs = (*(defect.repair for defect in defects), *values)
-    return replace(repaired, repairs=repairs) if repairs else repaired
+    return replace(repaired, repairs=tuple(at_attributes(repairs))) if repairs else repaired
 
 
 def _load(model: ModelArgument, check: Callable[[Robot], None], text: str | None = None) -> Robot:

@@ -40,6 +40,7 @@ class Defect:
         element: the element that has the defect.
         link: name of the affected link.
         joint: name of the affected joint.
+        attribute: attribute that has the defect; None if it depends on the code.
     """
 
     message: str
@@ -48,6 +49,7 @@ class Defect:
     element: Element = field(repr=False)
     link: str | None = None
     joint: str | None = None
+    attribute: str | None = None
 
     @property
     def position(self) -> Position:
@@ -63,7 +65,8 @@ class Defect:
     def repair(self) -> Repair:
         """The repair."""
         message = with_effect(self.message, self.effect) + self._chain
-        return Repair("structure", self.code, message, self.position, self.link, self.joint)
+        place = self.position
+        return Repair("structure", self.code, message, place, self.link, self.joint, attribute=self.attribute)
 
     @property
     def _chain(self) -> str:
@@ -121,7 +124,7 @@ def _unusable(problem: Problem, by_element: Mapping[Element, Owner]) -> Defect:
     elif element.tag in _SHAPES:
         effect = "the shape is unknown"
     link, joint = by_element.get(element, (None, None))
-    return Defect(problem.message, effect, code, element, link, joint)
+    return Defect(problem.message, effect, code, element, link, joint, problem.attribute)
 
 
 class _Structure:

@@ -142,6 +142,7 @@ ROBOT: tuple[Row, ...] = (
     ("plugin", "gazebo.plugin_filename_malformed", "PluginFilenameMalformed"),
     ("plugin", "gazebo.plugin_unknown", "PluginUnknown"),
     ("plugin", "gazebo.plugin_value_unknown", "PluginValueUnknown"),
+    ("plugin sensor ros2_control", "gazebo.part_not_simulated", "PartNotSimulated"),
     ("gazebo", "gazebo.gazebo_unknown_tag", "GazeboUnknownTag"),
     ("gazebo", "gazebo.value_attribute_in_sdf", "ValueAttributeInSdf"),
     ("fdir1", "gazebo.friction_direction_zero", "FrictionDirectionZero"),

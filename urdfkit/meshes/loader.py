@@ -14,6 +14,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from urdfkit.description.meshes.format_faults import glb_fault, obj_fault
 from urdfkit.description.meshes.limits import MAX_BYTES, MAX_TRIANGLES
 from urdfkit.description.packages.resolver import near_path
 from urdfkit.description.urdf.robot import Vector
@@ -140,6 +141,8 @@ class MeshLoader:
 def _read(path: Path) -> bytes:
     """Return the content of a mesh file after a check of size and header."""
     try:
+        if path.is_dir():
+            raise ResourceError(f"mesh {path.name} is a folder")
         if not path.is_file():
             raise ResourceError(f"missing mesh file {path}{near_path(path)}", kind="file")
         if (size := path.stat().st_size) > MAX_BYTES:
@@ -157,6 +160,10 @@ def _read(path: Path) -> bytes:
         count = int.from_bytes(content[80:84], "little")
         if len(content) < 84 + 50 * count or len(content) < 84:
             raise ResourceError(f"mesh {path.name} is truncated: {len(content)} bytes instead of {84 + 50 * count}")
+    suffix = path.suffix.lower()
+    fault = obj_fault(content) if suffix == ".obj" else glb_fault(content, len(content)) if suffix == ".glb" else ""
+    if fault:
+        raise ResourceError(f"mesh {path.name} {fault}")
     return content
 
 
@@ -188,7 +195,8 @@ def _parse(path: Path, content: bytes, scale: Vector, beside: Beside, places: bo
     except ResourceError:
         raise
     except Exception as error:  # any error of the reader of the format, which evaluates properties when they are used
-        reason = str(error).strip().splitlines()[0] if str(error).strip() else type(error).__name__
+        is_described = type(error).__module__ != "builtins" and str(error).strip()
+        reason = str(error).strip().splitlines()[0] if is_described else f"it is no valid {suffix[1:].upper()} file"
         raise ResourceError(f"mesh {path.name} cannot be read: {reason}") from error
     missing, broken = (tuple(dict.fromkeys(names)) for names in (beside.missing, beside.broken))
     return replace(mesh, missing=missing, broken=broken) if missing else mesh

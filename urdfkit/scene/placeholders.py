@@ -21,7 +21,7 @@ from urdfkit.description.urdf.robot import (
 )
 from urdfkit.description.xacro.evaluation.failures import chain_words
 from urdfkit.description.xml.element import Element
-from urdfkit.errors import with_effect
+from urdfkit.errors import ModelError, with_effect
 from urdfkit.linear_algebra import Array
 from urdfkit.scene.colors import DEFAULT
 from urdfkit.scene.placeholder_sizes import PlaceholderSizes
@@ -49,13 +49,13 @@ def with_placeholders(robot: Robot, scene: Scene) -> tuple[Scene, list[Repair]]:
         Repair("mesh", each.code, with_effect(each.error.message, _EFFECT), each.error.position, each.body)
         for each in scene.problems
     ]
-    problems = {problem.element: problem for problem in reversed(robot.problems) if problem.kind in _SHAPELESS}
+    problems = shape_problems(robot)
     wanted = dict.fromkeys((each.body, each.role) for each in scene.problems)
     for link in robot.link_by_name_in_order():
         for role, item in _items(link):
             if item.geometry is None:
                 wanted[link.name, role] = None
-                repairs += _unknown_shapes(link, item, problems)
+                repairs += unknown_shapes(link, item, problems, _EFFECT)
             elif (size := _negative(item.geometry)) is not None:
                 repairs.append(_negative_size(link, role, item, size))
     if not wanted and not repairs:
@@ -113,19 +113,62 @@ def _positive(shape: Shape) -> Shape:
     return replace(shape, geometry=Box((edges[0], edges[1], edges[2])), mesh=None, rgba=DEFAULT, is_placeholder=True)
 
 
-def _unknown_shapes(link: Link, item: Visual | Collision, problems: Mapping[Element, Problem]) -> Iterator[Repair]:
-    """Yield the repairs of a shape without a readable geometry, except those of the robot's structure."""
-    for element in item.element.walk():
-        if (problem := problems.get(element)) is not None:
-            origin = element.origin
-            message = with_effect(problem.message, _EFFECT) + chain_words(origin.expansions)
-            yield Repair("shape", _SHAPELESS[problem.kind], message, origin.position, link.name)
+def shape_problems(robot: Robot) -> dict[Element, Problem]:
+    """Return element → the problem without which a shape could have a geometry there."""
+    return {problem.element: problem for problem in reversed(robot.problems) if problem.kind in _SHAPELESS}
+
+
+def unknown_shapes(
+    link: Link, item: Visual | Collision, problems: Mapping[Element, Problem], effect: str
+) -> Iterator[Repair]:
+    """Yield the repairs of a shape without a readable geometry, except those of the robot's structure.
+
+    Args:
+        link: the link of the shape.
+        item: the shape.
+        problems: see `shape_problems`.
+        effect: what happens to the shape, for the message.
+    """
+    for problem in _unknown(item, problems):
+        origin = problem.element.origin
+        message = with_effect(problem.message, effect) + chain_words(origin.expansions)
+        code, attribute = _SHAPELESS[problem.kind], problem.attribute
+        yield Repair("shape", code, message, origin.position, link.name, attribute=attribute)
+
+
+def require_known_shapes(robot: Robot) -> None:
+    """Refuse a robot with a shape that has no readable geometry, or a negative size.
+
+    Raises:
+        ModelError: the first such shape.
+    """
+    problems = shape_problems(robot)
+    for link in robot.links:
+        for role, item in _items(link):
+            for problem in _unknown(item, problems):
+                origin = problem.element.origin
+                raise ModelError(problem.message + chain_words(origin.expansions), position=origin.position)
+            if item.geometry is not None and (size := _negative(item.geometry)) is not None:
+                message, element = _size_message(link, role, item, size)
+                raise ModelError(message + chain_words(element.origin.expansions), position=element.origin.position)
+
+
+def _unknown(item: Visual | Collision, problems: Mapping[Element, Problem]) -> Iterator[Problem]:
+    """Yield the problems of a shape without a readable geometry."""
+    if item.geometry is None:
+        yield from (problems[element] for element in item.element.walk() if element in problems)
 
 
 def _negative_size(link: Link, role: Role, item: Visual | Collision, size: float) -> Repair:
+    message, element = _size_message(link, role, item, size)
+    origin = element.origin
+    message = with_effect(message, _EFFECT) + chain_words(origin.expansions)
+    return Repair("shape", "G611", message, origin.position, link.name)
+
+
+def _size_message(link: Link, role: Role, item: Visual | Collision, size: float) -> tuple[str, Element]:
     kind = type(item.geometry).__name__.lower()
     geometry = item.element.find("geometry") or item.element
-    element = geometry.find(kind) or geometry
-    message = f"link `{link.name}`: the <{kind}> of a {role} shape has the size {size:g} m; {_EFFECT}"
-    origin = element.origin
-    return Repair("shape", "G611", message + chain_words(origin.expansions), origin.position, link.name)
+    return f"link `{link.name}`: the <{kind}> of a {role} shape has the size {size:g} m", geometry.find(
+        kind
+    ) or geometry

@@ -184,9 +184,11 @@ def scene_of(robot: Robot, *, strict: bool = True, meshes: MeshLoader | None = N
                 except ResourceError as error:
                     if strict:
                         raise
-                    uri = item.geometry.uri
-                    written = sources.at(_mesh_position(item), "filename") if is_absolute(uri) else None
-                    is_literal = written is not None and written.raw == uri
+                    uri, tag = item.geometry.uri, _mesh_position(item)
+                    written = sources.at(tag, "filename")
+                    is_literal = is_absolute(uri) and written is not None and written.raw == uri
+                    if written is not None and written.name.start.line != tag.line:
+                        error.position = written.name.start  # As the linter reports it.
                     problems.append(MissingMesh(name, link.name, role, error, uri, is_literal))
                     continue
             color = palette.of(link.name, item) if isinstance(item, Visual) else None

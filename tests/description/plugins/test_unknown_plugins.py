@@ -30,5 +30,5 @@ def test_a_plugin_that_nobody_knows_is_told_from_one_of_gazebo(tmp_path) -> None
     Simulator(path, note=notes.append)
     assert [note.removeprefix(f"{tmp_path}/") for note in notes if not note.startswith("compiling")] == [
         "robot.urdf:2:9: unknown plugin `libmy_stuff.so`: urdfkit does not simulate it",
-        "plugin libgazebo_ros_elevator.so: not simulated yet",
+        "robot.urdf:3:1: plugin `libgazebo_ros_elevator.so` is not simulated yet",
     ]

@@ -60,22 +60,33 @@ class ShownRobot:
             UrdfkitError: there is no robot in the file, or it needs a repair (`strict`).
         """
         from urdfkit.description.loading import load_repaired, load_valid
+        from urdfkit.description.repair_positions import at_attributes
         from urdfkit.description.xml.cost_limit import loading_limit
         from urdfkit.kinematics import Kinematics
         from urdfkit.kinematics.mimic import without_impossible_mimics
         from urdfkit.scene import MeshLoader, scene_of
-        from urdfkit.scene.placeholders import with_placeholders
+        from urdfkit.scene.placeholders import require_known_shapes, with_placeholders
 
         loader = loader or MeshLoader()
         replaced: list[Repair] = []
         with loading_limit():
             robot = load_valid(model) if strict else without_impossible_mimics(load_repaired(model))
+            if strict:
+                require_known_shapes(robot)
             scene = scene_of(robot, strict=strict, meshes=loader)
             if not strict:
                 scene, replaced = with_placeholders(robot, scene)
             found, missing = mesh_files(robot)
             files = robot.files or (model.path,)
-            return cls(Kinematics(robot), scene, files, found, missing, (*robot.repairs, *replaced), loader)
+            return cls(
+                Kinematics(robot),
+                scene,
+                files,
+                found,
+                missing,
+                tuple(at_attributes((*robot.repairs, *replaced))),
+                loader,
+            )
 
 
 def mesh_files(robot: Robot) -> tuple[tuple[Path, ...], tuple[str, ...]]:

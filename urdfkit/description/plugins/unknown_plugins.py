@@ -1,11 +1,12 @@
-"""Messages about plugins that are not simulated, with position and most similar simulated plugin."""
+"""Messages about plugins and sensors that are not simulated, with the most similar simulated one."""
 
 import re
 from collections.abc import Iterable
 
 from urdfkit import errors
 from urdfkit.description.plugins.lookup import ALL_SPECS, stem
-from urdfkit.description.urdf.robot import Plugin
+from urdfkit.description.plugins.sensors.table import INSTEAD, SENSOR_TYPES
+from urdfkit.description.urdf.robot import Plugin, SensorTag
 
 _GAZEBO = re.compile(r"^(gazebo_ros_|gazebo_|gz-sim-|ignition-gazebo-|gz_|hector_gazebo_)")
 """Prefixes of Gazebo plugin libraries."""
@@ -13,24 +14,43 @@ _END = re.compile(r"(-system|_plugin)$")
 
 
 def unknown(plugin: Plugin, sensor: str | None = None, others: Iterable[str] = ()) -> str:
-    """Return the message about a plugin that is not simulated.
+    """Return the message about a plugin that is not simulated, without its position.
 
     Args:
         plugin: the plugin.
         sensor: name of the ``<sensor>`` that contains the plugin; None for other plugins.
         others: stems of supported libraries that are not in the tables.
     """
-    place = plugin.element.origin.position
     left_out = "" if sensor is None else f"; sensor `{sensor or 'sensor'}` is left out"
     if plugin.filename is None:
-        return f"{place}: plugin `{plugin.name or ''}` has no filename and is ignored{left_out}"
+        return f"plugin `{plugin.name or ''}` has no filename and is ignored{left_out}"
     name = stem(plugin.filename)
     if near := nearest(name, others):
         suggestion = f"did you mean `{plugin.filename.replace(name, near)}`?"
-        return f"{place}: no plugin `{plugin.filename}`{left_out}; {suggestion}"
+        return f"no plugin `{plugin.filename}`{left_out}; {suggestion}"
     if _GAZEBO.search(name):
-        return f"plugin {plugin.filename}: not simulated yet{left_out}"
-    return f"{place}: unknown plugin `{plugin.filename}`: urdfkit does not simulate it{left_out}"
+        return f"plugin `{plugin.filename}` is not simulated yet{left_out}"
+    return f"unknown plugin `{plugin.filename}`: urdfkit does not simulate it{left_out}"
+
+
+def unsupported(sensor: SensorTag, *, simulated: bool) -> str:
+    """Return the message about a sensor that is not simulated, with the nearest type; empty for a valid type.
+
+    Args:
+        sensor: the sensor.
+        simulated: whether its plugin, or a sensor of its type without plugins, is simulated.
+    """
+    kind = (sensor.type or "").strip()
+    left_out = f"sensor `{sensor.name or 'sensor'}` is left out"
+    if not kind:
+        return f"a sensor has no type; {left_out}"
+    if kind in SENSOR_TYPES and simulated:
+        return ""
+    if kind in INSTEAD:
+        return f"sensors of type `{kind}` are not simulated: {INSTEAD[kind]}; {left_out}"
+    if kind not in SENSOR_TYPES:
+        return f"unknown sensor type `{kind}`; {left_out}{errors.did_you_mean(kind, SENSOR_TYPES)}"
+    return f"sensors of type `{kind}` are not simulated yet; {left_out}"
 
 
 def nearest(name: str, others: Iterable[str] = ()) -> str:

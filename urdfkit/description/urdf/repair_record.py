@@ -31,6 +31,7 @@ class Repair:
         link: name of the repaired link; None if no link was repaired.
         joint: name of the joint that moves the link, or of the repaired joint; None if unknown.
         severity: ``note`` for changes within rounding errors of the source, else ``warning``.
+        attribute: attribute that has the defect; None if it depends on the code.
     """
 
     kind: RepairKind
@@ -40,6 +41,7 @@ class Repair:
     link: str | None = None
     joint: str | None = None
     severity: Literal["warning", "note"] = "warning"
+    attribute: str | None = None
 
     def __str__(self) -> str:
         """Return the message with its position."""

@@ -94,14 +94,20 @@ def impossible(i: Tensor, tolerance: float = IMPOSSIBLE) -> str:
 
 def invalid_sizes(link: Link, collision: Collision) -> Iterator[Problem]:
     """Yield a message and an element for each size of a collision shape that is not positive."""
+    element = collision.element.find("geometry") or collision.element
+    kind = type(collision.geometry).__name__.lower()
+    for name, length in sizes_not_positive(collision):
+        message = f"the {kind} of link `{link.name}` has a {name} of {length:g} m; it must be positive"
+        yield message, element.find(kind) or element
+
+
+def sizes_not_positive(collision: Collision) -> Iterator[tuple[str, float]]:
+    """Yield attribute and value [m] for each size of a collision shape that is not positive."""
     shape = collision.geometry
     if shape is None or isinstance(shape, Mesh):
         return
-    element = collision.element.find("geometry") or collision.element
     for name in ("size", "radius", "length"):
         for length in np.atleast_1d(getattr(shape, name, 1.0)).tolist():
             # A capsule without a cylindrical part is a sphere.
             if not (length > 0.0 or (name == "length" and type(shape).__name__ == "Capsule" and length == 0.0)):
-                kind = type(shape).__name__.lower()
-                written = element.find(kind) or element
-                yield f"the {kind} of link `{link.name}` has a {name} of {length:g} m; it must be positive", written
+                yield name, length

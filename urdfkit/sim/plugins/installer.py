@@ -9,7 +9,7 @@ from urdfkit import entry_points
 from urdfkit.description.plugins import PluginSpec, match
 from urdfkit.description.plugins.lookup import stem
 from urdfkit.description.plugins.sensors.table import BARE
-from urdfkit.description.plugins.unknown_plugins import unknown
+from urdfkit.description.plugins.unknown_plugins import unknown, unsupported
 from urdfkit.description.sdf.reader.world_plugins import NEEDLESS
 from urdfkit.description.urdf.robot import Plugin, Robot, SensorTag
 from urdfkit.errors import DescriptionError, SimulationError, UrdfkitError, UsageError, with_effect
@@ -21,7 +21,7 @@ from urdfkit.sim.plugins.controllers.simulation_arguments import simulation_hint
 from urdfkit.sim.plugins.drives import DRIVES
 from urdfkit.sim.plugins.sensors import SENSORS
 from urdfkit.sim.plugins.setup import Setup
-from urdfkit.sim.plugins.unknown_tags import SharedTopics, misspelt, not_read, unsupported_sensor
+from urdfkit.sim.plugins.unknown_tags import SharedTopics, misspelt, not_read
 
 
 @dataclass(frozen=True)
@@ -143,8 +143,8 @@ def _choose(plugin: Plugin, setup: Setup, classes: tuple[type[Drive | Sensor | C
     sensor = setup.sensor
     bare = sensor is not None and plugin.element is sensor.element
     spec = BARE.get((sensor.type or "").strip()) if bare and sensor is not None else match(plugin)
-    if sensor is not None and (reason := unsupported_sensor(sensor, simulated=spec is not None or not bare)):
-        return LeftOut(reason)
+    if sensor is not None and (reason := unsupported(sensor, simulated=spec is not None or not bare)):
+        return LeftOut(f"{sensor.element.origin.position}: {reason}")
     for warning in not_read(plugin, spec) if spec is not None and not bare else ():
         setup.note(warning)
     if spec is not None and spec.kind == "joint_state_publisher":
@@ -162,7 +162,8 @@ def _choose(plugin: Plugin, setup: Setup, classes: tuple[type[Drive | Sensor | C
     if name in NEEDLESS or plugin.element.origin.position in noted:
         return Needless()
     brought = [name for each in classes for table in each.specs for name in table.filenames]
-    return LeftOut(unknown(plugin, None if sensor is None else sensor.name or "", [*NEEDLESS, *brought]))
+    reason = unknown(plugin, None if sensor is None else sensor.name or "", [*NEEDLESS, *brought])
+    return LeftOut(f"{plugin.element.origin.position}: {reason}")
 
 
 def _configure(made: Drive | Sensor | Controller | JointStates, setup: Setup) -> Decision:

@@ -5,11 +5,9 @@ from collections.abc import Callable, Iterator
 from urdfkit.description.plugins import PluginSpec
 from urdfkit.description.plugins.gazebo_materials import unknown_materials
 from urdfkit.description.plugins.sensor_elements import unknown_elements
-from urdfkit.description.plugins.sensors.table import INSTEAD, SENSOR_TYPES
 from urdfkit.description.plugins.unread_parameters import unread
-from urdfkit.description.urdf.robot import Plugin, Robot, SensorTag
+from urdfkit.description.urdf.robot import Plugin, Robot
 from urdfkit.description.xml.element import Element
-from urdfkit.errors import did_you_mean
 from urdfkit.sim.plugins.base import Sensor
 
 
@@ -29,21 +27,6 @@ def not_read(plugin: Plugin, spec: PluginSpec) -> Iterator[str]:
     for each in unread(plugin, spec):
         if not each.promised:
             yield _ignored(each.element, f"unknown parameter <{each.element.tag}> of `{plugin.filename}`", each.meant)
-
-
-def unsupported_sensor(sensor: SensorTag, *, simulated: bool) -> str:
-    """Return the note on a sensor that is not simulated, with its position and the nearest type; else empty."""
-    place, kind = sensor.element.origin.position, (sensor.type or "").strip()
-    left_out = f"sensor `{sensor.name or 'sensor'}` is left out"
-    if not kind:
-        return f"{place}: a sensor has no type; {left_out}"
-    if kind in SENSOR_TYPES and simulated:
-        return ""
-    if kind in INSTEAD:
-        return f"{place}: sensors of type `{kind}` are not simulated: {INSTEAD[kind]}; {left_out}"
-    if kind not in SENSOR_TYPES:
-        return f"{place}: unknown sensor type `{kind}`; {left_out}{did_you_mean(kind, SENSOR_TYPES)}"
-    return f"{place}: sensors of type `{kind}` are not simulated yet; {left_out}"
 
 
 class SharedTopics:

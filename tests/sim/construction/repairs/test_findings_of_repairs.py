@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 import pytest
 
 from urdfkit import Simulator
+from urdfkit.app.viewer.shown_robot import ShownRobot
 from urdfkit.description import load
+from urdfkit.description.loading import model_argument
 from urdfkit.description.urdf.repair_record import Repair
 from urdfkit.description.xml.source import Source
 from urdfkit.description.xml.start_tag import start_tag
@@ -19,6 +22,30 @@ from urdfkit.sim.construction.repairs.robot_repairs import repaired
 BOX = '<collision><geometry><box size="0.1 0.2 0.3"/></geometry></collision>'
 INERTIAL = '<inertial><mass value="{}"/><inertia ixx="{}" ixy="0" ixz="0" iyy="0.01" iyz="0" izz="0.01"/></inertial>'
 GOOD = INERTIAL.format(1, 0.01)
+
+STRUCTURES = {
+    "two roots": '<robot name="r"><link name="a"/><link name="b"/></robot>',
+    "unknown parent": (
+        '<robot name="r"><link name="a"/>'
+        '<joint name="j" type="fixed"><parent link="x"/><child link="a"/></joint></robot>'
+    ),
+    "unknown child": (
+        '<robot name="r"><link name="a"/>'
+        '<joint name="j" type="fixed"><parent link="a"/><child link="x"/></joint></robot>'
+    ),
+    "two links": '<robot name="r"><link name="a"/><link name="a"/></robot>',
+    "type and axis": (
+        '<robot name="r"><link name="a"/><link name="b"/><link name="c"/>'
+        '<joint name="j" type="ball"><parent link="a"/><child link="b"/></joint>'
+        '<joint name="k" type="continuous"><parent link="b"/><child link="c"/><axis xyz="0 0 0"/></joint></robot>'
+    ),
+    "numbers": (
+        '<robot name="r"><link name="a"/><link name="b"/><joint name="j" type="revolute"><parent link="a"/>'
+        '<child link="b"/><origin xyz="0 0 1 2" rpy="0 0 x"/><axis xyz="0 0 1"/>'
+        '<limit lower="1" upper="-1" effort="-5" velocity="nan"/><mimic joint="k"/></joint></robot>'
+    ),
+}
+"""Robots with one defect of their structure or values."""
 
 BASES = {"heavy": GOOD, "free": "", "world": None}
 
@@ -49,8 +76,33 @@ LINKS = {
         "G601",
     ),
     "expression": (GOOD + BOX.replace('box size="0.1 0.2 0.3"', 'mesh filename="$(find a)/c.stl"'), "G601"),
+    "unknown shape": (GOOD + "<collision><geometry><ball/></geometry></collision>", "E008"),
+    "shape of another program": (GOOD + "<collision><geometry><drake:ball/></geometry></collision>", "E008"),
+    "no shape": (GOOD + "<collision><geometry/></collision>", "E014"),
+    "no geometry": (GOOD + "<visual/>", "E014"),
+    "mesh without a vertex": (GOOD + BOX.replace('box size="0.1 0.2 0.3"', 'mesh filename="index.obj"'), "G607"),
+    "mesh that is not finite": (GOOD + BOX.replace('box size="0.1 0.2 0.3"', 'mesh filename="nan.obj"'), "G607"),
+    "truncated mesh": (GOOD + BOX.replace('box size="0.1 0.2 0.3"', 'mesh filename="short.glb"'), "G607"),
+    "folder as mesh": (GOOD + BOX.replace('box size="0.1 0.2 0.3"', 'mesh filename="folder.stl"'), "G607"),
+    "empty cylinder": (GOOD + BOX.replace('box size="0.1 0.2 0.3"', 'cylinder radius="0.1" length="0"'), "G611"),
     "pointer": (GOOD + BOX.replace('box size="0.1 0.2 0.3"', 'mesh\n filename="pointer.stl"'), "G607"),
 }
+
+
+def robot_of(folder: Path, inside: str, base: str = "heavy") -> str:
+    """Return a robot whose link `arm` has a content; create the mesh files that it names."""
+    (folder / "pointer.stl").write_text("version https://git-lfs.github.com/spec/v1\noid sha256:0\nsize 9\n")
+    (folder / "index.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n")
+    (folder / "nan.obj").write_text("v nan 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+    (folder / "short.glb").write_bytes(b"glTF\x02\0\0\0\x99\0\0\0")
+    (folder / "folder.stl").mkdir()
+    root = f'<link name="base">{BASES[base]}</link>' if BASES[base] is not None else '<link name="world"/>'
+    name = "world" if BASES[base] is None else "base"
+    return (
+        f'<robot name="r">\n{root}\n<link name="heavy">{GOOD}</link>\n<link name="arm">\n{inside}\n</link>\n'
+        f'<joint name="k" type="continuous"><parent link="{name}"/><child link="heavy"/><axis xyz="0 1 0"/></joint>\n'
+        '<joint name="j" type="continuous"><parent link="heavy"/><child link="arm"/><axis xyz="0 1 0"/></joint></robot>'
+    )
 
 
 def repairs_of(path: Path, *, floating: bool = True) -> list[Repair]:
@@ -69,19 +121,33 @@ def reports(finding: Finding, repair: Repair) -> bool:
     return same and finding.code == repair.code and tag.span.line <= finding.span.line <= tag.span.end_line
 
 
+def reported_lines(path: Path) -> set[tuple[str, int]]:
+    """Return code and line of each finding, and of the other places that it lists."""
+    found = lint(path)
+    return {(one.code, place.line) for one in found for place in (one.span, *(each.span for each in one.related))}
+
+
+@pytest.mark.parametrize("kind", [*LINKS, *STRUCTURES])
+def test_repairs_have_the_line_of_their_finding_with_one_attribute_per_line(tmp_path: Path, kind: str) -> None:
+    text = robot_of(tmp_path, LINKS[kind][0]) if kind in LINKS else STRUCTURES[kind]
+    path = tmp_path / "r.urdf"
+    path.write_text(re.sub(r' (?=[\w:]+=")', "\n    ", text))
+    simulator = Simulator(path, note=lambda _: None)
+    assert simulator.repairs
+    shown = ShownRobot.read(model_argument(path))
+    lines = reported_lines(path)
+    for repair in {*simulator.repairs, *shown.repairs}:
+        assert repair.position is not None
+        if repair.code != "I511" or kind in LINKS:  # A link of a joint that is not in the tree has no finding of mass.
+            assert (repair.code, repair.position.line) in lines, repair
+
+
 @pytest.mark.parametrize("base", BASES)
 @pytest.mark.parametrize("link", LINKS)
 def test_every_repair_has_a_finding_of_its_code_at_its_element(tmp_path: Path, base: str, link: str) -> None:
     inside, code = LINKS[link]
-    (tmp_path / "pointer.stl").write_text("version https://git-lfs.github.com/spec/v1\noid sha256:0\nsize 9\n")
-    root = f'<link name="base">{BASES[base]}</link>' if BASES[base] is not None else '<link name="world"/>'
-    name = "world" if BASES[base] is None else "base"
     path = tmp_path / "r.urdf"
-    path.write_text(
-        f'<robot name="r">\n{root}\n<link name="heavy">{GOOD}</link>\n<link name="arm">\n{inside}\n</link>\n'
-        f'<joint name="k" type="continuous"><parent link="{name}"/><child link="heavy"/><axis xyz="0 1 0"/></joint>\n'
-        '<joint name="j" type="continuous"><parent link="heavy"/><child link="arm"/><axis xyz="0 1 0"/></joint></robot>'
-    )
+    path.write_text(robot_of(tmp_path, inside, base))
     repairs = repairs_of(path, floating=base != "world")
     assert code in {repair.code for repair in repairs}
     findings = lint(path)

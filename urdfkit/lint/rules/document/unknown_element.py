@@ -24,7 +24,8 @@ class UnknownElement(RobotRule):
 
     ## What it does
     Checks the children of ``<link>``, ``<joint>``, ``<inertial>``, ``<visual>``, ``<collision>`` and ``<geometry>``.
-    Elements with a prefix are accepted as extensions. An element that resembles no element of URDF or SDF is probably
+    Elements with a prefix are accepted as extensions, except in place of the shape of a ``<geometry>`` (without
+    ``--target drake``). An element that resembles no element of URDF or SDF is probably
     read by another program and reported as a note.
 
     The root element must be ``<robot>``. It may contain extensions of any name, so its children are reported only if
@@ -94,6 +95,8 @@ class UnknownElement(RobotRule):
         self, model: Model, element: Element, *, link: str | None = None, joint: str | None = None
     ) -> Findings:
         for parent, child in _unknown(element):
+            if ":" in child.tag and model.target == "drake":
+                continue
             hint, fix, message = _hint(parent, child), _renamed(model, parent, child), _message(parent, child)
             is_extension = hint is None and parent.tag not in ("inertial", "geometry")
             yield self.at(
@@ -122,7 +125,7 @@ def _unknown(element: Element) -> Iterator[tuple[Element, Element]]:
     allowed = URDF_CHILDREN[element.tag]
     for child in element.children:
         if child.tag not in allowed:
-            if ":" not in child.tag:
+            if ":" not in child.tag or (element.tag == "geometry" and len(element.children) == 1):
                 yield element, child
         elif child.tag in URDF_CHILDREN and child.tag != "material":
             yield from _unknown(child)

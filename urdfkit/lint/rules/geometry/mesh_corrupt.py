@@ -4,6 +4,7 @@ import re
 from pathlib import Path
 
 from urdfkit.description.meshes.bounds import bounds
+from urdfkit.description.meshes.format_faults import glb_fault, obj_fault
 from urdfkit.description.meshes.limits import MAX_BYTES, MAX_TRIANGLES
 from urdfkit.description.packages.existence import exists, is_file, is_folder
 from urdfkit.lint.model.mesh_files import LFS, meshes, path_of
@@ -25,8 +26,9 @@ class MeshCorrupt(RobotRule):
     """A mesh file exists but contains no usable mesh.
 
     ## What it does
-    Checks for empty mesh files, Git LFS pointers, truncated STL files, invalid COLLADA and glTF files, files without
-    triangles, meshes with all triangles in one point, and meshes above 256 MiB or 5 million triangles.
+    Checks for folders, empty mesh files, Git LFS pointers, truncated STL and glTF files, invalid COLLADA files, files
+    without triangles, meshes with all triangles in one point, and meshes above 256 MiB or 5 million triangles. In OBJ
+    files, checks for vertices that are not finite and, up to 2 MiB, for faces with missing vertices.
 
     ## Why is this bad?
     Viewers show nothing, and simulators stop with an error of the mesh reader that does not name the cause.
@@ -76,7 +78,7 @@ class MeshCorrupt(RobotRule):
 def _fault(path: Path) -> str:
     """Return the fault of a mesh file; empty if none is found."""
     if not is_file(path):
-        return "" if is_folder(path) else "is not a regular file"
+        return "is a folder" if is_folder(path) else "is not a regular file"
     try:
         size = path.stat().st_size
         with path.open("rb") as file:
@@ -94,8 +96,10 @@ def _fault(path: Path) -> str:
         return _stl_fault(path, head, size)
     if suffix == ".dae" and b"<COLLADA" not in head.replace(b"\0", b"") and b"<?xml" not in head.replace(b"\0", b""):
         return "is not a COLLADA file"
-    if suffix == ".glb" and not head.startswith(b"glTF"):
-        return "is not a binary glTF file"
+    if suffix == ".glb":
+        return glb_fault(head, size)
+    if suffix == ".obj" and size <= _LARGE and (fault := obj_fault(path.read_bytes())):
+        return fault
     faces = _FACES.get(suffix)
     if faces is None or bounds(path, estimated=True) is not None:
         return ""

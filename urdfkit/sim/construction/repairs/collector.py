@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TYPE_CHECKING
 
+from urdfkit.description.repair_positions import at_attributes
 from urdfkit.description.urdf.repair_record import Repair, grouped
 from urdfkit.errors import with_effect
 
@@ -39,7 +40,7 @@ class Repairs:
 
     def add(self, *repairs: Repair) -> None:
         """Record and report repairs that were not recorded before; see `grouped`."""
-        new = [repair for repair in dict.fromkeys(repairs) if repair not in self._recorded]
+        new = [repair for repair in dict.fromkeys(at_attributes(repairs)) if repair not in self._recorded]
         self._recorded.update(new)
         self.found += new
         for repair in grouped(new):

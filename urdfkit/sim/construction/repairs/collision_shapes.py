@@ -2,37 +2,50 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import replace
 
 from urdfkit.description.urdf.repair_record import Repair
-from urdfkit.description.urdf.robot import Link, Robot
+from urdfkit.description.urdf.robot import Link, Problem, Robot
+from urdfkit.description.xml.element import Element
 from urdfkit.errors import with_effect
 from urdfkit.scene import Scene, Shape
+from urdfkit.scene.placeholders import shape_problems, unknown_shapes
 from urdfkit.sim.construction.repairs.inertia_tensors import repair_at
-from urdfkit.sim.construction.validation import invalid_sizes
+from urdfkit.sim.construction.validation import invalid_sizes, sizes_not_positive
 
 _SHOWN = 6
 """Largest number of links in a message."""
 
 
 def without_empty_shapes(robot: Robot) -> tuple[Robot, list[Repair]]:
-    """Return a robot without the collision shapes whose size is not positive, and a repair for each."""
+    """Return a robot without the shapes that are unknown and collision shapes whose size is not positive.
+
+    Returns:
+        The robot, and a repair for each such shape.
+    """
     repairs: list[Repair] = []
-    links = tuple([_without_empty(link, repairs) for link in robot.links])
+    problems = shape_problems(robot)
+    links = tuple([_without_empty(link, problems, repairs) for link in robot.links])
     return (replace(robot, links=links), repairs) if repairs else (robot, repairs)
 
 
-def _without_empty(link: Link, repairs: list[Repair]) -> Link:
+def _without_empty(link: Link, problems: Mapping[Element, Problem], repairs: list[Repair]) -> Link:
+    for visual in link.visuals:
+        repairs += unknown_shapes(link, visual, problems, "the shape is left out: it is invisible")
     kept = []
     for collision in link.collisions:
+        if unknown := list(unknown_shapes(link, collision, problems, "the shape is left out: it has no contacts")):
+            repairs += unknown
+            continue
         faults = list(invalid_sizes(link, collision))
         if not faults:
             kept.append(collision)
             continue
         message, element = faults[0]
         message += "; the shape is left out: it has no contacts"
-        repairs.append(repair_at(element, "shape", "G611", message, link=link.name))
+        attribute = next(sizes_not_positive(collision))[0]
+        repairs.append(replace(repair_at(element, "shape", "G611", message, link=link.name), attribute=attribute))
     return link if len(kept) == len(link.collisions) else replace(link, collisions=tuple(kept))
 
 

@@ -58,9 +58,8 @@ class GazeboRosControl(ControlLoopPlugin):
             setup.note(f"{self.plugin.element.origin.position}: no <transmission>: there is nothing to control")
         loop = self.loop = ControlLoop(namespace, configured, hardware)
         if found is None:
-            setup.note(
-                f"no controllers for {namespace or '/'}: no launch file or YAML configures any; see --controllers"
-            )
+            defect = f"no controllers for {namespace or '/'}: no launch file or YAML configures any; see --controllers"
+            setup.note(f"{self.plugin.element.origin.position}: {defect}")
         else:
             setup.note(f"controllers of {namespace or '/'}: {found.source}")
         if found is not None and found.started is not None:

@@ -1,0 +1,40 @@
+"""Positions of repairs: the lines in which the linter reports the same defects."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from urdfkit.description.xml.written_attributes import WrittenAttributes
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    from urdfkit.description.urdf.repair_record import Repair
+
+_ATTRIBUTES = {
+    **dict.fromkeys(("C701", "C703", "I511", "T203", "T204", "T206", "T207"), "name"),
+    **dict.fromkeys(("T201", "T202", "T205"), "link"),
+    "E023": "quat_xyzw",
+    "I501": "value",
+    "J402": "type",
+    "J411": "xyz",
+    "J416": "joint",
+}
+"""Code → attribute at which the rule reports a defect, for repairs without an attribute."""
+
+
+def at_attributes(repairs: Iterable[Repair]) -> list[Repair]:
+    """Return repairs with the position of the attribute that has the defect, if it is in another line than its tag."""
+    sources = WrittenAttributes()
+    return [_at_attribute(repair, sources) for repair in repairs]
+
+
+def _at_attribute(repair: Repair, sources: WrittenAttributes) -> Repair:
+    attribute = repair.attribute or _ATTRIBUTES.get(repair.code or "")
+    if attribute is None or repair.position is None:
+        return repair
+    written = sources.at(repair.position, attribute)
+    if written is None or written.name.start.line == repair.position.line:
+        return repair
+    return replace(repair, position=written.name.start)
