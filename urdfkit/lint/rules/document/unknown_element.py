@@ -24,9 +24,8 @@ class UnknownElement(RobotRule):
 
     ## What it does
     Checks the children of ``<link>``, ``<joint>``, ``<inertial>``, ``<visual>``, ``<collision>`` and ``<geometry>``.
-    Elements with a prefix are accepted as extensions, except in place of the shape of a ``<geometry>`` (without
-    ``--target drake``). An element that resembles no element of URDF or SDF is probably
-    read by another program and reported as a note.
+    Elements with a prefix are accepted as extensions; in place of the shape of a ``<geometry>``, they are a note. An
+    element that resembles no element of URDF or SDF is probably read by another program and reported as a note.
 
     The root element must be ``<robot>``. It may contain extensions of any name, so its children are reported only if
     their name nearly matches ``link``, ``joint`` or another known element. The same applies to ``<transmission>`` and
@@ -98,7 +97,7 @@ class UnknownElement(RobotRule):
             if ":" in child.tag and model.target == "drake":
                 continue
             hint, fix, message = _hint(parent, child), _renamed(model, parent, child), _message(parent, child)
-            is_extension = hint is None and parent.tag not in ("inertial", "geometry")
+            is_extension = ":" in child.tag or (hint is None and parent.tag not in ("inertial", "geometry"))
             yield self.at(
                 model,
                 child,
