@@ -109,3 +109,12 @@ def test_warnings_and_refusals(capsys: pytest.CaptureFixture[str], arm_file: str
         code, out, err = ran(capsys, arm_file, *words)
         assert (code, out) == (2, "")
         assert message in err
+
+
+@pytest.mark.parametrize("words", [["jacobian"], ["reach"], ["ik", "--targets", "poses.csv"]], ids=" ".join)
+def test_a_core_installation_names_the_extra(words, monkeypatch, capsys):
+    monkeypatch.setattr("importlib.util.find_spec", lambda _: None)
+    assert main([*words, "seven_dof_arm", "grasping_frame"]) == 2
+    error = capsys.readouterr().err
+    assert error.endswith(" needs numpy, numba and pinocchio: pip install 'urdfkit[sim]'\n")
+    assert error.count("\n") == 1

@@ -8,6 +8,7 @@ import math
 import sys
 from typing import TYPE_CHECKING
 
+from urdfkit.app.page import require_packages
 from urdfkit.cli.robot_arguments.joint_positions import joint_positions
 from urdfkit.cli.robot_arguments.tip_link import add_tip, announce, robot_and_tip
 
@@ -39,6 +40,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     """Print the Jacobian."""
+    require_packages("jacobian", "sim", {"numpy": "numpy", "numba": "numba"})
     positions = joint_positions(arguments.joint, "jacobian: --joint")
     robot, tip = robot_and_tip(arguments, "jacobian")
 

@@ -11,7 +11,7 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from urdfkit.app.page import Page, note, require_page, until_interrupted
+from urdfkit.app.page import Page, note, require_packages, require_page, until_interrupted
 from urdfkit.cli.page_options import add_page_options
 from urdfkit.cli.page_options import announce as announce_page
 from urdfkit.cli.robot_arguments.tip_link import add_tip, announce, model_of_tip, robot_and_tip
@@ -81,6 +81,7 @@ def run(arguments: argparse.Namespace) -> int:
         raise UsageError("reach: --tool-axis requires --down or --cone")
     if arguments.html is not None or arguments.view:
         require_page("reach: the page", "view", modules=("rosbags",))
+    require_packages("reach", "sim", {"numpy": "numpy", "numba": "numba"})
     robot, tip = robot_and_tip(arguments, "reach")
 
     from urdfkit.kinematics.chain import Chain

@@ -9,6 +9,7 @@ import argparse
 import re
 from pathlib import Path
 
+from urdfkit.app.page import require_packages
 from urdfkit.cli.robot_arguments.joint_positions import joint_positions
 from urdfkit.cli.robot_arguments.tip_link import add_tip, robot_and_tip
 from urdfkit.errors import UsageError
@@ -106,6 +107,7 @@ def run(arguments: argparse.Namespace) -> int:
         from urdfkit.cli.kinematics.ik.one_pose import solve_pose
 
         return solve_pose(robot, tip, pose, start, hold, options, arguments)
+    require_packages("ik: --targets", "sim", {"numpy": "numpy", "numba": "numba"})
     poses = poses_of_file(arguments.targets)
     from urdfkit.cli.kinematics.ik.many_poses import solve_poses
 
