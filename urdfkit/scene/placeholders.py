@@ -136,7 +136,7 @@ def unknown_shapes(
         yield Repair("shape", code, message, origin.position, link.name, attribute=attribute)
 
 
-def require_known_shapes(robot: Robot) -> None:
+def require_valid_shapes(robot: Robot) -> None:
     """Refuse a robot with a shape that has no readable geometry, or a negative size.
 
     Raises:

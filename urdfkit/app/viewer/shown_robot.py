@@ -65,14 +65,14 @@ class ShownRobot:
         from urdfkit.kinematics import Kinematics
         from urdfkit.kinematics.mimic import without_impossible_mimics
         from urdfkit.scene import MeshLoader, scene_of
-        from urdfkit.scene.placeholders import require_known_shapes, with_placeholders
+        from urdfkit.scene.placeholders import require_valid_shapes, with_placeholders
 
         loader = loader or MeshLoader()
         replaced: list[Repair] = []
         with loading_limit():
             robot = load_valid(model) if strict else without_impossible_mimics(load_repaired(model))
             if strict:
-                require_known_shapes(robot)
+                require_valid_shapes(robot)
             scene = scene_of(robot, strict=strict, meshes=loader)
             if not strict:
                 scene, replaced = with_placeholders(robot, scene)

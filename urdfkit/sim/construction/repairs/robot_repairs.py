@@ -12,7 +12,7 @@ from urdfkit.description.value_defects import repaired_values, require_valid_val
 from urdfkit.errors import ModelError
 from urdfkit.kinematics.mimic import without_impossible_mimics
 from urdfkit.scene import Scene, scene_of
-from urdfkit.scene.placeholders import require_known_shapes
+from urdfkit.scene.placeholders import require_valid_shapes
 from urdfkit.sim.construction.repairs.collector import Repairs
 from urdfkit.sim.construction.repairs.collision_shapes import with_substitutes, without_empty_shapes
 from urdfkit.sim.construction.repairs.estimated_masses import with_estimates
@@ -43,7 +43,7 @@ def repaired(robot: Robot, scene: Scene | None, repairs: Repairs, *, floating: b
             if repair.severity == "warning":
                 raise ModelError(repair.message, position=repair.position)
         require_valid_values(robot)
-        require_known_shapes(robot)
+        require_valid_shapes(robot)
         robot, notes = repaired_values(robot)
         repairs.add(*notes)
         return robot, scene or scene_of(robot, strict=False)
