@@ -78,18 +78,19 @@ def guess(path: Path) -> Guess:
     except OSError:
         return Guess(None, "package.xml cannot be read", None)
     needs = re.findall(_NEEDS, text)
-    new = next((name for name in needs if name.startswith(_NEW_GAZEBO)), None)
-    if new is not None and not any(name.startswith(_CLASSIC) for name in needs):
-        return Guess("gz", f"depends on {new}", manifest)
+    new = [name for name in needs if name.startswith(_NEW_GAZEBO)]
+    if new and not any(name.startswith(_CLASSIC) for name in needs):
+        others = [name for name in new if f"<name>{name}<" not in text]
+        return Guess("gz", f"depends on {others[0]}" if others else "is named after it", manifest)
     tools = [name for name in re.findall(_BUILD, text) if name in _ROS]
     versions = {_ROS[tool] for tool in tools}
     if len(versions) == 1:
         return Guess(versions.pop(), f"is built with {tools[0]}", manifest)
     specific = [name for name in needs if name in _ONLY_ROS]
-    others = {_ONLY_ROS[name] for name in specific}
-    if not versions and len(others) == 1:
-        return Guess(others.pop(), f"depends on {specific[0]}", manifest)
-    return Guess(None, "is for ROS 1 and ROS 2" if len(versions | others) > 1 else "names no build tool", manifest)
+    by_needs = {_ONLY_ROS[name] for name in specific}
+    if not versions and len(by_needs) == 1:
+        return Guess(by_needs.pop(), f"depends on {specific[0]}", manifest)
+    return Guess(None, "is for ROS 1 and ROS 2" if len(versions | by_needs) > 1 else "names no build tool", manifest)
 
 
 def parse_target(name: str | None, option: str = "--target") -> str | None:
