@@ -4,14 +4,23 @@ from __future__ import annotations
 
 import ast
 import re
+import sys
 
 from urdfkit.description.launch.python_constants import LaunchReader, name_of, parsed
 from urdfkit.description.xml.source import Source
 from urdfkit.lint.facts.control.controller_joints import Named
 from urdfkit.lint.facts.control.launch_package_paths import place
-from urdfkit.lint.facts.launch.records import COMPUTED, Call, Declared, Executable, LaunchActions
+from urdfkit.lint.facts.launch.records import COMPUTED, IMPORTED, Call, Declared, Executable, LaunchActions
 
 _NODES = ("Node", "LifecycleNode", "ComposableNodeContainer")
+_DECLARATIONS = ("DeclareLaunchArgument", "DeclareBooleanLaunchArg")
+"""Classes that declare an argument (launch, moveit_configs_utils)."""
+
+_LIBRARIES = """
+ament_index_python launch launch_param_builder launch_ros launch_testing launch_testing_ros launch_xml launch_yaml
+lifecycle_msgs nav2_common rclpy ros_gz_bridge ros_gz_sim xacro yaml
+"""
+"""Packages whose modules declare no arguments."""
 
 
 def read_python(source: Source) -> LaunchActions:
@@ -36,15 +45,22 @@ class _PythonActions:
                     self._found.used.append((name, False))
                 elif name is not None:
                     self._found.assigned.add(name.name)
+            elif isinstance(node, ast.AnnAssign) and name_of(node.annotation) in _DECLARATIONS:
+                # A field of a class of arguments; its base classes can have more.
+                self._found.assigned.add(COMPUTED)
+            elif isinstance(node, ast.ImportFrom):
+                top = (node.module or "").partition(".")[0]
+                if node.level > 0 or top not in {*_LIBRARIES.split(), *sys.stdlib_module_names}:
+                    self._found.assigned.add(IMPORTED)
 
     def _call(self, node: ast.Call) -> None:
         found, kind = self._found, name_of(node.func)
         keywords = {word.arg: word.value for word in node.keywords if word.arg is not None}
         first = node.args[0] if node.args else None
-        if kind in ("DeclareLaunchArgument", "LaunchConfiguration", "SetLaunchConfiguration"):
+        if kind in (*_DECLARATIONS, "LaunchConfiguration", "SetLaunchConfiguration"):
             written = first or keywords.get("name") or keywords.get("variable_name")
             name = self._named(written) if written is not None else None
-            if kind == "DeclareLaunchArgument":
+            if kind in _DECLARATIONS:
                 if name is None:
                     found.assigned.add(COMPUTED)
                 else:

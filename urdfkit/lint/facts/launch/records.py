@@ -9,6 +9,9 @@ from urdfkit.record import field, record
 COMPUTED = "\0"
 """Name of arguments with computed names."""
 
+IMPORTED = "\1"
+"""Name of arguments that imported modules can declare."""
+
 
 @record(eq=False)
 class Declared:
@@ -82,3 +85,8 @@ class LaunchActions:
     def is_computed(self) -> bool:
         """Whether it declares arguments with computed names."""
         return COMPUTED in self.assigned
+
+    @property
+    def imports_code(self) -> bool:
+        """Whether it imports modules that can declare arguments."""
+        return IMPORTED in self.assigned

@@ -26,7 +26,7 @@ class LaunchActionUnused(RobotRule):
     ## What it does
     Checks variables of launch files in Python that hold a node, an argument, an include or another action. An action
     that is only the target of an event handler is not started either. Names that a comment mentions are left out, since
-    the action is disabled on purpose.
+    the action is disabled on purpose, as are attributes of classes, which the code can collect.
 
     ## Why is this bad?
     The node is not started, or the argument is not declared. There is no error message.
@@ -93,8 +93,9 @@ def _names(tree: ast.Module) -> tuple[dict[str, tuple[ast.Name, str]], set[str],
     classes, actions = launch_classes(tree), _ACTIONS.split()
     created: dict[str, tuple[ast.Name, str]] = {}
     targets: set[ast.AST] = set()
+    attributes = {part for node in ast.walk(tree) if isinstance(node, ast.ClassDef) for part in node.body}
     for node in ast.walk(tree):
-        if isinstance(node, (ast.Assign, ast.AnnAssign)) and node.value is not None:
+        if isinstance(node, (ast.Assign, ast.AnnAssign)) and node.value is not None and node not in attributes:
             left = node.targets[0] if isinstance(node, ast.Assign) else node.target
             kind = class_called(node.value, classes)
             is_one = isinstance(node, ast.AnnAssign) or len(node.targets) == 1

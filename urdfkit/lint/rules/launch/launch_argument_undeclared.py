@@ -79,6 +79,7 @@ class LaunchArgumentUndeclared(RobotRule):
             for call in file.includes
         )
         is_certain = are_found and not has_default and not is_elsewhere and bool(file.declared)
+        is_certain &= not file.imports_code
         if near is None and not file.is_ros1 and not is_certain:
             return
         if near is not None and near not in used and _is_rarer(near, use.name, file):
