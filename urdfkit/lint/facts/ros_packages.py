@@ -65,6 +65,41 @@ warehouse_ros_mongo warehouse_ros_sqlite web_video_server xacro yaml-cpp yaml_cp
 """Common names in distribution.yaml of Noetic, Humble and Jazzy, and in rosdep/*.yaml (ros/rosdistro)."""
 
 
+_METAPACKAGES = {
+    "gazebo_ros_pkgs": "gazebo_dev gazebo_msgs gazebo_plugins gazebo_ros",
+    "geometry": "eigen_conversions kdl_conversions tf tf_conversions",
+    "geometry2": "tf2 tf2_*",
+    "image_pipeline": "camera_calibration depth_image_proc image_proc image_publisher image_view stereo_image_proc",
+    "moveit": "moveit_commander moveit_core moveit_kinematics moveit_planners* moveit_plugins moveit_ros*"
+    " moveit_setup_assistant moveit_*controller_manager",
+    "moveit_ros": "moveit_ros_*",
+    "nav2_bringup": "nav2_*",
+    "navigation": "amcl base_local_planner costmap_2d dwa_local_planner fake_localization global_planner map_server"
+    " move_base nav_core navfn",
+    "navigation2": "nav2_[!b]* nav2_b[!r]*",
+    "ros2_control": "controller_interface controller_manager* hardware_interface joint_limits ros2controlcli"
+    " transmission_interface",
+    "ros2_controllers": "*_broadcaster *_controller *_controllers",
+    "ros_control": "controller_interface controller_manager* hardware_interface joint_limits_interface"
+    " transmission_interface",
+    "ros_controllers": "*_controller *_controllers",
+    "ros_gz": "ros_gz_*",
+    "ros_ign": "ros_ign_*",
+    "slam_gmapping": "gmapping",
+    "velodyne": "velodyne_driver velodyne_laserscan velodyne_msgs velodyne_pointcloud",
+    "velodyne_simulator": "velodyne_description velodyne_gazebo_plugins",
+}
+"""Packages that consist of dependencies → patterns of these, by their package.xml; nav2_bringup needs navigation2."""
+
+
+def is_in_metapackage(name: str, dependencies: Iterable[str]) -> bool:
+    """Return whether a package is a dependency of one of the metapackages among the dependencies."""
+    from fnmatch import fnmatchcase
+
+    patterns = (each for other in dependencies for each in _METAPACKAGES.get(other, "").split())
+    return any(fnmatchcase(name, each) for each in patterns)
+
+
 @cache
 def names() -> frozenset[str]:
     """Return the names of common released packages and rosdep keys; there are many others."""

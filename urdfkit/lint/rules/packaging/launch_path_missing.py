@@ -84,9 +84,16 @@ def _exists(package: Path, path: str, model: Model) -> bool:
 
 
 def _is_created_at_run_time(package: Path, path: str) -> bool:
-    """Return whether a user or a program creates the file: maps, recordings and results, or what git ignores."""
+    """Return whether a user or a program creates the file: maps, recordings and results, or what git ignores.
+
+    The MoveIt Setup Assistant writes launch files with the database ``default_warehouse_mongo_db``.
+    """
     file = Path(path)
-    if file.suffix in _RECORDINGS or not _RUN_TIME_FOLDERS.isdisjoint(part.lower() for part in file.parts[:-1]):
+    if (
+        path == "default_warehouse_mongo_db"
+        or file.suffix in _RECORDINGS
+        or not _RUN_TIME_FOLDERS.isdisjoint(part.lower() for part in file.parts[:-1])
+    ):
         return True
     ignored: list[str] = []
     for folder in (package, *list(package.parents)[:3]):

@@ -9,6 +9,12 @@ from urdfkit.description.xml.source import Source
 from urdfkit.lint.finding import Finding
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
+_OPTIONAL = """
+default_warehouse_db.launch gazebo.launch joystick_control.launch run_benchmark_ompl.launch setup_assistant.launch
+warehouse.launch warehouse_settings.launch.xml
+"""
+"""Launch files in the templates of moveit_setup_assistant that need packages which its package.xml leaves out."""
+
 _TESTS = frozenset(("test", "tests"))
 """Folders whose files do not add runtime dependencies."""
 
@@ -19,7 +25,9 @@ class PackageXmlDependency(RobotRule):
     ## What it does
     Compares the packages that the files of the robot's package use, by ``$(find …)`` and ``package://…``, with the
     dependencies in package.xml. Also compares the packages that launch files start or include, and ``xacro`` where they
-    call it, with the dependencies of their own package. Each package is reported once; test folders are not checked.
+    call it, with the dependencies of their own package. Metapackages, such as ``navigation2``, stand for the packages
+    that they depend on. Each package is reported once; test folders are not checked, nor the optional launch files that
+    the MoveIt Setup Assistant writes, or dependencies that package.xml has in a comment.
 
     ## Why is this bad?
     The package works only where the dependency happens to be installed: rosdep and the ROS build farm do not install
@@ -56,6 +64,8 @@ class PackageXmlDependency(RobotRule):
             return
         manifest = model.manifest(package)
         declared = {name_in(manifest, package.name), *_dependencies(manifest, neighbours(package))}
+        from urdfkit.lint.facts.ros_packages import is_in_metapackage
+
         for file, source in model.expanded.sources.items():
             uses = "$(find" in source.text or "package://" in source.text
             path = Path(file).absolute()
@@ -66,6 +76,8 @@ class PackageXmlDependency(RobotRule):
                 name = match[1] or match[2]
                 if name in declared or any(start <= match.start() < end for start, end, _ in comments):
                     continue
+                if is_in_metapackage(name, declared):
+                    continue
                 declared.add(name)
                 yield self._missing(name, source, match.start(), match.end())
         yield from self._check_launch_files(model, {package: declared})
@@ -73,20 +85,26 @@ class PackageXmlDependency(RobotRule):
     def _check_launch_files(self, model: Model, declared: dict[Path, set[str]]) -> Findings:
         """Yield a finding for each package that a launch file uses without a dependency in its own package."""
         from urdfkit.lint.facts.control.launch_package_paths import packages_used
+        from urdfkit.lint.facts.ros_packages import is_in_metapackage
 
+        files = {Path(file).absolute(): source.text for file, source in model.related_files.items()}
+        manifests = {file: text for file, text in files.items() if file.name == "package.xml"}
         for file, source in model.related_files.items():
             package = package_of(Path(file)) if file.endswith(LAUNCH) else None
             if package is None or not _TESTS.isdisjoint(Path(file).absolute().relative_to(package).parts):
+                continue
+            if Path(file).name in _OPTIONAL.split() and (package / ".setup_assistant").is_file():
                 continue
             if package not in declared:
                 manifest = model.manifest(package)
                 needed = _dependencies(manifest, neighbours(package))
                 declared[package] = {name_in(manifest, package.name), package.name, *needed}
+            disabled = next((_disabled(manifests[each]) for each in manifests if each.parent == package), set[str]())
             # A dependency on the package itself, which is reported, stands for the missing one.
             own = model.manifest(package)
             is_own = name_in(own, package.name) in dependencies_in(own)
             for name, start, end in () if is_own else packages_used(source):
-                if name not in declared[package]:
+                if name not in declared[package] | disabled and not is_in_metapackage(name, declared[package]):
                     declared[package].add(name)
                     yield self._missing(name, source, start, end)
 
@@ -99,6 +117,11 @@ class PackageXmlDependency(RobotRule):
             source.span(start, end),
             help=f"add <exec_depend>{name}</exec_depend> to package.xml",
         )
+
+
+def _disabled(manifest: str) -> set[str]:
+    """Return the packages that dependencies in comments of a package.xml name."""
+    return {name for comment in re.findall(r"(?s)<!--.*?-->", manifest) for name in dependencies_in(comment[4:-3])}
 
 
 def _dependencies(manifest: str, near: Iterable[str]) -> set[str]:
