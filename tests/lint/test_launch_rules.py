@@ -81,3 +81,124 @@ def test_the_build_tool_decides_which_ros_reads_a_launch_file(source, tools):
     assert ("L109" in codes(source)) is (tools == "ament_cmake")
     write(source / "cart_description/launch/one.launch", text.format("exec", "var"))
     assert ("L109" in codes(source)) is (tools == "catkin")
+
+
+ROS2 = MANIFEST.replace("catkin", "ament_cmake").replace('format="2"', 'format="3"')
+CLASS_OF_ARGUMENTS = """from dataclasses import dataclass
+
+from launch import LaunchDescription
+from launch.actions import DeclareLaunchArgument
+from launch.conditions import IfCondition
+from launch.substitutions import LaunchConfiguration
+from launch_ros.actions import Node
+from launch_pal.arg_utils import LaunchArgumentsBase
+from launch_pal.robot_arguments import CommonArgs
+
+
+@dataclass(frozen=True)
+class LaunchArguments(LaunchArgumentsBase):
+    world: DeclareLaunchArgument = CommonArgs.world
+    model: DeclareLaunchArgument = DeclareLaunchArgument("model", default_value="cart")
+
+
+def generate_launch_description():
+    launch = LaunchDescription()
+    LaunchArguments().add_to_launch_description(launch)
+    unused = DeclareLaunchArgument("gui", default_value="true")
+    gui = IfCondition(LaunchConfiguration("world"))
+    launch.add_action(Node(package="rviz2", executable="rviz2", condition=gui))
+    return launch
+"""
+
+
+def findings(folder: Path) -> list[str]:
+    here = Path.cwd()
+    os.chdir(folder)
+    try:
+        found = lint("cart_description/cart.urdf")
+    finally:
+        os.chdir(here)
+    return [f"{finding.code} {finding.severity} {finding.message}" for finding in found]
+
+
+def ros2_package(source: Path, needed: str, comment: str = "") -> Path:
+    package = source / "cart_description"
+    write(package / "package.xml", ROS2.format(name=package.name, needed=needed).replace("</package>", comment))
+    with (package / "package.xml").open("a") as file:
+        file.write("</package>\n" if comment else "")
+    (package / "config/control.yaml").unlink()
+    return package
+
+
+def test_attributes_of_a_class_of_arguments_are_used_and_its_bases_can_declare_more(source):
+    package = ros2_package(source, "rviz2")
+    write(package / "launch/class.launch.py", CLASS_OF_ARGUMENTS)
+    found = [text for text in findings(source) if text[:4] in ("L101", "L107")]
+    assert len(found) == 1
+    assert found[0].startswith("L107 warning DeclareLaunchArgument `unused` is not added to the launch description")
+    # Without the class, the arguments are known.
+    start, end = CLASS_OF_ARGUMENTS.index("from launch_pal"), CLASS_OF_ARGUMENTS.index("def generate")
+    known = CLASS_OF_ARGUMENTS[:start] + CLASS_OF_ARGUMENTS[end:]
+    write(
+        package / "launch/class.launch.py",
+        known.replace("    LaunchArguments().add_to_launch_description(launch)\n", ""),
+    )
+    assert "L101 error launch argument `world` is not declared" in findings(source)
+
+
+def test_modules_of_other_packages_can_declare_arguments(source):
+    package = ros2_package(source, "rviz2")
+    text = (
+        "from launch import LaunchDescription\nfrom launch.actions import DeclareLaunchArgument, LogInfo\n"
+        "from launch.substitutions import LaunchConfiguration\n{}\n\ndef generate_launch_description():\n"
+        '    gui = DeclareLaunchArgument("gui", default_value="true")\n'
+        '    return LaunchDescription([gui, {}LogInfo(msg=LaunchConfiguration("world"))])\n'
+    )
+    write(package / "launch/a.launch.py", text.format("from cart_bringup.arguments import common", "*common(), "))
+    assert not [found for found in findings(source) if found.startswith("L101")]
+    write(package / "launch/a.launch.py", text.format("from os import environ", "*environ, "))
+    assert [found for found in findings(source) if found.startswith("L101")]
+
+
+@pytest.mark.parametrize(
+    ("needed", "package", "is_missing"),
+    [
+        ("navigation2", "nav2_map_server", False),
+        ("navigation2", "nav2_bringup", True),
+        ("ros2_control", "controller_manager", False),
+        ("ros2_control", "joint_state_broadcaster", True),
+        ("moveit", "moveit_ros_move_group", False),
+        ("moveit", "moveit_servo", True),
+    ],
+)
+def test_metapackages_stand_for_the_packages_that_they_depend_on(source, needed, package, is_missing):
+    folder = ros2_package(source, needed)
+    write(folder / "launch/one.launch.xml", f'<launch>\n  <node pkg="{package}" exec="node"/>\n</launch>\n')
+    assert (f"K956 warning missing dependency on `{package}`" in findings(source)) is is_missing
+
+
+def test_a_dependency_that_package_xml_has_in_a_comment_is_disabled_on_purpose(source):
+    folder = ros2_package(source, "rviz2", "  <!-- not released: <exec_depend>rviz_extras</exec_depend> -->\n")
+    write(folder / "launch/one.launch.xml", '<launch>\n  <node pkg="rviz_extras" exec="node"/>\n</launch>\n')
+    assert not [found for found in findings(source) if found.startswith("K956")]
+
+
+def test_optional_launch_files_of_the_setup_assistant_have_no_dependencies(source):
+    package = source / "cart_description"
+    text = '<launch>\n  <arg name="path" default="$(find cart_description)/default_warehouse_mongo_db"/>\n'
+    text += '  <node pkg="warehouse_ros_mongo" type="wrapper.py" name="db" args="$(arg path)"/>\n</launch>\n'
+    write(package / "launch/warehouse.launch", text)
+    assert codes(source) >= {"K956"}
+    write(package / ".setup_assistant", "moveit_setup_assistant_config:\n")
+    assert codes(source).isdisjoint({"K956", "K958"})
+
+
+def test_create_ignores_unknown_options_unless_it_has_no_source(source):
+    package = ros2_package(source, "ros_gz_sim")
+    for arguments, severity in (
+        ("-topic robot_description -model cart", "warning"),
+        ("-topik robot_description", "error"),
+    ):
+        text = f'<launch>\n  <node pkg="ros_gz_sim" exec="create" args="{arguments}"/>\n</launch>\n'
+        write(package / "launch/spawn.launch.xml", text)
+        assert [found.split()[1] for found in findings(source) if found.startswith("K968")] == [severity]

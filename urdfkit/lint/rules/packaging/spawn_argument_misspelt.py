@@ -42,7 +42,8 @@ class SpawnArgumentMisspelt(RobotRule):
     executed.
 
     ## Why is this bad?
-    The spawner fails, or waits forever for a description, and the robot does not appear in the world.
+    The spawner fails, or waits forever for a description, and the robot does not appear in the world. ``create``
+    ignores unknown options: a pose or a name has no effect.
 
     ## Example
     ```xml
@@ -75,7 +76,18 @@ class SpawnArgumentMisspelt(RobotRule):
                     invalid = (*_invalid_arguments(node), *_unknown_joints(node, model), *_without_source(node))
                     for start, text, message in invalid:
                         span = source.span(start, start + len(text))
-                        yield Finding(self.code, self.name, self.severity, message, span)
+                        severity = "warning" if _is_ignored(node, text) else self.severity
+                        yield Finding(self.code, self.name, severity, message, span)
+
+
+def _is_ignored(node: Started, option: str) -> bool:
+    """Return whether ``create`` ignores an unknown option and spawns the robot without it.
+
+    It calls ``gflags::AllowCommandLineReparsing``, so only a source that is missing stops it.
+    """
+    sources = ("file", "param", "string", "topic")
+    written = {word.name.lstrip("-").partition("=")[0] for word in node.arguments if word is not None}
+    return node.program == "create" and option.startswith("-") and not written.isdisjoint(sources)
 
 
 def _invalid_arguments(node: Started) -> Iterator[tuple[int, str, str]]:
