@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Collection
+from threading import Event, Thread
 from typing import Any
 
 from urdfkit.bridges.bridge import CallQueue
@@ -31,10 +32,13 @@ class LiveTopics:
     def __init__(self, node: Node, bus: Bus, report: Callable[[str], None], clock: Callable[[], float]) -> None:
         self.calls = CallQueue()
         self._node, self._bus, self._report, self._clock = node, bus, report, clock
-        self._due = 0.0
+        self._found: dict[str, str] = {}
+        self._closed = Event()
         self._ends: dict[str, End] = {}
         self._writers: dict[str, Writer] = {}
         self._reported: set[str] = set()
+        self._thread = Thread(target=self._search, name="topics", daemon=True)
+        self._thread.start()
 
     def update(self, shown: Collection[str] = ()) -> None:
         """Follow new topics, receive those with subscribers, and publish the messages that have arrived.
@@ -42,9 +46,12 @@ class LiveTopics:
         Args:
             shown: further topics to receive.
         """
-        if self._clock() >= self._due:
-            self._due = self._clock() + SEARCH
-            self._search()
+        found, self._found = self._found, {}
+        for name, type in found.items():
+            try:
+                self._bus.advertise(name, type)
+            except UsageError as error:
+                self._note(str(error))
         for topic in self._bus.topics:
             wanted = bool(topic.subscribers) or topic.name in shown
             if wanted and topic.name not in self._ends:
@@ -74,22 +81,23 @@ class LiveTopics:
 
     def close(self) -> None:
         """End all subscriptions and leave the graph."""
+        self._closed.set()
+        self._thread.join(1.0)
         for end in self._ends.values():
             end()
         self._ends.clear()
         self._node.close()
 
     def _search(self) -> None:
-        try:
-            found = self._node.topics()
-        except ResourceError as error:
-            self._note(str(error))
-            return
-        for name, type in found.items():
+        """Find topics, in a thread of its own: a slow graph must not stop the page."""
+        while True:
             try:
-                self._bus.advertise(name, type)
-            except UsageError as error:
-                self._note(str(error))
+                self._found = self._node.topics()
+            except Exception as error:  # of a graph, by several classes
+                if not self._closed.is_set():
+                    self._note(str(error))
+            if self._closed.wait(SEARCH):
+                return
 
     def _follow(self, topic: Topic) -> End:
         try:
