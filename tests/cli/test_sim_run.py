@@ -294,7 +294,7 @@ def test_warmup_makes_the_kernel_ready(capsys: Capture) -> None:
 
 
 def test_the_ramp_publishes_what_the_drive_will_hold() -> None:
-    from urdfkit.cli.sim.run_command import ramp
+    from urdfkit.app.simulation.runs.commands import ramp
     from urdfkit.messages import TWIST
     from urdfkit.sim import Simulator
 
@@ -310,7 +310,7 @@ def test_the_ramp_publishes_what_the_drive_will_hold() -> None:
 
 
 def test_help_shows_two_examples(capsys: Capture) -> None:
-    for words in (["sim"], ["sim", "run"], ["sim", "warmup"]):
+    for words in (["sim"], ["sim", "run"], ["sim", "sweep"], ["sim", "warmup"]):
         with pytest.raises(SystemExit) as caught:
             main([*words, "--help"])
         assert caught.value.code == 0

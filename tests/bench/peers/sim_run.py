@@ -30,6 +30,7 @@ from tests.bench.peers.scenes import (
 from tests.bench.peers.simulator_scene import SLIPPERY
 from tests.bench.peers.urdf_models import joint, link, robot
 from urdfkit.cli.sim import run_command
+from urdfkit.cli.sim.run_options import run_options_of
 
 HOLD = ",".join(f"{name}={angle}" for name, angle in zip(ARM_JOINTS, ARM_ENDS[0], strict=True))
 JOINT_STATES = '<plugin filename="gz-sim-joint-state-publisher-system" name="gz::sim::systems::JointStatePublisher"/>'
@@ -152,8 +153,9 @@ class InSimRun(Running):
             path.write_text(thing.urdf.replace("</robot>", f"{blocks}</robot>"), encoding="utf-8")
             spawn = ",".join(map(str, (*thing.at, 0.0)))
             arguments = parser.parse_args([str(path), "--quiet", "--for", "1", "--spawn", spawn, *typed.words])
-            self.simulator = run_command.load(arguments)
-            run_command.command(self.simulator, arguments)
+            options = run_options_of(arguments)
+            self.simulator = run_command.load(arguments, options)
+            options.schedule(self.simulator)
 
     def many(self, steps: int) -> None:
         """Advance by `steps` in one call."""

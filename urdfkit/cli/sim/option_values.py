@@ -9,6 +9,7 @@ from math import isfinite
 from pathlib import Path
 from typing import NamedTuple
 
+from urdfkit.app.simulation.runs.commands import TopicMessage
 from urdfkit.app.simulation.save_options import TopicFile
 
 
@@ -140,15 +141,6 @@ def _assignments(text: str) -> list[tuple[str, str]]:
             raise argparse.ArgumentTypeError(f"`{text}` names `{name.strip()}` twice")
         values[name.strip()] = value.strip()
     return list(values.items())
-
-
-class TopicMessage(NamedTuple):
-    """``TOPIC TYPE YAML@T``: the message, its topic, and the time to publish it [s]."""
-
-    topic: str
-    type: str
-    text: str
-    t: float
 
 
 _AT = re.compile(r"^(.*)@([^@\s}\]]*)$", re.DOTALL)

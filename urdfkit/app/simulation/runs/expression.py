@@ -1,11 +1,11 @@
-"""``--until "EXPR"``: an expression of the robot's state with numbers, comparisons and a few functions."""
+"""Expressions of the robot's state with numbers, comparisons and a few functions: ``--until`` and ``--metric``."""
 
 from __future__ import annotations
 
 import ast
 import math
 import operator
-from collections.abc import Callable
+from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 from urdfkit.errors import UsageError, did_you_mean
@@ -43,38 +43,51 @@ _BINARY: dict[type[ast.AST], Callable[[Any, Any], Any]] = {
 }
 
 
-class Condition:
+def state_values(state: State) -> dict[str, float]:
+    """Return the values of `NAMES` in a state, the number of contacts excepted: it is counted on demand."""
+    from urdfkit.sim.state.quaternion import to_rpy
+
+    pose, velocity = state.base_pose, state.base_velocity
+    return dict(zip(NAMES, (state.t, *pose[:3], *to_rpy(pose[3:]), *velocity, 0.0, math.pi), strict=True))
+
+
+class Expression:
     """A parsed expression.
 
     Args:
-        text: e.g. ``x > 1 and abs(yaw) < 0.1``.
+        text: e.g. ``x > 1 and abs(yaw) < 0.1``, or its syntax tree.
         joints: joints that the expression may name.
+        option: name of the option, for messages.
+        names: names that the expression may use.
 
     Raises:
         UsageError: the expression is invalid.
     """
 
-    def __init__(self, text: str, joints: tuple[str, ...]) -> None:
-        self.text = text
-        self._joints = joints
-        try:
-            self._tree = ast.parse(text.strip(), mode="eval").body
-        except (SyntaxError, ValueError, RecursionError, MemoryError) as error:
-            raise UsageError(f"--until: `{text}` is not an expression ({getattr(error, 'msg', error)})") from None
+    def __init__(
+        self, text: str | ast.expr, joints: Sequence[str], *, option: str = "--until", names: Sequence[str] = NAMES
+    ) -> None:
+        self.text = text if isinstance(text, str) else ast.unparse(text)
+        self._joints, self._option, self._names = joints, option, names
+        self._tree = parsed(text, option) if isinstance(text, str) else text
         self._check(self._tree, depth=0)
 
-    def __call__(self, state: State) -> bool:
-        """Whether the expression is true in a state."""
-        from urdfkit.sim.state.quaternion import to_rpy
+    def __call__(self, state: State, values: Mapping[str, float]) -> Any:
+        """Return the value in a state.
 
-        pose, velocity = state.base_pose, state.base_velocity
-        values = dict(zip(NAMES, (state.t, *pose[:3], *to_rpy(pose[3:]), *velocity, 0.0, math.pi), strict=True))
+        Args:
+            state: for joints and contacts.
+            values: values of the names, see `state_values`.
+
+        Raises:
+            UsageError: it has no value, such as after a division by zero.
+        """
         try:
-            return bool(self._value(self._tree, values, state))
+            return self._value(self._tree, values, state)
         except (ZeroDivisionError, ValueError, OverflowError) as error:
-            raise UsageError(f"--until: `{self.text}` at t = {state.t:g} s: {error}") from None
+            raise UsageError(f"{self._option}: `{self.text}` at t = {state.t:g} s: {error}") from None
 
-    def _value(self, node: ast.expr, values: dict[str, float], state: State) -> Any:
+    def _value(self, node: ast.expr, values: Mapping[str, float], state: State) -> Any:
         match node:
             case ast.Constant(value=value):
                 return value
@@ -116,8 +129,9 @@ class Condition:
             case ast.Constant(value=bool() | int() | float()):
                 pass
             case ast.Name(id=name):
-                if name not in NAMES:
-                    self._refuse(f"unknown name `{name}`{did_you_mean(name, NAMES)} (available: {', '.join(NAMES)})")
+                if name not in self._names:
+                    available = ", ".join(self._names)
+                    self._refuse(f"unknown name `{name}`{did_you_mean(name, self._names)} (available: {available})")
             case ast.UnaryOp(op=ast.Not() | ast.USub() | ast.UAdd(), operand=operand):
                 below = [operand]
             case ast.BinOp(left=left, op=op, right=right) if type(op) in _BINARY:
@@ -139,4 +153,16 @@ class Condition:
             self._check(inner, depth=depth + 1)
 
     def _refuse(self, reason: str) -> None:
-        raise UsageError(f"--until: `{self.text}` cannot be evaluated: {reason}")
+        raise UsageError(f"{self._option}: `{self.text}` cannot be evaluated: {reason}")
+
+
+def parsed(text: str, option: str) -> ast.expr:
+    """Return the syntax tree of an expression.
+
+    Raises:
+        UsageError: it is not an expression.
+    """
+    try:
+        return ast.parse(text.strip(), mode="eval").body
+    except (SyntaxError, ValueError, RecursionError, MemoryError) as error:
+        raise UsageError(f"{option}: `{text}` is not an expression ({getattr(error, 'msg', error)})") from None

@@ -1,0 +1,181 @@
+"""Options of a run without a page: those of ``sim run`` that ``sim sweep`` has, too."""
+
+from __future__ import annotations
+
+import argparse
+import re
+from collections.abc import Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from urdfkit.cli.parser import add_model
+from urdfkit.cli.robot_arguments.launch_arguments import add_launch_arguments, with_launch_arguments
+from urdfkit.cli.robot_arguments.macro_option import add_macro, with_macro
+from urdfkit.cli.robot_arguments.robot_loading import load_robot
+from urdfkit.cli.robot_arguments.unused_arguments import note_unused
+from urdfkit.cli.sim import option_values
+from urdfkit.cli.sim.controllers_option import add_controllers
+from urdfkit.cli.sim.renderer_option import add_renderer
+from urdfkit.cli.sim.repair_options import add_repair_options
+from urdfkit.cli.sim.ros_distro_option import add_distro
+from urdfkit.errors import UsageError
+
+if TYPE_CHECKING:
+    from urdfkit.app.simulation.runs.run_options import RunOptions
+    from urdfkit.description import Robot
+
+
+def add_run_options(parser: argparse.ArgumentParser) -> None:
+    """Add the robot, the start, the step, the plugins and the commands."""
+    # argparse parses `-1,0,0` as an option unless this pattern matches it.
+    parser._negative_number_matcher = re.compile(r"^-\.?\d|^-(inf|nan)", re.IGNORECASE)
+    add_model(parser)
+    add_macro(parser)
+    add_launch_arguments(parser, "simulation")
+    add = parser.add_argument
+    add("--for", dest="duration", required=True, type=option_values.duration, metavar="SECONDS", help="simulated time")
+    add(
+        "--world",
+        default="empty",
+        metavar="WORLD",
+        help="bundled world (empty, void, house, …) or an SDF file (default: empty)",
+    )
+    add(
+        "--dt",
+        type=option_values.positive,
+        metavar="S",
+        help="time step [s] (default: the step of the world, else 0.001)",
+    )
+    add(
+        "--spawn",
+        type=option_values.pose,
+        metavar="X,Y,Z,YAW",
+        help="pose of the root link, or X,Y,Z,ROLL,PITCH,YAW [m, rad]; an empty Z places the robot on the ground",
+    )
+    add(
+        "--gravity",
+        type=option_values.vector("GX,GY,GZ"),
+        metavar="GX,GY,GZ",
+        help="gravity [m/s²] (default: the world's)",
+    )
+    twist = "VX,VY,VZ,WX,WY,WZ"
+    add(
+        "--initial-twist",
+        type=option_values.vector(twist),
+        metavar=twist,
+        help="velocity of the root link in world axes [m/s, rad/s]",
+    )
+    joints = "NAME=POSITION[:VELOCITY],…"
+    add(
+        "--initial-joints",
+        type=option_values.joint_starts,
+        metavar=joints,
+        help="initial state of joints [rad or m, rad/s or m/s]",
+    )
+    velocity = option_values.vector("VX,VY,WZ", finite=False)
+    add(
+        "--cmd-vel",
+        type=velocity,
+        metavar="VX,VY,WZ",
+        help="velocity command, constant from the start [m/s, m/s, rad/s]",
+    )
+    add("--cmd-ramp", type=option_values.duration, metavar="S", help="increase the command linearly over S seconds")
+    add(
+        "--topic-pub",
+        type=option_values.topic_message,
+        action="append",
+        default=[],
+        metavar='"TOPIC TYPE YAML@T"',
+        help="publish at simulated time T (repeatable)",
+    )
+    add(
+        "--joint-target",
+        type=option_values.targets,
+        metavar="NAME=VALUE,…",
+        help="move joints to these positions and hold them [rad or m]",
+    )
+    add(
+        "--trajectory",
+        type=Path,
+        metavar="FILE.csv",
+        help="move joints along the trajectory in a file of `urdfkit retime`, from its first positions on",
+    )
+    add("--fixed-base", action="store_true", help="fix the root link to the world")
+    add("--until", metavar='"EXPR"', help='stop when the expression is true, e.g. "x > 1 or t > 3"')
+    add_distro(parser)
+    add_controllers(parser)
+    add_renderer(parser)
+    add_repair_options(parser)
+
+
+def check_run_options(arguments: argparse.Namespace, command: str) -> None:
+    """Reject options that need another one.
+
+    Args:
+        arguments: with the options of `add_run_options`.
+        command: name of the command.
+
+    Raises:
+        UsageError: ``--cmd-ramp`` without ``--cmd-vel``.
+    """
+    if arguments.cmd_ramp is not None and arguments.cmd_vel is None:
+        raise UsageError(f"{command}: --cmd-ramp requires --cmd-vel")
+
+
+def run_options_of(arguments: argparse.Namespace) -> RunOptions:
+    """Return the options as a record.
+
+    Raises:
+        UrdfkitError: the trajectory cannot be read.
+    """
+    from urdfkit.app.simulation.runs.run_options import RunOptions
+    from urdfkit.app.simulation.trajectory import read_trajectory
+    from urdfkit.sim import Spawn
+
+    spawn = None
+    if arguments.spawn or arguments.initial_twist or arguments.initial_joints or arguments.trajectory:
+        positions, velocities = arguments.initial_joints or ({}, {})
+        if arguments.trajectory:
+            path = read_trajectory(arguments.trajectory)
+            positions = {**dict(zip(path.joints, path.positions[0].tolist(), strict=True)), **positions}
+        pose = arguments.spawn._asdict() if arguments.spawn else {}
+        twist = arguments.initial_twist or (0.0,) * 6
+        spawn = Spawn(**pose, twist=twist, joints=positions, velocities=velocities)
+    return RunOptions(
+        dt=arguments.dt,
+        seed=getattr(arguments, "seed", 0),
+        spawn=spawn,
+        gravity=arguments.gravity,
+        fixed_base=arguments.fixed_base,
+        ros_distro=arguments.ros_distro,
+        controllers=tuple(arguments.controllers),
+        renderer=arguments.renderer,
+        strict=arguments.strict,
+        density=arguments.density,
+        command=arguments.cmd_vel,
+        ramp=arguments.cmd_ramp or 0.0,
+        joint_targets=arguments.joint_target or {},
+        trajectory=arguments.trajectory,
+        messages=tuple(arguments.topic_pub),
+    )
+
+
+def load_robot_of_run(arguments: argparse.Namespace, more: Mapping[str, str] | None = None) -> Robot:
+    """Load the robot of the command line.
+
+    Args:
+        arguments: with the options of `add_run_options`.
+        more: further xacro arguments.
+
+    Raises:
+        UrdfkitError: it cannot be loaded.
+    """
+    from dataclasses import replace
+
+    from urdfkit.resources import find_model
+
+    found = find_model(arguments.model, package_path=arguments.package_path)
+    named = with_macro(replace(found, arguments={**found.arguments, **(more or {})}), arguments)
+    robot = load_robot(with_launch_arguments(named, arguments), arguments)
+    note_unused(named, robot.files, quiet=arguments.quiet)
+    return robot
