@@ -173,7 +173,7 @@ OF_LIBRARIES = {
     "cli/new/__init__.py": {"_option_string_actions"},
     "cli/new/template_options.py": {"_actions", "_option_string_actions"},
     "cli/parser.py": {"_actions", "_option_string_actions", "_SubParsersAction"},
-    "cli/sim/run_command.py": {"_negative_number_matcher"},
+    "cli/sim/run_options.py": {"_negative_number_matcher"},
     "compilation/codegen.py": {"_internal_codegen"},
     "compilation/native.py": {"_final_module", "_get_compiled_object"},
     "compilation/native_entry.py": {"_getvalue"},

@@ -16,7 +16,7 @@ from urdfkit.description.urdf.parser import parse
 from urdfkit.resources import robots_dir
 
 NAMES = {"load", "expand", "lint", "Simulator", "Kinematics", "Robot", "World", "Finding"}
-NAMES |= {"UrdfkitError", "__version__", "teleop", "view"}
+NAMES |= {"UrdfkitError", "__version__", "sweep", "teleop", "view"}
 PACKAGE = robots_dir() / "simpleton" / "simpleton_description"
 FILE = PACKAGE / "urdf" / "simpleton.urdf.xacro"
 

@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from typing import Any
 
     from urdfkit.app.simulation.simulation_handle import teleop as teleop
+    from urdfkit.app.sweeps.sweep import sweep as sweep
     from urdfkit.app.viewer.viewing import view as view
     from urdfkit.description import Robot as Robot
     from urdfkit.description import expand as expand
@@ -39,6 +40,7 @@ _MODULES = {
     "expand": "urdfkit.description",
     "lint": "urdfkit.lint",
     "load": "urdfkit.description",
+    "sweep": "urdfkit.app.sweeps.sweep",
     "teleop": "urdfkit.app.simulation.simulation_handle",
     "view": "urdfkit.app.viewer.viewing",
 }
@@ -54,6 +56,7 @@ __all__ = [
     "expand",
     "lint",
     "load",
+    "sweep",
     "teleop",
     "view",
 ]

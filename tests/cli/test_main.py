@@ -59,7 +59,7 @@ def test_a_misspelt_option_gets_the_nearest_one(capsys: pytest.CaptureFixture[st
         ("help tf", "unknown command `help`; did you mean `urdfkit tf --help`?"),
         ("simpleton", "unknown command `simpleton`; did you mean `urdfkit view simpleton`?"),
         ("arm.urdf", "unknown command `arm.urdf`; did you mean `urdfkit view arm.urdf`?"),
-        ("sim", "sim: pass a subcommand: teleop, run, warmup"),
+        ("sim", "sim: pass a subcommand: teleop, run, sweep, warmup"),
         ("sim simpleton", "sim: no subcommand `simpleton`; did you mean `urdfkit sim teleop simpleton`?"),
         ("sim rum simpleton", "sim: no subcommand `rum`; did you mean `run`?"),
         ("sim run simpleton --duration 3", "sim run: unrecognized arguments: --duration; did you mean `--for`?"),

@@ -41,7 +41,7 @@ COMMANDS = {
     "reach": "compute which positions and orientations a link reaches, as a map",
     "retime": "compute the fastest motion through waypoints within the limits of the joints",
     "srdf": "write groups and disabled collisions of a robot for MoveIt",
-    "sim": "simulate a robot: teleop, run, warmup",
+    "sim": "simulate a robot: teleop, run, sweep, warmup",
     "topic": "inspect and publish topics of a running simulation: list, info, type, find, echo, hz, bw, pub",
     "replay": "show a recording of ROS 1, ROS 2 or urdfkit in the browser",
     "bag": "print the topics of a recording: info",

@@ -11,6 +11,7 @@ from urdfkit.cli.parser import Parser, add_common
 SUBCOMMANDS = {
     "teleop": ("teleop", "drive a robot in real time, in the browser or the terminal"),
     "run": ("run_command", "simulate headless, faster than real time, and report the final state"),
+    "sweep": ("sweep_command", "simulate a robot with many combinations of parameters, and tabulate metrics"),
     "warmup": ("warmup", "compile the physics kernel now, not on first use"),
 }
 """Subcommand → module that implements it, and its description. (A module `run` would hide the function.)"""

@@ -14,10 +14,9 @@ from urdfkit.cli.robot_arguments.macro_option import add_macro, with_macro
 from urdfkit.cli.robot_arguments.robot_loading import load_robot
 from urdfkit.cli.robot_arguments.unused_arguments import note_unused
 from urdfkit.cli.sim import option_values
-from urdfkit.cli.sim.controllers_option import add_controllers
+from urdfkit.cli.sim.plugin_options import add_controllers, add_distro
 from urdfkit.cli.sim.renderer_option import add_renderer
 from urdfkit.cli.sim.repair_options import add_repair_options
-from urdfkit.cli.sim.ros_distro_option import add_distro
 from urdfkit.errors import UsageError
 
 if TYPE_CHECKING:

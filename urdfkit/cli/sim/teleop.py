@@ -12,11 +12,10 @@ from urdfkit.cli.robot_arguments.macro_option import add_macro, with_macro
 from urdfkit.cli.robot_arguments.robot_loading import load_robot
 from urdfkit.cli.robot_arguments.unused_arguments import note_unused
 from urdfkit.cli.sim.bridge_options import add_bridges, bridge_options
-from urdfkit.cli.sim.controllers_option import add_controllers
+from urdfkit.cli.sim.plugin_options import add_controllers, add_distro
 from urdfkit.cli.sim.record_option import add_record, check_record, recording
 from urdfkit.cli.sim.renderer_option import add_renderer
 from urdfkit.cli.sim.repair_options import add_repair_options
-from urdfkit.cli.sim.ros_distro_option import add_distro
 from urdfkit.cli.sim.terminal_option import add_terminal, check_terminal, terminal_driving
 from urdfkit.cli.sim.warnings import GroupedWarnings
 

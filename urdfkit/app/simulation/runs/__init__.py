@@ -1,1 +1,4 @@
-"""Runs without a page: the options of a run, its commands, and expressions of the robot's state."""
+"""Runs without a page, as of ``sim run`` and sweeps.
+
+Options go in; a simulator with scheduled commands comes out. Expressions are evaluated in its state.
+"""

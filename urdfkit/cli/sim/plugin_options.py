@@ -1,4 +1,4 @@
-"""``--controllers``: parameter files that configure the robot's controllers."""
+"""``--controllers`` and ``--ros-distro``: how the plugins of the robot are configured and behave."""
 
 import argparse
 from pathlib import Path
@@ -29,3 +29,12 @@ def parameter_file(text: str) -> str:
         wrong = "it is a folder" if path.is_dir() else f"no such file{near_path(path)}"
         raise argparse.ArgumentTypeError(f"cannot read {text}: {wrong}")
     return text
+
+
+def add_distro(parser: argparse.ArgumentParser) -> None:
+    """Add the option; the simulator checks its value."""
+    parser.add_argument(
+        "--ros-distro",
+        metavar="NAME",
+        help="reproduce the behaviour of this ROS distribution, e.g. kinetic (default: the newest)",
+    )
