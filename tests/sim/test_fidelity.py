@@ -68,8 +68,8 @@ def test_the_page_has_every_row_and_no_other() -> None:
 
 def test_an_error_that_is_too_large_is_seen() -> None:
     row, table = ROWS[0], module("table")
-    near = table.Result(row, 1e-3, 1e-3, {"default": 2e-3, "RK4": 5e-4}, {"default": 1e-2})
-    assert near.better_peer == ("MuJoCo", 5e-4)
+    near = table.Result(row, 1e-3, 1e-3, {"MuJoCo": {"default": 2e-3, "RK4": 5e-4}, "Drake": {}})
+    assert near.best_peer == ("MuJoCo", 5e-4)
     assert near.verdict == "**worse**"
-    assert table.Result(row, 1e-4, 1e-3, {"default": 2e-3}, {}).verdict == "better"
-    assert table.Result(row, 1e-10, 1e-3, {"default": 1e-14}, {}).verdict == "equal"
+    assert table.Result(row, 1e-4, 1e-3, {"MuJoCo": {"default": 2e-3}}).verdict == "better"
+    assert table.Result(row, 1e-10, 1e-3, {"MuJoCo": {"default": 1e-14}}).verdict == "equal"

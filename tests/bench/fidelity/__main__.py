@@ -1,4 +1,4 @@
-"""Make the table of docs/fidelity.md: closed forms, ours, MuJoCo and PyBullet.
+"""Make the table of docs/fidelity.md: closed forms, ours, MuJoCo, PyBullet and Drake.
 
     python tests/bench/fidelity [--write] [--only WORD]
 
@@ -12,34 +12,43 @@ import argparse
 import math
 import sys
 from pathlib import Path
+from types import ModuleType
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
 
-from fidelity import ours, peer_bullet, peer_mujoco
-from fidelity.row import Row
+from fidelity import ours, peer_bullet, peer_drake, peer_mujoco
+from fidelity.row import Row, UnsupportedError
 from fidelity.rows import SECTIONS
 from fidelity.scene import Run
 from fidelity.table import PAGE, Result, put_table, table
+
+PEERS = {"MuJoCo": peer_mujoco, "PyBullet": peer_bullet, "Drake": peer_drake}
+"""Name → engine that is compared."""
 
 
 def measured(row: Row, run: Run) -> float:
     """Return the error of an engine; infinite where it breaks down."""
     try:
         error = row.error(run)
+    except UnsupportedError:
+        return math.nan
     except Exception as failure:
         print(f"{row.name}: {failure}", file=sys.stderr)
         return math.inf
     return error if math.isfinite(error) else math.inf
 
 
+def errors(row: Row, peer: ModuleType) -> dict[str, float]:
+    """Return setting → error of a peer, without the settings that do not have what the row needs."""
+    found = {name: measured(row, peer.runner(0.001, name)) for name in peer.SETTINGS}
+    return {name: error for name, error in found.items() if not math.isnan(error)}
+
+
 def result(row: Row) -> Result:
     """Run a row on every engine."""
     print(row.name, file=sys.stderr, flush=True)
-    mujoco = {name: measured(row, peer_mujoco.runner(0.001, name)) for name in peer_mujoco.SETTINGS}
-    bullet = {}
-    if row.bullet:
-        bullet = {name: measured(row, peer_bullet.runner(0.001, name)) for name in peer_bullet.SETTINGS}
-    return Result(row, measured(row, ours.runner(0.001)), measured(row, ours.runner(0.005)), mujoco, bullet)
+    peers = {name: errors(row, peer) for name, peer in PEERS.items() if name != "PyBullet" or row.bullet}
+    return Result(row, measured(row, ours.runner(0.001)), measured(row, ours.runner(0.005)), peers)
 
 
 def main() -> int:

@@ -9,6 +9,10 @@ from dataclasses import dataclass
 from fidelity.scene import Run
 
 
+class UnsupportedError(Exception):
+    """An engine does not have what a scene needs."""
+
+
 @dataclass(frozen=True)
 class Row:
     """A check.
