@@ -121,8 +121,9 @@ def rebound(run: Run) -> float:
 
 
 def sinking(run: Run) -> float:
-    """Return how deep it gets [m]."""
-    return max(0.0, _drop(run)[1])
+    """Return how deep it gets [m]; infinite for a box that is thrown up between two looks."""
+    rebound, depth = _drop(run)
+    return max(0.0, depth) if rebound < 0.05 else math.inf
 
 
 def head_on(run: Run) -> float:
