@@ -7,7 +7,7 @@ import json
 import math
 import sys
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -19,6 +19,7 @@ from urdfkit.errors import UsageError
 
 if TYPE_CHECKING:
     from urdfkit.app.sweeps.results import Sweep
+    from urdfkit.description import Robot
 
 PERIOD = 0.5
 """Wall seconds between lines of progress."""
@@ -81,13 +82,19 @@ def run(arguments: argparse.Namespace) -> int:
     from dataclasses import fields
 
     from urdfkit.app.simulation.kernel_compilation import prepare_kernel
+    from urdfkit.description.xml.cost_limit import loading_limit
 
     prepare_kernel(sys.stderr)
     options = run_options_of(arguments)
+
+    def load(more: Mapping[str, str]) -> Robot:
+        with loading_limit():
+            return load_robot_of_run(arguments, more)
+
     with _progress() as progress:
         found = sweep(
             "",
-            load=lambda more: load_robot_of_run(arguments, more),
+            load=load,
             vary=vary,
             metrics=arguments.metric,
             duration=arguments.duration,
