@@ -72,8 +72,9 @@ def test_the_commands_on_a_page_work(page: Path, tmp_path: Path) -> None:
     (tmp_path / "robot.urdf.xacro").write_text(MODEL)
     for name in {word for command in shown_commands(page) for word in command.split()} & {"arm.urdf", "arm.urdf.xacro"}:
         (tmp_path / name).write_text(ARM)
-    for table in re.findall(r"^```csv\n(.*?)^```", page.read_text(encoding="utf-8"), re.MULTILINE | re.DOTALL):
-        (tmp_path / "waypoints.csv").write_text(table)
+    tables = r"`([\w-]+\.csv)`:\n\n```csv\n(.*?)^```"
+    for name, table in re.findall(tables, page.read_text(encoding="utf-8"), re.MULTILINE | re.DOTALL):
+        (tmp_path / name).write_text(table)
     (tmp_path / "tests").symlink_to(ROOT / "tests")  # pages that name a file of ours speak of a checkout's root
     done = set()
     for command in shown_commands(page):

@@ -11,7 +11,10 @@ if TYPE_CHECKING:
     from urdfkit.kinematics.joint_limits import JointLimitError
     from urdfkit.kinematics.mimic import Coupling
     from urdfkit.kinematics.model import Kinematics
+    from urdfkit.kinematics.reach.base_placement import base_placement
     from urdfkit.kinematics.reach.reach_map import ReachMap, reach_map
+    from urdfkit.kinematics.retiming.fastest_motion import retime
+    from urdfkit.kinematics.self_collision.collision_matrix import collision_matrix
     from urdfkit.kinematics.serial.solutions import Solutions
     from urdfkit.kinematics.tf import TransformTree
 
@@ -23,7 +26,10 @@ __all__ = [
     "ReachMap",
     "Solutions",
     "TransformTree",
+    "base_placement",
+    "collision_matrix",
     "reach_map",
+    "retime",
 ]
 
 _HOMES = {
@@ -34,7 +40,10 @@ _HOMES = {
     "ReachMap": "reach.reach_map",
     "Solutions": "serial.solutions",
     "TransformTree": "tf",
+    "base_placement": "reach.base_placement",
+    "collision_matrix": "self_collision.collision_matrix",
     "reach_map": "reach.reach_map",
+    "retime": "retiming.fastest_motion",
 }
 
 

@@ -12,13 +12,15 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from urdfkit.app.page import Page, note, require_packages, require_page, until_interrupted
+from urdfkit.cli.kinematics.ik.targets import poses_of_file
 from urdfkit.cli.page_options import add_page_options
 from urdfkit.cli.page_options import announce as announce_page
 from urdfkit.cli.robot_arguments.tip_link import add_tip, announce, model_of_tip, robot_and_tip
 from urdfkit.errors import UsageError
 
 if TYPE_CHECKING:
-    from urdfkit.kinematics.reach import ReachMap
+    from urdfkit.kinematics.chain import Chain
+    from urdfkit.kinematics.reach import BasePlacement, ReachMap
     from urdfkit.linear_algebra import Array
 
 AXES = {
@@ -36,15 +38,17 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser._negative_number_matcher = re.compile(r"^-\.?\d|^-[xyz](,|$)")
     parser.usage = (
         "urdfkit reach ROBOT [key:=value ...] TIP [--base LINK] [--resolution M] [--orientations N]\n"
-        "       [--down | --cone AXIS,DEG | --position-only] [-o FILE] [--view | --html FILE] [option ...]"
+        "       [--down | --cone AXIS,DEG | --position-only] [--base-for POSES] [-o FILE] [--view | --html FILE]\n"
+        "       [option ...]"
     )
     parser.epilog = (
         "the score of a cell is the share of the orientations that TIP reaches at its centre, within 1 mm and 0.1°\n"
-        "exit status: 0 if any pose is reached, 1 if none is, 2 on failure\n"
+        "exit status: 0 if any pose is reached, with --base-for if all of its poses are, else 1; 2 on failure\n"
         "examples:\n"
         "  urdfkit reach seven_dof_arm grasping_frame -o reach.npz\n"
         "  urdfkit reach seven_dof_arm grasping_frame --down --tool-axis x --orientations 12\n"
-        "  urdfkit reach panda.urdf panda_hand --cone -z,30 --resolution 0.1 --json"
+        "  urdfkit reach panda.urdf panda_hand --cone -z,30 --resolution 0.1 --json\n"
+        "  urdfkit reach panda.urdf panda_hand --resolution 0.1 --base-for poses.csv"
     )
     add = parser.add_argument
     add_tip(parser)
@@ -68,6 +72,12 @@ def configure(parser: argparse.ArgumentParser) -> None:
     add("--tool-axis", type=_axis, metavar="AXIS", help="axis of TIP for --down and --cone (default: z)")
     add("--collision-free", action="store_true", help="reach poses only without collisions between links")
     add("--seed", type=_whole, default=0, metavar="N", help="seed of all random numbers (default: 0)")
+    add(
+        "--base-for",
+        type=Path,
+        metavar="POSES",
+        help="also find where to put the base link, upright on the floor, to reach the poses of a .npy, .npz or .csv file",
+    )
     add("-o", "--output", type=Path, metavar="FILE", help="write the map to a .npz, .json or .ply file")
     add("--json", action="store_true", help="print one JSON value")
     add("--view", action="store_true", help="show the map in the browser, until interrupted")
@@ -83,9 +93,10 @@ def run(arguments: argparse.Namespace) -> int:
         require_page("reach: the page", "view", modules=("rosbags",))
     require_packages("reach", "sim", {"numpy": "numpy", "numba": "numba"})
     robot, tip = robot_and_tip(arguments, "reach")
+    poses = poses_of_file(arguments.base_for, "reach: --base-for") if arguments.base_for is not None else None
 
     from urdfkit.kinematics.chain import Chain
-    from urdfkit.kinematics.reach import reach_map, write_map
+    from urdfkit.kinematics.reach import base_placement, reach_map, write_map
     from urdfkit.kinematics.reach.map_files import check_file
 
     if arguments.output is not None:
@@ -107,6 +118,17 @@ def run(arguments: argparse.Namespace) -> int:
         seed=arguments.seed,
         progress=_show if shows else _silent,
     )
+    base = None
+    if poses is not None:
+        base = base_placement(
+            chain,
+            found,
+            poses,
+            position_only=arguments.position_only,
+            collision_free=arguments.collision_free,
+            seed=arguments.seed,
+            progress=_show if shows else _silent,
+        )
     if shows:
         sys.stderr.write("\r\x1b[K")
     if arguments.output is not None:
@@ -114,14 +136,14 @@ def run(arguments: argparse.Namespace) -> int:
         if not arguments.quiet:
             print(f"wrote {arguments.output}", file=sys.stderr)
     if arguments.json:
-        print(json.dumps(_values(found)), flush=True)
+        print(json.dumps(_values(found) | ({} if base is None else {"base_for": _place(base, chain)})), flush=True)
     elif not arguments.view:
-        print(_text(found), flush=True)
+        print(_text(found, base), flush=True)
     elif not arguments.quiet:
-        note(_text(found))  # the address of the page is alone on standard output
+        note(_text(found, base))  # the address of the page is alone on standard output
     if arguments.html is not None or arguments.view:
         _show_page(found, arguments)
-    return 0 if found.reached.any() else 1
+    return 0 if (found.reached.any() if base is None else base.reached.all()) else 1
 
 
 def _show_page(found: ReachMap, arguments: argparse.Namespace) -> None:
@@ -197,7 +219,17 @@ def _values(found: ReachMap) -> dict[str, Any]:
     }
 
 
-def _text(found: ReachMap) -> str:
+def _place(base: BasePlacement, chain: Chain) -> dict[str, Any]:
+    """Return a place of the base as JSON."""
+    solutions = [
+        {"reached": bool(reached), "positions": dict(zip(chain.joint_names, q, strict=True)) if reached else None}
+        for reached, q in zip(base.reached, base.q.tolist(), strict=True)
+    ]
+    place = {"position": [base.x, base.y, 0.0], "yaw": base.yaw, "poses": len(solutions)}
+    return place | {"reached": base.rank[0], "manipulability": base.manipulability, "solutions": solutions}
+
+
+def _text(found: ReachMap, base: BasePlacement | None) -> str:
     values = _values(found)
     count = values["orientations"]
     head = f"{found.tip} in {found.base}: {values['cells']} cells of {found.resolution:g} m reached"
@@ -207,12 +239,16 @@ def _text(found: ReachMap) -> str:
     high = [corner + found.resolution * count for corner, count in zip(low, found.score.shape, strict=True)]
     best = values["best"]
     shares = ", ".join(f"{values['cells_by_score'][f'{share:g}']} of {share:g} or more" for share in SHARES)
+    place = ""
+    if base is not None:
+        reached = f"{base.rank[0]} of {len(base.reached)} poses reached"
+        place = f"\nput {found.base} at ({_numbers([base.x, base.y, 0.0])}) m, yaw {base.yaw:.4g} rad: {reached}"
     return (
         f"{head}, {values['volume']:.3g} m³\n"
         f"box from ({_numbers(low)}) to ({_numbers(high)}) m\n"
         f"score: share of {count} orientations; mean {values['mean_score']:.2f}; cells with {shares}\n"
         f"best cell ({_numbers(best['position'])}) m: score {best['score']:.2f}, "
-        f"manipulability {best['manipulability']:.3g}"
+        f"manipulability {best['manipulability']:.3g}{place}"
     )
 
 

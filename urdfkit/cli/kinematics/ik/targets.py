@@ -70,8 +70,8 @@ def quaternion_of(rpy: list[float]) -> list[float]:
     ]
 
 
-def poses_of_file(path: Path) -> Array:
-    """Return the poses of a file; shape (N, 7) or (N, 4, 4).
+def poses_of_file(path: Path, option: str = "ik: --targets") -> Array:
+    """Return the poses of a file, named by an option; shape (N, 7) or (N, 4, 4).
 
     Raises:
         ResourceError: the file cannot be read.
@@ -81,37 +81,37 @@ def poses_of_file(path: Path) -> Array:
 
     suffix = path.suffix.lower()
     if suffix not in (".npy", ".npz", ".csv"):
-        raise UsageError(f"ik: --targets {path}: unsupported file type; use .npy, .npz or .csv")
+        raise UsageError(f"{option} {path}: unsupported file type; use .npy, .npz or .csv")
     try:
         if suffix == ".csv":
             poses = _poses_of_csv(path)
         else:
             with path.open("rb") as file:
                 loaded = np.load(file, allow_pickle=False)
-                poses = _array_named_targets(path, loaded) if suffix == ".npz" else loaded
+                poses = _array_named_targets(f"{option} {path}", loaded) if suffix == ".npz" else loaded
     except OSError as error:
-        raise ResourceError(f"ik: --targets {path}: {error.strerror or error}") from error
+        raise ResourceError(f"{option} {path}: {error.strerror or error}") from error
     except (ValueError, EOFError) as error:
-        raise UsageError(f"ik: --targets {path}: not readable as {suffix}: {error}") from error
+        raise UsageError(f"{option} {path}: not readable as {suffix}: {error}") from error
     if poses.dtype.kind not in "fiu" or (poses.shape[1:] not in ((7,), (4, 4))):
-        raise UsageError(f"ik: --targets {path}: expected an array of shape (N, 7) or (N, 4, 4), got {poses.shape}")
+        raise UsageError(f"{option} {path}: expected an array of shape (N, 7) or (N, 4, 4), got {poses.shape}")
     if not len(poses):
-        raise UsageError(f"ik: --targets {path}: the file has no poses")
+        raise UsageError(f"{option} {path}: the file has no poses")
     poses = np.ascontiguousarray(poses, dtype=float)
     lengths = np.sqrt(np.einsum("ni,ni->n", poses[:, 3:], poses[:, 3:])) if poses.ndim == 2 else np.ones(1)
     if (wrong := np.flatnonzero(np.abs(lengths - 1.0) > UNIT)).size:
         raise UsageError(
-            f"ik: --targets {path}: the quaternion of pose {wrong[0]} has the length {lengths[wrong[0]]:.4g}; use one "
+            f"{option} {path}: the quaternion of pose {wrong[0]} has the length {lengths[wrong[0]]:.4g}; use one "
             "of length 1"
         )
     return poses
 
 
-def _array_named_targets(path: Path, loaded: object) -> Array:
+def _array_named_targets(place: str, loaded: object) -> Array:
     names = list(loaded.files)  # type: ignore[attr-defined]
     name = "targets" if "targets" in names or len(names) != 1 else names[0]
     if name not in names:
-        raise UsageError(f"ik: --targets {path}: no array `targets`; its arrays: {', '.join(names) or 'none'}")
+        raise UsageError(f"{place}: no array `targets`; its arrays: {', '.join(names) or 'none'}")
     return loaded[name]  # type: ignore[index, no-any-return]
 
 
