@@ -11,10 +11,10 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from urdfkit.app.page import Page, note, require_packages, require_page, until_interrupted
+from urdfkit.app.page import note, require_packages, require_page
 from urdfkit.cli.kinematics.ik.targets import poses_of_file
+from urdfkit.cli.kinematics.robot_page import show_page
 from urdfkit.cli.page_options import add_page_options
-from urdfkit.cli.page_options import announce as announce_page
 from urdfkit.cli.robot_arguments.tip_link import add_tip, announce, model_of_tip, robot_and_tip
 from urdfkit.errors import UsageError
 
@@ -76,7 +76,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
         "--base-for",
         type=Path,
         metavar="POSES",
-        help="also find where to put the base link, upright on the floor, to reach the poses of a .npy, .npz or .csv file",
+        help="find where to put the base link, upright on the floor, to reach the poses of a .npy, .npz or .csv file",
     )
     add("-o", "--output", type=Path, metavar="FILE", help="write the map to a .npz, .json or .ply file")
     add("--json", action="store_true", help="print one JSON value")
@@ -142,28 +142,8 @@ def run(arguments: argparse.Namespace) -> int:
     elif not arguments.quiet:
         note(_text(found, base))  # the address of the page is alone on standard output
     if arguments.html is not None or arguments.view:
-        _show_page(found, arguments)
+        show_page(arguments, model_of_tip(arguments), {"reach": _message(found)})
     return 0 if (found.reached.any() if base is None else base.reached.all()) else 1
-
-
-def _show_page(found: ReachMap, arguments: argparse.Namespace) -> None:
-    """Write the page with the map to a file, or serve it until interrupted."""
-    from urdfkit.app.viewer.shown_robot import ShownRobot
-    from urdfkit.app.viewer.viewing import html_page, viewing
-    from urdfkit.atomic import write_text
-
-    model = model_of_tip(arguments)
-    shown = ShownRobot.read(model, strict=arguments.strict)
-    if arguments.html is not None:
-        write_text(arguments.html, html_page(model, shown, {"reach": _message(found)}))
-        if not arguments.quiet:
-            note(f"wrote {arguments.html}")
-    if arguments.view:
-        with until_interrupted():
-            page = Page("view", host=arguments.host, port=arguments.port, opened=announce_page(arguments))
-            with viewing(page, model, shown, strict=arguments.strict) as session:
-                session.server.publish_latched("reach", **_message(found))
-                session.run()
 
 
 def _message(found: ReachMap) -> dict[str, Any]:

@@ -9,6 +9,9 @@ from collections import Counter
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from urdfkit.app.page import require_page
+from urdfkit.cli.kinematics.robot_page import show_page
+from urdfkit.cli.page_options import add_page_options
 from urdfkit.cli.robot_arguments.macro_option import add_macro, with_macro
 from urdfkit.cli.robot_arguments.robot_loading import add_strict, load_robot, print_repairs
 from urdfkit.cli.robot_arguments.unused_arguments import note_unused
@@ -21,7 +24,10 @@ if TYPE_CHECKING:
 
 def configure(parser: argparse.ArgumentParser) -> None:
     """Add the arguments of ``urdfkit srdf``."""
-    parser.usage = "urdfkit srdf ROBOT [key:=value ...] [--group NAME=BASE:TIP ...] [--update OLD.srdf] [-o FILE]"
+    parser.usage = (
+        "urdfkit srdf ROBOT [key:=value ...] [--group NAME=BASE:TIP ...] [--update OLD.srdf] [-o FILE]\n"
+        "       [--view | --html FILE] [option ...]"
+    )
     parser.epilog = (
         "reasons: Adjacent (a joint connects the links), Default (they collide at rest), Always, Never\n"
         "examples:\n"
@@ -52,6 +58,10 @@ def configure(parser: argparse.ArgumentParser) -> None:
         help="replace only the disabled pairs of this SRDF; those with other reasons, and all else, stay",
     )
     parser.add_argument("--json", action="store_true", help="print one JSON value, with the samples of each pair")
+    parser.add_argument("--view", action="store_true", help="show the pairs in the browser, until interrupted")
+    parser.add_argument(
+        "--html", type=Path, metavar="FILE", help="write a self-contained page with the pairs that needs no server"
+    )
     add_macro(parser)
     add_strict(parser, "a second root link")
     parser.add_argument(
@@ -61,12 +71,16 @@ def configure(parser: argparse.ArgumentParser) -> None:
         metavar="DIR",
         help="search this folder for packages too (repeatable)",
     )
+    add_page_options(parser)
 
 
 def run(arguments: argparse.Namespace) -> int:
     """Compute the collisions, then print or write the SRDF."""
     if arguments.update is not None and arguments.group:
         raise UsageError("srdf: --group cannot be combined with --update, which keeps the groups of the file")
+    shows = arguments.view or arguments.html is not None
+    if shows:
+        require_page("srdf: the page", "view", modules=("rosbags",))
     old = _read(arguments.update) if arguments.update is not None else None
     from urdfkit.description.xml.cost_limit import loading_limit
     from urdfkit.kinematics.pinocchio_requirement import require_pinocchio
@@ -101,14 +115,17 @@ def run(arguments: argparse.Namespace) -> int:
 
         write_bytes(output, text.encode())
     if arguments.json:
-        print(json.dumps(_values(matrix, groups, effectors)))
-    elif output is None:
+        print(json.dumps(_values(matrix, groups, effectors)), flush=True)
+    elif output is None and not shows:
         print(text, end="")
     if not arguments.quiet:
         counts = Counter(pair.reason or "to check" for pair in matrix.pairs)
         summary = ", ".join(f"{count} {reason}" for reason, count in sorted(counts.items()))
         written = f"wrote {output}: " if output is not None else ""
         print(f"{written}{len(matrix.pairs)} pairs of links: {summary}", file=sys.stderr)
+    if shows:
+        values = _values(matrix, groups, effectors)
+        show_page(arguments, found, {"collisions": {name: values[name] for name in ("links", "pairs")}})
     return 0
 
 

@@ -70,7 +70,7 @@ def base_placement(
 ) -> BasePlacement:
     """Return the place of the base from which the tip reaches the most poses, with the largest manipulability.
 
-    The base link stands upright at z = 0 of the frame of the poses. Candidates are the cells of a grid in several turns,
+    The base link stands upright at z = 0 of the frame of the poses. Candidates are places of a grid in several turns,
     by the number of poses whose cell and nearest orientation the map has; the poses are solved from the best of them.
 
     Args:
@@ -85,7 +85,7 @@ def base_placement(
         progress: called with the state of the search in words.
 
     Raises:
-        KinematicsError: no poses, too many, or poses that are none.
+        KinematicsError: no poses, too many, or numbers that are no pose.
     """
     targets = _matrices(poses)
     turns = rotations(found.orientations)
@@ -151,7 +151,7 @@ def _candidates(
             cells = np.floor((local - found.origin) / found.resolution).astype(np.intp)
             inside = ((cells >= 0) & (cells < shape)).all(axis=1)
             there = tuple(cells[inside].T)
-            values[inside] += found.reached[(*there, best)] + found.score[there]
+            values[inside] += found.reached[..., best][there] + found.score[there]
         for k in np.argsort(-values, kind="stable")[: 1 + count // 8]:
             yield float(values[k]), float(places[k, 0]), float(places[k, 1]), float(yaw)
 

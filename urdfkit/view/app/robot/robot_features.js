@@ -2,6 +2,7 @@
 
 import { cameras } from "../viewport/cameras.js";
 import { capture } from "../viewport/screen_capture.js";
+import { collisions } from "./collision_matrix.js";
 import { findings } from "./lint_findings.js";
 import { help } from "../page/keyboard_help.js";
 import { ik } from "./inverse_kinematics.js";
@@ -22,5 +23,5 @@ import { tools } from "../page/toolbar.js";
 import { tree } from "./link_tree.js";
 
 export const viewFeatures = [
-  tools, robot, sight, labels, joints, tree, inspector, layers, tf, reach, measure, findings, cameras, capture, ik, pick, steering, selection, theme, help,
+  tools, robot, sight, labels, joints, tree, inspector, layers, tf, reach, collisions, measure, findings, cameras, capture, ik, pick, steering, selection, theme, help,
 ];
