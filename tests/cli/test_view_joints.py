@@ -185,3 +185,14 @@ def test_a_decimal_comma_is_as_good_as_a_point_and_words_are_refused(page, until
         return ["0,5", "-1", " 2.5 ", "−3", "1e-3", ".5", "1 000", "1,234.5", "1.234,5", "0x10", "", "1,2,3"].map(
           (text) => { const found = readNumber(text); return Number.isNaN(found) ? null : found; }); }"""
     assert page.evaluate(read) == [0.5, -1, 2.5, -3, 0.001, 0.5, 1000, None, None, None, None, None]
+
+
+def test_the_map_of_reach_is_a_layer(page, until, keep) -> None:
+    # The last test: the map stays on the page, and opens its panel.
+    page.evaluate("urdfkit.page.select({ link: 'left' })")
+    page.get_by_role("button", name="Drag the selected link").click()
+    page.get_by_role("button", name="Map of reach").click()
+    until(lambda: page.evaluate("urdfkit.reach.map?.tip") == "left")
+    assert page.locator("#panel-reach").is_visible()
+    assert page.evaluate("urdfkit.reach.shown.count") > 10
+    keep(page, "reach")

@@ -28,12 +28,15 @@ BETTER = (1e-3, 0.02)
 descent from the present one; otherwise joints would jump between configurations that are equally near."""
 
 
-def request_schema() -> dict[str, Schema]:
-    """Return the request of the page: a link, and the pose in the root link that it is to have."""
+def request_schemas() -> dict[str, Schema]:
+    """Return the requests of the page: a link and the pose in the root link that it is to have, and a link's map."""
     from urdfkit.view.protocol.page_requests import Schema, flag, numbers, text
 
     flags = dict.fromkeys(("turn", "limits", "collision_free", "all"), flag)
-    return {"ik": Schema({"link": text()}, {"pose": numbers(7), **flags}, changes=False)}
+    return {
+        "ik": Schema({"link": text()}, {"pose": numbers(7), **flags}, changes=False),
+        "reach": Schema({"link": text()}, changes=False),
+    }
 
 
 class LinkSolver:
@@ -60,7 +63,7 @@ class LinkSolver:
         """
         if not kernel_is_ready():
             return {"ready": False, "missing": str(_failures[0]) if _failures else None}
-        chain = self._chain(values["link"], positions)
+        chain = self.chain(values["link"], positions)
         start = chain.serial.start({name: positions[name] for name in chain.joint_names})
         turn = values.get("turn", True)
         found = self._solutions(chain, values, start, positions, turn) if "pose" in values else []
@@ -76,8 +79,12 @@ class LinkSolver:
             "lost": lost_motions(chain, q, turn=turn),
         }
 
-    def _chain(self, link: str, positions: Mapping[str, float]) -> Chain:
-        """Return the chain from the root to a link, whose planar and floating joints stay where they are."""
+    def chain(self, link: str, positions: Mapping[str, float]) -> Chain:
+        """Return the chain from the root to a link, whose planar and floating joints stay where they are.
+
+        Raises:
+            KinematicsError: an unknown link, or no joint moves it.
+        """
         from urdfkit.kinematics import Chain
 
         held = {name: value for name, value in positions.items() if name not in self._robot.joint_by_name}

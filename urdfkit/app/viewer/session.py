@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, cast
 from urdfkit.app.page import note
 from urdfkit.app.repair_findings import note_repairs, with_repairs
 from urdfkit.app.viewer.link_solver import LinkSolver
+from urdfkit.app.viewer.reach_layer import ReachLayer
 from urdfkit.app.viewer.shown_robot import MissingMeshes, ShownRobot
 from urdfkit.errors import UrdfkitError
 
@@ -37,13 +38,13 @@ POINT_STAMPED = "geometry_msgs/msg/PointStamped"
 
 def request_schemas() -> dict[str, Schema]:
     """Return the requests of the page: a fix by its finding's number, a point in a link's frame, a link's pose."""
-    from urdfkit.app.viewer.link_solver import request_schema
+    from urdfkit.app.viewer import link_solver
     from urdfkit.view.protocol.page_requests import Schema, numbers, text, whole
 
     return {
         "fix": Schema({"finding": whole()}),
         "point": Schema({"frame": text(), "position": numbers(3)}, changes=False),
-        **request_schema(),
+        **link_solver.request_schemas(),
     }
 
 
@@ -73,6 +74,7 @@ class Session:
         self._failure: tuple[float, UrdfkitError] | None = None
         self.positions: dict[str, float] = {}
         self._solver = LinkSolver(shown.kinematics.robot)
+        self._reach = ReachLayer(cast("Server", server))
         self.bus = Bus()
         self.bus.subscribe(JOINT_STATES, "sensor_msgs/msg/JointState", self._place)
 
@@ -125,6 +127,8 @@ class Session:
             return {"done": done}
         if request.name == "ik":
             return self._solver.answer(request.values, self.positions)
+        if request.name == "reach":
+            return self._reach.start(self._solver.chain(request.values["link"], self.positions))
         frame, position = request.values["frame"], request.values["position"]
         self.shown.kinematics.frame(frame)
         self._publish_point(frame, position)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import base64
 import json
 import math
 import re
@@ -142,23 +141,10 @@ def run(arguments: argparse.Namespace) -> int:
     elif not arguments.quiet:
         note(_text(found, base))  # the address of the page is alone on standard output
     if arguments.html is not None or arguments.view:
-        show_page(arguments, model_of_tip(arguments), {"reach": _message(found)})
+        from urdfkit.app.viewer.reach_layer import reach_message
+
+        show_page(arguments, model_of_tip(arguments), {"reach": reach_message(found)})
     return 0 if (found.reached.any() if base is None else base.reached.all()) else 1
-
-
-def _message(found: ReachMap) -> dict[str, Any]:
-    """Return the message `reach` of the page; see docs/protocol.md."""
-    from urdfkit.kinematics.reach.map_files import COLOURS
-
-    return {
-        "base": found.base,
-        "tip": found.tip,
-        "origin": found.origin.tolist(),
-        "resolution": found.resolution,
-        "shape": list(found.score.shape),
-        "scores": base64.b64encode((255.0 * found.score).round().astype("u1").tobytes()).decode(),
-        "colours": COLOURS.tolist(),
-    }
 
 
 def _orientations(arguments: argparse.Namespace) -> int | Array:

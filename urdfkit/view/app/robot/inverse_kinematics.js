@@ -228,7 +228,12 @@ export function ik(page) {
   const dragging = new Dragging(page);
   const hold = check("Keep the orientation, show rings", { id: "ik-turn", changed: (on) => ((dragging.turn = on), dragging.show()) });
   const free = check("Without collisions", { id: "ik-free", title: "only configurations in which no links collide", changed: (on) => ((dragging.free = on), dragging.choice.clear()) });
-  const strip = h("div#ik-strip", { hidden: true }, h("span.quiet"), hold.label, free.label, dragging.choice.element, dragging.words);
+  const mapped = h("button", { type: "button", id: "ik-reach", title: "where the link can be placed, by cell of a grid", onclick: () => map() }, "Map of reach");
+  const map = () => page.connection.request("reach", { link: dragging.link }).then(
+    ({ resolution }) => page.toast(`computing the map of reach of ${dragging.link} in cells of ${resolution} m …`),
+    ({ message }) => page.toast(message, "error"),
+  );
+  const strip = h("div#ik-strip", { hidden: true }, h("span.quiet"), hold.label, free.label, dragging.choice.element, mapped, dragging.words);
   document.getElementById("viewport").append(strip);
   page.tools.tool({ id: "ik", title: "Drag the selected link", icon: HAND, modes: ["view"], order: 40, clicks: false });
   page.shortcut({ key: "k", does: "drag the selected link", group: "Tools", run: () => page.tools.hold(page.tools.held === "ik" ? null : "ik") });
@@ -236,8 +241,8 @@ export function ik(page) {
     strip.hidden = page.tools.held !== "ik";
     const name = page.selected?.link ?? page.selected?.joint;
     strip.firstChild.textContent = dragging.link ? `Drag the handle of ${dragging.link}.` : name ? "No joint moves this link." : "Click the link to drag.";
-    for (const part of [hold.label, free.label, dragging.choice.element]) part.hidden = !dragging.link;
-    for (const part of [free.label, dragging.choice.element]) part.hidden ||= !dragging.solver.ready;
+    for (const part of [hold.label, free.label, dragging.choice.element, mapped]) part.hidden = !dragging.link;
+    for (const part of [free.label, dragging.choice.element, mapped]) part.hidden ||= !dragging.solver.ready;
   };
   for (const event of ["tool", "select", "robot"]) page.on(event, showHint);
   page.expose("ik", dragging);
