@@ -58,3 +58,11 @@ def test_wrong_messages_are_one_line(type: str, fields: object, reported: str) -
     with pytest.raises(UsageError, match=reported) as raised:
         from_json(type, fields)
     assert "\n" not in str(raised.value)
+
+
+def test_bytes_are_an_array_without_a_copy_of_each_and_null_is_not_a_number() -> None:
+    image = from_json("sensor_msgs/msg/Image", {"data": base64.b64encode(bytes(range(256)) * 4).decode()})
+    assert image.data.dtype == np.uint8
+    assert image.data.tobytes() == bytes(range(256)) * 4
+    scan = from_json("sensor_msgs/msg/LaserScan", {"ranges": [1.0, None]})
+    assert np.isnan(scan.ranges[1])

@@ -53,7 +53,7 @@ def from_json(type: str, fields: Any) -> Any:
 
     Args:
         type: of the message.
-        fields: as a peer sent them; bytes are base64, or lists of numbers.
+        fields: as a peer sent them; bytes are base64, or lists of numbers; null in an array of floats is not a number.
 
     Raises:
         UsageError: no such type or field, or a value of the wrong kind.
@@ -82,9 +82,11 @@ def _decoded(description: Any, value: Any) -> Any:
         inner = details[0]
         if isinstance(value, str) and int(inner[0]) == 1 and inner[1][0] in ("uint8", "octet", "byte", "char"):
             try:
-                return list(base64.b64decode(value, validate=True))
+                return np.frombuffer(bytearray(base64.b64decode(value, validate=True)), dtype=np.uint8)
             except binascii.Error as error:
                 raise UsageError(f"a field of bytes is not base64: {error}") from error
+        if isinstance(value, list) and int(inner[0]) == 1 and inner[1][0].startswith("float"):
+            return [math.nan if each is None else each for each in value]
         if isinstance(value, list) and int(inner[0]) == 2:
             return [_decoded(inner, each) for each in value]
     return value

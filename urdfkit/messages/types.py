@@ -258,6 +258,10 @@ def _value(type: str, name: str, description: Any, value: Any) -> Any:
         except (TypeError, ValueError):
             raise UsageError(f"field `{name}` of {type} is `{value}`; it must be {base}") from None
     inner, length = details
+    if isinstance(value, np.ndarray) and int(inner[0]) == 1 and str(value.dtype) == inner[1][0]:
+        if node == 4 or len(value) == length:
+            return value  # without a copy
+        value = value.tolist()
     items = [None] * length if value is None else value
     if not isinstance(items, list) or (node == 3 and len(items) != length):
         raise UsageError(
