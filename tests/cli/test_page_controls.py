@@ -76,8 +76,8 @@ def test_a_watcher_has_only_the_controls_that_it_may_use(served, visits, until, 
         served.status(driver)
         return [page.locator(f"#{name}").is_disabled() for name in ("pause", "reset")]
 
-    until(lambda: state(999_999) == disabled)
-    assert page.locator("#driver-other").inner_text() == "Another page is driving."
+    said = page.locator("#driver-other")
+    until(lambda: state(999_999) == disabled and said.inner_text() == "Another page is driving.")
     until(lambda: state(None) == [False, False])
 
 
@@ -94,3 +94,45 @@ def test_the_browser_opens_a_private_file_that_leads_to_the_page(served, visits,
     page = visits.open(address, ready=False)
     until(lambda: page.locator("#robot-name").count() and page.locator("#robot-name").inner_text() == "toy")
     assert urlsplit(page.url).query == ""
+
+
+@pytest.mark.browser
+def test_input_is_repeated_while_the_page_draws_slowly_but_not_when_it_hangs(served, visits, until) -> None:
+    page = visits.open(served.url, ready=False)
+    until(lambda: page.locator("#pad").is_visible())
+    received = []
+    update = served.drive_lock.update
+
+    def receive(client, axes) -> bool:
+        received.append(axes.axes[0])
+        served.status()
+        return update(client, axes)
+
+    served.drive_lock.update = receive
+    page.keyboard.down("w")
+    until(lambda: received)
+    frames = page.evaluate(
+        """() => new Promise((done) => {
+          let frames = 0;
+          const slow = () => {
+            const end = performance.now() + 300;
+            while (performance.now() < end);
+            frames += 1;
+            if (frames < 5) requestAnimationFrame(slow);
+            else done(frames);
+          };
+          requestAnimationFrame(slow);
+        })"""
+    )
+    assert all(received)
+    assert len(received) >= 3 * frames  # the page itself sends once in a frame
+
+    def hangs(dialog) -> None:
+        counts = []
+        until(lambda: counts.append(len(received)) or (len(counts) > 30 and counts[-1] == counts[-30]))
+        dialog.accept()
+
+    page.on("dialog", hangs)
+    page.evaluate("alert('the page hangs')")
+    page.keyboard.up("w")
+    until(lambda: received[-1] == 0.0)

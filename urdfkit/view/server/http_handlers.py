@@ -24,6 +24,8 @@ TYPES = {".html": "text/html", ".css": "text/css", ".js": "text/javascript", ".s
 MESHCAT = "meshcat.js"
 OFFLINE = "page/offline.js"
 """The module that only a page in a single file loads first."""
+WORKER = "page/socket_worker.js"
+"""The script of the page's worker, which is no module of the page."""
 
 
 def application(server: PageServer) -> Application:
@@ -122,7 +124,7 @@ class FramedPage(AuthenticatedHandler):
 def page() -> str:
     """Return the page with all its modules preloaded, so that a browser need not discover them one by one."""
     text = (APP / "index.html").read_text("utf-8")
-    modules = {path.relative_to(APP).as_posix() for path in APP.rglob("*.js")} - {OFFLINE}
+    modules = {path.relative_to(APP).as_posix() for path in APP.rglob("*.js")} - {OFFLINE, WORKER}
     links = "".join(f'  <link rel="modulepreload" href="/app/{name}">\n' for name in sorted(modules))
     return text.replace("</head>", f"{links}</head>", 1)
 

@@ -11,10 +11,11 @@ export function availability(page) {
   let received = null; // time of the last status message
   let driver = null;
   let sending = null; // time since which this page sends input
+  let silent = 0; // checks in a row without a status message; after a slow frame, the first runs before waiting messages
   function reason() {
     if (page.mode !== "sim") return null;
     if (lost) return ["off", "No connection: the controls are switched off. The robot has stopped if this page drove it."];
-    if (received !== null && !document.hidden && performance.now() - received > RESPONSE) {
+    if (silent > 1) {
       return ["off", "The simulation does not respond: the controls are switched off."];
     }
     if (driver !== null && driver !== me) return ["watch", "Another page is driving."];
@@ -35,6 +36,7 @@ export function availability(page) {
     me = message.client;
     lost = false;
     received = driver = null;
+    silent = 0;
     update();
   });
   page.on("lost", () => {
@@ -43,10 +45,14 @@ export function availability(page) {
   });
   page.on("status", (message) => {
     received = performance.now();
+    silent = 0;
     driver = message.driver;
     if (window.urdfkit.drive?.timer == null || driver === me) sending = null;
     else sending ??= received;
     update();
   });
-  setInterval(update, 250);
+  setInterval(() => {
+    silent = received !== null && !document.hidden && performance.now() - received > RESPONSE ? silent + 1 : 0;
+    update();
+  }, 250);
 }

@@ -1,4 +1,6 @@
-// The WebSocket: connects, reconnects, sends requests and reports the state of the connection.
+// The connection to the server: connects, reconnects, sends requests and reports its state. A worker has its socket.
+
+import { WorkerSocket } from "./worker_socket.js";
 
 const SILENCE = 6000; // ms without a message from the server after which the connection counts as lost
 const POSES = 0x01;
@@ -27,6 +29,11 @@ export class Connection {
 
   send(type, values) {
     if (this.open) this.socket.send(JSON.stringify({ type, ...values }));
+  }
+
+  /** Send the input of the driver; while it is not zero, it is repeated even while the page is drawn. */
+  drive(values) {
+    if (this.open) this.socket.drive(JSON.stringify({ type: "axes", ...values }), values.axes.some(Boolean));
   }
 
   /** Send a request. Resolves with the values of the answer; rejects with its error. */
@@ -66,8 +73,7 @@ export class Connection {
     clearTimeout(this.timer);
     this.on.state("connecting", this.tries ? "reconnecting" : "connecting");
     const scheme = location.protocol === "https:" ? "wss" : "ws";
-    const socket = (this.socket = new WebSocket(`${scheme}://${location.host}/ws${location.search}`));
-    socket.binaryType = "arraybuffer";
+    const socket = (this.socket = new WorkerSocket(`${scheme}://${location.host}/ws${location.search}`));
     socket.onopen = () => {
       this.tries = 0;
       this.received = performance.now();

@@ -42,7 +42,7 @@ function common(page) {
 
 function drive(page) {
   page.panels.add({ id: "drive", title: "Drive", icon: WHEEL, modes: ["sim"], order: 10, element: $("drive-section"), pinned: true });
-  const wheel = new Drive((held) => page.send("axes", held), () => $("pause").click(), () => page.send("control", { action: "stop" }));
+  const wheel = new Drive((held) => page.connection.drive(held), () => $("pause").click(), () => page.send("control", { action: "stop" }));
   const more = h("details", { id: "steering" }, h("summary", {}, "Drive sliders and gamepad"));
   $("keys").before(more);
   chooser(page, wheel, $("drive-section"));
