@@ -316,9 +316,15 @@ def test_objects_come_move_and_go(ride) -> None:
     shown = len(ride.page.shown)
     do(ride, "remove", name="crate")
     assert len(ride.page.shown) == shown + 1
+    assert do(ride, "restore", name="crate") == {"name": "crate"}
+    assert do(ride, "get_pose", name="crate")["pose"] == pytest.approx([-1.0, 0.0, 0.3, 0, 0, 1.0], abs=0.02)
+    assert do(ride, "duplicate", name="crate", pose=[5.0, 0.0, 0.3]) == {"name": "crate_2"}
+    do(ride, "remove", name="crate")
     for order, values, line in (
         ("remove", {"name": "simpleton"}, "cannot be removed"),
         ("remove", {"name": "crait"}, "did you mean"),
+        ("restore", {"name": "crait"}, "was not removed from this world, did you mean `crate`"),
+        ("duplicate", {"name": "simpleton", "pose": [0.0, 0.0, 0.0]}, "insert another one from the library"),
         ("spawn", {"model": "crait"}, "did you mean `crate`"),
         ("spawn", {"model": "../../etc/passwd"}, "unknown model or robot"),
         ("spawn", {"model": "model://crate"}, "unknown model or robot"),

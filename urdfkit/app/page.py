@@ -71,6 +71,9 @@ class Page:
         opened: called with the server when it serves the page.
         watchers_may: see `Server`.
 
+    Attributes:
+        kept: `close` leaves the server running while this is set.
+
     Raises:
         UsageError: the port is busy or the address cannot be bound.
     """
@@ -89,11 +92,20 @@ class Page:
         self.host = host
         self.server = Server(mode, host=host, port=port, watchers_may=watchers_may)
         self._opened = opened
+        self._is_open = False
+        self.kept = False
 
     def open(self) -> None:
-        """Start the server."""
-        self.server.start()
-        self._opened(self.server)
+        """Start the server; later calls do nothing."""
+        if not self._is_open:
+            self._is_open = True
+            self.server.start()
+            self._opened(self.server)
+
+    def close(self) -> None:
+        """Stop the server, unless another mode of the page follows."""
+        if not self.kept:
+            self.server.stop()
 
 
 @contextmanager

@@ -50,10 +50,11 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.live is not None and arguments.html is not None:
         raise UsageError("--html writes a page without a server, so it cannot be combined with --live")
     require_page("view", "view", modules=("rosbags",))
+    from urdfkit.app.page_modes import view_and_simulate
     from urdfkit.app.repair_findings import note_repairs
     from urdfkit.app.simulation.save_options import check_places
     from urdfkit.app.viewer.shown_robot import ShownRobot
-    from urdfkit.app.viewer.viewing import html_page, viewing
+    from urdfkit.app.viewer.viewing import html_page
     from urdfkit.atomic import write_text
     from urdfkit.resources import find_model
 
@@ -83,8 +84,7 @@ def run(arguments: argparse.Namespace) -> int:
             _follow(arguments, shown)
             return 0
         page = Page("view", host=arguments.host, port=arguments.port, opened=announce(arguments))
-        with viewing(page, model, shown, strict=arguments.strict) as session:
-            session.run()
+        view_and_simulate(page, model, shown, strict=arguments.strict)
     return 0
 
 

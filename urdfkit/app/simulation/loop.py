@@ -3,7 +3,7 @@
 import math
 import time
 from collections import deque
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from threading import Event
 from typing import Any
 
@@ -20,6 +20,7 @@ from urdfkit.app.simulation.features.playback import Playback
 from urdfkit.app.simulation.features.plots import Plots
 from urdfkit.app.simulation.features.pushing import Pushing
 from urdfkit.app.simulation.features.replay import Replay
+from urdfkit.app.simulation.features.robot_panels import RobotPanels
 from urdfkit.app.simulation.features.sensor_views import SensorViews
 from urdfkit.app.simulation.features.teleop import command, command_topics, drive_controls
 from urdfkit.app.simulation.features.topic_panel import TopicPanel
@@ -51,6 +52,7 @@ FEATURES: tuple[type[Feature], ...] = (
     Pushing,
     ContactForces,
     Replay,
+    RobotPanels,
 )
 """Features of the page; a test fails if one is missing here."""
 
@@ -65,6 +67,7 @@ class DriveLoop:
         sleep: function that waits for a number of seconds.
 
     Attributes:
+        lint: findings of the linter, as the page shows them.
         look: function that is called in every iteration, for a recording and the keys of a terminal.
         report: function that prints a warning.
         sensor_views: views of the sensors.
@@ -90,12 +93,14 @@ class DriveLoop:
         self._warnings: list[str] = []
         self.report, simulator.note.report = simulator.note.report, self._warn
         self.look: Callable[[], None] = lambda: None  # subscribes a recording to new topics
+        self.lint: Mapping[str, Any] = {"findings": [], "rules": {}, "fault": None}
         self.bridges = Bridges()
         self.pace = ClockRate(simulator.dt, clock)
         self.sensor_views = SensorViews(simulator, server, clock)
         self.scene_bodies = SceneBodies(simulator, server)
         self.features: tuple[Feature, ...] = tuple(part(simulator, server, clock) for part in FEATURES)
         self.replay = next(part for part in self.features if isinstance(part, Replay))
+        self.robot_panels = next(part for part in self.features if isinstance(part, RobotPanels))
         self._takes: dict[str, tuple[Schema, Callable[[Request], Done]]] = {}
         for part in self.features:
             if isinstance(part, Playback):
@@ -103,15 +108,25 @@ class DriveLoop:
             self._takes.update(part.takes)
         server.requests.update({name: schema for name, (schema, _) in self._takes.items()})
 
+    def add_request(self, name: str, schema: Schema, handler: Callable[[Request], Done]) -> None:
+        """Accept another request of the page; `handler` returns the values of the answer."""
+        self._takes[name] = schema, handler
+        self.server.requests[name] = schema
+
     def show(self) -> None:
         """Show robots and bodies on the page, and publish the controls of all features."""
         self.scene_bodies.show()
         self.server.publish_latched("teleop", **drive_controls(self.simulator))
         for part in self.features:
             part.show()
-        rows = with_repairs([], self.simulator.repairs)
-        self.server.publish_latched("findings", findings=rows, rules={}, fault=None)
+        self.server.publish_latched("findings", **self.findings())
         self.server.publish(self.simulator.t, self.scene_bodies.poses())
+
+    def findings(self) -> dict[str, Any]:
+        """Return the findings of the linter with the repairs, for the page."""
+        rows = [dict(row) for row in self.lint["findings"]]
+        number = max((row["number"] for row in rows), default=0) + 1
+        return {**self.lint, "findings": with_repairs(rows, self.simulator.repairs, first=number)}
 
     def run(self, stop: Event | None = None) -> None:
         """Simulate until an exception is raised.
@@ -150,6 +165,8 @@ class DriveLoop:
         inputs = self.server.inbox.take()
         for action in inputs.actions:
             self._act(action)
+        if inputs.joints and self.simulator.paused and not self._failed:
+            self.robot_panels.move(inputs.joints)
         self._requests.extend(inputs.requests)
         begin = self._clock()
         while self._requests and self._clock() - begin <= PATIENCE:

@@ -42,6 +42,7 @@ class SceneBodies:
     def show(self) -> None:
         """Show the robots and bodies of the world in their current poses."""
         from urdfkit.scene import Scene
+        from urdfkit.view.content.joint_panel import joint_rows
         from urdfkit.view.content.meshcat_objects import draw, link_path
         from urdfkit.view.content.scene_changes import draw_more, forget_others
 
@@ -81,6 +82,7 @@ class SceneBodies:
         self._server.show(
             name=simulator.name,
             nodes=[link_path(name) for name in bodies],
+            joints=joint_rows(simulator.kinematics, simulator.kinematics.positions(simulator.state.q)),
             root=self._root,
             draw=picture,
         )

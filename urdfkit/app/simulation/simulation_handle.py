@@ -156,4 +156,4 @@ def driving(
                         loop.sensor_views.prepare()
             yield loop
     finally:
-        server.stop()
+        page.close()

@@ -15,7 +15,7 @@ from urdfkit.app.viewer.shown_robot import MissingMeshes, ShownRobot
 from urdfkit.errors import UrdfkitError
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
+    from collections.abc import Callable, Mapping, Sequence
 
     from urdfkit.app.viewer.findings_panel import FindingsPanel
     from urdfkit.resources import ModelArgument
@@ -75,6 +75,7 @@ class Session:
         self.positions: dict[str, float] = {}
         self._solver = LinkSolver(shown.kinematics.robot)
         self._reach = ReachLayer(cast("Server", server))
+        self._handlers: dict[str, Callable[[Request], Mapping[str, Any]]] = {}
         self.bus = Bus()
         self.bus.subscribe(JOINT_STATES, "sensor_msgs/msg/JointState", self._place)
 
@@ -93,6 +94,11 @@ class Session:
                 due = now + KEEPALIVE_PERIOD
             self.process(server.inbox.wait(CHECK_PERIOD))
             self.check_files()
+
+    def add_request(self, name: str, schema: Schema, handler: Callable[[Request], Mapping[str, Any]]) -> None:
+        """Accept another request of the page; `handler` returns the values of the answer."""
+        self._handlers[name] = handler
+        cast("Server", self.server).requests[name] = schema
 
     def process(self, inputs: PageInput) -> None:
         """Move the joints and execute the requests of pages."""
@@ -121,6 +127,8 @@ class Session:
         Raises:
             UrdfkitError: the request cannot be executed.
         """
+        if request.name in self._handlers:
+            return dict(self._handlers[request.name](request))
         if request.name == "fix":
             done = self.findings.apply_fix(request.values["finding"])
             note(f"fixed {done}")

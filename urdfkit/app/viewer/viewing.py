@@ -88,7 +88,7 @@ def viewing(page: Page, model: ModelArgument, shown: ShownRobot, *, strict: bool
         server.publish_latched("progress", label=None)
         yield session
     finally:
-        server.stop()
+        page.close()
 
 
 def html_page(

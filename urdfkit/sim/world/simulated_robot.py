@@ -218,6 +218,21 @@ class SimulatedRobot:
         for controller in self.plugins.controllers:
             controller.begin(self.state)
 
+    def place_joints(self, positions: Mapping[str, float]) -> None:
+        """Set positions of joints [rad or m]; the robot is at rest then, and its controllers hold them.
+
+        Raises:
+            KinematicsError: an unknown name, a mimic joint, or a position that is not finite.
+        """
+        kinematics = self.kinematics
+        now = self.articulation.q
+        values = {name: at for name, at in kinematics.positions(now).items() if name not in kinematics.couplings}
+        base = now[:7] if kinematics.floating_base else None
+        self.articulation.put(kinematics.configuration({**values, **positions}, base=base))
+        self.state.advance(0)
+        for controller in self.plugins.controllers:
+            controller.begin(self.state)
+
     def publish_fixed(self) -> None:
         """Publish the transforms of fixed joints, once."""
         if self._setup is not None:

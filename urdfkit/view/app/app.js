@@ -31,6 +31,7 @@ Object.defineProperty(window, "urdfkit", { value: { page, viewport, scene, link:
 
 page.on("hello", (message) => {
   if (message.protocol !== PROTOCOL) return location.reload(); // the server has another version than this page
+  if (page.mode !== null && page.mode !== message.mode) return location.reload(); // viewer and simulation follow each other
   page.mode = message.mode;
   page.settings = message;
   document.body.dataset.mode = message.mode;

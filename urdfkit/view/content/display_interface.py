@@ -28,7 +28,15 @@ class Display(StatusDisplay, Protocol):
     def send(self, command: Any, /) -> None:
         """Send a meshcat command."""
 
-    def show(self, *, name: str, nodes: Sequence[str], root: int = 0, draw: Callable[[Display], None]) -> None:
+    def show(
+        self,
+        *,
+        name: str,
+        nodes: Sequence[str],
+        joints: Sequence[dict[str, Any]] = (),
+        root: int = 0,
+        draw: Callable[[Display], None],
+    ) -> None:
         """Replace the scene."""
 
     def publish(self, time: float, poses: NDArray[np.floating[Any]], /) -> None:

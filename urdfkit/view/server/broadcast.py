@@ -115,6 +115,11 @@ class Hub:
         for channel in self._channels:
             channel.poses(sequence, frame)
 
+    def restart(self, topic: str, frame: Frame) -> None:
+        """Drop the scene, the poses and all latched messages, then latch this message as the first."""
+        self._scene, self._latched, self._poses = {}, {}, None
+        self.latch(topic, frame)
+
     def forget_poses(self) -> None:
         """Drop the last pose frame, which belongs to another scene."""
         self._poses = None

@@ -89,8 +89,9 @@ class Server:
         self._loop = asyncio.new_event_loop()
         self._thread = threading.Thread(target=self._serve, name="urdfkit-view", daemon=True)
         self._started: Future[None] = Future()
-        values = dict(settings or {}, **({"watchers_may": sorted(self.watchers_may)} if self.watchers_may else {}))
-        self.hub.latch("hello", protocol.write("hello", protocol=protocol.VERSION, mode=mode, **values))
+        may = {"watchers_may": sorted(self.watchers_may)} if self.watchers_may else {}
+        self._settings = {**(settings or {}), **may}
+        self.hub.latch("hello", self._hello())
 
     @property
     def url(self) -> str:
@@ -119,6 +120,18 @@ class Server:
         self.stop()
 
     # Messages of the caller
+
+    def change_mode(self, mode: str) -> None:
+        """Change the mode; open pages load again. Scene, latched messages and requests of the old mode are dropped."""
+        self.mode = mode
+        self.requests.clear()
+        self.joints = frozenset()
+        self.drive_lock.release()
+        self.inbox.take()
+        self._post(self.hub.restart, "hello", self._hello())
+
+    def _hello(self) -> str:
+        return protocol.write("hello", protocol=protocol.VERSION, mode=self.mode, **self._settings)
 
     def send(self, command: Any) -> None:
         """Send a meshcat command; with this method the server is the ``window`` of a ``meshcat.Visualizer``."""
@@ -219,7 +232,8 @@ class Server:
         elif isinstance(message, protocol.Subscribe):
             channel.subscribe(message.keys)
         elif isinstance(message, protocol.Joints):
-            self.inbox.put_joints({name: value for name, value in message.positions.items() if name in self.joints})
+            if self.drive_lock.allows(client):
+                self.inbox.put_joints({name: at for name, at in message.positions.items() if name in self.joints})
         elif isinstance(message, protocol.Axes):
             self.drive_lock.update(client, message)
         elif isinstance(message, protocol.Control):

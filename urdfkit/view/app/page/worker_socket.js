@@ -1,4 +1,4 @@
-// A WebSocket in a worker, with the interface of a WebSocket: slow drawing neither delays what it sends nor loses it.
+// A WebSocket in a worker, with the interface of a WebSocket: slow drawing does not delay its messages.
 
 export class WorkerSocket {
   readyState = WebSocket.CONNECTING;

@@ -2,36 +2,38 @@
 
 import { h, icon, short } from "../page/dom.js";
 import { copyText } from "./inspector.js";
-import { compose, inverse, toRpy, turnOf } from "./pose.js";
+import { IDENTITY, compose, inverse, toRpy, turnOf } from "./pose.js";
 
 const FRAMES = "M4 20V8M4 20h12M4 20l6-6M16 10l4-4M20 10V6h-4";
 const COPY = "M9 9h10v11H9zM15 9V5H5v11h4";
 const PERIOD = 150; // ms between updates
 const PARENT = "";
+const WORLD = "\n"; // no name of a link
 
 export function tf(page) {
-  const panel = page.panels.add({ id: "tf", title: "Frames", icon: FRAMES, modes: ["view"], order: 45 });
+  const panel = page.panels.add({ id: "tf", title: "Frames", icon: FRAMES, order: 45 });
   const choice = h("select#tf-in", { "aria-label": "Express in" });
   const unit = h("select#tf-unit", { "aria-label": "Angles in" }, h("option", { value: "rad" }, "rad"), h("option", { value: "deg" }, "deg"));
   const list = h("ol.tf");
   panel.body.append(h("div.row.tf-head", {}, h("label.grow", {}, h("span.quiet", {}, "Express in"), choice), h("label", {}, h("span.quiet", {}, "Angles"), unit)), list);
   let rows = [];
-  let due = 0;
+  let due = null;
 
   page.on("robot", ({ kinematics }) => {
     const before = choice.value;
-    choice.replaceChildren(h("option", { value: PARENT }, "parent frame"), ...kinematics.links.map((link) => h("option", { value: link }, link)));
-    choice.value = kinematics.links.includes(before) ? before : PARENT;
+    const world = page.mode === "sim" ? [h("option", { value: WORLD }, "world")] : [];
+    choice.replaceChildren(h("option", { value: PARENT }, "parent frame"), ...world, ...kinematics.links.map((link) => h("option", { value: link }, link)));
+    choice.value = [...choice.options].some(({ value }) => value === before) ? before : PARENT;
     rows = [...walk(kinematics, kinematics.root, 0)].map(row);
     list.replaceChildren(...rows.map(({ item }) => item));
     update();
     mark(page.selected);
   });
-  page.on("joints", () => {
-    if (!panel.open) return;
-    clearTimeout(due);
-    due = setTimeout(update, PERIOD);
-  });
+  const soon = () => {
+    if (panel.open) due ??= setTimeout(() => ((due = null), update()), PERIOD);
+  };
+  page.on("joints", soon);
+  page.on("poses", () => page.mode === "sim" && soon());
   for (const select of [choice, unit]) select.addEventListener("change", update);
   panel.button.addEventListener("click", update);
   page.on("select", mark);
@@ -55,8 +57,8 @@ export function tf(page) {
 
   function update() {
     if (!page.robot) return;
-    const poses = page.robot.kinematics.forward(page.values);
-    const base = choice.value === PARENT ? null : inverse(poses.get(choice.value));
+    const poses = page.mode === "sim" ? placed(page) : page.robot.kinematics.forward(page.values);
+    const base = choice.value === PARENT ? null : choice.value === WORLD ? IDENTITY : inverse(poses.get(choice.value));
     const factor = unit.value === "deg" ? 180 / Math.PI : 1;
     for (const made of rows) {
       const from = base ?? (made.joint ? inverse(poses.get(made.joint.parent)) : null);
@@ -70,4 +72,12 @@ export function tf(page) {
   function mark(selected) {
     for (const { link, name } of rows) name.toggleAttribute("data-selected", selected?.link === link);
   }
+}
+
+/** The poses of the robot's links in the world, as the scene shows them. */
+function placed(page) {
+  return new Map(page.robot.kinematics.links.map((link) => {
+    const { position, quaternion } = page.scene.byLink.get(link);
+    return [link, [...position.toArray(), ...quaternion.toArray()]];
+  }));
 }

@@ -6,7 +6,7 @@ const CARD = "M4 5h16v14H4zM8 9h8M8 12.5h8M8 16h5";
 const COPY = "M9 9h10v11H9zM15 9V5H5v11h4";
 
 export function inspector(page) {
-  const panel = page.panels.add({ id: "inspect", title: "Inspect", icon: CARD, modes: ["view"], order: 30 });
+  const panel = page.panels.add({ id: "inspect", title: "Inspect", icon: CARD, order: 30 });
   page.on("select", show);
   page.on("robot", () => show(page.selected));
 

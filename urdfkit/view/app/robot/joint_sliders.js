@@ -8,13 +8,16 @@ const DEGREES = 180 / Math.PI;
 const BEYOND = { rad: 2 * Math.PI, m: 2, "": 1 }; // minimum range of the sliders if limits are ignored
 
 export function joints(page) {
-  const panel = page.panels.add({ id: "joints", title: "Joints", icon: SLIDERS, modes: ["view"], order: 10 });
+  const panel = page.panels.add({ id: "joints", title: "Joints", icon: SLIDERS, order: 12 });
   const made = new Joints(page, panel);
   page.on("model", (message) => {
     made.show(message.joints);
     page.panels.available("joints", message.joints.length > 0);
   });
   page.on("joints", (message) => made.update(message.positions));
+  // The joints of a simulation move by themselves; while it is paused, the sliders pose the robot.
+  page.on("hello", ({ mode }) => mode === "sim" && page.whileOpen(panel, "joints"));
+  page.on("status", ({ paused }) => made.allow(paused));
   page.on("select", (selected) => made.mark(selected));
   page.setJoints = (values) => made.set(values);
   page.shortcut({ key: "0", does: "all joints to zero", group: "Joints", run: () => made.zero() });
@@ -28,12 +31,15 @@ export class Joints {
     this.page = page;
     this.page.ignoreLimits = false;
     this.degrees = false;
+    this.allowed = true;
     this.rows = new Map();
     this.moved = {};
+    this.before = null; // positions before the first move that is not sent yet
     this.list = h("ul#joints");
     this.filter = h("input#filter", { type: "search", placeholder: "Filter joints", "aria-label": "Filter joints", autocomplete: "off", spellcheck: "false" });
     this.filter.addEventListener("input", () => this.#filter());
     this.none = h("p.quiet", { hidden: true }, "No joint matches.");
+    this.paused = h("p.quiet", { hidden: true }, "The joints move with the simulation. Pause it to pose the robot with the sliders.");
     const free = check("Ignore limits", { id: "ignore-limits", changed: (on) => this.#free(on) });
     const unit = h("select#angle-unit", { "aria-label": "Angles in" }, h("option", { value: "rad" }, "rad"), h("option", { value: "deg" }, "deg"));
     unit.addEventListener("change", () => this.#unit(unit.value === "deg"));
@@ -43,7 +49,8 @@ export class Joints {
       button("Centre", "Set every joint to the middle of its range (5)", () => this.centre()),
       button("Random", "Set every joint to a random position in its range (R)", () => this.random()),
     ];
-    panel.body.append(h("div.row.wrap.joint-all", {}, all), h("div.row.wrap", {}, free.label, h("span.space"), h("label.inline", {}, "Angles in ", unit)), this.filter, this.list, this.none);
+    this.all = all;
+    panel.body.append(this.paused, h("div.row.wrap.joint-all", {}, all), h("div.row.wrap", {}, free.label, h("span.space"), h("label.inline", {}, "Angles in ", unit)), this.filter, this.list, this.none);
   }
 
   /** Create the rows of a robot; the filter is kept. */
@@ -63,6 +70,19 @@ export class Joints {
     }
   }
 
+  /** Enable or disable all that moves joints. */
+  allow(allowed) {
+    if (this.allowed === allowed) return;
+    this.allowed = allowed;
+    this.paused.hidden = allowed;
+    for (const button of this.all) button.disabled = !allowed;
+    for (const row of this.rows.values()) this.#enable(row);
+  }
+
+  #enable({ number, slider, joint }) {
+    number.disabled = slider.disabled = joint.mimic !== null || !this.allowed;
+  }
+
   zero() {
     this.#all(({ joint }) => (joint.name.endsWith("/rot_w") ? 1 : 0));
   }
@@ -75,9 +95,9 @@ export class Joints {
     this.#all(({ joint }) => joint.lower + Math.random() * (joint.upper - joint.lower));
   }
 
-  /** Set several joints [rad or m], like the sliders. */
-  set(values) {
-    for (const [name, value] of Object.entries(values)) if (this.rows.has(name)) this.#move(name, value);
+  /** Set several joints [rad or m], like the sliders; `remembered`: the change can be undone. */
+  set(values, remembered = true) {
+    for (const [name, value] of Object.entries(values)) if (this.rows.has(name)) this.#move(name, value, remembered);
   }
 
   mark(selected) {
@@ -105,7 +125,7 @@ export class Joints {
     this.rows.set(name, row);
     this.#range(row);
     this.#put(row, joint.position);
-    number.disabled = slider.disabled = joint.mimic !== null;
+    this.#enable(row);
     slider.addEventListener("pointerdown", () => (row.held = true));
     for (const end of ["pointerup", "pointercancel"]) slider.addEventListener(end, () => (row.held = false));
     slider.addEventListener("input", () => this.#move(name, slider.valueAsNumber));
@@ -168,9 +188,23 @@ export class Joints {
     this.#move(row.joint.name, row.slider.valueAsNumber + direction * (row.upper - row.lower) * (event.shiftKey ? 0.1 : 0.01));
   }
 
+  get #positions() {
+    return Object.fromEntries([...this.rows].filter(([, { joint }]) => joint.mimic === null).map(([name, { value }]) => [name, value]));
+  }
+
+  // All moves until a pause are one change.
+  #remember(before, after) {
+    const put = (values) => () => {
+      if (!this.allowed) throw new Error("pause the simulation to pose the robot");
+      this.set(values, false);
+    };
+    this.page.history.add({ words: "moved joints", key: "joints", undo: put(before), redo: put(after) });
+  }
+
   // A typed value of a joint without limits may be beyond its slider.
-  #move(name, value) {
+  #move(name, value, remembered = true) {
     const row = this.rows.get(name);
+    if (remembered) this.before ??= this.#positions;
     const bound = row.joint.limited && !this.page.ignoreLimits;
     const kept = bound ? Math.min(row.upper, Math.max(row.lower, value)) : value;
     this.#put(row, kept);
@@ -181,6 +215,8 @@ export class Joints {
   #flush() {
     const moved = this.moved;
     this.moved = {};
+    if (this.before) this.#remember(this.before, this.#positions);
+    this.before = null;
     this.page.send("joints", { positions: moved });
   }
 

@@ -6,7 +6,7 @@ const TREE = "M6 3v14a2 2 0 0 0 2 2h3M6 8h5M13 5.5h7v5h-7zM13 16.5h7v5h-7z";
 const OPEN = "M7 10l5 5 5-5";
 
 export function tree(page) {
-  const panel = page.panels.add({ id: "tree", title: "Tree", icon: TREE, modes: ["view"], order: 20 });
+  const panel = page.panels.add({ id: "tree", title: "Tree", icon: TREE, order: 20 });
   const search = h("input#tree-search", { type: "search", placeholder: "Find a link or joint", "aria-label": "Find a link or joint", autocomplete: "off", spellcheck: "false" });
   const list = h("ul.tree", { role: "tree", "aria-label": "Links and joints" });
   const none = h("p.quiet", { hidden: true }, "No link or joint matches.");
@@ -24,7 +24,7 @@ export function tree(page) {
   search.addEventListener("input", filter);
   search.addEventListener("keydown", take);
   list.addEventListener("keydown", keys);
-  page.shortcut({ key: "/", does: "find a link or joint", group: "Panels", run: () => (page.panels.open("tree"), search.focus()) });
+  page.shortcut({ key: "/", does: "find a link or joint", modes: ["view", "sim"], group: "Panels", run: () => (page.panels.open("tree"), search.focus()) });
 
   function branch(kinematics, link, joint) {
     const below = kinematics.below.get(link) ?? [];

@@ -5,11 +5,13 @@ import { capture } from "../viewport/screen_capture.js";
 import { collisions } from "./collision_matrix.js";
 import { findings } from "./lint_findings.js";
 import { help } from "../page/keyboard_help.js";
+import { history } from "../page/history.js";
 import { ik } from "./inverse_kinematics.js";
 import { inspector } from "./inspector.js";
 import { joints } from "./joint_sliders.js";
 import { labels } from "../viewport/labels.js";
 import { layers } from "../viewport/display_layers.js";
+import { modes } from "../page/mode_switch.js";
 import { measure } from "./measure.js";
 import { pick } from "../viewport/picking.js";
 import { reach } from "./reach_map.js";
@@ -23,5 +25,6 @@ import { tools } from "../page/toolbar.js";
 import { tree } from "./link_tree.js";
 
 export const viewFeatures = [
-  tools, robot, sight, labels, joints, tree, inspector, layers, tf, reach, collisions, measure, findings, cameras, capture, ik, pick, steering, selection, theme, help,
+  tools, history, robot, sight, labels, joints, tree, inspector, layers, tf, reach, collisions, measure, findings, cameras, capture, ik, pick, steering, selection,
+  modes, theme, help,
 ];

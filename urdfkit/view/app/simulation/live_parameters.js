@@ -15,9 +15,15 @@ export function liveParameters(page) {
   panel.body.append(h("h3", {}, "Gravity [m/s²]"), gravity, h("h3", {}, "Mass and friction"), filter, table, gains);
   let state = null;
 
-  function request(name, values, input) {
+  /** @param before values of the same request that restore the present state */
+  function request(name, values, before, input) {
+    const put = (each) => () => page.connection.request(name, each);
     return page.connection.request(name, values).then(
-      () => input?.classList.add("done"),
+      () => {
+        input?.classList.add("done");
+        const what = [values.name, values.link, values.path].filter(Boolean).join("/");
+        page.history.add({ words: `changed ${name}${what ? ` of ${what}` : ""}`, undo: put(before), redo: put(values) });
+      },
       (error) => {
         page.toast(error.message, "error");
         draw();
@@ -36,7 +42,7 @@ export function liveParameters(page) {
     const inputs = [..."xyz"].map((axis, i) => {
       const input = number(state.gravity[i], `gravity along ${axis}`, () => {
         const values = inputs.map(({ valueAsNumber }) => valueAsNumber);
-        request("gravity", { gravity: values }, input);
+        request("gravity", { gravity: values }, { gravity: state.gravity }, input);
       }, { min: -1e4, max: 1e4, unit: "m/s²" });
       return input;
     });
@@ -48,7 +54,7 @@ export function liveParameters(page) {
     }
     pick.addEventListener("change", () => {
       pick.blur(); // so that the fields are updated
-      if (pick.value) request("gravity", { gravity: [0, 0, Number(pick.value)] });
+      if (pick.value) request("gravity", { gravity: [0, 0, Number(pick.value)] }, { gravity: state.gravity });
     });
     gravity.replaceChildren(...inputs, pick);
   }
@@ -61,8 +67,8 @@ export function liveParameters(page) {
       "tr",
       { "data-of": link ? `${name}/${link}` : name },
       h("th", { scope: "row", title: link ? `${name}: ${link}` : name }, words),
-      cell(mass, "mass", (value, input) => request("mass", { ...where, mass: value }, input), { min: 1e-6, max: 1e6, unit: "kg" }),
-      cell(mu, "mu", (value, input) => request("mu", { ...where, mu: value }, input), { min: 0, max: 1e4 }),
+      cell(mass, "mass", (value, input) => request("mass", { ...where, mass: value }, { ...where, mass }, input), { min: 1e-6, max: 1e6, unit: "kg" }),
+      cell(mu, "mu", (value, input) => request("mu", { ...where, mu: value }, { ...where, mu }, input), { min: 0, max: 1e4 }),
     );
   }
 
@@ -70,8 +76,9 @@ export function liveParameters(page) {
     const values = { p, i, d, clamp };
     const entry = (name) =>
       h("label", {}, name === "clamp" ? "i clamp" : name, number(values[name], `${name} of ${path}`, (value, input) => {
+        const before = { path, ...values };
         values[name] = value;
-        request("gains", { path, p: values.p, i: values.i, d: values.d, clamp: values.clamp }, input);
+        request("gains", { path, ...values }, before, input);
       }));
     return h("fieldset", { "data-of": path }, h("legend", {}, path.split("/").slice(1).join(" · ")), ...Object.keys(values).map(entry));
   }

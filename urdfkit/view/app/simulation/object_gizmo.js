@@ -5,6 +5,7 @@ import { Gizmo, nearest } from "../viewport/gizmo.js";
 
 const THREE = MeshCat.THREE;
 const SIZE = 0.13; // of the viewport's height
+const GRID = 0.05; // m
 const UP = new THREE.Vector3(0, 0, 1);
 
 export class Mover {
@@ -112,8 +113,17 @@ export class Mover {
     } else {
       const shift = this.viewer.scene.worldToLocal(now.clone()).sub(this.viewer.scene.worldToLocal(drag.from.clone()));
       this.ghost.position.copy(drag.position).add(shift);
+      if (!event.shiftKey) this.#snap(drag.kind === "along" ? drag.axis : null);
     }
     this.#follow();
+  }
+
+  // To the grid, along the moved axis or in the plane; with Shift the object moves freely.
+  #snap(axis) {
+    for (const part of "xyz") {
+      const moves = axis ? Math.abs(axis[part]) > 0.5 : part !== "z";
+      if (moves) this.ghost.position[part] = Math.round(this.ghost.position[part] / GRID) * GRID;
+    }
   }
 
   #up(event) {

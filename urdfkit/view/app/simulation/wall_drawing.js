@@ -120,7 +120,7 @@ export class Walls {
     const values = { corners: this.corners, doors: this.doors, height: this.height.valueAsNumber, thickness: this.thickness.valueAsNumber };
     try {
       const done = await this.page.connection.request("walls", values);
-      this.page.done(`built ${done.name}`, done);
+      this.page.objects.inserted(`built ${done.name}`, done);
       this.clear();
     } catch (error) {
       this.page.toast(error.message, "error");

@@ -1,9 +1,11 @@
 // The world: a library of models to insert; a list of objects to move, rotate and delete; walls; saving.
+/* global MeshCat */
 
 import { h, short } from "../page/dom.js";
 import { Mover } from "./object_gizmo.js";
 import { numberField } from "../page/number_field.js";
 
+const THREE = MeshCat.THREE;
 const WORLD = "M12 3l8 4.5v9L12 21l-8-4.5v-9zM12 12l8-4.5M12 12v9M12 12L4 7.5";
 const PLACE = "M12 21s-6-6-6-11a6 6 0 0 1 12 0c0 5-6 11-6 11zM12 8a2 2 0 1 0 0 4a2 2 0 0 0 0-4z";
 const FIELDS = ["x", "y", "z", "roll", "pitch", "yaw"];
@@ -93,7 +95,26 @@ export class Objects {
     if (!this.chosen) return this.page.panels.open("world");
     const robot = this.robots.includes(this.chosen);
     const done = await this.#request("spawn", { model: this.chosen, pose: robot ? [x, y, 0, yaw] : [x, y, Math.max(0, z), yaw] });
-    if (done) this.page.done(`inserted ${done.name}`, done);
+    if (done) this.inserted(`inserted ${done.name}`, done);
+  }
+
+  /** Report an insertion, which can be undone. */
+  inserted(words, done) {
+    const { name } = done;
+    this.page.done(words, done);
+    this.page.history.add({ words, undo: () => this.page.connection.request("remove", { name }), redo: () => this.page.connection.request("restore", { name }) });
+  }
+
+  /** Insert a copy of the selected object next to it. */
+  async duplicate() {
+    const name = this.picked;
+    const now = name && (await this.#request("get_pose", { name }));
+    if (!now) return;
+    const box = new THREE.Box3();
+    for (const link of this.#links(name)) for (const group of this.page.scene.shapes(link)) if (group.visible) box.expandByObject(group);
+    const [x, ...rest] = now.pose;
+    const done = await this.#request("duplicate", { name, pose: [x + (box.isEmpty() ? 0.5 : box.max.x - box.min.x + 0.1), ...rest] });
+    if (done) this.inserted(`duplicated ${name} as ${done.name}`, done);
   }
 
   /** Select an object by name. */
@@ -129,14 +150,15 @@ export class Objects {
     });
     const grid = h("div.pose", {}, ...FIELDS.map((field, i) => h("label", {}, `${field} `, inputs[i], h("span.unit", {}, i > 2 ? "°" : "m"))));
     const away = h("button.danger", { type: "button", onclick: () => this.remove() }, "Delete");
-    away.hidden = Boolean(object?.first);
+    const twin = h("button", { type: "button", id: "duplicate-object", onclick: () => this.duplicate() }, "Duplicate");
+    away.hidden = twin.hidden = Boolean(object?.first);
     const hold = h("button", { type: "button", id: "move-object", "aria-pressed": "false" }, "Move with the mouse");
     hold.addEventListener("click", () => {
       if (this.mover.held) this.mover.drop();
       else this.mover.take(this.#links(name), pose);
       hold.setAttribute("aria-pressed", this.mover.held);
     });
-    this.detail.replaceChildren(h("h3", {}, name), grid, h("div.row", {}, hold, h("span.space"), away));
+    this.detail.replaceChildren(h("h3", {}, name), grid, h("div.row.wrap", {}, hold, twin, h("span.space"), away));
   }
 
   #links(name) {
@@ -145,8 +167,10 @@ export class Objects {
 
   async #place(pose) {
     const name = this.picked;
-    const done = await this.#request("place", { name, pose });
-    if (!done) return;
+    const before = await this.#request("get_pose", { name });
+    if (!before || !(await this.#request("place", { name, pose }))) return;
+    const put = (where) => () => this.page.connection.request("place", { name, pose: where });
+    this.page.history.add({ words: `moved ${name}`, undo: put(before.pose), redo: put(pose) });
     const now = await this.#request("get_pose", { name });
     if (!now || this.picked !== name) return;
     const held = this.mover.held;
@@ -160,6 +184,7 @@ export class Objects {
     const name = this.picked;
     if (await this.#request("remove", { name })) {
       this.page.toast(`deleted ${name}`);
+      this.page.history.add({ words: `deleted ${name}`, undo: () => this.page.connection.request("restore", { name }), redo: () => this.page.connection.request("remove", { name }) });
       this.page.select(null);
     }
     return true;

@@ -30,7 +30,16 @@ export class Cameras {
 
   /** Whether the camera follows a frame. */
   get tracks() {
-    return this.way === "follow" || this.target !== "";
+    return this.way === "follow" || this.#anchor !== "";
+  }
+
+  // In a simulation, whose ground and scans stay in the world, the camera moves with the fixed frame instead.
+  get #turns() {
+    return this.page.mode === "sim" && this.fixed !== "";
+  }
+
+  get #anchor() {
+    return this.#turns ? this.fixed : this.target;
   }
 
   use(way) {
@@ -77,7 +86,7 @@ export class Cameras {
   /** The link that is followed. */
   get followed() {
     const root = this.page.robot?.kinematics.root ?? [...this.page.scene.byLink.keys()][this.page.model?.root ?? 0];
-    return this.page.scene.byLink.has(this.target) ? this.target : root;
+    return this.page.scene.byLink.has(this.#anchor) ? this.#anchor : root;
   }
 
   // Position of the followed link in the world, and its yaw.
@@ -110,13 +119,14 @@ export class Cameras {
     if (now.at.distanceTo(before.at) < 1e-6 && Math.abs(now.yaw - before.yaw) < 1e-6) return (this.was = before);
     const { camera, controls } = this.viewer;
     const arm = camera.position.clone().sub(controls.target);
-    if (this.way === "follow") arm.applyAxisAngle(new THREE.Vector3(0, 1, 0), now.yaw - before.yaw);
+    if (this.way === "follow" || this.#turns) arm.applyAxisAngle(new THREE.Vector3(0, 1, 0), now.yaw - before.yaw);
     controls.target.add(now.at.clone().sub(before.at));
     camera.position.copy(controls.target).add(arm);
     this.viewport.dirty();
   }
 
   #hold() {
+    if (this.page.mode === "sim") return;
     const robot = this.viewer.scene_tree.find(["robot"]).object;
     const node = this.page.scene.byLink.get(this.fixed);
     robot.quaternion.identity();
@@ -173,21 +183,21 @@ export function cameras(page) {
   for (const [words, direction] of Object.entries(SIDES)) {
     sides.append(h("button.chip", { type: "button", onclick: () => page.viewport.fit(page.scene.bounds(), direction) }, words));
   }
-  const target = frames("Target frame", "target-frame", "none", (link) => page.cameras.aim(link));
-  const fixed = frames("Fixed frame", "fixed-frame", "the root link", (link) => page.cameras.fix(link));
+  const target = frames("Target frame", "target-frame", (link) => page.cameras.aim(link));
+  const fixed = frames("Fixed frame", "fixed-frame", (link) => page.cameras.fix(link));
   panel.body.append(h("h3", {}, "Camera"), ways, h("h3", {}, "Look from "), sides, h("div.frames", {}, target.label, fixed.label));
   page.on("robot", ({ kinematics }) => {
-    for (const { fill } of [target, fixed]) fill(kinematics.links);
+    target.fill(kinematics.links);
+    fixed.fill(kinematics.links, page.mode === "sim" ? "the world" : "the root link");
   });
   page.viewPanel = panel;
 }
 
-function frames(words, id, none, chosen) {
+function frames(words, id, chosen) {
   const select = h("select", { id });
   select.addEventListener("change", () => chosen(select.value));
   const label = h("label.stacked", {}, h("span", {}, words), select);
-  label.dataset.mode = "view";
-  function fill(links) {
+  function fill(links, none = "none") {
     const before = select.value;
     select.replaceChildren(h("option", { value: "" }, none), ...links.map((link) => h("option", { value: link }, link)));
     select.value = links.includes(before) ? before : "";

@@ -18,29 +18,29 @@ export function layers(page) {
   const boxes = h("div.checks");
   panel.body.append(boxes);
 
-  function add(words, { key, modes = ["view"], does, ...options }) {
+  const both = ["view", "sim"];
+  function add(words, { key, modes = both, keys = ["view"], does, ...options }) {
     const { box, label } = check(words, options);
     boxes.append(label);
     if (modes.length === 1) label.dataset.mode = modes[0];
-    if (key) page.shortcut({ key, does: does ?? `${words.toLowerCase()} on and off`, group: "Show", run: () => box.click() });
+    if (key) page.shortcut({ key, does: does ?? `${words.toLowerCase()} on and off`, modes: keys, group: "Show", run: () => box.click() });
     return box;
   }
-  const both = ["view", "sim"];
-  add("Visual", { id: "show-visual", key: "v", modes: both, checked: true, changed: (shown) => scene.show("visual", shown) });
-  add("Collision", { id: "show-collision", key: "c", modes: both, changed: (shown) => scene.show("collision", shown) });
+  add("Visual", { id: "show-visual", key: "v", checked: true, changed: (shown) => scene.show("visual", shown) });
+  add("Collision", { id: "show-collision", key: "c", changed: (shown) => scene.show("collision", shown) });
   for (const [kind, words, key, title] of MARKS) {
-    add(words, { id: `show-${kind}`, key, title, changed: (shown) => markers.show(kind, shown) });
+    add(words, { id: `show-${kind}`, key, title, keys: kind === "frames" ? both : ["view"], changed: (shown) => markers.show(kind, shown) });
   }
-  add("Names", { id: "show-names", key: "n", changed: (shown) => names(page, shown) });
-  add("Wireframe", { id: "wireframe", key: "w", modes: both, changed: (wireframe) => scene.restyle({ wireframe }) });
-  add("Grid", { id: "show-grid", key: "g", modes: both, checked: true, changed: (shown) => viewport.visible("Grid", shown) });
-  add("Origin", { id: "show-axes-world", modes: both, changed: (shown) => viewport.visible("Axes", shown) });
+  add("Names", { id: "show-names", key: "n", keys: both, changed: (shown) => names(page, shown) });
+  add("Wireframe", { id: "wireframe", key: "w", changed: (wireframe) => scene.restyle({ wireframe }) });
+  add("Grid", { id: "show-grid", key: "g", checked: true, changed: (shown) => viewport.visible("Grid", shown) });
+  add("Origin", { id: "show-axes-world", changed: (shown) => viewport.visible("Axes", shown) });
   add("Follow robot", { id: "follow", modes: ["sim"], checked: true, changed: (on) => (page.following = on) });
 
   panel.body.append(
     slider("Opacity", { id: "opacity", min: 0.05, max: 1, value: 1, text: (v) => `${Math.round(100 * v)} %`, moved: (opacity) => scene.restyle({ opacity }) }),
     slider("Marker size", {
-      id: "mark-size", min: 0.2, max: 4, value: 1, mode: "view", text: (v) => `× ${v.toFixed(1)}`,
+      id: "mark-size", min: 0.2, max: 4, value: 1, text: (v) => `× ${v.toFixed(1)}`,
       moved: (size) => {
         markers.size = size;
         markers.update();
@@ -57,16 +57,14 @@ export function layers(page) {
 }
 
 /** A slider with its label and value. */
-export function slider(words, { id, min, max, value, step = 0.01, text, moved, mode = null }) {
+export function slider(words, { id, min, max, value, step = 0.01, text, moved }) {
   const output = h("output", { for: id }, text(value));
   const input = h("input", { type: "range", id, min, max, step, value });
   input.addEventListener("input", () => {
     output.textContent = text(input.valueAsNumber);
     moved(input.valueAsNumber);
   });
-  const label = h("label.field", { for: id }, words, " ", output, input);
-  if (mode) label.dataset.mode = mode;
-  return label;
+  return h("label.field", { for: id }, words, " ", output, input);
 }
 
 let shown = [];
