@@ -20,7 +20,17 @@ from urdfkit.view.server.server import Server
 
 JOINTS = [
     {"name": "lift", "type": "prismatic", "lower": 0.0, "upper": 0.3, "position": 0.1, "unit": "m", "mimic": None},
-    {"name": "echo", "type": "prismatic", "lower": 0.0, "upper": 0.3, "position": 0.1, "unit": "m", "mimic": "lift"},
+    {
+        "name": "echo",
+        "type": "prismatic",
+        "lower": 0.0,
+        "upper": 0.3,
+        "position": 0.1,
+        "unit": "m",
+        "mimic": "lift",
+        "multiplier": 1.0,
+        "offset": 0.0,
+    },
 ]
 
 

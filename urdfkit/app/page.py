@@ -6,7 +6,7 @@ import sys
 import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from urdfkit.app.termination import ended_by_signals
 from urdfkit.errors import MissingDependencyError, UrdfkitError
@@ -70,6 +70,7 @@ class Page:
         port: the port to listen on, 0 for any; None for the usual one or the next free one.
         opened: called with the server when it serves the page.
         watchers_may: see `Server`.
+        layout: layout of panels, displays and camera that the page saved.
 
     Attributes:
         kept: `close` leaves the server running while this is set.
@@ -86,11 +87,13 @@ class Page:
         port: int | None = None,
         opened: Callable[[Server], None] = lambda _: None,
         watchers_may: Sequence[str] = (),
+        layout: Mapping[str, Any] | None = None,
     ) -> None:
         from urdfkit.view.server.server import Server
 
         self.host = host
-        self.server = Server(mode, host=host, port=port, watchers_may=watchers_may)
+        settings = {} if layout is None else {"layout": dict(layout)}
+        self.server = Server(mode, host=host, port=port, watchers_may=watchers_may, settings=settings)
         self._opened = opened
         self._is_open = False
         self.kept = False

@@ -4,18 +4,23 @@ from __future__ import annotations
 
 import argparse
 import atexit
+import json
 import os
 import sys
 import threading
 import webbrowser
 from collections.abc import Callable
-from typing import TYPE_CHECKING
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 from urdfkit.app.page import note
+from urdfkit.errors import UsageError
 
 if TYPE_CHECKING:
     from urdfkit.view.server.server import Server
 
+LARGEST_LAYOUT = 1_000_000
+"""Maximum size of a layout [byte]."""
 REDIRECTION = """<!doctype html><html lang="en"><meta charset="utf-8"><title>urdfkit</title>
 <meta name="referrer" content="no-referrer"><meta http-equiv="refresh" content="0; url={url}">
 <p><a href="{url}">Continue to urdfkit</a></p></html>
@@ -23,7 +28,7 @@ REDIRECTION = """<!doctype html><html lang="en"><meta charset="utf-8"><title>urd
 
 
 def add_page_options(parser: argparse.ArgumentParser) -> None:
-    """Add --port, --host and --no-browser."""
+    """Add --port, --host, --no-browser and --layout."""
     parser.add_argument("--port", type=int, metavar="N", help="serve on this port (0: any; default: 7007 or the next)")
     parser.add_argument(
         "--host",
@@ -32,6 +37,33 @@ def add_page_options(parser: argparse.ArgumentParser) -> None:
         help="listen on this address; 0.0.0.0 accepts other machines, which need the token in the address",
     )
     parser.add_argument("--no-browser", action="store_true", help="do not open a browser, only print the address")
+    parser.add_argument(
+        "--layout", metavar="FILE", help="open the page with this layout, a file that its panel View has saved"
+    )
+
+
+def read_layout(arguments: argparse.Namespace) -> dict[str, Any] | None:
+    """Return the layout of ``--layout``; None without the option.
+
+    Raises:
+        UsageError: the file cannot be read, or is not a layout.
+    """
+    if arguments.layout is None:
+        return None
+    path = Path(arguments.layout)
+    try:
+        if path.stat().st_size > LARGEST_LAYOUT:
+            raise UsageError(
+                f"--layout {path}: larger than {LARGEST_LAYOUT // 1000} kB; this is not a layout of urdfkit"
+            )
+        layout = json.loads(path.read_text("utf-8"))
+    except OSError as error:
+        raise UsageError(f"--layout {path}: {error.strerror}") from error
+    except (ValueError, RecursionError) as error:
+        raise UsageError(f"--layout {path}: not JSON: {error}") from error
+    if not isinstance(layout, dict) or layout.get("version") != 1:
+        raise UsageError(f"--layout {path}: not a layout of urdfkit; save one in the panel View of the page")
+    return layout
 
 
 def announce(arguments: argparse.Namespace) -> Callable[[Server], None]:

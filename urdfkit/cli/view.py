@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import argparse
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from urdfkit.app.page import Page, note, require_page, until_interrupted
-from urdfkit.cli.page_options import add_page_options, announce
+from urdfkit.cli.page_options import add_page_options, announce, read_layout
 from urdfkit.cli.parser import add_model
 from urdfkit.cli.robot_arguments.file_name_case import warn_of_file_names
 from urdfkit.cli.robot_arguments.launch_arguments import add_launch_arguments, with_launch_arguments
@@ -78,20 +78,22 @@ def run(arguments: argparse.Namespace) -> int:
         if not arguments.quiet:
             note(f"wrote {arguments.html} ({len(html.encode()) / 1e6:.2f} MB)")
         return 0
+    layout = read_layout(arguments)
     with until_interrupted():
         shown = read()
         if arguments.live is not None:
-            _follow(arguments, shown)
+            _follow(arguments, shown, layout)
             return 0
-        page = Page("view", host=arguments.host, port=arguments.port, opened=announce(arguments))
+        opened = announce(arguments)
+        page = Page("view", host=arguments.host, port=arguments.port, opened=opened, layout=layout)
         view_and_simulate(page, model, shown, strict=arguments.strict)
     return 0
 
 
-def _follow(arguments: argparse.Namespace, shown: ShownRobot) -> None:
+def _follow(arguments: argparse.Namespace, shown: ShownRobot, layout: dict[str, Any] | None) -> None:
     """Show a live robot until interrupted."""
     from urdfkit.app.replay.live_view import following
 
-    page = Page("sim", host=arguments.host, port=arguments.port, opened=announce(arguments))
+    page = Page("sim", host=arguments.host, port=arguments.port, opened=announce(arguments), layout=layout)
     with following(page, shown, arguments.live, note, fixed_frame=arguments.fixed_frame) as session:
         session.run()

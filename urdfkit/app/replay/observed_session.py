@@ -8,11 +8,15 @@ from collections.abc import Callable
 from threading import Event
 from typing import Any
 
+import numpy as np
+from numpy.typing import NDArray
+
 from urdfkit.app.replay.observed_robot import ObservedRobot
 from urdfkit.app.replay.recorded_sensors import RecordedSensors
 from urdfkit.app.simulation.bridging.bridges import BridgeOptions, open_bridges
 from urdfkit.app.simulation.bridging.description_text import DESCRIPTION, STRING, description_text
 from urdfkit.app.simulation.clock_rate import FRAME
+from urdfkit.app.simulation.displays.displays import Displays
 from urdfkit.app.simulation.features.feature import Done, Feature
 from urdfkit.app.simulation.features.plots import Plots
 from urdfkit.app.simulation.features.topic_panel import TopicPanel
@@ -24,13 +28,14 @@ from urdfkit.description.packages.resolver import Packages
 from urdfkit.errors import UrdfkitError
 from urdfkit.messages import from_fields
 from urdfkit.sim.state.quaternion import yaw_of
+from urdfkit.view.content.inspector import inspection
 from urdfkit.view.content.meshcat_objects import draw, link_path
 from urdfkit.view.protocol.page_requests import Request, Schema
 from urdfkit.view.server.server import Server
 
 STATUS = 0.1
 """Seconds between two status messages to the page."""
-FEATURES: tuple[type[Feature], ...] = (TopicPanel, TopicStreams, Plots)
+FEATURES: tuple[type[Feature], ...] = (TopicPanel, TopicStreams, Plots, Displays)
 
 
 class ObservedSession:
@@ -45,6 +50,7 @@ class ObservedSession:
         sleep: function that waits for a number of seconds.
 
     Attributes:
+        kinematics: the robot.
         bus: the topics.
         t: time on the page [s].
         bridges: bridges whose peers are served in each iteration.
@@ -61,10 +67,11 @@ class ObservedSession:
         sleep: Callable[[float], None] = time.sleep,
     ) -> None:
         self._shown, self._robot, self.bus, self.server = shown, robot, bus, server
+        self.kinematics = shown.kinematics
         self._clock, self._sleep = clock, sleep
         self.t, self.bridges = 0.0, Bridges()
         self._reported = -math.inf
-        simulation: Any = self  # these features use its bus and its time only
+        simulation: Any = self  # these features use its bus, its time and the poses of its links only
         self._features = tuple(part(simulation, server, clock) for part in FEATURES)
         self.sensors = RecordedSensors(self.bus, robot, server, clock)
         self._takes: dict[str, tuple[Schema, Callable[[Request], Done]]] = {}
@@ -87,6 +94,10 @@ class ObservedSession:
         find_package = (robot.packages or Packages()).find
         open_bridges(self.bridges, options, self.bus, lambda: self.t, {}, description_text(robot), find_package, report)
 
+    def link_poses(self) -> NDArray[np.float64]:
+        """Return x y z [m] and quaternion x y z w of every link; shape (links, 7)."""
+        return self._robot.link_poses(self.time_of_poses())
+
     def close(self) -> None:
         """Close the bridges."""
         self.bridges.close()
@@ -102,6 +113,7 @@ class ObservedSession:
         )
         self.server.publish_latched("teleop", **self.drive_controls())
         self.server.publish_latched("findings", findings=[], rules={}, fault=None)
+        self.server.publish_latched("inspect", **inspection(kinematics))
         self.sensors.show()
         for feature in self._features:
             feature.show()

@@ -59,7 +59,7 @@ class ReplaySession(ObservedSession):
         self.speed, self.running, self._publishes_clock = 1.0, True, False
         self.duration = bag.end - bag.begin
         self._from = self._clock(), 0.0
-        del self._takes["publish"]
+        del self._takes["publish"], self._takes["publish_pose"]
         self._takes["replay"] = (
             Schema({"action": choice("show", "play", "pause", "end")}, {"at": number(0), "speed": number(0.05, 20)}),
             self._control,

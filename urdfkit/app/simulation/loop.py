@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from urdfkit.app.page import note
 from urdfkit.app.repair_findings import with_repairs
 from urdfkit.app.simulation.clock_rate import FRAME, ClockRate
+from urdfkit.app.simulation.displays.displays import Displays
 from urdfkit.app.simulation.features.contact_forces import ContactForces
 from urdfkit.app.simulation.features.feature import Done, Feature
 from urdfkit.app.simulation.features.joint_sliders import JointSliders
@@ -53,6 +54,7 @@ FEATURES: tuple[type[Feature], ...] = (
     ContactForces,
     Replay,
     RobotPanels,
+    Displays,
 )
 """Features of the page; a test fails if one is missing here."""
 

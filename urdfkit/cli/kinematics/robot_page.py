@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 from urdfkit.app.page import Page, note, until_interrupted
-from urdfkit.cli.page_options import announce
+from urdfkit.cli.page_options import announce, read_layout
 
 if TYPE_CHECKING:
     from urdfkit.resources import ModelArgument
@@ -31,8 +31,10 @@ def show_page(arguments: argparse.Namespace, model: ModelArgument, messages: Map
         if not arguments.quiet:
             note(f"wrote {arguments.html}")
     if arguments.view:
+        layout = read_layout(arguments)
         with until_interrupted():
-            page = Page("view", host=arguments.host, port=arguments.port, opened=announce(arguments))
+            opened = announce(arguments)
+            page = Page("view", host=arguments.host, port=arguments.port, opened=opened, layout=layout)
             with viewing(page, model, shown, strict=arguments.strict) as session:
                 for name, values in messages.items():
                     session.server.publish_latched(name, **values)

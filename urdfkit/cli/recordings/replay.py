@@ -3,7 +3,7 @@
 import argparse
 from contextlib import ExitStack
 
-from urdfkit.cli.page_options import add_page_options, announce
+from urdfkit.cli.page_options import add_page_options, announce, read_layout
 from urdfkit.cli.sim.bridge_options import add_bridges, bridge_options
 
 
@@ -44,11 +44,12 @@ def run(arguments: argparse.Namespace) -> int:
     from urdfkit.resources import find_model
 
     bridges = bridge_options(arguments)
+    layout = read_layout(arguments)
     with until_interrupted(), ExitStack() as stack:
         bag = stack.enter_context(BagFile(arguments.file))
         words = arguments.model or [str(stack.enter_context(recorded_model(bag)))]
         model = find_model(words, package_path=arguments.package_path)
-        page = Page("sim", host=arguments.host, port=arguments.port, opened=announce(arguments))
+        page = Page("sim", host=arguments.host, port=arguments.port, opened=announce(arguments), layout=layout)
         session = stack.enter_context(
             replaying(page, bag, model, fixed_frame=arguments.fixed_frame, loop=arguments.loop)
         )

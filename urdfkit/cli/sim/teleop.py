@@ -4,7 +4,7 @@ import argparse
 from contextlib import ExitStack
 
 from urdfkit.app.page import Page, note, require_page, until_interrupted
-from urdfkit.cli.page_options import add_page_options, announce, opens_browser
+from urdfkit.cli.page_options import add_page_options, announce, opens_browser, read_layout
 from urdfkit.cli.parser import add_model
 from urdfkit.cli.robot_arguments.file_name_case import warn_of_file_names
 from urdfkit.cli.robot_arguments.launch_arguments import add_launch_arguments, with_launch_arguments
@@ -68,6 +68,7 @@ def run(arguments: argparse.Namespace) -> int:
 
     check_record(arguments)
     bridges = bridge_options(arguments)
+    layout = read_layout(arguments)
     arguments.no_browser = arguments.no_browser or bool(arguments.terminal)
     from_terminal = check_terminal(arguments, browser=opens_browser(arguments))
     with until_interrupted():
@@ -83,6 +84,7 @@ def run(arguments: argparse.Namespace) -> int:
             port=arguments.port,
             opened=announce(arguments),
             watchers_may=arguments.watchers_may,
+            layout=layout,
         )
         warnings = GroupedWarnings()
         with ExitStack() as stack:

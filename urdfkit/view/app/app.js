@@ -1,6 +1,6 @@
 // Entry point of the page: connects the WebSocket with the viewport, the panels and the features.
 
-import { Connection } from "./page/connection.js";
+import { Connection } from "./connection/connection.js";
 import { drawnBy } from "./viewport/graphics_device.js";
 import { Page } from "./page/page.js";
 import { Panels } from "./page/panels.js";
@@ -62,6 +62,7 @@ page.on("progress", (message) => {
   $("progress-label").textContent = message.label ?? "";
 });
 
+page.panels.changed = () => page.emit("panels", null);
 for (const install of [...viewFeatures, ...simFeatures]) install(page);
 
 page.connection = new (window.urdfkitConnection ?? Connection)({

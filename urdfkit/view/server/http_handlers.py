@@ -22,9 +22,9 @@ PING = 5.0
 APP = Path(__file__).parents[1] / "app"
 TYPES = {".html": "text/html", ".css": "text/css", ".js": "text/javascript", ".svg": "image/svg+xml"}
 MESHCAT = "meshcat.js"
-OFFLINE = "page/offline.js"
+OFFLINE = "connection/offline.js"
 """The module that only a page in a single file loads first."""
-WORKER = "page/socket_worker.js"
+WORKER = "connection/socket_worker.js"
 """The script of the page's worker, which is no module of the page."""
 
 

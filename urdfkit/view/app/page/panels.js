@@ -1,6 +1,7 @@
 // The panels at the side (on a phone: the sheet at the bottom) and the rail of buttons that open them.
 
 import { h, icon } from "./dom.js";
+import { PanelPlaces } from "./panel_places.js";
 
 const PIN = "M9 3h6l-1 6 4 4v2H6v-2l4-4zM12 15v6";
 const SETTLE = 800; // ms within which an opened panel receives its content
@@ -9,7 +10,7 @@ const CLOSE = "M6 6l12 12M18 6L6 18";
 /** One panel. Its content goes into `body`; `badge` shows a count on the rail. */
 class Panel {
   constructor(panels, { id, title, icon: path, modes, order, element, pinned }) {
-    Object.assign(this, { id, title, modes, order, pinned, available: true });
+    Object.assign(this, { id, title, modes, order, pinned, available: true, place: "side" });
     this.count = h("span.count", { hidden: true });
     this.button = h(
       "button.rail-button",
@@ -24,6 +25,7 @@ class Panel {
     this.pin.addEventListener("click", () => {
       this.pinned = !this.pinned;
       panels.chosen = true;
+      panels.changed();
       this.pin.setAttribute("aria-pressed", this.pinned);
     });
     const close = h("button.bare", { type: "button", "aria-label": `Close ${title}`, title: "Close" }, icon(CLOSE));
@@ -55,7 +57,10 @@ export class Panels {
     this.rail = rail;
     this.all = new Map();
     this.mode = null;
+    this.wanted = [];
+    this.changed = () => {}; // called when panels were opened, closed or pinned
     this.chosen = false; // whether the user has opened or closed a panel
+    this.places = new PanelPlaces(this);
     this.narrow = matchMedia("(max-width: 760px)");
   }
 
@@ -70,11 +75,18 @@ export class Panels {
   add({ id, title, icon = null, modes = ["view", "sim"], order = 50, element = null, pinned = false }) {
     const panel = new Panel(this, { id, title, icon, modes, order, element, pinned });
     const after = [...this.all.values()].filter((other) => other.order > order).sort((a, b) => a.order - b.order)[0];
-    this.host.insertBefore(panel.section, after?.section ?? null);
+    this.host.insertBefore(panel.section, after?.section.parentElement === this.host ? after.section : null);
     this.rail.insertBefore(panel.button, after?.button ?? null);
     this.all.set(id, panel);
     this.#offer(panel);
+    this.places.equip(panel);
     return panel;
+  }
+
+  /** Put the panels of the column into their order. */
+  sort() {
+    const here = [...this.all.values()].filter(({ place }) => place === "side").sort((a, b) => a.order - b.order);
+    this.host.append(...here.map(({ section }) => section));
   }
 
   /** Show the panels of a mode; open the first one and the pinned ones if there is enough space. */
@@ -100,6 +112,7 @@ export class Panels {
     const came = is && !panel.available;
     panel.available = is;
     this.#offer(panel);
+    if (came && this.wanted.includes(id) && this.#offered(panel) && !this.narrow.matches) this.#show(panel, true);
     if (came && panel.pinned && this.#offered(panel) && !this.narrow.matches) this.#show(panel, true);
     this.#settle();
   }
@@ -109,12 +122,13 @@ export class Panels {
     else this.open(id);
   }
 
-  /** Open a panel; others close unless they are pinned (on a phone only one is open). */
+  /** Open a panel; others in the column close unless they are pinned (on a phone only one is open). */
   open(id) {
     const opened = this.all.get(id);
     if (!this.#offered(opened)) return;
     this.chosen = true;
-    for (const panel of this.all.values()) this.#show(panel, panel === opened || (panel.open && panel.pinned && !this.narrow.matches));
+    this.wanted = [];
+    for (const panel of this.all.values()) this.#show(panel, panel === opened || (panel.open && !this.narrow.matches && (panel.pinned || panel.place !== "side" || opened.place !== "side")));
     this.#changed();
     this.#scrollTo(opened.section);
   }
@@ -130,6 +144,19 @@ export class Panels {
       this.host.addEventListener(event, () => watching.disconnect(), { once: true, passive: true });
     }
     setTimeout(() => watching.disconnect(), SETTLE);
+  }
+
+  /** Open exactly these panels, as far as they are available. @param layout {open, pinned}, lists of names */
+  arrange({ open, pinned, ...places }) {
+    this.chosen = true;
+    this.places.restore(places);
+    for (const panel of this.all.values()) {
+      panel.pinned = pinned.includes(panel.id);
+      panel.pin.setAttribute("aria-pressed", panel.pinned);
+      this.#show(panel, this.#offered(panel) && open.includes(panel.id) && (!this.narrow.matches || panel.id === open[0]));
+    }
+    this.wanted = open; // opened when they become available
+    this.#changed();
   }
 
   close(id, back = false) {
@@ -155,7 +182,15 @@ export class Panels {
     panel.button.setAttribute("aria-expanded", shown);
   }
 
+  /** Show column and strip while they have an open panel. */
+  refresh() {
+    this.#changed();
+  }
+
   #changed() {
-    this.host.toggleAttribute("data-closed", ![...this.all.values()].some((panel) => panel.open));
+    this.changed();
+    const open = [...this.all.values()].filter((panel) => panel.open);
+    this.host.toggleAttribute("data-closed", !open.some(({ place }) => place === "side"));
+    this.places.strip.toggleAttribute("data-closed", !open.some(({ place }) => place === "below"));
   }
 }

@@ -119,8 +119,9 @@ export class Joints {
     const unit = h("span.unit");
     const slider = h("input", { type: "range", step: "any", id: `joint-${name}` });
     const ends = h("div.joint-ends", {}, h("span"), h("span"));
-    const item = h("li", {}, h("div.joint-head", {}, label, number, unit), slider, ends);
+    const item = h("li", {}, h("div.joint-head", {}, label, h("span.joint-value", {}, number, unit)), slider, ends);
     item.dataset.joint = name;
+    item.toggleAttribute("data-mimic", joint.mimic !== null);
     const row = { joint, item, number, slider, unit, ends, held: false, value: joint.position };
     this.rows.set(name, row);
     this.#range(row);

@@ -4,7 +4,7 @@ export class WorkerSocket {
   readyState = WebSocket.CONNECTING;
 
   constructor(address) {
-    this.worker = new Worker("/app/page/socket_worker.js");
+    this.worker = new Worker("/app/connection/socket_worker.js");
     this.worker.onmessage = ({ data }) => this.#event(data);
     this.worker.onerror = () => this.#event({ event: "close" });
     this.worker.postMessage({ open: address });

@@ -1,0 +1,196 @@
+"""Drawings of messages in the frames of their headers, without a simulation."""
+
+from __future__ import annotations
+
+import base64
+import io
+import json
+from types import SimpleNamespace
+from typing import Any
+
+import numpy as np
+import pytest
+
+pytest.importorskip("meshcat")
+pytest.importorskip("pinocchio")
+
+from urdfkit.app.simulation.displays.displays import DISPLAY, FRAMES, TYPES, Displays
+from urdfkit.app.simulation.displays.drawings import drawing
+from urdfkit.bus import Bus
+from urdfkit.errors import UsageError
+from urdfkit.messages import from_fields
+from urdfkit.view.protocol.page_requests import Request
+
+TURNED = {"x": 0.0, "y": 0.0, "z": np.sin(np.pi / 4), "w": np.cos(np.pi / 4)}
+"""90° about z."""
+
+
+class Simulation:
+    """What displays need of a simulation: a bus, the time, and the poses of the links."""
+
+    def __init__(self) -> None:
+        self.bus, self.t = Bus(), 0.0
+        self.kinematics = SimpleNamespace(link_names=("base", "laser"))
+
+    def link_poses(self) -> np.ndarray:
+        return np.array([[1.0, 2.0, 0.0, 0, 0, 0, 1], [1.0, 2.0, 0.5, 0, 0, 0, 1]])
+
+    def publish(self, topic: str, kind: str, frame: str = "map", **fields: Any) -> None:
+        self.bus.publish(topic, kind, from_fields(kind, {"header": {"frame_id": frame}, **fields}))
+
+    def transform(self, parent: str, child: str, x: float = 0.0, y: float = 0.0, turn: Any = None) -> None:
+        each = {"header": {"frame_id": parent}, "child_frame_id": child}
+        each["transform"] = {"translation": {"x": x, "y": y, "z": 0.0}, "rotation": turn or {"w": 1.0}}
+        kind = "tf2_msgs/msg/TFMessage"
+        self.bus.publish("/tf", kind, from_fields(kind, {"transforms": [each]}))
+
+
+class Page:
+    def __init__(self) -> None:
+        self.hub = SimpleNamespace(subscribed_keys=set())
+        self.sent: list[tuple[str, dict[str, Any]]] = []
+
+    def send_to_subscribers(self, key: str, type: str, **values: Any) -> None:
+        json.dumps(values, allow_nan=False)
+        self.sent.append((type, values))
+
+    publish_latched = send_to_subscribers
+
+
+@pytest.fixture
+def made() -> tuple[Simulation, Page, Displays]:
+    simulation, page = Simulation(), Page()
+    simulation.bus.advertise("/tf", "tf2_msgs/msg/TFMessage")
+    return simulation, page, Displays(simulation, page, lambda: simulation.t)  # type: ignore[arg-type]
+
+
+def shown(made: tuple[Simulation, Page, Displays], topic: str, field: str = "") -> dict[str, Any]:
+    """Return the newest drawing of a topic."""
+    simulation, page, displays = made
+    page.hub.subscribed_keys.add(f"{DISPLAY}{topic}{f':{field}' if field else ''}")
+    simulation.t += 10.0
+    displays.tick()
+    return next(values for type, values in reversed(page.sent) if type == "display")
+
+
+def test_a_path_is_drawn_in_its_frame_which_transforms_connect_with_the_robot(made) -> None:
+    simulation, _, _ = made
+    poses = [{"pose": {"position": {"x": x, "y": 0.0, "z": 0.0}}} for x in (0.0, 1.0)]
+    simulation.publish("/plan", "nav_msgs/msg/Path", poses=poses)
+    lost = shown(made, "/plan")
+    assert lost["groups"] == []
+    assert "no transform from frame map" in lost["fault"]
+    simulation.transform("map", "odom", 5.0, 0.0, TURNED)
+    simulation.transform("odom", "base", 1.0, 0.0)
+    simulation.publish("/plan", "nav_msgs/msg/Path", poses=poses)
+    (group,) = shown(made, "/plan")["groups"]
+    # base is at (1, 2): odom at (0, 2), and map, in which odom is at (5, 0) and turned by 90°, at (0, 2) + (0, 5).
+    assert group["pose"][:3] == pytest.approx([0.0, 7.0, 0.0])
+    assert group["pose"][3:] == pytest.approx([0, 0, -TURNED["z"], TURNED["w"]])
+    assert group["items"] == [{"line": [0.0, 0, 0, 1, 0, 0]}]
+    simulation.transform("map", "odom", 6.0, 0.0, TURNED)  # a corrected localization moves the drawing
+    assert shown(made, "/plan")["poses"][0][:3] == pytest.approx([0.0, 8.0, 0.0])
+
+
+def test_a_covariance_is_the_ellipsoid_of_one_standard_deviation() -> None:
+    matrix = np.zeros((6, 6))
+    matrix[:3, :3] = np.diag([0.04, 0.25, 0.01])
+    matrix[5, 5] = 0.09
+    pose = {"pose": {"position": {"x": 1.0}, "orientation": {"w": 2.0}}, "covariance": matrix.ravel().tolist()}
+    kind = "nav_msgs/msg/Odometry"
+    arrow, ellipsoid, sector = drawing(from_fields(kind, {"pose": pose}), kind)
+    assert arrow["arrow"] == [1.0, 0, 0, 0, 0, 0, 1]
+    assert sorted(ellipsoid["axes"]) == pytest.approx([0.1, 0.2, 0.5])
+    assert sector["angle"] == pytest.approx(0.3)
+
+
+def test_a_map_is_a_picture_of_its_cells() -> None:
+    from PIL import Image
+
+    kind = "nav_msgs/msg/OccupancyGrid"
+    info = {"width": 2, "height": 1, "resolution": 0.5, "origin": {"orientation": {"w": 1.0}}}
+    (item,) = drawing(from_fields(kind, {"info": info, "data": [100, -1]}), kind)
+    pixels = np.asarray(Image.open(io.BytesIO(base64.b64decode(item["map"]))))
+    assert pixels[0, 0].tolist() == [24, 28, 34, 255]
+    assert pixels[0, 1, 3] < 200
+    assert item["size"] == [1.0, 0.5]
+
+
+def test_a_message_that_contradicts_itself_is_a_line_on_the_page(made) -> None:
+    simulation, _, _ = made
+    info = {"width": 3, "height": 2, "resolution": 1.0}
+    simulation.publish("/map", "nav_msgs/msg/OccupancyGrid", "base", info=info, data=[0])
+    assert "cannot be drawn" in shown(made, "/map")["fault"]
+
+
+def test_points_have_the_values_of_the_field() -> None:
+    kind = "sensor_msgs/msg/LaserScan"
+    scan = {
+        "angle_min": 0.0, "angle_increment": np.pi / 2, "range_min": 0.1, "range_max": 10.0,
+        "ranges": [1.0, np.inf, 2.0], "intensities": [7.0, 8.0, 9.0],
+    }  # fmt: skip
+    (item,) = drawing(from_fields(kind, scan), kind, "intensity")
+    xyz = np.frombuffer(base64.b64decode(item["points"]), "<f4").reshape(-1, 3)
+    assert xyz == pytest.approx(np.array([[1, 0, 0], [-2, 0, 0]]), abs=1e-6)
+    assert np.frombuffer(base64.b64decode(item["values"]), "<f4").tolist() == [7.0, 9.0]
+    assert item["fields"] == ["range", "intensity"]
+    kind = "sensor_msgs/msg/PointCloud2"
+    fields = [{"name": name, "offset": 4 * k, "datatype": 7, "count": 1} for k, name in enumerate(("x", "y", "z", "t"))]
+    data = np.array([[1, 2, 3, 50], [np.nan, 0, 0, 60]], "<f4").view(np.uint8).ravel().tolist()
+    cloud = from_fields(kind, {"fields": fields, "point_step": 16, "width": 2, "height": 1, "data": data})
+    (item,) = drawing(cloud, kind, "t")
+    assert item["count"] == 1
+    assert item["range"] == [50.0, 50.0]
+
+
+def test_markers_stay_until_they_are_deleted_or_their_lifetime_ends(made) -> None:
+    simulation, _, _ = made
+    kind = "visualization_msgs/msg/Marker"
+
+    def put(id: int, **fields: Any) -> None:
+        simulation.publish("/marks", kind, "laser", id=id, color={"r": 1.0, "a": 1.0}, **fields)
+
+    simulation.bus.advertise("/marks", kind)
+    made[1].hub.subscribed_keys.add(f"{DISPLAY}/marks")
+    made[2].tick()
+    put(1, type=1, scale={"x": 1.0, "y": 1.0, "z": 1.0}, pose={"orientation": {"w": 1.0}})
+    put(2, type=9, text="door", scale={"z": 0.3}, lifetime={"sec": 15, "nanosec": 0})
+    put(3, type=4, points=[{"x": 0.0}, {"x": 1.0}])
+    groups = shown(made, "/marks")["groups"]
+    assert [next(iter(group["items"][0])) for group in groups] == ["shape", "text", "line"]
+    assert groups[0]["pose"][:3] == [1.0, 2.0, 0.5]
+    put(1, action=2)
+    assert len(shown(made, "/marks")["groups"]) == 1  # and 20 s later the text has ended
+
+
+def test_frames_have_their_ages(made) -> None:
+    simulation, page, displays = made
+    page.hub.subscribed_keys.add(FRAMES)
+    simulation.t = 1.0
+    displays.tick()
+    simulation.transform("odom", "base")
+    simulation.t = 3.0
+    displays.tick()
+    assert page.sent[-1][1]["rows"] == [{"name": "base", "parent": "odom", "age": 2.0, "static": False}]
+
+
+def test_a_goal_is_published_in_the_frame_of_the_map(made) -> None:
+    simulation, _, displays = made
+    _, publish = displays.takes["publish_pose"]
+    goals: list[Any] = []
+    simulation.bus.subscribe("/goal_pose", "geometry_msgs/msg/PoseStamped", goals.append)
+    values = {"as": "goal", "position": [1.0, 3.0], "yaw": 0.5}
+    assert publish(Request(1, 1, "publish_pose", values)) == {"topic": "/goal_pose", "frame": "world"}
+    simulation.transform("map", "base", 10.0, 0.0)
+    assert publish(Request(1, 1, "publish_pose", values)) == {"topic": "/goal_pose", "frame": "map"}
+    pose = goals[-1].pose
+    assert [pose.position.x, pose.position.y] == pytest.approx([10.0, 1.0])
+    assert pose.orientation.z == pytest.approx(np.sin(0.25))
+    simulation.bus.advertise("/initialpose", "std_msgs/msg/String")
+    with pytest.raises(UsageError, match="PoseWithCovarianceStamped"):
+        publish(Request(1, 1, "publish_pose", {**values, "as": "estimate"}))
+
+
+@pytest.mark.parametrize("kind", [each for each in TYPES if "Marker" not in each])
+def test_an_empty_message_of_every_type_has_a_drawing(kind: str) -> None:
+    json.dumps(drawing(from_fields(kind, None), kind), allow_nan=False)

@@ -1,0 +1,175 @@
+"""Displays of topics on the page, without a simulation: shapes in the scene, options, goals, and layouts."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+pytest.importorskip("meshcat")
+pytest.importorskip("pinocchio")
+
+from tests.app.simulation.displays.test_displays import Simulation
+from tests.cli.lab import drawn, panel
+from tests.view.conftest import show
+from urdfkit.app.simulation.displays.displays import Displays
+from urdfkit.app.simulation.features.topic_panel import TopicPanel
+from urdfkit.description.urdf.robot import Box
+from urdfkit.scene import Scene, Shape
+from urdfkit.view.server.server import Server
+
+pytestmark = pytest.mark.browser
+STATUS = {
+    "time": 1.0, "paused": False, "real_time_factor": 1.0, "factor": 1.0, "dt": 0.001, "speed": 0.0, "fixed": False,
+    "pose": {"x": 0.0, "y": 0.0, "yaw": 0.0}, "tip": None, "robots": {}, "odometry": {}, "driver": None, "watchers": 1,
+}  # fmt: skip
+DRAWN = """(topic) => {
+  const found = [];
+  urdfkit.viewport.viewer.scene.traverse((object) => {
+    if (object.userData.display === topic && object.geometry) found.push(object.geometry.type);
+  });
+  return found;
+}"""
+
+
+class Shown:
+    """The page of a robot that stands still, with topics."""
+
+    def __init__(self, layout: dict[str, Any] | None = None) -> None:
+        self.simulation = Simulation()
+        self.server = Server("sim", port=0, settings={"layout": layout} if layout else {})
+        self.features = [part(self.simulation, self.server, self._now) for part in (TopicPanel, Displays)]  # type: ignore[arg-type]
+        self._takes = {name: take for part in self.features for name, take in part.takes.items()}
+        self.server.requests.update({name: schema for name, (schema, _) in self._takes.items()})
+
+    def _now(self) -> float:
+        return self.simulation.t
+
+    def open(self) -> None:
+        shape = Shape("base/visual/0", "base", "visual", Box((0.4, 0.3, 0.2)), np.eye(4))
+        show(self.server, Scene(("base", "laser"), (shape,)))
+        self.server.publish_latched("teleop", drives=False, robots=[], moves={}, factors={}, speed=0.5, turn=1.0)
+        for part in self.features:
+            part.show()
+        self.server.publish(0.0, self.simulation.link_poses())
+
+    def tick(self) -> bool:
+        """Advance as the loop of a simulation does."""
+        self.simulation.t += 0.5
+        self.server.broadcast("status", **STATUS)
+        for request in self.server.inbox.take().requests:
+            self.server.answer(request, **(self._takes[request.name][1](request) or {}))
+        for part in self.features:
+            part.tick()
+        return False
+
+    def topics(self) -> None:
+        simulation = self.simulation
+        simulation.transform("map", "base", 1.0, 2.0)
+        poses = [{"pose": {"position": {"x": x}, "orientation": {"w": 1.0}}} for x in (0.0, 1.0, 2.0)]
+        simulation.publish("/plan", "nav_msgs/msg/Path", poses=poses)
+        info = {"width": 20, "height": 20, "resolution": 0.2, "origin": {"position": {"x": -1.0}}}
+        data = [100 if k % 20 in (0, 19) or k < 20 or k > 379 else -1 if k % 7 == 0 else 0 for k in range(400)]
+        simulation.publish("/map", "nav_msgs/msg/OccupancyGrid", info=info, data=data)
+        scan = {"angle_min": -1.5, "angle_increment": 0.02, "range_max": 9.0, "ranges": [1.5] * 150}
+        simulation.publish("/scan", "sensor_msgs/msg/LaserScan", "laser", **scan)
+        red = {"r": 0.8, "g": 0.1, "b": 0.1, "a": 1.0}
+        size = {"x": 0.3, "y": 0.3, "z": 0.3}
+        place = {"position": {"x": 2.0, "y": 1.0, "z": 0.2}, "orientation": {"w": 1.0}}
+        marks = [{"header": {"frame_id": "map"}, "id": k, "type": k, "scale": size, "color": red} for k in (0, 1, 2, 3)]
+        marks = [
+            {**mark, "pose": {**place, "position": {**place["position"], "y": 0.5 * k}}} for k, mark in enumerate(marks)
+        ]
+        marks.append({**marks[0], "id": 9, "type": 9, "text": "kitchen"})
+        kind = "visualization_msgs/msg/MarkerArray"
+        from urdfkit.messages import from_fields
+
+        simulation.bus.publish("/marks", kind, from_fields(kind, {"markers": marks}))
+        covariance = np.zeros((6, 6))
+        covariance[:2, :2], covariance[5, 5] = [[0.2, 0.1], [0.1, 0.3]], 0.1
+        pose = {"pose": place, "covariance": covariance.ravel().tolist()}
+        simulation.publish("/pose", "geometry_msgs/msg/PoseWithCovarianceStamped", pose=pose)
+        simulation.publish("/range", "sensor_msgs/msg/Range", "laser", range=1.0, field_of_view=0.4)
+
+
+@pytest.fixture
+def shown(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Shown]:
+    monkeypatch.setenv("XDG_RUNTIME_DIR", str(tmp_path))
+    made = Shown()
+    with made.server:
+        made.open()
+        yield made
+
+
+def test_topics_are_drawn_with_their_options_and_saved_as_a_layout(shown, visits, until, keep, tmp_path) -> None:
+    page = visits.open(shown.server.url, ready=False, viewport={"width": 1440, "height": 900})
+    shown.topics()
+    until(lambda: shown.tick() or page.locator("#open-displays").is_visible())
+    panel(page, "displays")
+    kinds = {
+        "/plan": "BufferGeometry", "/map": "PlaneGeometry", "/scan": "BufferGeometry", "/marks": "BoxGeometry",
+        "/pose": "SphereGeometry", "/range": "ConeGeometry",
+    }  # fmt: skip
+    for topic, kind in kinds.items():
+        until(lambda topic=topic: shown.tick() or page.locator(f"[data-display='{topic}']").is_visible())
+        page.locator(f"[data-display='{topic}'] input[type=checkbox]").check()
+        until(lambda topic=topic, kind=kind: shown.tick() or kind in page.evaluate(DRAWN, topic))
+    page.get_by_label("Field that colours /scan").select_option("range")
+    until(lambda: shown.tick() or "BufferGeometry" in page.evaluate(DRAWN, "/scan"))
+    page.locator("#transforms summary").click()
+    until(lambda: shown.tick() or page.locator("[data-frame=base]").is_visible())
+    page.evaluate("urdfkit.viewport.fit(urdfkit.scene.bounds(), [-0.3, -1, 0.9], 9)")
+    drawn(page)
+    keep(page, "displays")
+    page.get_by_role("button", name="Put Displays below the view").click()
+    page.get_by_role("separator", name="Height of the panels below the view").press("ArrowUp")
+    page.get_by_role("button", name="Put Displays floating").press("Enter")
+    page.get_by_role("button", name="Put Displays at the side").press("ArrowDown")
+    assert page.evaluate("urdfkit.layout.state.panels.places.displays.at[1]") == 76
+    page.get_by_role("button", name="Put Displays at the side").press("Enter")
+    page.get_by_role("button", name="Put Displays below the view").press("Enter")
+
+    panel(page, "camera")
+    with page.expect_download() as saved:
+        page.get_by_role("button", name="Save layout").click()
+    layout = json.loads(Path(saved.value.path()).read_text())
+    assert {each["topic"] for each in layout["displays"]} == kinds.keys()
+    assert visits.problems == []
+    other = Shown(layout)
+    with other.server:
+        other.open()
+        second = visits.open(other.server.url, ready=False)
+        other.topics()
+        until(lambda: other.tick() or "ConeGeometry" in second.evaluate(DRAWN, "/range"))
+        assert second.locator("#panel-camera").is_visible()
+        assert second.locator("#strip #panel-displays").is_visible()
+        drawn(second)
+        keep(second, "layout")
+    visits.problems.clear()  # the browser reports the closed connection
+
+
+def test_a_goal_is_published_with_the_mouse_and_by_numbers(shown, visits, until) -> None:
+    page = visits.open(shown.server.url, ready=False)
+    shown.topics()
+    goals: list[Any] = []
+    shown.simulation.bus.subscribe("/goal_pose", "geometry_msgs/msg/PoseStamped", goals.append)
+    until(lambda: shown.tick() or page.locator("#tool-goal").is_visible())
+    page.evaluate("urdfkit.page.fit()")
+    page.locator("#tool-goal").click()
+    page.mouse.move(400, 400)
+    page.mouse.down()
+    page.mouse.move(500, 380, steps=3)
+    page.mouse.up()
+    until(lambda: shown.tick() or goals)
+    assert goals[0].header.frame_id == "map"
+    assert abs(goals[0].pose.orientation.w) < 0.9999
+    panel(page, "displays")
+    page.locator("#publish-pose summary").press("Enter")
+    page.locator("#pose-x").fill("3")
+    page.locator("#publish-goal").press("Enter")
+    until(lambda: shown.tick() or len(goals) == 2)
+    assert goals[1].pose.position.x == pytest.approx(3.0)

@@ -1,0 +1,125 @@
+// The display of one topic in the 3-D view, with its options: colour, size, the field that colours points, and decay.
+/* global MeshCat */
+
+import { build, dispose } from "./drawing.js";
+import { h } from "../page/dom.js";
+import { numberField } from "../page/number_field.js";
+
+const THREE = MeshCat.THREE;
+const MOST = 60; // drawings that are kept by the decay
+const COLOURS = ["#e0399b", "#0aa37f", "#e08a00", "#7a5cff", "#3b7df5", "#d6402f"];
+let count = 0;
+
+export class Display {
+  /** @param topic name and type; @param points whether its points have fields; @param options of a saved layout */
+  constructor(page, { topic, type, points }, options = {}) {
+    Object.assign(this, { page, topic, type, points });
+    this.options = { on: false, color: COLOURS[count++ % COLOURS.length], size: 1, decay: 0, field: "", ...options };
+    this.drawn = []; // {time, root, groups}
+    this.#row();
+    if (this.options.on) this.#subscribe(true);
+  }
+
+  get key() {
+    return `display:${this.topic}${this.options.field ? `:${this.options.field}` : ""}`;
+  }
+
+  #row() {
+    const id = `display-${this.topic.replaceAll(/\W/g, "-")}`;
+    this.box = h("input", { type: "checkbox", id, checked: this.options.on });
+    this.box.addEventListener("change", () => this.turn(this.box.checked));
+    this.fault = h("p.quiet.fault-line", { role: "status", hidden: true });
+    this.more = h("div.display-options", { hidden: !this.options.on }, ...this.#controls());
+    const label = h("label.check", { for: id, title: this.type }, this.box, h("span.name", {}, ` ${this.topic} `), h("small.quiet", {}, this.type.split("/").pop()));
+    this.item = h("li.display", { "data-display": this.topic }, label, this.fault, this.more);
+  }
+
+  #controls() {
+    const color = h("input", { type: "color", value: this.options.color, "aria-label": `Colour of ${this.topic}` });
+    color.addEventListener("input", () => this.#set({ color: color.value }));
+    const size = h("input", { type: "range", min: 0.2, max: 5, step: 0.1, value: this.options.size, "aria-label": `Size of ${this.topic}` });
+    size.addEventListener("input", () => this.#set({ size: size.valueAsNumber }));
+    if (!this.points) return [color, size];
+    this.field = h("select", { "aria-label": `Field that colours ${this.topic}` }, h("option", { value: "" }, "one colour"));
+    if (this.options.field) this.field.append(h("option", { value: this.options.field, selected: true }, this.options.field));
+    this.field.addEventListener("change", () => this.#set({ field: this.field.value }));
+    const decay = numberField({ min: 0, max: 60, step: 1, unit: "s", value: this.options.decay, "aria-label": `Decay of ${this.topic} [s]`, title: "Points are kept for this time" });
+    decay.addEventListener("change", () => this.#set({ decay: decay.valueAsNumber }));
+    return [color, size, this.field, h("label.inline", {}, "decay ", decay, h("span.unit", {}, "s"))];
+  }
+
+  #set(options) {
+    const on = this.options.on;
+    if (on && "field" in options) this.#subscribe(false);
+    Object.assign(this.options, options);
+    if (on && "field" in options) this.#subscribe(true);
+    const last = this.drawn.at(-1);
+    if (last) this.#show(last.time, last.content);
+    this.page.emit("displays", null);
+  }
+
+  turn(on) {
+    if (on === this.options.on) return;
+    this.options.on = this.box.checked = on;
+    this.more.hidden = !on;
+    this.#subscribe(on);
+    if (!on) this.clear();
+    this.page.emit("displays", null);
+  }
+
+  #subscribe(on) {
+    this.page.connection.subscribe(this.key, on);
+  }
+
+  take({ groups, poses, fault, time }) {
+    this.fault.hidden = !fault;
+    this.fault.textContent = fault ?? "";
+    const last = this.drawn.at(-1);
+    if (poses && last?.content.length === poses.length) {
+      last.content.forEach((group, i) => (group.pose = poses[i]));
+      last.groups.forEach((group, i) => place(group, poses[i]));
+      this.page.viewport.dirty();
+    } else if (groups) {
+      this.#show(time, groups);
+    }
+  }
+
+  #show(time, content) {
+    const { decay } = this.options;
+    while (this.drawn.length && (decay <= 0 || this.drawn.length >= MOST || this.drawn[0].time < time - decay || this.drawn.at(-1).time >= time)) this.#drop();
+    const root = new THREE.Group();
+    const options = { ...this.options, changed: () => this.page.viewport.dirty() };
+    const groups = content.map(({ pose, items }) => place(build(items, options), pose));
+    root.add(...groups);
+    root.traverse((object) => (object.userData.display = this.topic));
+    this.page.viewport.viewer.scene.add(root);
+    this.drawn.push({ time, root, groups, content });
+    const fields = content[0]?.items[0]?.fields;
+    if (fields && this.field && this.field.options.length <= 2) {
+      for (const name of fields) if (![...this.field.options].some(({ value }) => value === name)) this.field.append(h("option", { value: name }, name));
+    }
+    this.page.viewport.dirty();
+  }
+
+  #drop() {
+    dispose(this.drawn.shift().root);
+  }
+
+  clear() {
+    while (this.drawn.length) this.#drop();
+    this.fault.hidden = true;
+    this.page.viewport.dirty();
+  }
+
+  remove() {
+    if (this.options.on) this.#subscribe(false);
+    this.clear();
+    this.item.remove();
+  }
+}
+
+function place(group, pose) {
+  group.position.set(pose[0], pose[1], pose[2]);
+  group.quaternion.set(pose[3], pose[4], pose[5], pose[6]);
+  return group;
+}

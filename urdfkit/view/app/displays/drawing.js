@@ -1,0 +1,201 @@
+// Three.js objects of the items of a display: lines, arrows, shapes, maps and points.
+/* global MeshCat */
+
+const THREE = MeshCat.THREE;
+const X = new THREE.Vector3(1, 0, 0);
+const MANY = 40; // arrows beyond this number are lines
+const ABOVE = 0.003; // m above its plane, so that a map does not flicker with the ground
+const METRES = { N: 0.02, "N·m": 0.2 }; // length of an arrow per unit
+
+/** The objects of the items in one frame. @param options {color, size, changed} */
+export function build(items, options) {
+  const group = new THREE.Group();
+  const arrows = items.filter((item) => item.arrow);
+  if (arrows.length > MANY) group.add(arrowLines(arrows, options));
+  for (const item of items) {
+    if (item.arrow && arrows.length > MANY) continue;
+    const kind = Object.keys(MAKE).find((name) => name in item);
+    const object = kind && MAKE[kind](item, options);
+    if (object) group.add(object);
+  }
+  return group;
+}
+
+export function dispose(group) {
+  group.traverse((object) => {
+    object.geometry?.dispose();
+    object.material?.map?.dispose();
+    object.material?.dispose();
+  });
+  group.parent?.remove(group);
+}
+
+const MAKE = {
+  line: ({ line, ...item }, options) => placed(new THREE.Line(vertices(line, item.colors), material(THREE.LineBasicMaterial, item, options)), item.pose),
+  segments: ({ segments, ...item }, options) => placed(new THREE.LineSegments(vertices(segments, item.colors), material(THREE.LineBasicMaterial, item, options)), item.pose),
+  arrow: (item, options) => arrow(new THREE.Vector3(...item.arrow), X.clone().applyQuaternion(turn(item.arrow)), item.length * options.size, colour(item, options)),
+  vector: vector,
+  ellipsoid: ({ ellipsoid, axes }, options) => {
+    const mesh = new THREE.Mesh(new THREE.SphereGeometry(1, 24, 16), clear(options.color, 0.35));
+    mesh.scale.set(...axes.map((axis) => Math.max(axis, 1e-3)));
+    return placed(mesh, ellipsoid);
+  },
+  sector: ({ sector, angle, length }, options) => placed(new THREE.Mesh(new THREE.CircleGeometry(length * options.size, 24, -angle, 2 * angle), clear(options.color, 0.35)), sector),
+  cone: ({ cone, angle }, options) => {
+    const radius = Math.max(1e-3, cone * Math.tan(Math.min(angle, 3) / 2));
+    return new THREE.Mesh(new THREE.ConeGeometry(radius, cone, 32, 1, true).rotateZ(Math.PI / 2).translate(cone / 2, 0, 0), clear(options.color, 0.35));
+  },
+  cells: ({ cells, size }, options) => copies(new THREE.PlaneGeometry(...size), cells, [1, 1, 1], null, material(THREE.MeshBasicMaterial, { side: THREE.DoubleSide }, options)),
+  map: map,
+  points: points,
+  dots: ({ dots, ...item }, options) => placed(new THREE.Points(vertices(dots, item.colors), material(THREE.PointsMaterial, item, options, { size: item.size, sizeAttenuation: true })), item.pose),
+  shape: shape,
+  text: text,
+  triangles: ({ triangles, ...item }, options) => {
+    const geometry = vertices(triangles, item.colors);
+    geometry.computeVertexNormals();
+    const mesh = placed(new THREE.Mesh(geometry, material(THREE.MeshLambertMaterial, item, options, { side: THREE.DoubleSide })), item.pose);
+    mesh.scale.set(...item.scale);
+    return mesh;
+  },
+};
+
+const turn = (pose) => new THREE.Quaternion(pose[3], pose[4], pose[5], pose[6]);
+
+function placed(object, pose) {
+  if (!pose) return object;
+  object.position.set(pose[0], pose[1], pose[2]);
+  object.quaternion.copy(turn(pose));
+  return object;
+}
+
+function vertices(flat, colors) {
+  const geometry = new THREE.BufferGeometry();
+  geometry.setAttribute("position", new THREE.Float32BufferAttribute(flat, 3));
+  if (colors) geometry.setAttribute("color", new THREE.Float32BufferAttribute(colors.flatMap(([r, g, b]) => [r, g, b]), 3));
+  return geometry;
+}
+
+// The colour of a marker, or that of the display.
+function colour({ color }, options) {
+  return color ? new THREE.Color(...color.slice(0, 3)) : new THREE.Color(options.color);
+}
+
+function material(Kind, item, options, more = {}) {
+  const opacity = item.color?.[3] ?? 1;
+  const side = item.side ? { side: item.side } : {};
+  const own = item.colors ? { vertexColors: true } : { color: colour(item, options) };
+  return new Kind({ ...own, opacity, transparent: opacity < 1, ...side, ...more });
+}
+
+function clear(color, opacity) {
+  return new THREE.MeshBasicMaterial({ color, opacity, transparent: true, depthWrite: false, side: THREE.DoubleSide });
+}
+
+function arrow(from, direction, length, color) {
+  if (!(length > 1e-6)) return null;
+  return new THREE.ArrowHelper(direction.normalize(), from, length, color, Math.min(0.3 * length, 0.15), Math.min(0.18 * length, 0.08));
+}
+
+function arrowLines(items, options) {
+  const flat = [];
+  for (const { arrow: pose, length } of items) {
+    const quaternion = turn(pose);
+    const from = new THREE.Vector3(...pose);
+    const put = (...local) => new THREE.Vector3(...local).multiplyScalar(length * options.size).applyQuaternion(quaternion).add(from).toArray();
+    const tip = put(1, 0, 0);
+    flat.push(...from.toArray(), ...tip, ...tip, ...put(0.75, 0.12, 0), ...tip, ...put(0.75, -0.12, 0));
+  }
+  return new THREE.LineSegments(vertices(flat), new THREE.LineBasicMaterial({ color: options.color }));
+}
+
+function vector(item, options) {
+  const direction = new THREE.Vector3(...item.vector);
+  const length = direction.length() * (item.unit ? METRES[item.unit] * options.size : 1);
+  const color = item.about ? new THREE.Color(0xf5a524) : colour(item, options);
+  const made = arrow(new THREE.Vector3(...(item.from ?? [0, 0, 0])), direction, length, color);
+  return made && placed(new THREE.Group().add(made), item.pose);
+}
+
+function map({ map: content, pose, size }, options) {
+  const texture = new THREE.TextureLoader().load(`data:image/png;base64,${content}`, options.changed);
+  texture.magFilter = THREE.NearestFilter;
+  const plane = new THREE.PlaneGeometry(...size).translate(size[0] / 2, size[1] / 2, ABOVE);
+  return placed(new THREE.Mesh(plane, new THREE.MeshBasicMaterial({ map: texture, transparent: true, depthWrite: false, side: THREE.DoubleSide })), pose);
+}
+
+function floats(text) {
+  return new Float32Array(bytes(text).buffer);
+}
+
+function bytes(text) {
+  return Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0));
+}
+
+function points(item, options) {
+  const geometry = new THREE.BufferGeometry();
+  const position = floats(item.points);
+  geometry.setAttribute("position", new THREE.BufferAttribute(position, 3));
+  const coloured = item.colors || (item.values && options.field !== "");
+  if (item.colors) geometry.setAttribute("color", new THREE.BufferAttribute(bytes(item.colors), 3, true));
+  else if (coloured) geometry.setAttribute("color", new THREE.BufferAttribute(scale(floats(item.values), item.range), 3));
+  const look = coloured ? { vertexColors: true } : { color: options.color };
+  const made = new THREE.Points(geometry, new THREE.PointsMaterial({ ...look, size: 3 * options.size, sizeAttenuation: false }));
+  made.frustumCulled = false;
+  return made;
+}
+
+// From blue to red, as RViz colours intensities.
+function scale(values, [low, high]) {
+  const colours = new Float32Array(3 * values.length);
+  const color = new THREE.Color();
+  for (let i = 0; i < values.length; i += 1) {
+    const part = high > low ? (values[i] - low) / (high - low) : 0;
+    color.setHSL(0.67 * (1 - Math.min(1, Math.max(0, part))), 1, 0.5).toArray(colours, 3 * i);
+  }
+  return colours;
+}
+
+const GEOMETRIES = {
+  cube: () => new THREE.BoxGeometry(1, 1, 1),
+  sphere: () => new THREE.SphereGeometry(0.5, 20, 14),
+  cylinder: () => new THREE.CylinderGeometry(0.5, 0.5, 1, 24).rotateX(Math.PI / 2),
+};
+
+function shape(item, options) {
+  const geometry = GEOMETRIES[item.shape]();
+  const { colors, ...single } = item;
+  if (item.at) return placed(copies(geometry, item.at, item.scale, colors, material(THREE.MeshLambertMaterial, single, options)), item.pose);
+  const mesh = placed(new THREE.Mesh(geometry, material(THREE.MeshLambertMaterial, single, options)), item.pose);
+  mesh.scale.set(...item.scale.map((part) => part || 1e-3));
+  return mesh;
+}
+
+function copies(geometry, flat, size, colors, look) {
+  const count = flat.length / 3;
+  if (colors) look.color.set(0xffffff);
+  const mesh = new THREE.InstancedMesh(geometry, look, count);
+  const matrix = new THREE.Matrix4();
+  for (let i = 0; i < count; i += 1) {
+    mesh.setMatrixAt(i, matrix.makeScale(...size.map((part) => part || 1e-3)).setPosition(flat[3 * i], flat[3 * i + 1], flat[3 * i + 2]));
+    if (colors) mesh.setColorAt(i, new THREE.Color(...colors[i].slice(0, 3)));
+  }
+  mesh.frustumCulled = false;
+  return mesh;
+}
+
+function text(item, options) {
+  const canvas = document.createElement("canvas");
+  const pen = canvas.getContext("2d");
+  const font = "600 48px system-ui, sans-serif";
+  pen.font = font;
+  canvas.width = Math.ceil(pen.measureText(item.text).width) + 8;
+  canvas.height = 60;
+  pen.font = font;
+  pen.fillStyle = `#${colour(item, options).getHexString()}`;
+  pen.fillText(item.text, 4, 46);
+  const sprite = new THREE.Sprite(new THREE.SpriteMaterial({ map: new THREE.CanvasTexture(canvas), transparent: true, depthTest: false }));
+  sprite.scale.set((item.size * canvas.width) / 48, (item.size * canvas.height) / 48, 1);
+  sprite.position.set(...item.pose.slice(0, 3));
+  return sprite;
+}
