@@ -84,7 +84,9 @@ class Shown:
         marks = [
             {**mark, "pose": {**place, "position": {**place["position"], "y": 0.5 * k}}} for k, mark in enumerate(marks)
         ]
-        marks.append({**marks[0], "id": 9, "type": 9, "text": "kitchen"})
+        marks.append(
+            {**marks[1], "id": 9, "type": 9, "text": "kitchen", "pose": {"position": {"x": 2.0, "y": 0.5, "z": 0.6}}}
+        )
         kind = "visualization_msgs/msg/MarkerArray"
         from urdfkit.messages import from_fields
 

@@ -24,7 +24,7 @@ DISPLAY, FRAMES = "display:", "frames"
 """Key of a display, with its topic and after another colon the field that colours points; key of the frames."""
 TYPES = (*KINDS, *CLOUDS, MARKER, MARKERS)
 """Types of messages that have a display."""
-FIXED = ("nav_msgs/msg/OccupancyGrid", "nav_msgs/msg/GridCells", "nav_msgs/msg/Path", MARKER, MARKERS)
+FIXED = ("nav_msgs/msg/OccupancyGrid", "nav_msgs/msg/GridCells", "nav_msgs/msg/Path")
 """Types whose drawings follow their frame after the message."""
 PERIOD = 0.1
 """Minimum seconds between two messages of a display."""

@@ -85,6 +85,27 @@ def wrench(message: Any) -> list[Item]:
     return [{"vector": force, "unit": "N"}, {"vector": torque, "unit": "N·m", "about": True}]
 
 
+def polygon(message: Any) -> list[Item]:
+    """Return the closed line of a PolygonStamped."""
+    points = [xyz_of(each) for each in message.polygon.points]
+    return [{"line": [x for each in (*points, *points[:1]) for x in each]}]
+
+
+def twist(message: Any) -> list[Item]:
+    """Return the arrows of a TwistStamped: linear [m/s] and angular velocity [rad/s]."""
+    return _motion(message.twist, "m/s", "rad/s")
+
+
+def acceleration(message: Any) -> list[Item]:
+    """Return the arrows of an AccelStamped: linear [m/s²] and angular acceleration [rad/s²]."""
+    return _motion(message.accel, "m/s²", "rad/s²")
+
+
+def _motion(value: Any, linear: str, angular: str) -> list[Item]:
+    about = {"vector": xyz_of(value.angular), "unit": angular, "about": True}
+    return [{"vector": xyz_of(value.linear), "unit": linear}, about]
+
+
 def range_cone(message: Any) -> list[Item]:
     """Return the cone of a Range along x, empty when nothing was measured."""
     if not math.isfinite(message.range):
@@ -209,6 +230,9 @@ KINDS: dict[str, Callable[[Any], list[Item]]] = {
     "geometry_msgs/msg/PoseArray": poses,
     "geometry_msgs/msg/PoseWithCovarianceStamped": pose_with_covariance,
     "geometry_msgs/msg/PointStamped": point,
+    "geometry_msgs/msg/PolygonStamped": polygon,
+    "geometry_msgs/msg/TwistStamped": twist,
+    "geometry_msgs/msg/AccelStamped": acceleration,
     "geometry_msgs/msg/WrenchStamped": wrench,
     "sensor_msgs/msg/Range": range_cone,
 }

@@ -5,7 +5,7 @@ const THREE = MeshCat.THREE;
 const X = new THREE.Vector3(1, 0, 0);
 const MANY = 40; // arrows beyond this number are lines
 const ABOVE = 0.003; // m above its plane, so that a map does not flicker with the ground
-const METRES = { N: 0.02, "N·m": 0.2 }; // length of an arrow per unit
+const METRES = { N: 0.02, "N·m": 0.2, "m/s": 1, "rad/s": 0.5, "m/s²": 0.1, "rad/s²": 0.1 }; // length of an arrow per unit
 
 /** The objects of the items in one frame. @param options {color, size, changed} */
 export function build(items, options) {
@@ -121,7 +121,9 @@ function map({ map: content, pose, size }, options) {
   const texture = new THREE.TextureLoader().load(`data:image/png;base64,${content}`, options.changed);
   texture.magFilter = THREE.NearestFilter;
   const plane = new THREE.PlaneGeometry(...size).translate(size[0] / 2, size[1] / 2, ABOVE);
-  return placed(new THREE.Mesh(plane, new THREE.MeshBasicMaterial({ map: texture, transparent: true, depthWrite: false, side: THREE.DoubleSide })), pose);
+  const mesh = placed(new THREE.Mesh(plane, new THREE.MeshBasicMaterial({ map: texture, transparent: true, depthWrite: false, side: THREE.DoubleSide })), pose);
+  mesh.renderOrder = -0.5; // above the grid of the ground, below all other transparent objects
+  return mesh;
 }
 
 function floats(text) {
@@ -197,5 +199,6 @@ function text(item, options) {
   const sprite = new THREE.Sprite(new THREE.SpriteMaterial({ map: new THREE.CanvasTexture(canvas), transparent: true, depthTest: false }));
   sprite.scale.set((item.size * canvas.width) / 48, (item.size * canvas.height) / 48, 1);
   sprite.position.set(...item.pose.slice(0, 3));
+  sprite.renderOrder = 30;
   return sprite;
 }

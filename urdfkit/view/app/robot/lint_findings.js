@@ -51,7 +51,7 @@ export function findings(page) {
       const words = `${found.length} finding${found.length > 1 ? "s" : ""} on ${link}`;
       const badge = h("button.badge", { type: "button", title: words, "aria-label": words }, h("span", {}, String(found.length)));
       badge.dataset.tone = worst(found);
-      badge.dataset.link = link;
+      Object.assign(badge.dataset, { link, count: found.length, words });
       badge.addEventListener("click", () => about(link));
       return page.labels.add(badge, () => middle(page, link));
     });

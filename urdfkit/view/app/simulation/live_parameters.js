@@ -89,7 +89,7 @@ export function liveParameters(page) {
     const fits = (text) => text.toLowerCase().includes(words);
     if (!gravity.contains(document.activeElement)) gravityRow();
     if (!table.contains(document.activeElement)) {
-      const head = h("thead", {}, h("tr", {}, h("th", {}, ""), h("th", {}, "mass [kg]"), h("th", {}, "mu")));
+      const head = h("thead", {}, h("tr", {}, h("th", {}, "body"), h("th", {}, "mass [kg]"), h("th", {}, "mu")));
       const rows = state.rows.filter(({ name, link }) => fits(`${name} ${link}`));
       table.replaceChildren(head, h("tbody", {}, ...rows.map(row)));
     }

@@ -4,6 +4,7 @@
 import { h } from "../page/dom.js";
 
 const THREE = MeshCat.THREE;
+const PILE = 14; // px between badges that are shown as one
 
 export class Labels {
   constructor(page) {
@@ -46,7 +47,7 @@ export class Labels {
   }
 
   place() {
-    const names = [];
+    const [names, badges] = [[], []];
     const { camera } = this.viewport.viewer;
     for (const [element, where] of this.kept) {
       const point = where();
@@ -54,9 +55,11 @@ export class Labels {
       element.hidden = !seen;
       if (!seen) continue;
       element.style.transform = `translate(${x.toFixed(1)}px, ${y.toFixed(1)}px)`;
+      if (element.dataset.count) badges.push({ element, x, y, away: camera.position.distanceTo(point) });
       if (element.dataset.name) names.push({ element, x, y, away: this.wanted.has(element.dataset.name) ? -1 : camera.position.distanceTo(point) });
     }
     this.#declutter(names);
+    this.#merge(badges);
   }
 
   /** Labels that are shown even if others overlap them. */
@@ -73,6 +76,25 @@ export class Labels {
       const covered = shown.some((other) => x < other.x + other.width && other.x < x + width && y < other.y + other.height && other.y < y + height);
       element.toggleAttribute("data-covered", covered);
       if (!covered) shown.push({ x, y, width, height });
+    }
+  }
+
+  // Of badges that pile up only the nearest is shown, with the sum of their counts.
+  #merge(badges) {
+    const shown = [];
+    for (const badge of badges.sort((a, b) => a.away - b.away)) {
+      const first = shown.find((other) => Math.hypot(badge.x - other.x, badge.y - other.y) < PILE);
+      badge.element.toggleAttribute("data-covered", Boolean(first));
+      if (first) first.merged.push(badge.element);
+      else shown.push({ ...badge, merged: [badge.element] });
+    }
+    for (const { element, merged } of shown) {
+      const count = String(merged.reduce((sum, each) => sum + Number(each.dataset.count), 0));
+      const words = merged.map((each) => each.dataset.words).join("\n");
+      if (element.title === words) continue;
+      element.title = words;
+      element.setAttribute("aria-label", words);
+      element.firstChild.textContent = count;
     }
   }
 
