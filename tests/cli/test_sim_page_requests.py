@@ -323,7 +323,7 @@ def test_objects_come_move_and_go(ride) -> None:
     for order, values, line in (
         ("remove", {"name": "simpleton"}, "cannot be removed"),
         ("remove", {"name": "crait"}, "did you mean"),
-        ("restore", {"name": "crait"}, "was not removed from this world, did you mean `crate`"),
+        ("restore", {"name": "crait"}, "was not removed from this world; did you mean `crate`"),
         ("duplicate", {"name": "simpleton", "pose": [0.0, 0.0, 0.0]}, "insert another one from the library"),
         ("spawn", {"model": "crait"}, "did you mean `crate`"),
         ("spawn", {"model": "../../etc/passwd"}, "unknown model or robot"),
