@@ -12,7 +12,7 @@ export class History {
     this.page = page;
     this.done = [];
     this.undone = [];
-    this.busy = false;
+    this.queue = Promise.resolve(); // steps that are requested quickly follow each other
     const button = (id, path, run) => h("button.bare", { type: "button", id, onclick: run }, icon(path));
     this.buttons = { undo: button("undo", UNDO, () => this.undo()), redo: button("redo", REDO, () => this.redo()) };
     document.querySelector(".bar .space").before(this.buttons.undo, this.buttons.redo);
@@ -36,17 +36,16 @@ export class History {
   }
 
   undo() {
-    return this.#step(this.done, this.undone, "undo");
+    return (this.queue = this.queue.then(() => this.#step(this.done, this.undone, "undo")));
   }
 
   redo() {
-    return this.#step(this.undone, this.done, "redo");
+    return (this.queue = this.queue.then(() => this.#step(this.undone, this.done, "redo")));
   }
 
   async #step(from, to, name) {
     const change = from.at(-1);
-    if (!change || this.busy) return;
-    this.busy = true;
+    if (!change) return;
     try {
       await change[name]();
       to.push(from.pop());
@@ -54,7 +53,6 @@ export class History {
     } catch (error) {
       this.page.toast(error.message, "error");
     }
-    this.busy = false;
     this.#show();
   }
 
