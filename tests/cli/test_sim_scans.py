@@ -95,7 +95,7 @@ def test_an_option_that_cannot_be_saved_is_an_error(
     "option", ["--save-scan=/scan={}.json", "--save-image=/image={}.png", "--save-world={}.sdf", "--record={}.mcap"]
 )
 def test_places_are_looked_at_before_anything_runs(tmp_path: Path, capsys: Capture, monkeypatch, option: str) -> None:
-    monkeypatch.setattr("urdfkit.cli.sim.run_command.load", lambda _: pytest.fail("the run has started"))
+    monkeypatch.setattr("urdfkit.cli.sim.run_command.load", lambda *_: pytest.fail("the run has started"))
     (tmp_path / "seen").mkdir()
     wrong = option.format(tmp_path / "sene" / "x")
     assert main(["sim", "run", LASER, "--for", "9", f"--save-scan=/scan={tmp_path / 'v.csv'}", wrong]) == 2
