@@ -51,7 +51,8 @@ def shown_commands(page: Path) -> list[str]:
 
 def run(command: str, folder: Path) -> None:
     words = [sys.executable, "-m", "urdfkit", *shlex.split(command)[1:]]
-    if command.startswith(tuple(f"urdfkit {name}" for name in SERVES)):
+    is_file = {"--image", "--video"} & set(words)
+    if command.startswith(tuple(f"urdfkit {name}" for name in SERVES)) and not is_file:
         served = [*words, "--no-browser", "--port", "0"]
         with running(served, cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as process:
             assert process.stdout is not None

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 from urdfkit.app.page import Page, note, require_page, until_interrupted
 from urdfkit.cli.page_options import add_page_options, announce, read_layout
 from urdfkit.cli.parser import add_model
+from urdfkit.cli.picture_options import add_picture_options, check_picture_options, write_pictures
 from urdfkit.cli.robot_arguments.file_name_case import warn_of_file_names
 from urdfkit.cli.robot_arguments.launch_arguments import add_launch_arguments, with_launch_arguments
 from urdfkit.cli.robot_arguments.macro_option import add_macro, with_macro
@@ -36,19 +37,25 @@ def configure(parser: argparse.ArgumentParser) -> None:
         help="show the state of a real robot: ros1, ros2 or rosbridge://HOST:PORT; and drive it from the page",
     )
     parser.add_argument("--fixed-frame", metavar="FRAME", help="with --live: frame in which everything is shown")
+    add_picture_options(parser)
     add_strict(parser, "a placeholder for a missing mesh")
     parser.epilog = (
         "examples:\n  urdfkit view simpleton\n  urdfkit view urdf/robot.urdf.xacro use_camera:=true --port 8080\n"
-        "  urdfkit view simpleton --html simpleton.html"
+        "  urdfkit view simpleton --html simpleton.html\n"
+        "  urdfkit view simpleton --image simpleton.png --size 800,600\n"
+        "  urdfkit view seven_dof_arm --video arm.gif --motion joints"
     )
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Serve until interrupted, or write the page to a file."""
+    """Serve until interrupted, or write the page or pictures to files."""
     if arguments.fixed_frame is not None and arguments.live is None:
         raise UsageError("--fixed-frame is an option of --live ros1, ros2 or rosbridge://HOST:PORT")
     if arguments.live is not None and arguments.html is not None:
         raise UsageError("--html writes a page without a server, so it cannot be combined with --live")
+    is_picture = arguments.image is not None or arguments.video is not None
+    if is_picture and arguments.live is not None:
+        raise UsageError("--image and --video show a robot of a file, so they cannot be combined with --live")
     require_page("view", "view", modules=("rosbags",))
     from urdfkit.app.page_modes import view_and_simulate
     from urdfkit.app.repair_findings import note_repairs
@@ -58,6 +65,8 @@ def run(arguments: argparse.Namespace) -> int:
     from urdfkit.atomic import write_text
     from urdfkit.resources import find_model
 
+    if is_picture:
+        check_picture_options(arguments)
     check_places("--html", [Path(arguments.html)] if arguments.html is not None else [])
     named = with_macro(find_model(arguments.model, package_path=arguments.package_path), arguments)
     model = with_launch_arguments(named, arguments)
@@ -71,8 +80,12 @@ def run(arguments: argparse.Namespace) -> int:
             note_repairs(shown.repairs)
         return shown
 
+    if is_picture:
+        write_pictures(arguments, shown := read())
+        if arguments.html is None:
+            return 0
     if arguments.html is not None:
-        shown = read()
+        shown = shown if is_picture else read()
         html = html_page(model, shown)
         write_text(Path(arguments.html), html)
         if not arguments.quiet:
