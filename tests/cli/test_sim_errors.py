@@ -171,7 +171,7 @@ REPAIRED = {
     "inertia of no body": ("inertia", "I503", ":10:5: the inertia of link `arm` is impossible: "),
     "inertia of no body at the root": ("inertia", "I503", ":3:5: the inertia of link `base` is"),
     "no collision left, for want of its mesh": ("mesh", "G601", ": no file arm.stl; shape `base/collision/0` is left"),
-    "size below zero": ("shape", "G611", ":10:104: link `arm`: the <box> of a collision shape has the size -0.1 m; "),
+    "size below zero": ("shape", "G611", ":10:104: the box of link `arm` has a size of -0.1 m; it must be positive; "),
 }
 """Defect → kind of its repair, code of the lint rule, and part of the message."""
 
