@@ -35,6 +35,10 @@ def require_message_types() -> None:
         raise MissingDependencyError("messages need rosbags: pip install 'urdfkit[sim]'")
 
 
+_MODULE = "rosbags.usertypes"
+"""Module in which pickle finds the classes of registered types."""
+
+
 @cache
 def message_type(name: str) -> Any:
     """Return the class of a message type such as ``geometry_msgs/msg/Twist``.
@@ -120,11 +124,23 @@ def register_types(name: str, text: str) -> dict[str, Any]:
     return found
 
 
+def register_in(store: Any, layouts: Mapping[str, Any]) -> None:
+    """Add types to a typestore; pickle still finds the earlier classes, whose module rosbags replaces."""
+    import sys
+
+    before = sys.modules.get(_MODULE)
+    store.register(dict(layouts))
+    if before is not None:
+        for name, value in vars(sys.modules[_MODULE]).items():
+            vars(before).setdefault(name, value)
+        sys.modules[_MODULE] = before
+
+
 def register_layouts(layouts: Mapping[str, Any]) -> None:
     """Add the unknown ones of types, by rosbags' descriptions of their fields."""
     store = typestore()
     if new := {name: layout for name, layout in layouts.items() if name not in store.fielddefs}:
-        store.register(new)
+        register_in(store, new)
         for cached in (message_type, _types, _layouts):
             cached.cache_clear()
 

@@ -11,7 +11,7 @@ from hashlib import md5
 from typing import Any, NamedTuple
 
 from urdfkit.bridges.node.node import UnknownTypeError
-from urdfkit.messages import register_types, typestore
+from urdfkit.messages import register_in, register_types, typestore
 from urdfkit.messages.conversion import converted
 
 ANY = "*"
@@ -32,7 +32,7 @@ def ros1_typestore() -> Any:
     from rosbags.typesys import Stores, get_typestore
 
     store = get_typestore(Stores.ROS1_NOETIC)
-    store.register({name: layout for name, layout in typestore().fielddefs.items() if name not in store.fielddefs})
+    register_in(store, {name: layout for name, layout in typestore().fielddefs.items() if name not in store.fielddefs})
     return store
 
 
@@ -91,7 +91,7 @@ def register(type: str, text: str) -> None:
         UsageError: the text is no definition.
     """
     found, store = register_types(type, text), ros1_typestore()
-    store.register({name: layout for name, layout in found.items() if name not in store.fielddefs})
+    register_in(store, {name: layout for name, layout in found.items() if name not in store.fielddefs})
     definition.cache_clear()
 
 
