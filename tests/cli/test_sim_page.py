@@ -363,6 +363,8 @@ def test_changes_are_undone_and_redone_by_the_keyboard_alone(page, until) -> Non
     page.locator("#open-world").press("Enter")
     page.locator("#library-filter").fill("crate")
     page.locator(".library-entry").first.press("Enter")
+    page.locator("#insert-y").fill("2")  # away from the robot, which would push it
+    page.locator("#insert-y").press("Enter")
     page.locator("#insert-typed").press("Enter")
     until(lambda: "crate" in names(page))
     page.locator("[data-object=crate] button").press("Enter")
