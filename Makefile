@@ -8,12 +8,14 @@ SOURCES := pyproject.toml tests/constraints.txt
 CODE := $(CURDIR)/build/machine_code
 
 .DEFAULT_GOAL := help
-.PHONY: help run test quick ros2-nodes bench fidelity soak wheel clean
+.PHONY: help run test quick docs docs-serve ros2-nodes bench fidelity soak wheel clean
 
 help:
 	@echo "make run    install into $(VENV) and drive Simpleton in the browser"
 	@echo "make test   install the test tools too, then run every check and test"
 	@echo "make quick  run the quick tests: no browser, no builds of ROS packages, nothing that takes seconds"
+	@echo "make docs   build the documentation site into build/site; broken links and misspelt words are errors"
+	@echo "make docs-serve  serve the site at http://127.0.0.1:8000 and rebuild it after each save"
 	@echo "make fidelity  measure us and the peers beside closed forms, into docs/fidelity.md"
 	@echo "make bench  run us and the peers side by side and print ratios"
 	@echo "make soak   compare both engines on 1,000 states of each robot, then drive each for 30 minutes in the house"
@@ -33,6 +35,13 @@ test: $(VENV)/.test
 
 quick: $(VENV)/.test
 	$(BIN)/python -m pytest -q -n 2 --dist worksteal -m "not slow and not browser and not catkin and not colcon and not sdformat" $(ARGS)
+
+docs: $(VENV)/.test
+	NO_MKDOCS_2_WARNING=1 $(BIN)/mkdocs build --quiet --strict --config-file docs/site/mkdocs.yml
+	@echo "the site: build/site/index.html"
+
+docs-serve: $(VENV)/.test
+	NO_MKDOCS_2_WARNING=1 $(BIN)/mkdocs serve --config-file docs/site/mkdocs.yml
 
 bench: $(VENV)/.bench
 	$(BIN)/python tests/bench/bench_lint.py

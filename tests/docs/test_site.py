@@ -1,0 +1,64 @@
+"""The site builds without warnings: links, anchors, spelling; every command, rule and public name has a page."""
+
+from __future__ import annotations
+
+import os
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+import urdfkit
+from urdfkit.cli import COMMANDS
+from urdfkit.errors import UsageError
+from urdfkit.lint.catalogue import rules
+from urdfkit.lint.engine import settings
+
+ROOT = Path(__file__).parents[2]
+
+
+@pytest.mark.slow
+def test_the_strict_build_has_every_page(tmp_path: Path) -> None:
+    pytest.importorskip("mkdocstrings")
+    pytest.importorskip("numba")
+    command = [sys.executable, "-m", "mkdocs", "build", "--quiet", "--strict", "--site-dir", str(tmp_path)]
+    done = subprocess.run(
+        [*command, "--config-file", str(ROOT / "docs/site/mkdocs.yml")],
+        capture_output=True,
+        text=True,
+        check=False,
+        env={**os.environ, "PYTHONPATH": str(ROOT), "NO_MKDOCS_2_WARNING": "1"},
+    )
+    assert done.returncode == 0, done.stdout + done.stderr
+    reference = tmp_path / "reference"
+    assert {page.stem for page in (reference / "commands").glob("*.html")} == {"index", *COMMANDS}
+    assert {page.stem for page in (reference / "rules").glob("*.html")} == {"index", *(rule.code for rule in rules())}
+    names = {*urdfkit.__all__} - {"__version__"}
+    assert {page.stem for page in (reference / "api").glob("*.html") if "." not in page.stem} == {"index", *names}
+    assert 'id="use-instead"' in (reference / "rules/I503.html").read_text("utf-8")
+    lint = (reference / "commands/lint.html").read_text("utf-8")
+    assert all(f"<code>{option}</code>" in lint for option in ("--fix", "--select", "--baseline"))
+    assert "The same seed and the same calls give bit-identical results." in (
+        reference / "api/Simulator.html"
+    ).read_text("utf-8")
+
+
+def test_the_page_of_settings_lists_each_and_its_example_is_valid(tmp_path: Path) -> None:
+    page = (ROOT / "docs/configuration.md").read_text("utf-8")
+    example = re.search(r"^```toml title=\"urdfkit.toml\"\n(.*?)^```", page, re.MULTILINE | re.DOTALL)
+    assert example is not None
+    file = tmp_path / "project/urdfkit.toml"
+    file.parent.mkdir()
+    (tmp_path / "common_ws/src").mkdir(parents=True)
+    file.write_text(example[1])
+    assert settings.read(file).indent == 4
+    for table in ("lint", "format"):
+        file.write_text(f"[{table}]\nqqqqqqqq = 1\n")
+        with pytest.raises(UsageError, match="the settings are") as refused:
+            settings.read(file)
+        listed = str(refused.value).partition("the settings are ")[2].split(", ")
+        rows = page.partition(f"## Settings of `[{table}]`")[2].partition("\n## ")[0]
+        assert re.findall(r"^\| `([\w-]+)` \|", rows, re.MULTILINE) == listed
+        assert all(re.search(rf"^{name} = |^\[lint\.{name}\]", example[1], re.MULTILINE) for name in listed)
