@@ -133,6 +133,7 @@ def test_lints_clean_loads_is_seen_and_moves(robot_template, tmp_path, arm_joint
     for file in tmp_path.rglob("*"):
         if file.is_file():
             assert not re.search(r"@[a-z_0-9]+@", file.read_text()), file
+    assert main(["format", "--check", str(tmp_path)]) == 0
     assert main(["view", str(path), "--html", f"{tmp_path}/page.html", "--quiet"]) == 0
 
     notes = []
