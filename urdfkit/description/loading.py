@@ -16,12 +16,12 @@ from urdfkit.description.value_defects import repaired_values, require_valid_val
 from urdfkit.description.xacro.declared_arguments import unused_arguments
 from urdfkit.description.xacro.evaluation.failures import chain_words
 from urdfkit.description.xacro.expand import expand as expand_file
-from urdfkit.description.xacro.expand import is_xacro
+from urdfkit.description.xacro.expand import expand_leniently, is_xacro
 from urdfkit.description.xacro.expanded import Expanded
 from urdfkit.description.xml.element import Element
 from urdfkit.description.xml.reader import read_source
 from urdfkit.description.xml.source import absolute
-from urdfkit.errors import ModelError, UsageError, did_you_mean
+from urdfkit.errors import ModelError, UsageError, XacroError, did_you_mean
 from urdfkit.resources import ModelArgument, find_model
 
 OTHER_ROOTS = {
@@ -108,7 +108,7 @@ def load_repaired(
 
     Returns:
         A robot that is one valid tree, with the `repairs` that it needed; see `repaired_structure` and
-            `repaired_values`.
+            `repaired_values`. Includes and macros that do not exist are left out (`without_unknown_values`).
 
     Raises:
         UsageError: see `load`.
@@ -122,7 +122,7 @@ def load_repaired(
         return robot
     if not isinstance(robot, ModelArgument):
         robot = model_argument(robot, arguments=arguments, package_path=package_path)
-    repaired = _repaired(_load(robot, require_links))
+    repaired = _repaired(_load(robot, require_links, repairs=True))
     refuse_unused(arguments, repaired.files)
     return repaired
 
@@ -140,21 +140,30 @@ def repaired_robot_of_text(text: str, *, package_path: Iterable[str | Path] = ()
 def _repaired(robot: Robot) -> Robot:
     repaired, defects = repaired_structure(robot)
     repaired, values = repaired_values(repaired)
-    repairs = (*(defect.repair for defect in defects), *values)
+    repairs = (*robot.repairs, *(defect.repair for defect in defects), *values)
     return replace(repaired, repairs=tuple(at_attributes(repairs))) if repairs else repaired
 
 
-def _load(model: ModelArgument, check: Callable[[Robot], None], text: str | None = None) -> Robot:
-    """Return the robot of a file, or of a text in its place, after a check."""
+def _load(
+    model: ModelArgument, check: Callable[[Robot], None], text: str | None = None, *, repairs: bool = False
+) -> Robot:
+    """Return the robot of a file, or of a text in its place, after a check; on request with what xacro can expand."""
     packages = Packages(model.package_path, model.path)
     texts = {} if text is None else {str(absolute(model.path)): text}
     if model.macro is not None:
         from urdfkit.description.xacro.macro_call import text_with_call
 
         texts = text_with_call(model.path, model.macro, model.arguments, packages)
-    expanded = expand_file(
-        model.path, arguments=model.arguments, packages=packages, run_xacro=model.macro is not None or None, texts=texts
-    )
+    run_xacro = model.macro is not None or None
+    try:
+        expanded = expand_file(
+            model.path, arguments=model.arguments, packages=packages, run_xacro=run_xacro, texts=texts
+        )
+    except XacroError:
+        partial = _partial(model, packages, texts) if repairs else None
+        if partial is None:
+            raise
+        return partial
     try:
         robot = _parsed(expanded, model.arguments)
         check(robot)
@@ -164,6 +173,20 @@ def _load(model: ModelArgument, check: Callable[[Robot], None], text: str | None
         hint = "; xacro is not run on .urdf files: rename it to .urdf.xacro"
         raise ModelError(error.message + hint, position=error.position) from None
     return robot
+
+
+def _partial(model: ModelArgument, packages: Packages, texts: Mapping[str, str]) -> Robot | None:
+    """Return the robot without the includes and macros that do not exist; None if that is no robot."""
+    from urdfkit.description.xacro.recovery.left_out import without_unknown_values
+
+    expanded = expand_leniently(
+        model.path, arguments=model.arguments, packages=packages, run_xacro=True, add_prefixes=False, texts=texts
+    )
+    repairs = without_unknown_values(expanded)
+    if repairs is None or expanded.root is None or expanded.root.tag != "robot":
+        return None
+    robot = parse(expanded.root, files=expanded.files, packages=packages, arguments=model.arguments)
+    return replace(robot, repairs=tuple(repairs)) if robot.links else None
 
 
 def expand(

@@ -127,15 +127,12 @@ class FaultRule(Rule):
         return fault.kind in self.kinds
 
     def check(self, fault: Fault, model: Model) -> Findings:
-        """Yield the finding for a fault that the rule reports; one for all names that a missing file may define."""
+        """Yield the finding for a fault; those of names that a missing file may define have one cause."""
         if self.may_be_elsewhere and (missing := model.missing_file):
-            alike = model.faults_of(self.code, self.claims)
-            if fault is not alike[0]:
-                return
             help = f"it may be defined in {missing}, which was not found"
-            if len(alike) > 1:
-                help += f"; the same applies to {len(alike) - 1} other uses of undefined names"
-            yield self.at(model, fault, fault.message, attribute=fault.attribute, help=help, severity="note")
+            yield self.at(
+                model, fault, fault.message, attribute=fault.attribute, help=help, severity="note", cause=missing
+            )
         else:
             yield self.at(model, fault, fault.message, attribute=fault.attribute)
 

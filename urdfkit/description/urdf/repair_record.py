@@ -13,7 +13,9 @@ if TYPE_CHECKING:
     from collections.abc import Iterable
     from typing import Any, Literal
 
-    RepairKind = Literal["structure", "inertia", "mass", "shape", "mesh", "joint", "plugin", "hardware", "controller"]
+    RepairKind = Literal[
+        "xacro", "structure", "inertia", "mass", "shape", "mesh", "joint", "plugin", "hardware", "controller"
+    ]
 
 SMALLEST_GROUP = 10
 """Number of repairs of one kind from which on they are one line in the terminal."""

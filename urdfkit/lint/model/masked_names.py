@@ -178,7 +178,9 @@ class MaskedNames:
         return self._defined
 
 
-def unless_masked(model: ExpandedModel, name: str, near: str | None, finding: Finding) -> Iterator[Finding]:
+def unless_masked(
+    model: ExpandedModel, name: str, near: str | None, finding: Finding, *, is_repaired: bool = False
+) -> Iterator[Finding]:
     """Yield a finding about an undefined name, unless a dropped part may define the name.
 
     Args:
@@ -186,10 +188,12 @@ def unless_masked(model: ExpandedModel, name: str, near: str | None, finding: Fi
         name: the undefined name of a link or joint.
         near: the most similar existing name; None if none is similar.
         finding: the finding that reports the name as undefined.
+        is_repaired: whether viewer and simulator repair the defect, which they report at the same place.
 
     Yields:
-        The finding; as a note without fix if an unreadable part may define the name but the name is a typo of another;
-        nothing if a dropped part may define the name, or if the name itself was not evaluated.
+        The finding; as a note without fix if an unreadable part may define the name but the name is a typo of another,
+        or viewer and simulator repair the defect; nothing if a dropped part may define the name, or if the name itself
+        was not evaluated.
     """
     if not model.robot.links or "$" in name:
         return
@@ -198,9 +202,9 @@ def unless_masked(model: ExpandedModel, name: str, near: str | None, finding: Fi
         return
     if not masked.unreadable:
         yield finding
-    elif near is not None and is_typo(name, near):
-        help = f"it may be in {masked.unreadable}"
-        yield Finding(**{**finding.__dict__, "severity": "note", "help": help, "fix": None})
+    elif is_repaired or (near is not None and is_typo(name, near)):
+        help, cause = f"it may be in {masked.unreadable}", masked.unreadable if is_repaired else ""
+        yield Finding(**{**finding.__dict__, "severity": "note", "help": help, "fix": None, "cause": cause})
 
 
 def is_typo(name: str, near: str) -> bool:

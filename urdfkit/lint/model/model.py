@@ -130,16 +130,6 @@ class Model:
             found.setdefault((fault.kind, fault.position, fault.expansions), []).append(fault)
         return found
 
-    def faults_of(self, code: str, claims: Callable[[Fault], bool]) -> list[Fault]:
-        """Return the faults that a rule reports; `claims` answers whether the rule of this code reports a fault."""
-        if code not in self._faults_by_rule:
-            self._faults_by_rule[code] = [fault for fault in self.expanded.faults if claims(fault)]
-        return self._faults_by_rule[code]
-
-    @cached_property
-    def _faults_by_rule(self) -> dict[str, list[Fault]]:
-        return {}
-
     @cached_property
     def masked_names(self) -> MaskedNames:
         """Names that missing parts of the robot may define; see `masked_names.unless_masked`."""

@@ -12,7 +12,7 @@ if TYPE_CHECKING:
 SMALLEST = 4
 """Number of warnings, or of errors with a named cause, from which on they are grouped. Fewer are shown one by one."""
 SMALLEST_ALIKE = 10
-"""The same for errors with equal messages, which may be separate mistakes, and for notes."""
+"""The same for errors with equal messages, which may be separate mistakes, and for notes without a named cause."""
 
 
 def grouped(findings: Iterable[Finding]) -> list[Finding]:
@@ -30,12 +30,18 @@ def grouped(findings: Iterable[Finding]) -> list[Finding]:
         groups.setdefault((finding.code, finding.severity, finding.cause or _kind(finding)), []).append(finding)
     found: list[Finding] = []
     for first, *others in groups.values():
-        has_cause = first.severity == "warning" or (first.cause and first.severity == "error")
-        if 1 + len(others) < (SMALLEST if has_cause else SMALLEST_ALIKE):
+        if 1 + len(others) < _smallest(first):
             found += (first, *others)
         else:
             found.append(Finding(**{**first.__dict__, "related": tuple(others)}))
     return sorted(found, key=lambda one: (one.span, one.code, one.message))
+
+
+def _smallest(finding: Finding) -> int:
+    """Return the number of findings like one from which on they are grouped; notes on one cause always are."""
+    if finding.severity == "note":
+        return 2 if finding.cause else SMALLEST_ALIKE
+    return SMALLEST if finding.cause or finding.severity == "warning" else SMALLEST_ALIKE
 
 
 def _kind(finding: Finding) -> str:

@@ -55,4 +55,4 @@ class ChildLinkUndefined(RobotRule):
                 if suggestion
                 else None,
             )
-            yield from unless_masked(model, name, suggestion, finding)
+            yield from unless_masked(model, name, suggestion, finding, is_repaired=True)
