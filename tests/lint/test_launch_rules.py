@@ -169,6 +169,8 @@ def test_modules_of_other_packages_can_declare_arguments(source):
         ("ros2_control", "joint_state_broadcaster", True),
         ("moveit", "moveit_ros_move_group", False),
         ("moveit", "moveit_servo", True),
+        ("ros2_controllers", "joint_state_broadcaster", False),
+        ("ros2_controllers", "cart_controllers", True),
     ],
 )
 def test_metapackages_stand_for_the_packages_that_they_depend_on(source, needed, package, is_missing):

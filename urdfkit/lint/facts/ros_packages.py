@@ -67,29 +67,41 @@ warehouse_ros_mongo warehouse_ros_sqlite web_video_server xacro yaml-cpp yaml_cp
 
 _METAPACKAGES = {
     "gazebo_ros_pkgs": "gazebo_dev gazebo_msgs gazebo_plugins gazebo_ros",
-    "geometry": "eigen_conversions kdl_conversions tf tf_conversions",
+    "geometry": "angles eigen_conversions kdl_conversions tf tf_conversions",
     "geometry2": "tf2 tf2_*",
-    "image_pipeline": "camera_calibration depth_image_proc image_proc image_publisher image_view stereo_image_proc",
+    "image_pipeline": "camera_calibration depth_image_proc image_proc image_publisher image_rotate image_view"
+    " stereo_image_proc",
     "moveit": "moveit_commander moveit_core moveit_kinematics moveit_planners* moveit_plugins moveit_ros*"
     " moveit_setup_assistant moveit_*controller_manager",
-    "moveit_ros": "moveit_ros_*",
-    "nav2_bringup": "nav2_*",
-    "navigation": "amcl base_local_planner costmap_2d dwa_local_planner fake_localization global_planner map_server"
-    " move_base nav_core navfn",
+    "moveit_ros": "moveit_core moveit_kinematics moveit_ros_*",
+    "nav2_bringup": "launch_ros nav2_* navigation2 slam_toolbox",
+    "navigation": "amcl base_local_planner carrot_planner clear_costmap_recovery costmap_2d dwa_local_planner"
+    " fake_localization global_planner map_server move_base move_base_msgs move_slow_and_clear nav_core navfn"
+    " robot_pose_ekf rotate_recovery voxel_grid",
     "navigation2": "nav2_[!b]* nav2_b[!r]*",
     "ros2_control": "controller_interface controller_manager* hardware_interface joint_limits ros2controlcli"
-    " transmission_interface",
-    "ros2_controllers": "*_broadcaster *_controller *_controllers",
-    "ros_control": "controller_interface controller_manager* hardware_interface joint_limits_interface"
-    " transmission_interface",
-    "ros_controllers": "*_controller *_controllers",
+    " ros2_control_test_assets transmission_interface",
+    "ros2_controllers": "ackermann_steering_controller admittance_controller bicycle_steering_controller"
+    " diff_drive_controller effort_controllers *_broadcaster forward_command_controller gpio_controllers"
+    " gripper_controllers joint_state_controller joint_trajectory_controller mecanum_drive_controller"
+    " parallel_gripper_controller pid_controller position_controllers tricycle_controller"
+    " tricycle_steering_controller velocity_controllers",
+    "ros_control": "control_toolbox controller_interface controller_manager* hardware_interface joint_limits_interface"
+    " realtime_tools transmission_interface",
+    "ros_controllers": "ackermann_steering_controller diff_drive_controller effort_controllers"
+    " force_torque_sensor_controller forward_command_controller gripper_action_controller imu_sensor_controller"
+    " joint_state_controller joint_trajectory_controller position_controllers velocity_controllers",
     "ros_gz": "ros_gz_*",
     "ros_ign": "ros_ign_*",
-    "slam_gmapping": "gmapping",
+    "slam_gmapping": "gmapping openslam_gmapping",
     "velodyne": "velodyne_driver velodyne_laserscan velodyne_msgs velodyne_pointcloud",
     "velodyne_simulator": "velodyne_description velodyne_gazebo_plugins",
 }
-"""Packages that consist of dependencies → patterns of these, by their package.xml; nav2_bringup needs navigation2."""
+"""Packages that consist of dependencies → patterns of these, and of what these need at run time.
+
+The source is package.xml in the repositories of the packages (ros-navigation/navigation2, ros-controls/ros2_controllers
+and so on), over their releases: a package that one release lists is accepted for all.
+"""
 
 
 def is_in_metapackage(name: str, dependencies: Iterable[str]) -> bool:
