@@ -8,6 +8,8 @@ import random
 import pytest
 
 from urdfkit import errors
+from urdfkit.description.packages.resolver import near_package
+from urdfkit.description.plugins import unknown_plugins
 from urdfkit.description.xml.cost_limit import loading_limit
 
 PARTS = ("left", "right", "front", "rear", "wheel", "arm", "link", "joint", "camera", "base", "1", "2", "12")
@@ -62,3 +64,27 @@ def test_loading_a_robot_limits_the_suggestions() -> None:
     with loading_limit():
         assert [errors.nearest("wheel_x1", names) for _ in range(3)] == ["wheel_1"] * 2 + [None]
     assert errors.may_suggest()
+
+
+@pytest.mark.parametrize(
+    ("name", "others", "expected"),
+    [
+        ("vendor_description", ["seven_dof_arm_description"], ""),
+        ("my_robot_bringup", ["other_robot_bringup"], ""),
+        (
+            "pandda_description",
+            ["panda_description", "seven_dof_arm_description"],
+            "; did you mean `panda_description`?",
+        ),
+        ("panda_desciption", ["panda_description"], "; did you mean `panda_description`?"),
+    ],
+)
+def test_a_common_last_word_does_not_make_packages_similar(name: str, others: list[str], expected: str) -> None:
+    assert near_package(name, others) == expected
+
+
+@pytest.mark.parametrize(
+    ("name", "expected"), [("gazebo_ros_force", ""), ("gazebo_ros_diff_driv", "gazebo_ros_diff_drive")]
+)
+def test_parts_of_most_names_do_not_make_libraries_similar(name: str, expected: str) -> None:
+    assert unknown_plugins.nearest(name) == expected

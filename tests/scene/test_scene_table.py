@@ -1,5 +1,6 @@
 from __future__ import annotations
 
+import re
 from collections.abc import Callable
 from pathlib import Path
 
@@ -87,8 +88,9 @@ def test_a_mesh_whose_name_differs_in_capital_letters_is_used_and_noted(robot_of
     (shape,) = scene_of(robot).shapes
     assert shape.mesh is not None
     assert robot.packages is not None
-    (note,) = robot.packages.notes
-    assert note.startswith("package://thing_description/meshes/wheel.STL: the name of the file is Wheel.stl in ")
+    (note,) = robot.packages.notes.values()
+    place = r"\S+urdf:\d+:\d+: package://thing_description/meshes/wheel.STL"
+    assert re.match(place + ": the name of the file is Wheel.stl in ", note)
 
 
 @pytest.mark.parametrize(

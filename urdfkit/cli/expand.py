@@ -136,7 +136,7 @@ def _compare(path: str, arguments: dict[str, str], packages: Packages) -> int:
 def _show_notes(expanded: Expanded, model: ModelArgument) -> None:
     for note in expanded.warnings:
         print(f"{note.position}: {note.level}: {note.message}", file=sys.stderr)
-    for line in expanded.packages.notes:
+    for line in expanded.packages.notes.values():
         print(f"urdfkit: warning: {line}", file=sys.stderr)
     for line in unused_arguments(model.arguments, expanded.sources.values(), model.macro):
         print(f"urdfkit: warning: {line}", file=sys.stderr)

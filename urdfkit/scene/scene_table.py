@@ -239,7 +239,7 @@ def _load(
     if not geometry.uri.strip():
         raise ResourceError(EMPTY_NAME, position=_mesh_position(item), kind="name")
     try:
-        return meshes.load(_resolve(robot, geometry.uri), geometry.scale, places=places)
+        return meshes.load(_resolve(robot, geometry.uri, _mesh_position(item)), geometry.scale, places=places)
     except ResourceError as error:
         raise ResourceError(error.message, position=_mesh_position(item), kind=error.kind) from error
 
@@ -254,11 +254,11 @@ def _texture_position(material: Material) -> Position:
     return (material.element.find("texture") or material.element).origin.position
 
 
-def _resolve(robot: Robot, uri: str) -> Path:
+def _resolve(robot: Robot, uri: str, position: Position | None = None) -> Path:
     """Return the file of a mesh URI; a relative path is relative to the entry file of the description."""
     entry = robot.files[0] if robot.files else Path("robot.urdf")
     if robot.packages is not None:
-        return robot.packages.resolve_in_any_case(uri, entry)
+        return robot.packages.resolve_in_any_case(uri, entry, position)
     if uri.startswith(("package://", "model://")):
         raise ResourceError(f"mesh `{uri}` cannot be found: the robot was not loaded from a file")
     return entry.parent / uri.removeprefix("file://")

@@ -114,7 +114,7 @@ def test_capital_letters_of_files(write: Write) -> None:
     with pytest.raises(ResourceError, match="no file"):
         found.resolve("meshes/arm.stl", ".")
     assert found.resolve_in_any_case("meshes/arm.stl", ".").samefile(mesh)
-    assert list(found.notes) == [
+    assert list(found.notes.values()) == [
         "meshes/arm.stl: the name of the file is Arm.STL in Meshes; correct the capital letters"
     ]
     write("Meshes/ARM.stl", "")

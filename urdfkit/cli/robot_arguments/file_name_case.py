@@ -17,5 +17,5 @@ def warn_of_file_names(robot: Robot, *, quiet: bool = False) -> None:
         quiet: print nothing.
     """
     if robot.packages is not None and not quiet:
-        for note in robot.packages.notes:
+        for note in robot.packages.notes.values():
             print(f"urdfkit: warning: {note}", file=sys.stderr)

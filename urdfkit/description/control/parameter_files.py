@@ -12,11 +12,14 @@ from urdfkit.errors import ResourceError
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     from urdfkit.description.packages.resolver import Packages
+    from urdfkit.position import Position
 
 _FIND = re.compile(r"\$\(\s*(?:find|find-pkg-share)\s+([^()\s]+)\s*\)")
 
 
-def parameter_file(text: str, packages: Packages | None, folder: Path, *, in_any_case: bool = False) -> Path:
+def parameter_file(
+    text: str, packages: Packages | None, folder: Path, *, in_any_case: bool = False, position: Position | None = None
+) -> Path:
     """Return the path of the file that a ``<parameters>`` element names.
 
     Args:
@@ -24,6 +27,7 @@ def parameter_file(text: str, packages: Packages | None, folder: Path, *, in_any
         packages: resolves ``$(find …)`` and ``package://``; None to resolve paths only.
         folder: folder of the robot, for relative paths.
         in_any_case: accept a file whose path differs in capital letters, and add it to the notes of the packages.
+        position: of the element, for that note.
 
     Raises:
         ResourceError: file or package not found; the message names the nearest file.
@@ -32,7 +36,9 @@ def parameter_file(text: str, packages: Packages | None, folder: Path, *, in_any
     if packages is not None:
         text = _FIND.sub(lambda match: str(packages.find(match[1])), text)
         if "://" in text:
-            return (packages.resolve_in_any_case if in_any_case else packages.resolve)(text, folder)
+            if in_any_case:
+                return packages.resolve_in_any_case(text, folder, position)
+            return packages.resolve(text, folder)
     path = folder / text
     if is_file(path):
         return path
@@ -44,6 +50,6 @@ def parameter_file(text: str, packages: Packages | None, folder: Path, *, in_any
         found = sorted(package.glob(f"*/{path.relative_to(package)}"))
         if len(found) == 1:
             return found[0]
-    if in_any_case and packages is not None and (other := packages.in_any_case(path, text)) is not None:
+    if in_any_case and packages is not None and (other := packages.in_any_case(path, text, position)) is not None:
         return other
     raise ResourceError(f"no file {text}{near_path(path)}", kind="file")

@@ -9,7 +9,11 @@ from pathlib import Path
 from urdfkit.description.packages.existence import exists, is_file, is_folder
 from urdfkit.description.packages.related_files import CODE, around, state_of
 from urdfkit.description.xml.source import absolute
-from urdfkit.errors import ResourceError, did_you_mean, may_suggest
+from urdfkit.errors import ResourceError, did_you_mean, may_suggest, nearest
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from urdfkit.position import Position
 
 _PREFIX_VARIABLES = ("AMENT_PREFIX_PATH", "CMAKE_PREFIX_PATH", "COLCON_PREFIX_PATH")
 _BUNDLED_MODELS = Path(__file__).resolve().parents[1] / "library" / "models"
@@ -54,7 +58,7 @@ class Packages:
         self._seen: dict[str, Path] = {}
         self._scanned: dict[Path, dict[str, Path]] = {}
         self._states: dict[tuple[str, ...], str] = {}
-        self.notes: dict[str, None] = {}
+        self.notes: dict[str, str] = {}
         """Notes on files that were found under a name with other capital letters, in order."""
         self.answers: dict[tuple[str, ...], str] = {}
         """Query → its result, for each query so far; a cached result is valid as long as `answer` returns the same."""
@@ -137,10 +141,15 @@ class Packages:
         self.answers[question] = str(path)
         return path
 
-    def resolve_in_any_case(self, uri: str, relative_to: str | Path) -> Path:
+    def resolve_in_any_case(self, uri: str, relative_to: str | Path, position: Position | None = None) -> Path:
         """Return the file of a URI as `resolve` does, also one whose path differs in capital letters; add to `notes`.
 
         Descriptions written where capital letters do not count, as on Windows, name such files.
+
+        Args:
+            uri: the URI.
+            relative_to: see `resolve`.
+            position: of the URI in the description.
 
         Raises:
             ResourceError: the package or file does not exist, or several files differ in capital letters only.
@@ -148,25 +157,27 @@ class Packages:
         try:
             return self.resolve(uri, relative_to)
         except ResourceError:
-            path = self.in_any_case(self._path_of(uri, Path(relative_to)), uri)
+            path = self.in_any_case(self._path_of(uri, Path(relative_to)), uri, position)
             if path is None:
                 raise
         return path
 
-    def in_any_case(self, path: Path, written: str) -> Path | None:
+    def in_any_case(self, path: Path, written: str, position: Position | None = None) -> Path | None:
         """Return the one existing file whose path differs in capital letters; add to `notes`. None without one.
 
         Args:
             path: a path that does not exist.
-            written: the path as in the description, with its position, if available.
+            written: the path as in the description.
+            position: its first position in the description.
         """
         from urdfkit.description.packages.letter_case import in_any_case
 
         found = in_any_case(path) if self.permits(path) else None
         if found is None or not self.permits(found):
             return None
-        note = f"{written}: the name of the file is {found.name} in {found.parent}; correct the capital letters"
-        self.notes[note] = None
+        place = "" if position is None else f"{position}: "
+        name = f"the name of the file is {found.name} in {found.parent}; correct the capital letters"
+        self.notes.setdefault(written, f"{place}{written}: {name}")
         return found
 
     def _resolved(self, uri: str, relative_to: str | Path) -> Path:
@@ -356,7 +367,7 @@ def near_package(name: str, packages: Iterable[str]) -> str:
         return ""
     stem, _, last = name.rpartition("_")
     parts = ((other, *other.rpartition("_")[::2]) for other in packages)
-    return did_you_mean(name, [other for other, own, end in parts if end != last or did_you_mean(stem, [own])])
+    return did_you_mean(name, [other for other, own, end in parts if end != last or nearest(stem, [own], cutoff=0.7)])
 
 
 def near_path(path: Path) -> str:

@@ -62,7 +62,7 @@ def nearest(name: str, others: Iterable[str] = ()) -> str:
     """
     candidates = [other for spec in ALL_SPECS for other in spec.filenames] + list(others)
     # Parts common to most names do not make names similar.
-    near = errors.nearest(_essence(name), map(_essence, candidates))
+    near = errors.nearest(_essence(name), map(_essence, candidates), cutoff=0.7)
     if near is None:
         return ""
     meant = [other for other in candidates if _essence(other) == near]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -226,9 +227,8 @@ def test_only_the_first_of_two_that_want_a_joint_is_started(make: Make) -> None:
     )
     simulator = make(yaml, note=notes.append)
     assert [status.state for status in simulator.controllers.list()] == ["active", "active", "inactive"]
-    assert any(
-        "not started: controller `late` needs joint `elbow`, which `arm_controller` has" in note for note in notes
-    )
+    late = "not started: controller `late` needs joint `elbow`, which `arm_controller` has; stop one of them"
+    assert [note for note in notes if re.match(r"\S+yaml:\d+:\d+: " + re.escape(late), note)]
     simulator.controllers.switch(start=["late"], stop=["arm_controller"])
     assert [status.state for status in simulator.controllers.list()] == ["active", "inactive", "active"]
 

@@ -189,7 +189,7 @@ class Files(Texts):
         if os.path.exists(path):  # noqa: PTH110 - as above
             return path
         tag, _ = self.at
-        found = self.packages.in_any_case(Path(path), name if tag is None else f"{tag.position}: {name}")
+        found = self.packages.in_any_case(Path(path), name, None if tag is None else tag.position)
         return path if found is None else str(found)
 
     def _load_yaml(self, name: str) -> Any:

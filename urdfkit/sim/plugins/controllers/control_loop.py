@@ -248,7 +248,7 @@ class ControlLoop:
                         error.position = self.configured[name].group("type").position
                     self.hardware.setup.repairs.leave_out(error, effect, "controller", "K971")
             elif isinstance(error, SimulationError):
-                self.hardware.setup.note(f"not started: {error}")
+                self.hardware.setup.note(f"{self.configured[name].place}: not started: {error}")
             else:
                 raise
 

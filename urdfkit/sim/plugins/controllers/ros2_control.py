@@ -166,6 +166,6 @@ def _path(text: str, setup: Setup, position: Position) -> Path:
     robot = setup.kinematics.robot
     try:
         folder = robot.files[0].parent if robot.files else Path()
-        return parameter_file(text, robot.packages, folder, in_any_case=True)
+        return parameter_file(text, robot.packages, folder, in_any_case=True, position=position)
     except ResourceError as error:
         raise SimulationError(error.message, position=position, code="Z828") from None
