@@ -22,6 +22,7 @@ _SWITCHES = (
     "no_config",
     "no_cache",
     "confined",
+    "no_launch_arguments",
     "quiet",
     "verbose",
 )

@@ -82,6 +82,11 @@ def configure(parser: argparse.ArgumentParser) -> None:
         "untrusted files",
     )
     add(
+        "--no-launch-arguments",
+        action="store_true",
+        help="do not lint robots with the xacro arguments that simulation and display launch files pass",
+    )
+    add(
         "--macro",
         metavar="NAME",
         help="instantiate this macro of the file; key:=value arguments are its parameters, too",
@@ -222,6 +227,7 @@ class _Run:
             folders,
             self._text_with_macro(xacro_arguments, folders),
             guess_target=target is None,
+            launch_arguments=not (arguments.no_launch_arguments or arguments.macro),
             time_limit=limit,
             confinement=self.confinement,
         )

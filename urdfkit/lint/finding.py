@@ -65,6 +65,7 @@ class Finding:
         chains: chains of macro calls, innermost call first, one for each expansion; empty outside of macros.
         cause: words that findings of one rule share if they have one cause; empty if the message is the same.
         related: the findings of other places with the same cause, where findings are grouped.
+        variant: the xacro arguments of a launch file, and the launch file, if the robot has the defect only with them.
     """
 
     code: str
@@ -79,6 +80,7 @@ class Finding:
     chains: tuple[tuple[Expansion, ...], ...] = ()
     cause: str = ""
     related: tuple[Finding, ...] = ()
+    variant: str = ""
 
     def __repr__(self) -> str:
         """Return code, position and message."""
@@ -100,6 +102,12 @@ class Finding:
         return self.span.column
 
     @property
+    def text(self) -> str:
+        """The message, the variant and the help in one line."""
+        variant = f"with {self.variant}" if self.variant else ""
+        return "; ".join(part for part in (self.message, variant, self.help) if part)
+
+    @property
     def expansions(self) -> tuple[Expansion, ...]:
         """Every macro call of every chain, without repetitions."""
         return tuple(dict.fromkeys(call for chain in self.chains for call in chain))
@@ -115,6 +123,7 @@ class Finding:
             "link": self.link,
             "joint": self.joint,
             "help": self.help,
+            "variant": self.variant or None,
             "expansions": [_call(call) for call in self.expansions],
             "chains": [[_call(call) for call in chain] for chain in self.chains],
             "fix": self.fix.to_json() if self.fix is not None else None,

@@ -86,7 +86,7 @@ def choose(passed: list[Passed], purpose: str, named: Mapping[str, str]) -> Choi
         purpose: ``simulation`` or ``display``.
         named: arguments of the command line, which are never overridden.
     """
-    files = _for_purpose(passed, purpose)
+    files = for_purpose(passed, purpose)
     files = [each for each in files if each.own] or files
     files = [each for each in files if all(named.get(k, v) == v for k, v in each.arguments.items())] or files
     values: dict[str, dict[str, Path]] = {}
@@ -103,8 +103,8 @@ def choose(passed: list[Passed], purpose: str, named: Mapping[str, str]) -> Choi
     return Choice(chosen, {})
 
 
-def _for_purpose(passed: list[Passed], purpose: str) -> list[Passed]:
-    """Return the launch files that start Gazebo, or sliders for joints, or without these RViz."""
+def for_purpose(passed: list[Passed], purpose: str) -> list[Passed]:
+    """Return the launch files that start Gazebo, or sliders for joints, or without these RViz; see `choose`."""
     simulations = [each for each in passed if each.contents.started & _SIMULATORS]
     if purpose == "simulation":
         return simulations

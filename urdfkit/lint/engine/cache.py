@@ -129,35 +129,37 @@ class Cache:
         packages = self.packages.near_file(entry.path)
         return all(packages.answer(tuple(question)) == answer for question, answer in kept["answers"])
 
-    def put(self, entry: Entry, found: EntryResult, expanded: Expanded) -> None:
+    def put(self, entry: Entry, found: EntryResult, *expanded: Expanded) -> None:
         """Store a result. Do nothing if the cache folder is not writable or not all inputs are known.
 
         Args:
             entry: the entry file.
             found: the result to store.
-            expanded: the expansion that the result belongs to.
+            expanded: the expansions that the result belongs to.
         """
         environment: dict[str, str | None] = {}
-        packages = expanded.packages
-        failed = any(fault.kind in ("bad-expression", "conditional", "other") for fault in expanded.faults)
-        for text in (source.text for source in expanded.sources.values()):
+        packages = expanded[0].packages
+        asked = {question: answer for each in expanded for question, answer in each.packages.answers.items()}
+        faults = (fault for each in expanded for fault in each.faults)
+        failed = any(fault.kind in ("bad-expression", "conditional", "other") for fault in faults)
+        for text in {source.text: None for each in expanded for source in each.sources.values()}:
             if re.search(_UNTRACKED, text) or ("load_yaml" in text and failed):
                 return  # A missing YAML file may be created later.
             if "env" in text:
                 environment.update((name, os.environ.get(name)) for name in re.findall(_ENVIRONMENT, text))
         if any("$" in name for name in environment):
             return
-        read = dict.fromkeys((*found.files.values(), *map(str, expanded.files)))
+        read = dict.fromkeys((*found.files.values(), *(str(file) for each in expanded for file in each.files)))
         package = next((f for f in entry.path.absolute().parents if (f / "package.xml").is_file()), None)
         for name in _MANIFESTS if package is not None else ():
             read[str(package / name)] = None  # type: ignore[operator]
-        for (kind, *_), answer in packages.answers.items():
+        for (kind, *_), answer in asked.items():
             if kind == "resolve" and not answer.startswith("!"):
                 read[answer] = None
         states = {path: self._state_of(path) for path in read}
         answers = [
             [list(question), answer]
-            for question, answer in packages.answers.items()
+            for question, answer in asked.items()
             if not (states.get(answer) and packages.is_as_written(question, answer))
         ]
         self._store(
@@ -221,6 +223,7 @@ class Cache:
             str(options.target),
             str(options.guess_target),
             str(sorted(options.arguments.items())),
+            str(options.launch_arguments),
             *map(str, options.package_path),
             *(os.environ.get(name, "") for name in _VARIABLES),
             sys.version,
@@ -290,6 +293,7 @@ def _row(finding: Finding) -> list[Any]:
         fix and [fix.safety, fix.title, edits],
         chains,
         finding.cause,
+        finding.variant,
     ]
 
 
@@ -301,7 +305,7 @@ def _finding(row: list[Any]) -> Finding:
     from urdfkit.description.xml.source import Expansion, Position, Span
 
     code, name, severity, message = row[:4]
-    link, joint, help, fix, chains, cause = row[9:]
+    link, joint, help, fix, chains, cause, variant = row[9:]
     return Finding(
         code,
         name,
@@ -314,4 +318,5 @@ def _finding(row: list[Any]) -> Finding:
         fix and Fix(fix[0], fix[1], tuple(Edit(Span(*edit[:5]), edit[5]) for edit in fix[2])),
         tuple(tuple(Expansion(call[0], Position(*call[1:])) for call in chain) for chain in chains),
         cause,
+        variant=variant,
     )

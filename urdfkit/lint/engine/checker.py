@@ -22,7 +22,7 @@ from urdfkit.lint.rules import fault_rules, related_file_rules, robot_rules, sou
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Iterator
+    from collections.abc import Callable, Iterable, Iterator, Mapping
     from typing import Any
 
     from urdfkit.description.urdf.robot import Robot
@@ -118,11 +118,17 @@ class Checker:
 
         try:
             found, model = self.examine(entry)
+            others: list[Model] = []
+            if self.options.launch_arguments and not entry.is_library:
+                from urdfkit.lint.engine.launch_variants import with_variants
+
+                given = self.options.arguments
+                found, others = with_variants(found, model, lambda passed: self.examine(entry, passed), given)
             if self.options.confinement is not None:
                 refused = self._refused_reads(entry, self.options.confinement.take_refused())
                 return EntryResult(**{**found.__dict__, "findings": (*found.findings, *refused)})
             if self.cache is not None and not found.refused:
-                self.cache.put(entry, found, model.expanded)
+                self.cache.put(entry, found, *(each.expanded for each in (model, *others)))
         except CostError as error:
             return too_costly(entry.path, error)
         except UrdfkitError:
@@ -154,15 +160,17 @@ class Checker:
         except UrdfkitError as error:
             return EntryResult((), {}, refused=str(error))
 
-    def examine(self, entry: Entry) -> tuple[EntryResult, Model]:
-        """Lint one entry file; return the result and the model."""
+    def examine(self, entry: Entry, arguments: Mapping[str, str] | None = None) -> tuple[EntryResult, Model]:
+        """Lint one entry file, on request with other xacro arguments; return the result and the model."""
         from urdfkit.description.xml.cost_limit import CostLimit
 
         with CostLimit(self.options.time_limit):
-            return self._examine(entry)
+            return self._examine(entry, arguments)
 
-    def _examine(self, entry: Entry) -> tuple[EntryResult, Model]:
+    def _examine(self, entry: Entry, arguments: Mapping[str, str] | None) -> tuple[EntryResult, Model]:
         options, note = self.options, ""
+        if arguments is not None:
+            options = Options(**{**options.__dict__, "arguments": arguments})
         if options.guess_target and options.target is None:
             from urdfkit.lint.project.target_platform import guess
 

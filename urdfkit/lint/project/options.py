@@ -28,6 +28,7 @@ class Options:
         texts: absolute path → content that replaces the file on disk.
         time_limit: seconds of CPU that a file may take; 0 for no limit.
         confinement: what may be read; everything when None. It has to be started in the process.
+        launch_arguments: also lint each robot with the arguments that its launch files pass.
         guess_target: if `target` is None, guess the target from the package.xml of each robot.
     """
 
@@ -38,5 +39,6 @@ class Options:
     package_path: tuple[Path, ...] = ()
     texts: Mapping[str, str] = field(default_factory=dict)
     guess_target: bool = False
+    launch_arguments: bool = False
     time_limit: float = 0.0
     confinement: Confinement | None = None

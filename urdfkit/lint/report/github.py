@@ -21,7 +21,7 @@ def _line(finding: Finding) -> str:
     if span.end_line == span.line:  # GitHub supports columns only within one line
         places["endColumn"] = span.end_column
     places["title"] = f"{finding.code} {finding.name}"
-    text = f"{finding.message}; {finding.help}" if finding.help else finding.message
+    text = finding.text
     properties = ",".join(f"{name}={_property(str(value))}" for name, value in places.items())
     return f"::{_LEVELS[finding.severity]} {properties}::{_text(text)}"
 

@@ -48,6 +48,7 @@ def _case(finding: Finding) -> str:
     if finding.severity == "note":
         return f"{head}\n      <skipped message={_attribute(finding.message)}/>\n    </testcase>"
     lines = [f"{finding.file}:{finding.line}:{finding.column}: {finding.message}"]
+    lines += [f"with {finding.variant}"] if finding.variant else []
     lines += [f"help: {finding.help}"] if finding.help else []
     body = escape(_clean("\n".join(lines)))
     attributes = f"type={_attribute(finding.severity)} message={_attribute(finding.message)}"

@@ -69,7 +69,7 @@ def _result(finding: Finding, order: Mapping[str, int]) -> dict[str, Any]:
     result: dict[str, Any] = {
         "ruleId": finding.code,
         "level": _LEVELS[finding.severity],
-        "message": {"text": f"{finding.message}; {finding.help}" if finding.help else finding.message},
+        "message": {"text": finding.text},
         "locations": [{"physicalLocation": _place(finding.span)}],
     }
     if finding.code in order:

@@ -71,6 +71,8 @@ class TextReport:
 
     def _notes(self, finding: Finding) -> list[str]:
         notes = [_expansions(finding.chains)] if finding.chains else []
+        if finding.variant:
+            notes.append(f"with {finding.variant}")
         if finding.help:
             notes.append(f"{self._styled('help', 'bold')}: {finding.help}")
         if finding.fix is not None:

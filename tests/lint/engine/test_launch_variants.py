@@ -1,0 +1,101 @@
+"""Robots are also linted with the xacro arguments that the launch files of their packages pass."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+
+from urdfkit.cli import main
+
+BOX = "<geometry><box size='0.2 0.2 0.2'/></geometry>"
+INERTIAL = (
+    "<inertial><mass value='2'/><inertia ixx='0.0133' iyy='0.0133' izz='0.0133' ixy='0' ixz='0' iyz='0'/></inertial>"
+)
+ROBOT = f"""<robot name="cart" xmlns:xacro="http://www.ros.org/wiki/xacro">
+  <xacro:arg name="lidar" default="false"/>
+  <link name="base">{INERTIAL}<visual>{BOX}</visual><collision>{BOX}</collision></link>
+  <xacro:if value="$(arg lidar)">
+    <link name="lidar"/>
+    <joint name="lidar_joint" type="fixed"><parent link="bse"/><child link="lidar"/></joint>
+  </xacro:if>
+</robot>
+"""
+LAUNCH = """from ament_index_python.packages import get_package_share_directory
+from launch import LaunchDescription
+from launch.substitutions import Command
+from launch_ros.actions import Node
+
+
+def generate_launch_description():
+    path = get_package_share_directory("cart_description") + "/urdf/cart.urdf.xacro"
+    description = Command(["xacro ", path, " lidar:=VALUE"])
+    state = {"robot_description": description}
+    return LaunchDescription([
+        Node(package="robot_state_publisher", executable="robot_state_publisher", parameters=[state]),
+        Node(package="ros_gz_sim", executable="create", arguments=["-topic", "robot_description"]),
+    ])
+"""
+WITH = "lidar:=true, as launch/sim.launch.py passes"
+
+
+@pytest.fixture(autouse=True)
+def package(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("URDFKIT_CACHE_DIR", str(tmp_path / "cache"))
+    for name, text in {
+        "package.xml": "<package format='3'><name>cart_description</name></package>",
+        "urdf/cart.urdf.xacro": ROBOT,
+        "launch/sim.launch.py": LAUNCH.replace("VALUE", "true"),
+    }.items():
+        (tmp_path / name).parent.mkdir(exist_ok=True)
+        (tmp_path / name).write_text(text)
+    return tmp_path
+
+
+def found(capsys: pytest.CaptureFixture[str], *words: str) -> set[tuple[str, int, str | None]]:
+    main(["lint", ".", "--select", "T,M", "--format", "json", *words])
+    return {(each["code"], each["line"], each["variant"]) for each in json.loads(capsys.readouterr().out)}
+
+
+def test_a_defect_of_the_simulated_variant_is_found_with_its_arguments(capsys: pytest.CaptureFixture[str]) -> None:
+    expected = {("T201", 6, WITH)}
+    assert found(capsys) == expected
+    assert found(capsys) == expected  # from the cache
+    main(["lint", ".", "--select", "T"])
+    assert f"= with {WITH}" in capsys.readouterr().out
+    assert found(capsys, "--no-launch-arguments") == set()
+    assert found(capsys, "lidar:=false") == set()
+    assert found(capsys, "lidar:=true") == {("T201", 6, None)}
+
+
+def test_the_stored_result_depends_on_the_launch_file_and_the_files_of_the_variant(
+    package: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    launch, robot = package / "launch/sim.launch.py", package / "urdf/cart.urdf.xacro"
+    launch.write_text(LAUNCH.replace("VALUE", "false"))
+    assert found(capsys) == set()
+    launch.write_text(LAUNCH.replace("VALUE", "true"))
+    part = package / "urdf/part.xacro"
+    robot.write_text(ROBOT.replace('<link name="lidar"/>', '<xacro:include filename="part.xacro"/>'))
+    part.write_text('<robot><link name="lidar"/></robot>')
+    assert found(capsys) == {("T201", 6, WITH)}
+    part.write_text('<robot><link name="lidar"/><link name="bse"/></robot>')
+    assert ("T201", 6, WITH) not in found(capsys)
+
+
+def test_a_file_is_right_if_it_fits_a_variant(package: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    upper = "${2 if '$(arg lidar)' == 'true' else 1}"
+    lift = '<joint name="lift" type="revolute"><parent link="base"/><child link="mast"/><axis xyz="0 0 1"/>'
+    mast = f'<link name="mast"/>{lift}<limit lower="0" upper="{upper}" effort="1" velocity="1"/></joint>'
+    robot = ROBOT.replace("bse", "base").replace("  <xacro:if", f"  {mast}\n  <xacro:if")
+    (package / "urdf/cart.urdf.xacro").write_text(robot)
+    srdf = package / "config/cart.srdf"
+    srdf.parent.mkdir()
+    state = '<group_state name="{0}" group="all"><joint name="lift" value="{0}.5"/></group_state>\n'
+    group = '<group name="all"><joint name="lift"/></group>\n'
+    srdf.write_text(f'<robot name="cart">{group}{state.format(1)}{state.format(2)}</robot>\n')
+    default = {(line, variant) for code, line, variant in found(capsys, "--no-launch-arguments") if code[0] == "M"}
+    assert default == {(2, None), (3, None)}
+    assert {(line, variant) for code, line, variant in found(capsys) if code[0] == "M"} == {(3, None)}

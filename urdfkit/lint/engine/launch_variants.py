@@ -1,0 +1,119 @@
+"""Variants of a robot: the xacro arguments that its simulation and display launch files pass."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from urdfkit.lint.finding import EntryResult, Finding
+from urdfkit.record import record
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from collections.abc import Callable, Mapping
+
+    from urdfkit.lint.model.model import Model
+
+    Check = Callable[[Mapping[str, str]], tuple[EntryResult, Model]]
+
+MOST = 4
+"""Maximum number of variants of one robot that are linted."""
+
+
+@record(eq=False)
+class Variant:
+    """Xacro arguments that a launch file passes.
+
+    Attributes:
+        arguments: those that differ from the default of their declaration.
+        launch: the launch file.
+    """
+
+    arguments: Mapping[str, str]
+    launch: Path
+
+    def __str__(self) -> str:
+        """Return the arguments and the launch file."""
+        from urdfkit.description.xml.reader import shown_path
+
+        words = " ".join(f"{name}:={value}" for name, value in self.arguments.items())
+        return f"{words}, as {shown_path(self.launch)} passes"
+
+
+def variants_of(model: Model, arguments: Mapping[str, str]) -> list[Variant]:
+    """Return the variants that the launch files select and that are not the one of the default arguments.
+
+    Args:
+        model: the robot with its default arguments.
+        arguments: arguments of the command line, which are never overridden.
+    """
+    path = model.expanded.path
+    if model.package is None or not any("arg" in source.text for source in model.expanded.sources.values()):
+        return []
+    from urdfkit.description.launch.launch_arguments import for_purpose, passed_to
+    from urdfkit.description.xacro.declared_arguments import declared_arguments
+    from urdfkit.description.xacro.expand import is_xacro
+
+    declared = declared_arguments(model.expanded.sources.values()) if is_xacro(path) else {}
+    if not declared:
+        return []
+    passed = passed_to(path, model.expanded.packages)
+    found: dict[tuple[tuple[str, str], ...], Variant] = {}
+    for purpose in ("simulation", "display"):
+        for each in for_purpose(passed, purpose):
+            own = {
+                name: value
+                for name, value in each.arguments.items()
+                if name in declared and name not in arguments and value != declared[name]
+            }
+            if own:
+                found.setdefault(tuple(sorted(own.items())), Variant(own, each.launch))
+    return list(found.values())[:MOST]
+
+
+def with_variants(
+    found: EntryResult, model: Model, check: Check, arguments: Mapping[str, str]
+) -> tuple[EntryResult, list[Model]]:
+    """Return the result of a robot with the findings of its variants, and the variants.
+
+    A finding in the description is added if the robot with the default arguments does not have it. A finding in another
+    file, such as a YAML file that names an undefined joint, stays only if every variant has it.
+
+    Args:
+        found: the result with the default arguments.
+        model: the robot with the default arguments.
+        check: lints the robot with other arguments.
+        arguments: arguments of the command line.
+    """
+    variants = variants_of(model, arguments)
+    if not variants:
+        return found, []
+    every: list[tuple[EntryResult, Model, str]] = [(found, model, "")]
+    for each in variants:
+        every.append((*check({**each.arguments, **arguments}), str(each)))
+    sources = {file for _, each, _ in every for file in each.expanded.sources}
+    common = [{(one.code, one.span) for one in result.findings} for result, each, _ in every if not each.is_incomplete]
+    findings: list[Finding] = []
+    for result, _, variant in every:
+        known = {(one.code, one.span) for one in findings}
+        for one in result.findings:
+            key = one.code, one.span
+            is_defect = one.file in sources or all(key in keys for keys in common)
+            if is_defect and key not in known and not _is_passed(one, variants):
+                findings.append(Finding(**{**one.__dict__, "variant": variant, "fix": None}) if variant else one)
+    merged = EntryResult(
+        tuple(findings),
+        {name: path for result, _, _ in every for name, path in result.files.items()},
+        found.note,
+        tuple(dict.fromkeys(place for result, _, _ in every for place in result.used)),
+        "; ".join(dict.fromkeys(result.refused for result, _, _ in every if result.refused)),
+        found.unused,
+    )
+    return merged, [each for _, each, _ in every[1:]]
+
+
+def _is_passed(finding: Finding, variants: list[Variant]) -> bool:
+    """Return whether a finding says that an argument has no value that a launch file passes."""
+    names = (name for variant in variants for name in variant.arguments)
+    return (
+        finding.code == "X106" and finding.severity == "note" and any(f"`{name}`" in finding.message for name in names)
+    )
