@@ -8,7 +8,7 @@ import random
 import pytest
 
 from urdfkit import errors
-from urdfkit.description.packages.resolver import near_package
+from urdfkit.description.packages.similar_names import near_package
 from urdfkit.description.plugins import unknown_plugins
 from urdfkit.description.xml.cost_limit import loading_limit
 

@@ -60,7 +60,7 @@ class BagFile:
     def __init__(self, path: str | Path) -> None:
         self.path = Path(path)
         if not self.path.exists():
-            from urdfkit.description.packages.resolver import near_path
+            from urdfkit.description.packages.similar_names import near_path
 
             raise ResourceError(f"no file {self.path}{near_path(self.path)}")
         if self.path.is_file() and self.path.suffix not in SUFFIXES:

@@ -102,7 +102,7 @@ def _files(words: list[str], *, quiet: bool) -> Iterator[Path]:
         if path.is_file():
             yield path
         elif not path.is_dir():
-            from urdfkit.description.packages.resolver import near_path
+            from urdfkit.description.packages.similar_names import near_path
 
             raise ResourceError(f"{word}: no such file or folder{near_path(path)}")
         else:

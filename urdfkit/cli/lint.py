@@ -6,7 +6,7 @@ import os
 import sys
 from pathlib import Path
 
-from urdfkit.cli.lint_output import FORMATS, show
+from urdfkit.cli.lint_output import FORMATS, Progress, show
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -172,7 +172,12 @@ class _Run:
             return self._fix(entries)
         jobs = arguments.jobs or _cores()
         outcome = lint(
-            entries, self.options, cached=not (arguments.no_cache or arguments.confined), jobs=jobs, keep_going=True
+            entries,
+            self.options,
+            cached=not (arguments.no_cache or arguments.confined),
+            jobs=jobs,
+            keep_going=True,
+            progress=Progress(quiet=arguments.quiet),
         )
         return self._report(outcome), outcome
 
@@ -383,7 +388,7 @@ def _split(words: Sequence[str]) -> tuple[list[str], dict[str, str]]:
 def _folder(word: str) -> Path:
     folder = Path(word).expanduser()
     if not folder.is_dir():
-        from urdfkit.description.packages.resolver import near_path
+        from urdfkit.description.packages.similar_names import near_path
         from urdfkit.errors import ResourceError
 
         raise ResourceError(f"--package-path {word}: no such folder{near_path(folder)}")

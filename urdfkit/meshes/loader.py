@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from urdfkit.description.meshes.format_faults import glb_fault, obj_fault
 from urdfkit.description.meshes.limits import MAX_BYTES, MAX_TRIANGLES
-from urdfkit.description.packages.resolver import near_path
+from urdfkit.description.packages.similar_names import near_path
 from urdfkit.description.urdf.robot import Vector
 from urdfkit.errors import MissingDependencyError, ResourceError, did_you_mean
 from urdfkit.linear_algebra import matmul

@@ -239,7 +239,7 @@ def test_source_folders_stand_for_what_cmake_installs(package: Package, write: W
 
 
 def test_a_last_word_in_common_makes_no_package_near():
-    from urdfkit.description.packages.resolver import near_package
+    from urdfkit.description.packages.similar_names import near_package
 
     known = ("artoo_description", "husky_description", "kmsg")
     assert near_package("flir_camera_description", known) == ""

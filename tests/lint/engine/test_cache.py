@@ -136,6 +136,11 @@ def test_the_environment_counts(package, monkeypatch):
     assert lint(package).cached == 1
     monkeypatch.setenv("PART", "c")
     assert lint(package).cached == 0
+    package.write_text(f'{HEAD}<xacro:property name="n" value="A"/><link name="$(optenv P${{n}}RT b)"/></robot>')
+    lint(package)
+    assert lint(package).cached == 1
+    monkeypatch.delenv("PART")
+    assert lint(package).cached == 0
     monkeypatch.setenv("ROS_PACKAGE_PATH", "/nowhere")
     assert lint(package).cached == 0
 
@@ -174,7 +179,7 @@ def test_old_findings_make_room(package, monkeypatch):
 def test_yaml_files_count(package):
     package.write_text(f"{HEAD}<link name=\"${{xacro.load_yaml('n.yaml')['n']}}\"/></robot>")
     lint(package)
-    assert lint(package).cached == 0  # it may come
+    assert lint(package).cached == 1
     package.with_name("n.yaml").write_text("n: a")
     assert codes(lint(package)) == []
     assert lint(package).cached == 1

@@ -9,7 +9,9 @@ import pytest
 
 from urdfkit.errors import ModelError, ResourceError, UsageError
 from urdfkit.lint import RULES, lint
+from urdfkit.lint.engine.run import run
 from urdfkit.lint.project.entry_files import find_entries
+from urdfkit.lint.project.options import Options
 
 WHEEL = """<link name="base"/>
 <xacro:macro name="tensor" params="c"><inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="${c}"/></xacro:macro>
@@ -289,3 +291,13 @@ def test_a_file_of_macros_is_part_of_its_robot_though_its_root_has_a_name(tmp_pa
     assert [(Path(f.file).name, f.code) for f in lint(wheel)] == [("wheel.xacro", "X104")]
     wheel.write_text(f'<robot name="wheel" {XACRO}>{macro}<link name="a"/></robot>')
     assert [entry.path.name for entry in find_entries([wheel])] == ["wheel.xacro"]
+
+
+@pytest.mark.parametrize("jobs", [1, 2])
+def test_the_progress_is_told_after_each_file(write, monkeypatch, jobs):
+    monkeypatch.setattr("urdfkit.lint.engine.run._MIN_PARALLEL", 2)
+    for number in range(3):
+        write(f"{number}.urdf", f'<robot name="r{number}"><link name="a"/></robot>')
+    told = []
+    run(find_entries(["."]), Options(), jobs=jobs, progress=lambda *numbers: told.append(numbers))
+    assert told == [(1, 3), (2, 3), (3, 3)]

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
 from urdfkit.bus import absolute
-from urdfkit.description.packages.resolver import near_path
+from urdfkit.description.packages.similar_names import near_path
 from urdfkit.errors import UsageError, did_you_mean
 
 if TYPE_CHECKING:

@@ -22,7 +22,7 @@ def parameter_file(text: str) -> str:
     Raises:
         argparse.ArgumentTypeError: the file does not exist.
     """
-    from urdfkit.description.packages.resolver import near_path
+    from urdfkit.description.packages.similar_names import near_path
 
     path = Path(text)
     if not path.is_file():

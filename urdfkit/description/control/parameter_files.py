@@ -6,7 +6,7 @@ import re
 from pathlib import Path
 
 from urdfkit.description.packages.existence import is_file
-from urdfkit.description.packages.resolver import near_path
+from urdfkit.description.packages.similar_names import near_path
 from urdfkit.errors import ResourceError
 
 TYPE_CHECKING = False

@@ -8,8 +8,9 @@ from pathlib import Path
 
 from urdfkit.description.packages.existence import exists, is_file, is_folder
 from urdfkit.description.packages.related_files import CODE, around, state_of
+from urdfkit.description.packages.similar_names import near_package, near_path
 from urdfkit.description.xml.source import absolute
-from urdfkit.errors import ResourceError, did_you_mean, may_suggest, nearest
+from urdfkit.errors import ResourceError
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -58,6 +59,7 @@ class Packages:
         self._seen: dict[str, Path] = {}
         self._scanned: dict[Path, dict[str, Path]] = {}
         self._states: dict[tuple[str, ...], str] = {}
+        self._hints: dict[Path, str] = {}
         self.notes: dict[str, str] = {}
         """Notes on files that were found under a name with other capital letters, in order."""
         self.answers: dict[tuple[str, ...], str] = {}
@@ -79,14 +81,25 @@ class Packages:
             if kind == "find":
                 return str(self.find(words[0]))
             if kind == "resolve":
-                return str(self.resolve(words[0], words[1]))
+                return str(self._resolved(words[0], words[1], self._hints))
             if kind == "files":
                 return self._state_of(question)
+            if kind == "variable":
+                value = self.variable(words[0])
+                return "!" if value is None else f"={value}"
             if kind == "around":
-                return "\n".join(map(str, self.around(words[0])))
+                if question not in self._states:
+                    self._states[question] = "\n".join(map(str, around(Path(words[0]))))
+                return self._states[question]
             return self._moved(words[0])
         except ResourceError as error:
             return f"!{error.message}"
+
+    def variable(self, name: str) -> str | None:
+        """Return the value of an environment variable, as ``$(env …)`` finds it; None if it is not set."""
+        value = self.variables.get(name)
+        self.answers["variable", name] = "!" if value is None else f"={value}"
+        return value
 
     def is_as_written(self, question: tuple[str, ...], answer: str) -> bool:
         """Return whether a result is the file that a URI names itself; it holds as long as that file exists."""
@@ -96,7 +109,7 @@ class Packages:
     def near_file(self, near: str | Path) -> Packages:
         """Return a resolver that searches near another file and shares the cache of folders."""
         other = Packages(self.search, near, environment=self._environment, permits=self._permits)
-        other._scanned, other._states = self._scanned, self._states
+        other._scanned, other._states, other._hints = self._scanned, self._states, self._hints
         return other
 
     def find(self, name: str) -> Path:
@@ -180,7 +193,7 @@ class Packages:
         self.notes.setdefault(written, f"{place}{written}: {name}")
         return found
 
-    def _resolved(self, uri: str, relative_to: str | Path) -> Path:
+    def _resolved(self, uri: str, relative_to: str | Path, hints: dict[Path, str] | None = None) -> Path:
         path = self._path_of(uri, Path(relative_to))
         if not self.permits(path):
             raise ResourceError(f"{uri} is {OUTSIDE}")
@@ -197,7 +210,7 @@ class Packages:
             decoded = Path(unquote(str(path)))
             if exists(decoded):
                 return decoded
-        raise ResourceError(f"no file {uri}{near_path(path)}", kind="file")
+        raise ResourceError(f"no file {uri}{near_path(path, hints)}", kind="file")
 
     def relocate(self, path: str | Path) -> Path | None:
         """Return the path in the source folder for a path that exists only in an installed package.
@@ -359,37 +372,6 @@ class Packages:
             for name, folder in found.items():
                 self._seen.setdefault(name, folder)
         return self._scanned[top]
-
-
-def near_package(name: str, packages: Iterable[str]) -> str:
-    """Return a did-you-mean hint for a package; a common last word (``_description``) does not count."""
-    if not may_suggest():
-        return ""
-    stem, _, last = name.rpartition("_")
-    parts = ((other, *other.rpartition("_")[::2]) for other in packages)
-    return did_you_mean(name, [other for other, own, end in parts if end != last or nearest(stem, [own], cutoff=0.7)])
-
-
-def near_path(path: Path) -> str:
-    """Return a did-you-mean hint for the first part of `path` that does not exist, ignoring case.
-
-    A common suffix from the first dot on does not make two names similar.
-    """
-    if not may_suggest():
-        return ""
-    missing, parent = path, path.parent
-    while not is_folder(parent) and parent != parent.parent:
-        missing, parent = parent, parent.parent
-    try:
-        names = sorted(child.name for child in parent.iterdir())
-    except OSError:
-        return ""
-    stem = _stem(missing.name)
-    return did_you_mean(missing.name, [name for name in names if did_you_mean(stem, [_stem(name)])])
-
-
-def _stem(name: str) -> str:
-    return name.partition(".")[0] or name
 
 
 def _shipped_robots() -> Path | None:

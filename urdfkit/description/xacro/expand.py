@@ -135,7 +135,7 @@ def _check_exists(path: str | Path) -> None:
     Raises:
         ResourceError: it is a folder or not there, with the nearest name.
     """
-    from urdfkit.description.packages.resolver import near_path
+    from urdfkit.description.packages.similar_names import near_path
 
     path = Path(path)
     if path.is_dir():

@@ -10,7 +10,6 @@ from __future__ import annotations
 
 import marshal
 import os
-import re
 import sys
 import time
 from functools import cached_property
@@ -41,9 +40,8 @@ _VARIABLES = (
     "ROS_DISTRO",
 )
 _MANIFESTS = ("package.xml", "CMakeLists.txt", "setup.py")
-_ENVIRONMENT = r"\$\(\s*(?:opt)?env\s+([^\s()]+)"
-_UNTRACKED = r"environ|getenv|\.gltf"
-"""Expressions whose inputs the cache does not track; files that contain them are linted every time."""
+_UNTRACKED = ".gltf"
+"""Ending of meshes whose other files the cache does not track; robots with them are linted every time."""
 
 _STATUS = "="
 """First character of the state of a file that is not a digest."""
@@ -122,8 +120,6 @@ class Cache:
         for path, state in kept["states"].items():
             if (_status_of(path) if state[:1] == _STATUS else self._digest_of(path)) != state:
                 return False
-        if any(os.environ.get(name) != value for name, value in kept["environment"].items()):
-            return False
         if not kept["answers"]:
             return True
         packages = self.packages.near_file(entry.path)
@@ -137,17 +133,9 @@ class Cache:
             found: the result to store.
             expanded: the expansions that the result belongs to.
         """
-        environment: dict[str, str | None] = {}
         packages = expanded[0].packages
         asked = {question: answer for each in expanded for question, answer in each.packages.answers.items()}
-        faults = (fault for each in expanded for fault in each.faults)
-        failed = any(fault.kind in ("bad-expression", "conditional", "other") for fault in faults)
-        for text in {source.text: None for each in expanded for source in each.sources.values()}:
-            if re.search(_UNTRACKED, text) or ("load_yaml" in text and failed):
-                return  # A missing YAML file may be created later.
-            if "env" in text:
-                environment.update((name, os.environ.get(name)) for name in re.findall(_ENVIRONMENT, text))
-        if any("$" in name for name in environment):
+        if any(_UNTRACKED in source.text for each in expanded for source in each.sources.values()):
             return
         read = dict.fromkeys((*found.files.values(), *(str(file) for each in expanded for file in each.files)))
         package = next((f for f in entry.path.absolute().parents if (f / "package.xml").is_file()), None)
@@ -166,7 +154,6 @@ class Cache:
             self._path(entry),
             {
                 "states": states,
-                "environment": environment,
                 "answers": answers,
                 "findings": [_row(finding) for finding in found.findings],
                 "files": dict(found.files),

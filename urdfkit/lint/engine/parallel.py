@@ -3,7 +3,7 @@
 import multiprocessing
 import sys
 import threading
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor
 from concurrent.futures.process import BrokenProcessPool
 
@@ -20,8 +20,8 @@ _checkers: list[Checker] = []
 
 def check_all(
     entries: Sequence[Entry], options: Options, *, cached: bool, jobs: int, keep_going: bool
-) -> list[EntryResult]:
-    """Lint entry files in several processes.
+) -> Iterator[EntryResult]:
+    """Lint entry files in several processes; yield their results in order.
 
     Args:
         entries: the entry files.
@@ -40,11 +40,8 @@ def check_all(
     count = min(jobs, len(entries))
     try:
         with ProcessPoolExecutor(count, context, _begin, (options, cached, keep_going)) as pool:
-            return list(
-                pool.map(
-                    _check_or_refuse if keep_going else _check, entries, chunksize=max(1, len(entries) // (8 * count))
-                )
-            )
+            check, size = _check_or_refuse if keep_going else _check, max(1, len(entries) // (8 * count))
+            yield from pool.map(check, entries, chunksize=size)
     except BrokenProcessPool as error:
         raise ResourceError("a worker process was terminated; retry with --jobs 1") from error
 

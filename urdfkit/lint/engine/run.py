@@ -12,7 +12,7 @@ from urdfkit.record import record
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping
+    from collections.abc import Callable, Iterable, Mapping
     from typing import Any
 
     from urdfkit.description.xml.source import Source, Span
@@ -44,7 +44,13 @@ class Outcome:
 
 
 def run(
-    entries: Iterable[Entry], options: Options, *, cached: bool = False, jobs: int = 1, keep_going: bool = False
+    entries: Iterable[Entry],
+    options: Options,
+    *,
+    cached: bool = False,
+    jobs: int = 1,
+    keep_going: bool = False,
+    progress: Callable[[int, int], None] | None = None,
 ) -> Outcome:
     """Lint entry files.
 
@@ -54,6 +60,7 @@ def run(
         cached: use cached results of unchanged files, and store new results.
         jobs: maximum number of processes.
         keep_going: if one of several files cannot be linted or a rule fails, report it in the outcome and continue.
+        progress: called with the number of linted files and of all files, after each file that was not cached.
 
     Raises:
         UsageError: a code or the target is unknown.
@@ -79,10 +86,12 @@ def run(
             from urdfkit.lint.engine.parallel import check_all
 
             results = check_all(left, options, cached=cached, jobs=jobs, keep_going=keep_going)
-            found.update(zip(left, results, strict=True))
         else:
-            check = checker.check_or_refuse if keep_going and len(entries) > 1 else checker.check
-            found.update((entry, check(entry)) for entry in left)
+            results = map(checker.check_or_refuse if keep_going and len(entries) > 1 else checker.check, left)
+        for entry, result in zip(left, results, strict=True):
+            found[entry] = result
+            if progress is not None:
+                progress(len(found), len(entries))
     every = [found[entry] for entry in entries]
     files = {name: Path(path) for one in every for name, path in one.files.items()}
     used = {each for one in every for each in one.used}

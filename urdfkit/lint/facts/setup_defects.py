@@ -90,7 +90,7 @@ def _installed(reader: LaunchReader, data: ast.expr) -> list[tuple[str, ast.expr
 def _data_files(
     files: BuildFiles, source: Source, reader: LaunchReader, data: ast.expr | None, used: dict[str, str]
 ) -> Iterator[BuildDefect]:
-    from urdfkit.description.packages.resolver import near_path
+    from urdfkit.description.packages.similar_names import near_path
     from urdfkit.lint.facts.control.launch_package_paths import place
 
     installed = _installed(reader, data) if data is not None else None

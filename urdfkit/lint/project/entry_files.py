@@ -283,27 +283,37 @@ def _above(path: Path, robots: dict[Path, str]) -> set[Path]:
 
 
 def _included(robots: dict[Path, str]) -> set[Path]:
-    patterns = {other: _patterns(text) for other, text in robots.items()}
+    patterns: dict[str, list[tuple[Path, re.Pattern[str]]]] = {}
+    for other, text in robots.items():
+        for name, pattern in _patterns(text):
+            patterns.setdefault(name, []).append((other, pattern))
     return {
         path
         for path in robots
-        if any(pattern.search(path.as_posix()) for other in robots if other != path for pattern in patterns[other])
+        if any(
+            other != path and pattern.search(path.as_posix())
+            for other, pattern in (*patterns.get(path.name, ()), *patterns.get("", ()))
+        )
     }
 
 
 def _matches(text: str, path: Path) -> bool:
-    return any(pattern.search(path.as_posix()) for pattern in _patterns(text))
+    return any(pattern.search(path.as_posix()) for _, pattern in _patterns(text))
 
 
-def _patterns(text: str) -> list[re.Pattern[str]]:
-    """Return patterns of the paths of included files: the part after the last ``$(…)`` or ``..``."""
+def _patterns(text: str) -> list[tuple[str, re.Pattern[str]]]:
+    """Return name and pattern of the path of each included file: the part after the last ``$(…)`` or ``..``.
+
+    The name is empty if it is computed.
+    """
     found = []
     for double, single in re.findall(_INCLUDE, text):
         written = (double or single).replace("\\", "/").rpartition("../")[2].removeprefix("./")
         written = re.sub(r"^\$\(find[^()]*\)/", "", written)
         parts = [re.escape(part) for part in re.split(_VARIABLE, written)]
         if any(parts):
-            found.append(re.compile(f"(^|/){'.*'.join(parts)}$"))
+            name = written.rpartition("/")[2]
+            found.append(("" if re.search(_VARIABLE, name) else name, re.compile(f"(^|/){'.*'.join(parts)}$")))
     return found
 
 

@@ -9,7 +9,8 @@ from dataclasses import replace
 from pathlib import Path
 
 from urdfkit.description.packages.existence import exists, is_folder
-from urdfkit.description.packages.resolver import Packages, near_path
+from urdfkit.description.packages.resolver import Packages
+from urdfkit.description.packages.similar_names import near_path
 from urdfkit.description.sdf.frame_graph import Scope
 from urdfkit.description.sdf.model import WorldModel
 from urdfkit.description.sdf.model_library import model_file, model_names, world_file, world_names

@@ -4,7 +4,7 @@ import re
 from pathlib import Path
 
 from urdfkit.description.packages.existence import exists, is_file
-from urdfkit.description.packages.resolver import near_path
+from urdfkit.description.packages.similar_names import near_path
 from urdfkit.description.sdf.model_library import ALIKE, FOLDER, model_file, model_names, replacement_of
 from urdfkit.description.sdf.reader.reading_state import NEWEST, Context
 from urdfkit.description.xml.element import Element

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 from urdfkit.description.xacro.evaluation.expressions.budget import Budget
@@ -32,7 +32,7 @@ class Commands:
         expressions: returns what evaluates ``$(eval …)``.
         arguments: values of ``$(arg …)``; ``<xacro:arg>`` adds defaults to it.
         find: returns the folder of a package.
-        variables: the environment variables that the file may read.
+        variable: returns the value of an environment variable; None if it is not set.
 
     Attributes:
         log: evaluated command → its value, None if the command has no value or a value that may change.
@@ -43,9 +43,9 @@ class Commands:
         expressions: Callable[[], Expressions],
         arguments: dict[str, str],
         find: Callable[[str], str],
-        variables: Mapping[str, str],
+        variable: Callable[[str], str | None],
     ) -> None:
-        self._expressions, self.arguments, self._find, self._variables = expressions, arguments, find, variables
+        self._expressions, self.arguments, self._find, self._read_variable = expressions, arguments, find, variable
         self.log: dict[str, Any] = {}
         self._names: dict[str, Any] | None = None
         self._builtins: dict[str, Any] = {}
@@ -99,13 +99,18 @@ class Commands:
         if command == "env":
             return self._variable(words[0])
         if command == "optenv":
-            return self._variables.get(words[0], " ".join(words[1:]))
+            return self._optional(words[0], " ".join(words[1:]))
         return self.argument(words[0])
 
     def _variable(self, name: str) -> str:
-        if name not in self._variables:
+        value = self._read_variable(name)
+        if value is None:
             raise ValueError(f"environment variable '{name}' is not set")
-        return self._variables[name]
+        return value
+
+    def _optional(self, name: str, default: str = "") -> str:
+        value = self._read_variable(name)
+        return default if value is None else value
 
     def argument(self, name: str) -> str:
         """Return the value of an argument.
@@ -132,7 +137,7 @@ class Commands:
             budget: Budget = self._expressions().budget
             functions: dict[str, Callable[..., Any]] = {
                 "env": self._variable,
-                "optenv": lambda name, default="": self._variables.get(name, default),
+                "optenv": self._optional,
                 "find": self._find,
                 "arg": lambda name: converted(self.argument(name)),
                 "dirname": lambda: self._value("dirname", "dirname", []),

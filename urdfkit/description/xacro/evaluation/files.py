@@ -50,7 +50,7 @@ class Files(Texts):
     def __init__(
         self, path: str, arguments: Mapping[str, str], packages: Packages, *, texts: Mapping[str, str] | None = None
     ) -> None:
-        super().__init__(arguments, self._find, packages.variables)
+        super().__init__(arguments, self._find, packages.variable)
         self.path, self.packages = path, packages
         self._texts = texts
         self.files: dict[Path, None] = {}

@@ -7,7 +7,8 @@ from collections.abc import Callable, Mapping
 from functools import cached_property
 from keyword import iskeyword
 
-from urdfkit.description.packages.resolver import OUTSIDE, near_path
+from urdfkit.description.packages.resolver import OUTSIDE
+from urdfkit.description.packages.similar_names import near_path
 from urdfkit.description.xacro.evaluation.commands import Commands
 from urdfkit.description.xacro.evaluation.expressions.budget import Budget
 from urdfkit.description.xacro.evaluation.expressions.limits import (
@@ -47,16 +48,18 @@ class Texts:
     Args:
         arguments: values of ``$(arg …)``.
         find: returns the folder of a package.
-        variables: the environment variables that the file may read.
+        variable: returns the value of an environment variable; None if it is not set.
 
     Attributes:
         at: the element and attribute being evaluated.
         resolving: how many properties are being evaluated, each because the one before uses it.
     """
 
-    def __init__(self, arguments: Mapping[str, str], find: Callable[[str], str], variables: Mapping[str, str]) -> None:
+    def __init__(
+        self, arguments: Mapping[str, str], find: Callable[[str], str], variable: Callable[[str], str | None]
+    ) -> None:
         self.budget = Budget()
-        self.commands = Commands(lambda: self.expressions, dict(arguments), find, variables)
+        self.commands = Commands(lambda: self.expressions, dict(arguments), find, variable)
         self.at: Place = (None, None)
         self._tokens: dict[str, list[tuple[int, str]]] = {}
         self._names: dict[str, str] = {}

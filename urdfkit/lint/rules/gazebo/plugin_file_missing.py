@@ -75,7 +75,7 @@ class PluginFileMissing(RobotRule):
 def _described(path: Path) -> tuple[str, Severity] | None:
     """Return the message about a missing file of a package in the workspace; None for other files."""
     from urdfkit.description.packages.related_files import package_of
-    from urdfkit.description.packages.resolver import near_path
+    from urdfkit.description.packages.similar_names import near_path
 
     package = package_of(path) if path.is_absolute() else None
     if package is None:

@@ -124,7 +124,7 @@ class BuildFileInconsistent(RobotRule):
 
     def _install(self, files: BuildFiles, source: Source, command: CMakeCommand) -> Findings:
         """Yield a finding for each literal file or folder that does not exist."""
-        from urdfkit.description.packages.resolver import near_path
+        from urdfkit.description.packages.similar_names import near_path
         from urdfkit.lint.facts.build_files import OPTIONS
         from urdfkit.lint.fix_builders import nearest
 

@@ -43,7 +43,7 @@ class LaunchPathMissing(RobotRule):
     def check(self, model: Model) -> Findings:
         """Yield a finding for each path that does not exist in its package."""
         from urdfkit.description.packages.related_files import LAUNCH, neighbours
-        from urdfkit.description.packages.resolver import near_path
+        from urdfkit.description.packages.similar_names import near_path
         from urdfkit.lint.facts.control.launch_package_paths import package_paths
 
         if model.package is None:
