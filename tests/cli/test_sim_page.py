@@ -67,6 +67,7 @@ def put_down(page) -> None:
     for name in names(page):
         if name not in ("simpleton", "ground_plane", "sun"):
             order(page, "remove", name=name)
+            page.wait_for_function("name => urdfkit.objects.objects.every((each) => each.name !== name)", arg=name)
 
 
 def spot(page, x: float, y: float, z: float = 0.0) -> tuple[float, float]:
@@ -363,6 +364,7 @@ def test_changes_are_undone_and_redone_by_the_keyboard_alone(page, until) -> Non
     page.locator("#open-world").press("Enter")
     page.locator("#library-filter").fill("crate")
     page.locator(".library-entry").first.press("Enter")
+    page.locator("#insert-x").fill("0")
     page.locator("#insert-y").fill("2")  # away from the robot, which would push it
     page.locator("#insert-y").press("Enter")
     page.locator("#insert-typed").press("Enter")
@@ -547,6 +549,13 @@ def test_what_was_recorded_is_shown_again_and_topics_are_saved(page, keep, until
     page.locator("#replay-play").click()
     until(lambda: page.evaluate(X) > 0.1)
     keep(page, "replay")
+    page.evaluate("urdfkit.page.panels.open('camera')")
+    page.get_by_label("One turn, or a timelapse, takes").fill("1")
+    with page.expect_download() as download:
+        page.get_by_role("button", name="Timelapse of the replay").click()
+    assert Path(download.value.path()).stat().st_size > 2000
+    until(lambda: page.evaluate(X) == pytest.approx(here, abs=0.3))  # it was played to its end
+    page.evaluate("urdfkit.page.panels.open('recorder')")
     page.locator("#replay-end").click()
     until(lambda: page.locator("#rtf").inner_text() != "replay")
     assert float(page.locator("#sim-time").inner_text().split()[0]) >= now - 0.1

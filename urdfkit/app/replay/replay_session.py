@@ -61,7 +61,7 @@ class ReplaySession(ObservedSession):
         self._from = self._clock(), 0.0
         del self._takes["publish"], self._takes["publish_pose"]
         self._takes["replay"] = (
-            Schema({"action": choice("show", "play", "pause", "end")}, {"at": number(0), "speed": number(0.05, 20)}),
+            Schema({"action": choice("show", "play", "pause", "end")}, {"at": number(0), "speed": number(0.05, 200)}),
             self._control,
         )
         self._takes["speed"] = Schema({}, {"factor": number(0.01, 1000)}), self._set_speed

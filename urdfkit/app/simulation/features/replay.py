@@ -51,7 +51,7 @@ class Replay(Feature):
     @property
     def takes(self) -> Takes:
         """The supported requests."""
-        replay = {"at": number(0), "speed": number(0.05, 20)}
+        replay = {"at": number(0), "speed": number(0.05, 200)}
         return {
             "record": (Schema({"on": flag}, {"topics": flag, "pictures": flag}), self._record),
             "replay": (Schema({"action": choice("show", "play", "pause", "end")}, replay), self._replay),

@@ -1,7 +1,7 @@
 // Features of the robot's page, in the order of their installation.
 
 import { cameras } from "../viewport/cameras.js";
-import { capture } from "../viewport/screen_capture.js";
+import { capture } from "../capture/screen_capture.js";
 import { collisions } from "./collision_matrix.js";
 import { findings } from "./lint_findings.js";
 import { help } from "../page/keyboard_help.js";
@@ -12,6 +12,7 @@ import { joints } from "./joint_sliders.js";
 import { labels } from "../viewport/labels.js";
 import { layers } from "../viewport/display_layers.js";
 import { modes } from "../page/mode_switch.js";
+import { loading } from "../viewport/loading_progress.js";
 import { measure } from "./measure.js";
 import { pick } from "../viewport/picking.js";
 import { reach } from "./reach_map.js";
@@ -25,6 +26,6 @@ import { tools } from "../page/toolbar.js";
 import { tree } from "./link_tree.js";
 
 export const viewFeatures = [
-  tools, history, robot, sight, labels, joints, tree, inspector, layers, tf, reach, collisions, measure, findings, cameras, capture, ik, pick, steering, selection,
+  tools, history, robot, sight, labels, joints, tree, inspector, layers, loading, tf, reach, collisions, measure, findings, cameras, capture, ik, pick, steering, selection,
   modes, theme, help,
 ];
