@@ -22,6 +22,7 @@ from urdfkit.errors import MissingDependencyError, ResourceError, did_you_mean
 from urdfkit.linear_algebra import matmul
 from urdfkit.meshes.collada_checks import metres_per_unit, rejection_reason
 from urdfkit.meshes.mesh_appearance import colors_in, gloss_in, normals_in, places_in, texture_in
+from urdfkit.meshes.simplification import CHUNK, MOST_TRIANGLES, clustered, simplified
 from urdfkit.meshes.stl import corners_of
 from urdfkit.meshes.textures import Beside, Texture, is_as_read
 from urdfkit.meshes.unique_rows import unique_rows
@@ -52,6 +53,7 @@ class TriMesh:
         broken: names of referenced image files that exist but are not valid images.
         open_vertices: whether the file names no material for the vertex; shape (n,), or None if so for all or no
             vertices.
+        simplified_from: number of triangles in the file if the mesh was simplified for the screen, otherwise 0.
         hash: hexadecimal digest of all of the above: equal meshes have equal hashes.
     """
 
@@ -67,6 +69,7 @@ class TriMesh:
     face_gloss: NDArray[np.float32] | None = field(default=None, repr=False)
     broken: tuple[str, ...] = ()
     open_vertices: NDArray[np.bool_] | None = field(default=None, repr=False)
+    simplified_from: int = 0
 
     def __post_init__(self) -> None:
         digest = hashlib.sha256("".join(texture.hash for texture in self.textures).encode())
@@ -101,9 +104,14 @@ class MeshLoader:
     """Reads mesh files and caches them by content, so that a mesh used several times is read once.
 
     With one loader for several scenes (live reload) only changed files are read again.
+
+    Args:
+        is_for_screen: simplify meshes of more than a million triangles (`simplification`). Large STL files are never
+            in the memory as a whole mesh then.
     """
 
-    def __init__(self) -> None:
+    def __init__(self, *, is_for_screen: bool = False) -> None:
+        self._is_for_screen = is_for_screen
         self._cached: dict[tuple[str, str, Vector, str, bool], tuple[TriMesh, dict[Path, tuple[int, int]]]] = {}
 
     def load(self, path: Path, scale: Vector = (1.0, 1.0, 1.0), *, places: bool = False) -> TriMesh:
@@ -129,12 +137,14 @@ class MeshLoader:
             )
         content = _read(path)
         side_files = b"".join(_side_files(path, content))
-        beside = str(path.parent) if _PULLS.search(content) or side_files else ""
+        is_stl = path.suffix.lower() == ".stl"
+        beside = str(path.parent) if side_files or (not is_stl and _PULLS.search(content)) else ""
         key = (hashlib.sha256(content + side_files).hexdigest(), path.suffix.lower(), scale, beside, places)
         cached = self._cached.get(key)
         if cached is None or not is_as_read(cached[1]):
             files = Beside(path, MAX_BYTES)
-            cached = self._cached[key] = _parse(path, content, scale, files, places), files.read
+            mesh = _parse(path, content, scale, files, places, self._is_for_screen)
+            cached = self._cached[key] = simplified(mesh) if self._is_for_screen else mesh, files.read
         return cached[0]
 
 
@@ -177,9 +187,10 @@ def _side_files(path: Path, content: bytes) -> Iterator[bytes]:
                 continue
 
 
-def _parse(path: Path, content: bytes, scale: Vector, beside: Beside, places: bool) -> TriMesh:
+def _parse(path: Path, content: bytes, scale: Vector, beside: Beside, places: bool, is_for_screen: bool) -> TriMesh:
     if path.suffix.lower() == ".stl" and (corners := corners_of(content)) is not None and not places:
-        return _of_corners(path, corners, np.array(scale, dtype=float))
+        read = _of_many_corners if is_for_screen and len(corners) > MOST_TRIANGLES else _of_corners
+        return read(path, corners, np.array(scale, dtype=float))
     try:
         import trimesh
     except ImportError as error:
@@ -213,6 +224,17 @@ def _parts(scene: Any) -> Iterator[tuple[Any, Any]]:
             if total > MAX_TRIANGLES:
                 raise ResourceError(f"mesh has more than {MAX_TRIANGLES} triangles; decimate it")
             yield geometry, np.asarray(transform, dtype=float)
+
+
+def _of_many_corners(path: Path, corners: NDArray[np.float32], scale: NDArray[np.float64]) -> TriMesh:
+    """Return a simplified mesh from triangles of shape (m, 3, 3), scaled."""
+    if len(corners) > MAX_TRIANGLES:
+        raise ResourceError(f"mesh has more than {MAX_TRIANGLES} triangles; decimate it")
+    if not all(np.isfinite(corners[at : at + CHUNK]).all() for at in range(0, len(corners), CHUNK)):
+        raise ResourceError(f"mesh {path.name} is invalid: a vertex is not finite")
+    found = clustered(len(corners), lambda chunk: corners[chunk] * scale)
+    faces = found.faces[:, ::-1] if np.prod(scale) < 0 else found.faces
+    return TriMesh(found.vertices, np.ascontiguousarray(faces), simplified_from=len(corners))
 
 
 def _of_corners(path: Path, corners: NDArray[np.float32], scale: NDArray[np.float64]) -> TriMesh:

@@ -67,7 +67,7 @@ class ShownRobot:
         from urdfkit.scene import MeshLoader, scene_of
         from urdfkit.scene.placeholders import require_valid_shapes, with_placeholders
 
-        loader = loader or MeshLoader()
+        loader = loader or MeshLoader(is_for_screen=True)
         replaced: list[Repair] = []
         with loading_limit():
             robot = load_valid(model) if strict else without_impossible_mimics(load_repaired(model))

@@ -57,10 +57,6 @@ page.on("fault", (message) => {
   $("fault").textContent = message.message ?? "";
 });
 page.on("notice", (message) => page.toast(message.text, message.tone));
-page.on("progress", (message) => {
-  $("progress").hidden = !message.label;
-  $("progress-label").textContent = message.label ?? "";
-});
 
 page.panels.changed = () => page.emit("panels", null);
 for (const install of [...viewFeatures, ...simFeatures]) install(page);

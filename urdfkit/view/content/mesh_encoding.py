@@ -22,7 +22,7 @@ from urdfkit.meshes.unique_rows import unique_rows
 from urdfkit.scene import TriMesh
 from urdfkit.view.content.crease_normals import crease, flat_normals
 
-FORMAT = "urdfkit mesh 2"
+FORMAT = "urdfkit mesh 3"
 """Part of the names of stored meshes, so that a browser does not use a cached mesh in another format."""
 
 STEPS = 65535
@@ -74,7 +74,8 @@ def pack(mesh: TriMesh, textures: list[str] | None = None) -> bytes:
         depth, planes = _planes(rows.astype(np.int64), is_delta=stream["name"] not in ("index", "of"))
         streams.append({**stream, "width": rows.shape[1], "rows": len(rows), "bytes": depth})
         content.append(planes)
-    header = json.dumps({"vertices": len(used), "triangles": len(faces), "parts": parts, "streams": streams}).encode()
+    size = {"vertices": len(used), "triangles": len(faces), "simplified_from": mesh.simplified_from}
+    header = json.dumps({**size, "parts": parts, "streams": streams}).encode()
     return gzip.compress(b"".join([struct.pack("<I", len(header)), header, *content]), 6, mtime=0)
 
 

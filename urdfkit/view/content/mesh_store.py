@@ -5,6 +5,7 @@ import io
 from collections.abc import Collection, Iterator
 from threading import Lock
 
+from urdfkit.meshes.simplification import simplified
 from urdfkit.meshes.textures import Texture
 from urdfkit.scene import TriMesh
 from urdfkit.view.content.mesh_encoding import FORMAT, pack
@@ -45,7 +46,7 @@ class GeometryStore:
         with self._lock:
             packed = self._packed.get(name)
             if packed is None:
-                packed = self._packed[name] = pack(mesh, [_name(texture.hash) for texture in mesh.textures])
+                packed = self._packed[name] = pack(simplified(mesh), [_name(texture.hash) for texture in mesh.textures])
         return packed
 
     def image(self, name: str, edge: int = EDGES[-1]) -> bytes | None:

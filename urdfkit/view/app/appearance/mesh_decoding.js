@@ -3,7 +3,7 @@
 
 const THREE = MeshCat.THREE;
 
-/** Return the parts of a packed mesh: [{geometry, texture: name or null, clear}]. */
+/** Return the parts of a packed mesh: [{geometry, texture: name or null, clear}], with `triangles` and `simplifiedFrom`. */
 export function decoded(buffer) {
   const size = new DataView(buffer).getUint32(0, true);
   const header = JSON.parse(new TextDecoder().decode(new Uint8Array(buffer, 4, size)));
@@ -23,7 +23,7 @@ export function decoded(buffer) {
       of = null;
     }
   }
-  return header.parts.map(({ first, count, texture, clear }) => {
+  const parts = header.parts.map(({ first, count, texture, clear }) => {
     const geometry = new THREE.BufferGeometry();
     for (const [name, values] of attributes) geometry.setAttribute(name, values);
     const part = header.parts.length > 1 ? index.slice(3 * first, 3 * (first + count)) : index;
@@ -31,6 +31,7 @@ export function decoded(buffer) {
     if (header.parts.length > 1) bound(geometry);
     return { geometry, texture, clear };
   });
+  return Object.assign(parts, { triangles: header.triangles, simplifiedFrom: header.simplified_from });
 }
 
 // Byte planes, column by column; differences between rows are summed.

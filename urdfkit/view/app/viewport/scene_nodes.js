@@ -18,7 +18,9 @@ export class Scene {
     this.hidden = new Map(); // path → function that requests the mesh of a shape when it is shown
     this.used = new Set(); // meshes of the current robot
     this.textures = new Set(); // and their textures
-    this.waiting = new Set();
+    this.waiting = new Map(); // promise of a requested mesh → path of its shape
+    this.requested = { count: 0, bytes: 0 }; // since no mesh was waited for
+    this.simplified = new Map(); // link → numbers of triangles [in the file, shown]
     this.groups = { visual: new Map(), collision: new Map() };
     this.shown = { visual: true, collision: false };
     this.look = { wireframe: false, opacity: 1 };
@@ -46,6 +48,7 @@ export class Scene {
       this.generation += 1;
       this.used = new Set();
       this.textures = new Set();
+      this.simplified.clear();
     }
     if (command.type === "delete") this.#forget(path.join("/"));
     const geometry = command.type === "set_object" ? command.object.geometries?.[0] : null;
@@ -130,6 +133,7 @@ export class Scene {
         const shape = new THREE.Group();
         for (const part of parts) shape.add(await this.#part(part, object.materials[0]));
         if (generation !== this.generation) return; // the robot was replaced in the meantime
+        this.#count(path, parts);
         for (const mesh of shape.children) Object.assign(mesh, { castShadow: path[3] !== "collision", receiveShadow: true });
         this.viewer.set_object(path, shape.children.length === 1 ? shape.children[0] : shape);
         const group = this.groups[path[3]]?.get(path.slice(0, 4).join("/"));
@@ -142,10 +146,21 @@ export class Scene {
       .catch((error) => console.warn(`mesh ${name.slice(0, 8)}: ${error.message}`))
       .finally(() => {
         this.waiting.delete(task);
-        this.loading?.(this.waiting.size);
+        this.#report();
       });
-    this.waiting.add(task);
-    this.loading?.(this.waiting.size);
+    if (!this.waiting.size) this.requested = { count: 0, bytes: 0 };
+    this.requested.count += 1;
+    this.waiting.set(task, path);
+    this.#report();
+  }
+
+  #report() {
+    const [path] = this.waiting.values();
+    this.loading?.({ waiting: this.waiting.size, asked: this.requested.count, bytes: this.requested.bytes, link: path && unescaped(path[2]).replace(/^world\//, "") });
+  }
+
+  #count(path, { simplifiedFrom, triangles }) {
+    if (path[3] === "visual" && simplifiedFrom) this.simplified.set(unescaped(path[2]), [simplifiedFrom, triangles]);
   }
 
   async #part({ geometry, texture: name, clear }, written) {
@@ -161,17 +176,25 @@ export class Scene {
 
   #mesh(name) {
     if (!this.meshes.has(name)) {
-      const mesh = (window.urdfkitMesh ?? fetched)(name).then(decoded);
+      const mesh = (window.urdfkitMesh ?? ((each) => this.#fetched(each)))(name).then(decoded);
       mesh.catch(() => this.meshes.delete(name));
       this.meshes.set(name, mesh);
     }
     return this.meshes.get(name);
   }
 
+  async #fetched(name) {
+    const answer = await fetch(`/geometry/${name}${location.search}`); // a page in a frame sends its token
+    if (!answer.ok) throw new Error(`${answer.status}`);
+    this.requested.bytes += Number(answer.headers.get("content-length"));
+    this.#report();
+    return answer.arrayBuffer();
+  }
+
   /** Resolves when all requested meshes are loaded. */
   async settled() {
     if (!this.groups.visual.size) for (const request of [...this.hidden.values()]) request(); // for `bounds`
-    while (this.waiting.size) await Promise.allSettled([...this.waiting]);
+    while (this.waiting.size) await Promise.allSettled([...this.waiting.keys()]);
     keepTextures(this.textures);
   }
 
@@ -270,6 +293,7 @@ export class Scene {
   #place(values) {
     if (this.placed?.every((value, i) => Math.abs(value - values[i]) < STILL)) return;
     this.placed = values;
+    this.viewport.budget.motion();
     this.nodes.forEach((node, i) => {
       const at = 7 * i;
       node.position.set(values[at], values[at + 1], values[at + 2]);
@@ -282,10 +306,4 @@ export class Scene {
 // As link_path in meshcat_objects.py: components of a path contain no slash.
 function unescaped(part) {
   return part.replaceAll("%2F", "/").replaceAll("%25", "%");
-}
-
-async function fetched(name) {
-  const answer = await fetch(`/geometry/${name}${location.search}`); // a page in a frame sends its token
-  if (!answer.ok) throw new Error(`${answer.status}`);
-  return answer.arrayBuffer();
 }

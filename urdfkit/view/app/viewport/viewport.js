@@ -1,6 +1,7 @@
 // The 3-D viewport: meshcat's viewer with its own light, ground, camera and theme.
 /* global MeshCat */
 
+import { DrawingBudget } from "./drawing_budget.js";
 import { soft, sparing } from "./graphics_device.js";
 import { gridMaterial } from "./ground_grid.js";
 import { SunShadow } from "../appearance/sun_shadow.js";
@@ -25,6 +26,7 @@ export class Viewport {
     this.viewer.delete_path(["Grid"]);
     this.viewer.renderer.setPixelRatio(soft ? 1 : Math.min(devicePixelRatio, 2));
     this.viewer.renderer.shadowMap.autoUpdate = false; // shadows change when objects move, not when the camera moves
+    this.budget = new DrawingBudget(this);
     this.#wait();
     this.radius = 0.5;
     this.floor = 0; // height of the ground [m]
@@ -35,7 +37,12 @@ export class Viewport {
     this.viewer.camera.fov = FOV;
     this.viewer.controls.enableDamping = false;
     this.viewer.controls.maxPolarAngle = Math.PI * 0.98;
-    this.viewer.controls.addEventListener("change", () => this.haze());
+    this.viewer.controls.addEventListener("start", () => this.budget.hold(true));
+    this.viewer.controls.addEventListener("end", () => this.budget.hold(false));
+    this.viewer.controls.addEventListener("change", () => {
+      this.budget.motion();
+      this.haze();
+    });
     this.visible("Axes", false);
     this.theme(matchMedia("(prefers-color-scheme: dark)").matches);
     new ResizeObserver(() => this.resize()).observe(pane);
@@ -54,8 +61,10 @@ export class Viewport {
     this.empty = true;
     this.viewer.render = () => {
       if (this.empty) return;
-      if (this.viewer.renderer.shadowMap.needsUpdate) this.sunShadow.fit();
-      render();
+      this.budget.draw(() => {
+        if (this.viewer.renderer.shadowMap.needsUpdate) this.sunShadow.fit();
+        render();
+      });
     };
     setTimeout(() => this.begin(), PATIENCE);
   }
@@ -71,6 +80,16 @@ export class Viewport {
     this.#frame();
     this.viewer.renderer.setSize(width, height);
     this.dirty();
+  }
+
+  /** Draw one frame of this size [px] at once; `resize` restores the size of the pane. */
+  draw(width, height) {
+    this.aspect = width / height;
+    this.#frame();
+    this.viewer.renderer.setSize(width, height, false);
+    this.dirty();
+    this.budget.until = 0;
+    this.viewer.render();
   }
 
   // The frustum of the camera; for an orthographic one, `halfHeight` metres above and below its centre.
@@ -94,6 +113,12 @@ export class Viewport {
     major.value.set(theme.major);
     minor.value.set(theme.minor);
     this.dirty();
+  }
+
+  /** Show shadows, or draw without them. */
+  shadows(shown) {
+    this.shade.visible = shown;
+    this.sunShadow.sun.castShadow = shown;
   }
 
   visible(name, shown) {
