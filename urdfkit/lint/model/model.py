@@ -267,6 +267,13 @@ class Model:
         return Model(self.expanded, part, self.target, None, self.release, self.texts, {}, self.mesh_boxes)
 
     @cached_property
+    def meshes(self) -> list[tuple[Mesh, Element, Link]]:
+        """Every mesh that has a file name, with its ``<mesh>`` element and link."""
+        from urdfkit.lint.model.mesh_files import meshes
+
+        return list(meshes(self.robot))
+
+    @cached_property
     def frames(self) -> dict[str, Frame]:
         """Link name → its frame in the root link, every joint at zero."""
         from urdfkit.lint.model.placement import frames

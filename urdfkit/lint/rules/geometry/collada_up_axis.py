@@ -4,7 +4,7 @@ import re
 from pathlib import Path
 
 from urdfkit.description.packages.existence import is_file
-from urdfkit.lint.model.mesh_files import meshes, path_of
+from urdfkit.lint.model.mesh_files import path_of
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
 
@@ -44,7 +44,7 @@ class ColladaUpAxis(RobotRule):
     def check(self, model: Model) -> Findings:
         """Yield a finding for each COLLADA file whose up axis or unit differs from URDF."""
         assets: dict[str, tuple[str, float]] = {}
-        for mesh, element, link in meshes(model.robot):
+        for mesh, element, link in model.meshes:
             uri = mesh.uri.strip()
             if not uri.lower().endswith(".dae"):
                 continue

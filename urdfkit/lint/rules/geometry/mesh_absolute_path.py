@@ -4,7 +4,6 @@ import re
 
 from urdfkit.description.packages.existence import is_absolute
 from urdfkit.lint.fix_builders import new_value
-from urdfkit.lint.model.mesh_files import meshes
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
 
@@ -48,7 +47,7 @@ class MeshAbsolutePath(RobotRule):
 
     def check(self, model: Model) -> Findings:
         """Yield a finding for each literal absolute path."""
-        for mesh, element, link in meshes(model.robot):
+        for mesh, element, link in model.meshes:
             uri = mesh.uri.strip()
             if not is_absolute(uri) or model.literal(element, "filename") is None:
                 continue

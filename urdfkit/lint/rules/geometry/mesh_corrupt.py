@@ -7,7 +7,7 @@ from urdfkit.description.meshes.bounds import bounds
 from urdfkit.description.meshes.format_faults import glb_fault, obj_fault
 from urdfkit.description.meshes.limits import MAX_BYTES, MAX_TRIANGLES
 from urdfkit.description.packages.existence import exists, is_file, is_folder
-from urdfkit.lint.model.mesh_files import LFS, meshes, path_of
+from urdfkit.lint.model.mesh_files import LFS, path_of
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
 _LARGE = 64 * 2**20
@@ -58,7 +58,7 @@ class MeshCorrupt(RobotRule):
     def check(self, model: Model) -> Findings:
         """Yield a finding for each file that contains no mesh."""
         faults: dict[str, str] = {}
-        for mesh, element, link in meshes(model.robot):
+        for mesh, element, link in model.meshes:
             if mesh.uri not in faults:
                 path = path_of(mesh, model.expanded)
                 faults[mesh.uri] = _fault(path) if path is not None and exists(path) else ""

@@ -5,7 +5,7 @@ from pathlib import Path
 
 from urdfkit.description.packages.existence import is_absolute, is_file
 from urdfkit.lint.fix_builders import new_value
-from urdfkit.lint.model.mesh_files import is_remote, meshes, missing
+from urdfkit.lint.model.mesh_files import is_remote, missing
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
 _MAX_FOLDERS = 4
@@ -53,7 +53,7 @@ class MeshFileMissing(RobotRule):
     def check(self, model: Model) -> Findings:
         """Yield a finding for each missing mesh file."""
         failures: dict[str, tuple[str, str] | None] = {}
-        for mesh, element, link in meshes(model.robot):
+        for mesh, element, link in model.meshes:
             if model.is_unresolved(element, "filename"):
                 continue
             if "$" in mesh.uri or is_remote(mesh.uri):

@@ -1,6 +1,5 @@
 """G606 mesh-format-unsupported."""
 
-from urdfkit.lint.model.mesh_files import meshes
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
 _USUAL = frozenset(("stl", "stlb", "dae", "obj", "glb", "gltf", "ply"))
@@ -49,7 +48,7 @@ class MeshFormatUnsupported(RobotRule):
     def check(self, model: Model) -> Findings:
         """Yield a finding for each mesh of an unsupported format."""
         formats = _FORMATS.get(model.target or "", _USUAL)
-        for mesh, element, link in meshes(model.robot):
+        for mesh, element, link in model.meshes:
             suffix = mesh.uri.strip().rpartition("/")[2].rpartition(".")[2].lower()
             if suffix not in formats and "$" not in suffix and not model.is_unresolved(element, "filename"):
                 reader = f"{model.target} does" if model.target in _FORMATS else "most readers do"

@@ -1,6 +1,6 @@
 """G602 mesh-package-unknown."""
 
-from urdfkit.lint.model.mesh_files import meshes, missing
+from urdfkit.lint.model.mesh_files import missing
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
 
@@ -41,7 +41,7 @@ class MeshPackageUnknown(RobotRule):
     def check(self, model: Model) -> Findings:
         """Yield a finding for each missing package, at its first mesh."""
         reported: set[str] = set()
-        for mesh, element, link in meshes(model.robot):
+        for mesh, element, link in model.meshes:
             name = mesh.uri.strip().partition("://")[2].partition("/")[0]
             if name in reported or "$" in mesh.uri or not mesh.uri.strip().startswith(("package://", "model://")):
                 continue

@@ -1,12 +1,12 @@
 """G604 mesh-scale-suspect."""
 
+from bisect import bisect_right
 from math import dist, sqrt
 
 from urdfkit.description.urdf.geometry import box_around
 from urdfkit.description.urdf.principal_moments import principal_moments
 from urdfkit.description.urdf.robot import Link, Mesh
 from urdfkit.lint.fix_builders import more_attributes, new_value
-from urdfkit.lint.model.mesh_files import meshes
 from urdfkit.lint.model.placement import shapes_of
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
@@ -77,14 +77,18 @@ class MeshScaleSuspect(RobotRule):
 
     def check(self, model: Model) -> Findings:
         """Yield a finding for each mesh that is far too large or too small."""
-        sized_meshes = [(mesh, element, link, _size(model, mesh)) for mesh, element, link in meshes(model.robot)]
+        sized_meshes = [(mesh, element, link, _size(model, mesh)) for mesh, element, link in model.meshes]
         if not any(size for *_, size in sized_meshes):
             return
         references = _reference_sizes(model)
+        every = sorted([*references, *(size for *_, size in sized_meshes)])
         for mesh, element, link, size in sized_meshes:
-            median = _median([*references, *(other for m, *_, other in sized_meshes if m.uri != mesh.uri)])
+            others = every.copy()
+            for own in (other for m, *_, other in sized_meshes if m.uri == mesh.uri):
+                others.remove(own)
+            median = _median(others)
             if size > LARGE and not _is_other_unit(size, median):
-                median = _median(references) or _radius_of_gyration(link)
+                median = _median(sorted(references)) or _radius_of_gyration(link)
             is_alone = not median and size > MAX_SIZE
             if not (is_alone or _is_other_unit(size, median)):
                 continue
@@ -114,9 +118,10 @@ def _is_other_unit(size: float, median: float) -> bool:
     return bool(size and median) and (MAX_RATIO < size / median < 10000.0 or MAX_RATIO < median / size < 10000.0)
 
 
-def _median(sizes: list[float]) -> float:
-    ordered = sorted(size for size in sizes if size > 1e-4)
-    return ordered[len(ordered) // 2] if ordered else 0.0
+def _median(ordered: list[float]) -> float:
+    """Return the median of sorted sizes [m], without those below a tenth of a millimetre; 0 without any."""
+    first = bisect_right(ordered, 1e-4)
+    return ordered[(first + len(ordered)) // 2] if first < len(ordered) else 0.0
 
 
 def _reference_sizes(model: Model) -> list[float]:

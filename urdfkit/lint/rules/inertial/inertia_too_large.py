@@ -71,6 +71,7 @@ class InertiaTooLarge(RobotRule):
     name = "inertia-vs-geometry-too-large"
     severity = "warning"
     fix = "unsafe"
+    checks_each_alone = True
 
     def check(self, model: Model) -> Findings:
         """Yield a finding for each tensor that is too large for the shapes."""
