@@ -94,6 +94,10 @@ def server_for(options: Options) -> LanguageServer:
     session = EditorSession(server, Project(options))
     _add_document_features(server, session)
 
+    @server.feature(types.INITIALIZED)
+    def initialized(_: types.InitializedParams) -> None:
+        session.load_rules()
+
     @server.feature(types.TEXT_DOCUMENT_DID_OPEN)
     def opened(params: types.DidOpenTextDocumentParams) -> None:
         session.changed(params.text_document.uri)

@@ -58,6 +58,13 @@ class EditorSession:
         self._collection: asyncio.TimerHandle | None = None
         self._checks = 0
 
+    def load_rules(self) -> None:
+        """Load the modules of the linter by linting a bundled robot, before the first document is opened."""
+        from urdfkit.lint.editor.open_files import Project
+        from urdfkit.resources import find_model
+
+        Project(self.project.options).findings(find_model(["heterogeneous"]).path)
+
     def changed(self, uri: str) -> None:
         """Read the text of a document; publish its findings when no change follows within `PAUSE`."""
         if self.update(uri) is None:
