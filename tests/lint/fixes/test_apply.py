@@ -288,3 +288,13 @@ def test_git_applies_what_is_shown(write, end):
 def test_a_file_whose_lines_end_by_carriage_returns_is_one_line_of_a_diff(write):
     (change,) = mend(write("r.xacro", BAD.replace("\n", "\r").encode())).changes
     assert [line[:1] for line in change.diff().split("\n")] == ["-", "+", "@", "-", "\\", "+", "\\", ""]
+
+
+def test_the_fix_of_a_defect_that_another_fix_uncovers_is_counted(write):
+    limit = '<limit lower="-1" upper="1" effort="1" velocity="1"/>'
+    joint = f'<parent link="a"/><child link="b"/><axis xyz="0 0 2"/>{limit}'
+    text = f'<robot name="r"><link name="a"/><link name="b"/><joint name="j" type="Revolute">{joint}</joint></robot>'
+    path = write("r.urdf", text.encode())
+    fixed = fix([Entry(path)], Options(), within=[path.parent])
+    assert fixed.fixed == {"J402": 1, "J412": 1}
+    assert b'<axis xyz="0 0 1"/>' in fixed.changes[0].after

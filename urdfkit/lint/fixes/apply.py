@@ -224,19 +224,21 @@ class _Fixer:
         self.notes: dict[str, None] = {}
 
     def fix(self) -> Fixed:
-        outcome = first = self._lint(self.texts)
+        outcome = self._lint(self.texts)
+        fixed: dict[str, int] = {}
         for _ in range(_ROUNDS):
             attempt = self._attempt([finding for finding in outcome.findings if self._is_wanted(finding)], outcome)
             if attempt is None:
                 break
+            left = _counts(attempt[1])
+            for code, count in _counts(outcome).items():  # a fix can uncover another defect, which is fixed then
+                fixed[code] = fixed.get(code, 0) + max(count - left.get(code, 0), 0)
             self.texts, outcome = attempt
         changes = tuple(
             FileChange(path, self.shown[path], self.contents[path], self.originals[path].encoded(text))
             for path, text in sorted(self.texts.items())
             if text != self.originals[path].text
         )
-        left = _counts(outcome)
-        fixed = {code: count - left.get(code, 0) for code, count in _counts(first).items()}
         fixed = {code: count for code, count in fixed.items() if count > 0} if changes else {}
         return Fixed(outcome, changes, fixed, tuple(self.notes))
 
