@@ -11,7 +11,7 @@ const TO_LINEAR = `
   diffuseColor.rgb = pow(diffuseColor.rgb, vec3(2.2));`;
 
 // Reflections of a studio: a bright ceiling, walls, a dark floor, and a softbox. They give black parts their shape.
-const REFLECTIONS = `
+const REFLECTIONS = `{
   vec3 eye = normalize(vViewPosition);
   vec3 up = viewMatrix[1].xyz;
   vec3 mirrored = reflect(-eye, normal);
@@ -21,9 +21,10 @@ const REFLECTIONS = `
   vec3 softbox = normalize(mat3(viewMatrix) * vec3(-0.35, 0.8, 0.5));
   radiance += 1.1 * (1.0 - roughnessFactor) * smoothstep(1.0 - 0.6 * blur, 1.0, dot(mirrored, softbox));
   float grazing = pow(1.0 - clamp(dot(normal, eye), 0.0, 1.0), 5.0);
-  gl_FragColor.rgb += radiance * (0.04 + (max(0.04, 0.6 * (1.0 - roughnessFactor)) - 0.04) * grazing);`;
+  gl_FragColor.rgb += radiance * (0.02 + max(0.02, 0.6 * (1.0 - roughnessFactor)) * grazing);
+}`;
 
-const TO_SCREEN = `
+const TO_SCREEN = `{
   const float start = 0.76;
   float peak = max(gl_FragColor.r, max(gl_FragColor.g, gl_FragColor.b));
   if (peak > start) {
@@ -33,21 +34,28 @@ const TO_SCREEN = `
     float share = 1.0 - 1.0 / (0.15 * (peak - mapped) + 1.0);
     gl_FragColor.rgb = mix(gl_FragColor.rgb, vec3(mapped), share);
   }
-  gl_FragColor.rgb = pow(gl_FragColor.rgb, vec3(1.0 / 2.2));`;
+  gl_FragColor.rgb = pow(gl_FragColor.rgb, vec3(1.0 / 2.2));
+}`;
 
-const shader = THREE.ShaderLib.standard;
+// The lights are points, whose reflections on smooth surfaces are brighter than the screen: they are limited to 0.15.
+const HIGHLIGHT = `
+  totalSpecular /= 1.0 + max(totalSpecular.r, max(totalSpecular.g, totalSpecular.b)) / 0.15;
+  vec3 outgoingLight =`;
+
+const shader = THREE.ShaderLib.physical; // of MeshStandardMaterial too
 shader.fragmentShader = shader.fragmentShader
   .replace("#include <color_fragment>", TO_LINEAR)
+  .replace("vec3 outgoingLight =", HIGHLIGHT)
   .replace("#include <tonemapping_fragment>", REFLECTIONS + TO_SCREEN);
 
 /** The lights, in the axes of the robot: sky and floor, a sun with shadows, and a weak light from the other side. */
 export function studio() {
   const sky = new THREE.HemisphereLight(0xffffff, 0xffffff, 1);
   sky.position.set(0, 0, 1);
-  sky.color.setScalar(0.58);
-  sky.groundColor.setScalar(0.3);
-  const fill = new THREE.DirectionalLight(0xffffff, 0.3);
+  sky.color.setScalar(0.52);
+  sky.groundColor.setScalar(0.4);
+  const fill = new THREE.DirectionalLight(0xffffff, 0.22);
   fill.position.set(-3, -4, 2);
-  const sun = new THREE.DirectionalLight(0xffffff, 0.48);
+  const sun = new THREE.DirectionalLight(0xffffff, 0.45);
   return { sky, fill, sun };
 }
