@@ -177,7 +177,7 @@ def _unreported(repairs: list[Any], path: Path, arguments: dict[str, str], packa
     """Return the repairs without a finding of their code at their start tag."""
     missing: list[Any] = repairs
     # Robots without any mass describe kinematics only, unless they are linted for a simulator.
-    for target in (None, "gz"):
+    for target in (None, "gz", "urdfkit"):
         findings = lint(path, arguments=arguments, package_path=package_path, target=target)
         missing = [repair for repair in missing if not any(_reports(finding, repair) for finding in findings)]
         if not missing:

@@ -105,7 +105,8 @@ def unreported(folder: Path, robot: str, yaml: str) -> tuple[set[str | None], li
     path = folder / "urdf" / "arm.urdf"
     path.write_text(robot.replace("$(find arm)", str(folder)))
     repairs = Simulator(path, note=lambda _: None).repairs
-    places = {(each.code, each.span.file, each.span.line) for each in lint(path)}
+    found = [*lint(path), *lint(path, target="urdfkit")]
+    places = {(each.code, each.span.file, each.span.line) for each in found}
     missing = [
         f"{repair.code} {repair}"
         for repair in repairs

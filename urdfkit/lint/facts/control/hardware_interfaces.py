@@ -103,6 +103,15 @@ def is_old(transmission: Transmission) -> bool:
     return transmission.element.find("type") is None and transmission.element.get("type") is not None
 
 
+def has_default_hardware(robot: Robot) -> bool:
+    """Return whether the robot has the plugin gazebo_ros_control with its default hardware, DefaultRobotHWSim."""
+    from urdfkit.lint.facts.gazebo.plugins import plugins
+
+    found = (plugin.element for plugin, _, _ in plugins(robot) if "gazebo_ros_control" in (plugin.filename or ""))
+    kinds = (element.find("robotSimType") for element in found)
+    return any(kind is None or kind.text.endswith("DefaultRobotHWSim") for kind in kinds)
+
+
 def has_gazebo_ros_control(robot: Robot) -> bool:
     """Return whether the robot has the plugin gazebo_ros_control, which reads transmissions."""
     from urdfkit.lint.facts.gazebo.plugins import plugins

@@ -5,7 +5,7 @@ from urdfkit.description.xml.element import Element
 from urdfkit.lint.facts.control.hardware_interfaces import (
     INTERFACES,
     PACKAGE,
-    has_gazebo_ros_control,
+    has_default_hardware,
     is_old,
     written,
 )
@@ -85,7 +85,7 @@ class HardwareInterfaceUnknown(RobotRule):
                 f"unknown hardware interface `{text}`; did you mean `{qualified}`?",
                 fix=new_text(model, element, qualified, "safe", f"Replace with `{qualified}`"),
             )
-        for transmission in model.robot.transmissions if has_gazebo_ros_control(model.robot) else ():
+        for transmission in model.robot.transmissions if has_default_hardware(model.robot) else ():
             yield from self._not_simulated(model, transmission, misspelt)
 
     def _not_simulated(self, model: Model, transmission: Transmission, misspelt: set[Element]) -> Findings:

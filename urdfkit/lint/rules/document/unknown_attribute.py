@@ -5,7 +5,9 @@ from urdfkit.lint.fix_builders import nearest, new_name, without_attribute
 from urdfkit.lint.model.xacro_prefix import URDF_ATTRIBUTES
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
-_ALLOWED = {tag: frozenset(names) for tag, names in URDF_ATTRIBUTES.items()}
+_OF_OTHER_READERS = {"joint": frozenset(("dont_collapse",))}
+"""Attributes that other programs read: Isaac Gym keeps such a fixed joint when it merges links."""
+_ALLOWED = {tag: frozenset(names) | _OF_OTHER_READERS.get(tag, set()) for tag, names in URDF_ATTRIBUTES.items()}
 _FOREIGN_NAMES = {
     ("limit", "min"): "lower",
     ("limit", "max"): "upper",
@@ -78,7 +80,7 @@ class UnknownAttribute(RobotRule):
 
     def _check_attributes(self, model: Model, element: Element, allowed: tuple[str, ...]) -> Findings:
         for attribute in element.attributes:
-            if attribute not in allowed and ":" not in attribute and attribute != "xmlns":
+            if attribute not in _ALLOWED[element.tag] and ":" not in attribute and attribute != "xmlns":
                 suggestion = _FOREIGN_NAMES.get((element.tag, attribute)) or nearest(attribute, allowed)
                 if suggestion is None or suggestion in element.attributes:
                     suggestion, fix = None, None

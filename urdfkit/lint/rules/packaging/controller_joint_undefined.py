@@ -51,7 +51,8 @@ class ControllerJointUndefined(RobotRule):
     def check(self, model: Model) -> Findings:
         """Yield a finding for each controller joint that no description in these packages can define.
 
-        An undefined joint of a controller that a Gazebo plugin of the robot loads is at least a note.
+        For urdfkit, an undefined joint of a controller that a Gazebo plugin of the robot loads is at least a note; for
+        other targets, only if no description can define it.
         """
         from urdfkit.description.control.parameter_defects import JOINT_NAMES
         from urdfkit.lint.facts.control.loaded_controllers import loaded_controllers
@@ -65,7 +66,10 @@ class ControllerJointUndefined(RobotRule):
             named = [settings.find(each) for each in JOINT_NAMES]
             for entry in [one for each in named if each is not None for one in (each.items or (each,))]:
                 place = entry.position
-                if entry.value and entry.value not in joints and (place.file, place.line, place.column) not in places:
+                if not entry.value or entry.value in joints or (place.file, place.line, place.column) in places:
+                    continue
+                patterns = () if model.target == "urdfkit" else neighbouring_names(model, "joint")
+                if not any(re.fullmatch(pattern, entry.value) for pattern in patterns):
                     message = f"controller `{name}` names the undefined joint `{entry.value}`"
                     yield self.at(model, place, message, joint=entry.value, severity="note")
 

@@ -20,9 +20,9 @@ class ControllerSettingsMisspelt(RobotRule):
     Checks the controller parameters in the YAML files of the robot's package and of neighbouring packages that
     depend on it for misspelt controller types of ros_controllers and ros2_controllers, misspelt names of controller
     sections, misspelt or missing ``ros__parameters`` keys (with two underscores), misspelt parameters and
-    interfaces, and tabs. Types that a package of the workspace exports are accepted. A type of another package is a
-    note if a Gazebo plugin of the robot loads the controller, because a simulation with urdfkit leaves it out. So are
-    unknown parameters of such a controller.
+    interfaces, and tabs. Types that a package of the workspace exports are accepted. With
+    ``--target urdfkit``, a type of another package is a note if a Gazebo plugin of the robot loads the controller,
+    because a simulation leaves it out. Unknown parameters of such a controller are notes too.
 
     ## Why is this bad?
     Loading fails with "Loader for controller not found", or the controller starts without its joints, because unknown
@@ -83,7 +83,7 @@ class ControllerSettingsMisspelt(RobotRule):
                 yield self._at(source, tab.start(), tab[0], "YAML is indented with a tab", help="indent with spaces")
 
     def _loaded(self, model: Model) -> Findings:
-        """Yield a note for each loaded controller of another package, and for unknown parameters of a controller."""
+        """Yield a note for each loaded controller of another package, for urdfkit, and for unknown parameters."""
         from urdfkit.description.control.controller_parameters import unknown_parameters
         from urdfkit.description.control.controller_types import TYPES, meant_type
         from urdfkit.lint.facts.control.controller_settings import misspelt
@@ -100,7 +100,8 @@ class ControllerSettingsMisspelt(RobotRule):
                 names = ", ".join(f"`{each}`" for _, each in unknown)
                 message = f"controller `{name}` ignores the unknown parameters {names}"
                 yield self.at(model, unknown[0][0], message, severity="note")
-            if kind.value and kind.value not in TYPES and meant_type(kind.value) is None:
+            is_defect = model.target == "urdfkit" or "/" not in (kind.value or "")
+            if is_defect and kind.value and kind.value not in TYPES and meant_type(kind.value) is None:
                 message = f"controller `{name}`: urdfkit does not simulate the type `{kind.value}` of another package"
                 yield self.at(model, kind.position, message, severity="note")
 

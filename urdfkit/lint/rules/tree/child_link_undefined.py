@@ -55,4 +55,5 @@ class ChildLinkUndefined(RobotRule):
                 if suggestion
                 else None,
             )
-            yield from unless_masked(model, name, suggestion, finding, is_repaired=True)
+            is_repaired = model.target == "urdfkit"
+            yield from unless_masked(model, name, suggestion, finding, is_repaired=is_repaired)

@@ -62,7 +62,8 @@ class ParentLinkUndefined(RobotRule):
                 help="a file that includes this one has to define it" if is_outside else None,
                 severity="note" if is_outside else None,
             )
-            yield from unless_masked(model, name, suggestion, finding, is_repaired=True)
+            is_repaired = model.target == "urdfkit"
+            yield from unless_masked(model, name, suggestion, finding, is_repaired=is_repaired)
 
 
 def _is_defined_nearby(model: Model, name: str) -> bool:
