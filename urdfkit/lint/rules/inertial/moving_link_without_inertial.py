@@ -117,5 +117,5 @@ class MovingLinkWithoutInertial(RobotRule):
                 link=link.name,
                 joint=None if joint is None else joint.name,
                 help="add <inertial> with <mass> and <inertia>",
-                severity=severity if joint is not None or is_simulated(model) else "note",
+                severity=severity,
             )
