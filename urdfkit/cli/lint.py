@@ -81,16 +81,10 @@ def configure(parser: argparse.ArgumentParser) -> None:
         help="read only the package, its workspace and the package path, and no environment variables: for "
         "untrusted files",
     )
-    add(
-        "--no-launch-arguments",
-        action="store_true",
-        help="do not lint robots with the xacro arguments that simulation and display launch files pass",
-    )
-    add(
-        "--macro",
-        metavar="NAME",
-        help="instantiate this macro of the file; key:=value arguments are its parameters, too",
-    )
+    help = "do not lint robots with the xacro arguments that simulation and display launch files pass"
+    add("--no-launch-arguments", action="store_true", help=help)
+    help = "instantiate this macro of the file; key:=value arguments are its parameters, too"
+    add("--macro", metavar="NAME", help=help)
     add("--no-cache", action="store_true", help="lint unchanged files again")
     add("--jobs", type=_count, metavar="N", help="number of processes (default: one per core)")
     add_time_limit(parser)
@@ -171,14 +165,8 @@ class _Run:
         if arguments.fix or arguments.diff:
             return self._fix(entries)
         jobs = arguments.jobs or _cores()
-        outcome = lint(
-            entries,
-            self.options,
-            cached=not (arguments.no_cache or arguments.confined),
-            jobs=jobs,
-            keep_going=True,
-            progress=Progress(quiet=arguments.quiet),
-        )
+        cached, progress = not (arguments.no_cache or arguments.confined), Progress(quiet=arguments.quiet)
+        outcome = lint(entries, self.options, cached=cached, jobs=jobs, keep_going=True, progress=progress)
         return self._report(outcome), outcome
 
     def _confinement(self) -> Confinement | None:

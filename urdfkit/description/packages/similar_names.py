@@ -18,30 +18,30 @@ def near_package(name: str, packages: Iterable[str]) -> str:
     return did_you_mean(name, [other for other, own, end in parts if end != last or nearest(stem, [own], cutoff=0.7)])
 
 
-def near_path(path: Path, known: dict[Path, str] | None = None) -> str:
+def near_path(path: Path, hints: dict[Path, str] | None = None) -> str:
     """Return a did-you-mean hint for the first part of `path` that does not exist, ignoring case.
 
     A common suffix from the first dot on does not make two names similar.
 
     Args:
         path: a path that does not exist.
-        known: earlier hints by the first part that does not exist, to be used again; None to search again.
+        hints: earlier hints by the first part that does not exist, to be used again; None to search again.
     """
     if not may_suggest():
         return ""
     missing, parent = path, path.parent
     while not is_folder(parent) and parent != parent.parent:
         missing, parent = parent, parent.parent
-    if known is not None and missing in known:
-        return known[missing]
+    if hints is not None and missing in hints:
+        return hints[missing]
     try:
         names = sorted(child.name for child in parent.iterdir())
     except OSError:
         return ""
     stem = _stem(missing.name)
     hint = did_you_mean(missing.name, [name for name in names if did_you_mean(stem, [_stem(name)])])
-    if known is not None:
-        known[missing] = hint
+    if hints is not None:
+        hints[missing] = hint
     return hint
 
 

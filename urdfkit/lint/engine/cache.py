@@ -134,20 +134,22 @@ class Cache:
             expanded: the expansions that the result belongs to.
         """
         packages = expanded[0].packages
-        asked = {question: answer for each in expanded for question, answer in each.packages.answers.items()}
+        answers_by_question = {
+            question: answer for each in expanded for question, answer in each.packages.answers.items()
+        }
         if any(_UNTRACKED in source.text for each in expanded for source in each.sources.values()):
             return
         read = dict.fromkeys((*found.files.values(), *(str(file) for each in expanded for file in each.files)))
         package = next((f for f in entry.path.absolute().parents if (f / "package.xml").is_file()), None)
         for name in _MANIFESTS if package is not None else ():
             read[str(package / name)] = None  # type: ignore[operator]
-        for (kind, *_), answer in asked.items():
+        for (kind, *_), answer in answers_by_question.items():
             if kind == "resolve" and not answer.startswith("!"):
                 read[answer] = None
         states = {path: self._state_of(path) for path in read}
         answers = [
             [list(question), answer]
-            for question, answer in asked.items()
+            for question, answer in answers_by_question.items()
             if not (states.get(answer) and packages.is_as_written(question, answer))
         ]
         self._store(

@@ -122,8 +122,8 @@ class Checker:
             if self.options.launch_arguments and not entry.is_library:
                 from urdfkit.lint.engine.launch_variants import with_variants
 
-                given = self.options.arguments
-                found, others = with_variants(found, model, lambda passed: self.examine(entry, passed), given)
+                own = self.options.arguments
+                found, others = with_variants(found, model, lambda passed: self.examine(entry, passed), own)
             if self.options.confinement is not None:
                 refused = self._refused_reads(entry, self.options.confinement.take_refused())
                 return EntryResult(**{**found.__dict__, "findings": (*found.findings, *refused)})

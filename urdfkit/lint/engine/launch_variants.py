@@ -21,10 +21,10 @@ MOST = 4
 
 @record(eq=False)
 class Variant:
-    """Xacro arguments that a launch file passes.
+    """Xacro arguments in a launch file.
 
     Attributes:
-        arguments: those that differ from the default of their declaration.
+        arguments: the arguments whose values differ from the default of their declaration.
         launch: the launch file.
     """
 
@@ -94,11 +94,11 @@ def with_variants(
     common = [{(one.code, one.span) for one in result.findings} for result, each, _ in every if not each.is_incomplete]
     findings: list[Finding] = []
     for result, _, variant in every:
-        known = {(one.code, one.span) for one in findings}
+        present = {(one.code, one.span) for one in findings}
         for one in result.findings:
             key = one.code, one.span
             is_defect = one.file in sources or all(key in keys for keys in common)
-            if is_defect and key not in known and not _is_passed(one, variants):
+            if is_defect and key not in present and not _is_passed(one, variants):
                 findings.append(Finding(**{**one.__dict__, "variant": variant, "fix": None}) if variant else one)
     merged = EntryResult(
         tuple(findings),

@@ -1,4 +1,4 @@
-"""What a lenient expansion left out of a robot: missing includes, undefined macros, and appearance that needs them."""
+"""Parts that a lenient expansion left out of a robot: missing includes, undefined macros, and values that need them."""
 
 from __future__ import annotations
 
