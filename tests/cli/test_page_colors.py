@@ -56,7 +56,10 @@ def parts(suffix: str) -> list[trimesh.Trimesh]:
         )  # fmt: skip
         plate = trimesh.creation.box((0.4, 0.4, 0.4), trimesh.transformations.translation_matrix((0, 2.4, 0.2)))
         plate.unmerge_vertices()
-        uv = np.tile([[0.1, 0.1], [0.9, 0.1], [0.4, 0.9]], (len(plate.faces), 1))
+        # The two triangles on top use different corners of the image, so that all four colours are seen.
+        uv = np.tile([[0.1, 0.1], [0.9, 0.1], [0.4, 0.9]], (len(plate.faces), 1, 1))
+        uv[np.flatnonzero(plate.face_normals[:, 2] > 0.9)[0]] = [[0.9, 0.9], [0.1, 0.9], [0.6, 0.1]]
+        uv = uv.reshape(-1, 2)
         kind = trimesh.visual.material
         picture = Image.fromarray(image)
         material = (

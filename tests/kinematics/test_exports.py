@@ -18,8 +18,8 @@ from urdfkit.description.sdf import Cone, Ellipsoid, Plane
 from urdfkit.description.urdf.robot import Box, Capsule, Cylinder, Pose, Robot, Sphere
 from urdfkit.errors import KinematicsError, MissingDependencyError
 from urdfkit.kinematics import Chain, Kinematics
-from urdfkit.meshes.loader import TriMesh
 from urdfkit.meshes.textures import Texture
+from urdfkit.meshes.triangle_mesh import TriMesh
 from urdfkit.scene import Scene, Shape, scene_of
 from urdfkit.scene.extent import shape_bounds
 from urdfkit.scene.pose_matrices import pose_matrix

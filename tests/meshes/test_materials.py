@@ -13,7 +13,8 @@ import trimesh
 from PIL import Image
 
 from urdfkit.description import load
-from urdfkit.meshes.loader import MeshLoader, TriMesh
+from urdfkit.meshes.loader import MeshLoader
+from urdfkit.meshes.triangle_mesh import TriMesh
 from urdfkit.scene import Shape, scene_of
 
 SQUARE = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n"

@@ -10,8 +10,9 @@ import trimesh
 
 from urdfkit.meshes import loader as mesh_module
 from urdfkit.meshes import simplification
-from urdfkit.meshes.loader import MeshLoader, TriMesh
+from urdfkit.meshes.loader import MeshLoader
 from urdfkit.meshes.simplification import simplified
+from urdfkit.meshes.triangle_mesh import TriMesh
 
 
 @pytest.fixture(autouse=True)

@@ -7,7 +7,7 @@ import numpy as np
 from urdfkit.description.urdf.volume_moments import Moments
 from urdfkit.errors import MissingDependencyError
 from urdfkit.linear_algebra import matmul
-from urdfkit.meshes.loader import TriMesh
+from urdfkit.meshes.triangle_mesh import TriMesh
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:

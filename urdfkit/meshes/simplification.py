@@ -5,13 +5,12 @@ Source: Rossignac and Borrel, *Multi-resolution 3D approximations for rendering 
 
 from collections.abc import Callable
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-if TYPE_CHECKING:
-    from urdfkit.meshes.loader import TriMesh
+from urdfkit.meshes.triangle_mesh import TriMesh
 
 MOST_TRIANGLES = 1_000_000
 """Meshes with more triangles are simplified for the screen."""
@@ -93,7 +92,7 @@ def clustered(count: int, corners: Callable[[slice], NDArray[Any]]) -> Clusters:
     )
 
 
-def simplified(mesh: "TriMesh") -> "TriMesh":
+def simplified(mesh: TriMesh) -> TriMesh:
     """Return a mesh of more than `MOST_TRIANGLES` triangles with about `WANTED_TRIANGLES`; any other mesh as it is.
 
     Colours and texture coordinates are those of one vertex in the cell. The normals are omitted.

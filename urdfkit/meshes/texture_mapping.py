@@ -16,8 +16,8 @@ from numpy.typing import NDArray
 from urdfkit.description.urdf.robot import Box, Capsule, Cylinder, Geometry, Sphere
 from urdfkit.errors import ResourceError
 from urdfkit.linear_algebra import Array
-from urdfkit.meshes.loader import TriMesh
 from urdfkit.meshes.textures import Texture, read_texture
+from urdfkit.meshes.triangle_mesh import TriMesh
 
 AROUND = 64
 """Facets around."""

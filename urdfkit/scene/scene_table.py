@@ -17,9 +17,10 @@ from urdfkit.description.xml.element import Element
 from urdfkit.description.xml.source import Position
 from urdfkit.description.xml.written_attributes import WrittenAttributes
 from urdfkit.errors import KinematicsError, ResourceError
-from urdfkit.meshes.loader import MeshLoader, TriMesh
+from urdfkit.meshes.loader import MeshLoader
 from urdfkit.meshes.specular import MATT, Gloss
 from urdfkit.meshes.texture_mapping import Wrapper
+from urdfkit.meshes.triangle_mesh import TriMesh
 from urdfkit.scene.colors import DEFAULT, Palette, Rgba
 from urdfkit.scene.pose_matrices import pose_matrices, pose_matrix
 from urdfkit.scene.segmentation_labels import labels_of

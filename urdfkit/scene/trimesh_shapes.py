@@ -10,7 +10,7 @@ import numpy as np
 from urdfkit.description.sdf import Cone, Ellipsoid, Plane
 from urdfkit.description.urdf.robot import Box, Capsule, Cylinder, Geometry, Sphere
 from urdfkit.errors import MissingDependencyError
-from urdfkit.meshes.loader import TriMesh
+from urdfkit.meshes.triangle_mesh import TriMesh
 from urdfkit.scene.pose_matrices import upright
 
 try:

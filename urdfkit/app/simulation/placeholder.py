@@ -47,12 +47,14 @@ class Placeholder:
 
     def show(self, server: Display) -> None:
         """Show the robot on the page."""
+        from urdfkit.view.content.joint_panel import joint_rows
         from urdfkit.view.content.meshcat_objects import draw, link_path
 
         names = self._kinematics.link_names
         server.show(
             name=self._robot.name or "robot",
             nodes=[link_path(name) for name in names],
+            joints=joint_rows(self._kinematics, self._kinematics.positions(self._q)),
             root=names.index(self._kinematics.root),
             draw=lambda window: draw(self.scene, window, server.geometries),
         )

@@ -11,7 +11,8 @@ from urdfkit.description.urdf.robot import Box, Capsule, Collision, Cylinder, Li
 from urdfkit.errors import ResourceError
 from urdfkit.kinematics.pinocchio_model import pin
 from urdfkit.linear_algebra import Array
-from urdfkit.meshes.loader import MeshLoader, TriMesh
+from urdfkit.meshes.loader import MeshLoader
+from urdfkit.meshes.triangle_mesh import TriMesh
 
 CONVEX = 1e-3
 """Part of the volume of a hull that a mesh may lack and still count as convex."""

@@ -10,8 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from urdfkit.linear_algebra import Array
-from urdfkit.meshes.loader import TriMesh
 from urdfkit.meshes.specular import MATT, Gloss
+from urdfkit.meshes.triangle_mesh import TriMesh
 from urdfkit.scene.rays import primitives
 from urdfkit.scene.rays.ray_scene import RayTable
 from urdfkit.scene.rays.shading.surface_attributes import COLORED, COLORS, GLOSS, OPACITY, SMOOTH, TEXTURE, UV

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from urdfkit.atomic import write_bytes
 from urdfkit.errors import ResourceError
-from urdfkit.meshes.loader import TriMesh
+from urdfkit.meshes.triangle_mesh import TriMesh
 from urdfkit.scene.rays.kernels import builder
 
 LEAF = 4

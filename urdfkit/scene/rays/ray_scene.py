@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 from urdfkit.description.sdf import Cone, Ellipsoid, Plane
 from urdfkit.description.urdf.robot import Box, Capsule, Cylinder, Sphere
 from urdfkit.linear_algebra import Array, matmul
-from urdfkit.meshes.loader import TriMesh
+from urdfkit.meshes.triangle_mesh import TriMesh
 from urdfkit.scene.pose_matrices import upright
 from urdfkit.scene.rays import primitives
 from urdfkit.scene.rays.bvh import SCRATCH as TREE_SCRATCH

@@ -9,7 +9,7 @@ import pytest
 
 from tests.sim.engine.worlds import piece, rover, rovers, slab
 from urdfkit.description.urdf.robot import Box, Capsule, Cylinder, Mesh, Sphere
-from urdfkit.meshes.loader import TriMesh
+from urdfkit.meshes.triangle_mesh import TriMesh
 from urdfkit.scene import Shape
 from urdfkit.sim.engine.bodies import Body, Piece
 from urdfkit.sim.engine.simulation_memory import FOUND_PAIRS, FOUND_ROWS

@@ -6,8 +6,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from urdfkit.meshes.loader import TriMesh
 from urdfkit.meshes.textures import Texture
+from urdfkit.meshes.triangle_mesh import TriMesh
 from urdfkit.scene.rays.ray_scene import RayTable
 from urdfkit.scene.rays.shading.surface_attributes import (
     ATTRIBUTES,

@@ -1,4 +1,4 @@
-// Says which meshes are being loaded, how many and how large, and which were simplified for the screen.
+// Shows which meshes are being loaded, how many and how large, and which were simplified for the screen.
 
 import { h, short } from "../page/dom.js";
 
@@ -9,8 +9,8 @@ export function loading(page) {
   const label = document.getElementById("progress-label");
   const note = h("p.quiet", { id: "simplified", hidden: true });
   page.panels.all.get("show").body.append(note);
-  let server = null; // what the server does
-  let meshes = null; // what the page waits for
+  let server = null; // text of the server's progress
+  let meshes = null; // text of the meshes that are not loaded yet
   let timer = null;
 
   function show() {
@@ -23,15 +23,15 @@ export function loading(page) {
     server = message.label;
     show();
   });
-  page.scene.loading = ({ waiting, asked, bytes, link }) => {
+  page.scene.loading = ({ waiting, requested, bytes, link }) => {
     const of = link ? `, now ${link}` : "";
-    meshes = waiting ? `Loading meshes: ${asked - waiting} of ${asked}, ${short(bytes / 1e6, 1)} MB${of}` : null;
-    if (!waiting) tell();
+    meshes = waiting ? `Loading meshes: ${requested - waiting} of ${requested}, ${short(bytes / 1e6, 1)} MB${of}` : null;
+    if (!waiting) showSimplified();
     if (!line.hidden || !meshes) show();
     else timer ??= setTimeout(show, DELAY);
   };
 
-  function tell() {
+  function showSimplified() {
     const rows = [...page.scene.simplified].map(([link, [from, to]]) => `${link}: ${to.toLocaleString("en")} of ${from.toLocaleString("en")} triangles`);
     const text = rows.length ? `Simplified for the screen only: ${rows.join("; ")}.` : "";
     if (text && text !== note.textContent) page.toast(text);

@@ -156,7 +156,7 @@ export class Scene {
 
   #report() {
     const [path] = this.waiting.values();
-    this.loading?.({ waiting: this.waiting.size, asked: this.requested.count, bytes: this.requested.bytes, link: path && unescaped(path[2]).replace(/^world\//, "") });
+    this.loading?.({ waiting: this.waiting.size, requested: this.requested.count, bytes: this.requested.bytes, link: path && unescaped(path[2]).replace(/^world\//, "") });
   }
 
   #count(path, { simplifiedFrom, triangles }) {

@@ -1,0 +1,74 @@
+"""TriMesh: the triangles of a mesh, with their colours and textures."""
+
+import hashlib
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from urdfkit.meshes.textures import Texture
+
+
+@dataclass(frozen=True, eq=False)
+class TriMesh:
+    """Triangles in the frame of their shape; all arrays are read-only.
+
+    Attributes:
+        vertices: [m], shape (n, 3), float32.
+        faces: indices of vertices, counter-clockwise seen from outside, shape (m, 3), int32.
+        normals: unit normals of the vertices, if the file has them, shape (n, 3), float32, or None (shade flat).
+        colors: colours of the vertices, if the file has them, shape (n, 4), uint8, or None.
+        uv: texture coordinates of the vertices, origin at the lower left corner, shape (n, 2), float32, or None.
+        textures: the textures of the mesh.
+        face_textures: index of the texture of each triangle, -1 for none; shape (m,), int32, or None.
+        face_gloss: specular colour, 0..1, and exponent of each triangle; shape (m, 4), float32, or None.
+        missing: names of referenced image files that are missing or invalid.
+        broken: names of referenced image files that exist but are not valid images.
+        open_vertices: whether the file names no material for the vertex; shape (n,), or None if so for all or no
+            vertices.
+        simplified_from: number of triangles in the file if the mesh was simplified for the screen, otherwise 0.
+        hash: hexadecimal digest of all of the above: equal meshes have equal hashes.
+    """
+
+    vertices: NDArray[np.float32] = field(repr=False)
+    faces: NDArray[np.int32] = field(repr=False)
+    normals: NDArray[np.float32] | None = field(default=None, repr=False)
+    colors: NDArray[np.uint8] | None = field(default=None, repr=False)
+    hash: str = ""
+    uv: NDArray[np.float32] | None = field(default=None, repr=False)
+    textures: tuple[Texture, ...] = field(default=(), repr=False)
+    face_textures: NDArray[np.int32] | None = field(default=None, repr=False)
+    missing: tuple[str, ...] = ()
+    face_gloss: NDArray[np.float32] | None = field(default=None, repr=False)
+    broken: tuple[str, ...] = ()
+    open_vertices: NDArray[np.bool_] | None = field(default=None, repr=False)
+    simplified_from: int = 0
+
+    def __post_init__(self) -> None:
+        digest = hashlib.sha256("".join(texture.hash for texture in self.textures).encode())
+        for name in ("vertices", "faces", "normals", "colors", "uv", "face_textures", "face_gloss", "open_vertices"):
+            array = getattr(self, name)
+            if array is not None:
+                array.flags.writeable = False
+                digest.update(f"{name}{array.shape}".encode())
+                digest.update(np.ascontiguousarray(array).data)
+        object.__setattr__(self, "hash", digest.hexdigest()[:32])
+
+    @property
+    def has_own_colors(self) -> bool:
+        """Whether the file has colours or textures."""
+        return self.colors is not None or bool(self.textures)
+
+    def with_open_color(self, rgba: tuple[float, float, float, float]) -> "TriMesh":
+        """Return the mesh with a colour, 0..1, where the file names no material."""
+        if self.open_vertices is None or self.colors is None:
+            return self
+        colors = self.colors.copy()
+        colors[self.open_vertices] = np.rint(255.0 * np.clip(rgba, 0.0, 1.0))
+        return replace(self, colors=colors, open_vertices=None)
+
+    @cached_property
+    def bounds(self) -> NDArray[np.float64]:
+        """Lowest and highest corner [m]; shape (2, 3)."""
+        return np.array([self.vertices.min(axis=0), self.vertices.max(axis=0)], dtype=float)
