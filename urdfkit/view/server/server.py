@@ -305,6 +305,7 @@ class Server:
         for task in tasks:
             task.cancel()
         await asyncio.gather(*tasks, return_exceptions=True)
+        await asyncio.get_running_loop().shutdown_default_executor()  # threads that packed meshes
 
 
 def local_names(host: str) -> tuple[str, ...]:
