@@ -177,6 +177,43 @@ def test_publishing_to_an_unknown_topic_prints_a_note(ride, capsys) -> None:
     assert f"topics of this type with subscribers: {COMMAND}" in capsys.readouterr().err
 
 
+def test_services_are_listed_and_called(ride, capsys) -> None:
+    def service(*words: str, code: int = 0) -> str:
+        assert main(["service", *words]) == code
+        printed = capsys.readouterr()
+        return printed.err if code == 2 else printed.out
+
+    names = service("list").splitlines()
+    assert names == sorted(ride.services)
+    assert {"name": "/step_simulation", "type": "simulation_interfaces/srv/StepSimulation"} in json.loads(
+        service("list", "--types", "--json")
+    )
+    assert service("type", "/gazebo/delete_model") == "gazebo_msgs/srv/DeleteModel\n"
+    states = yaml.safe_load(service("call", "/get_entity_state", "simpleton"))
+    assert states["state"]["header"]["frame_id"] == "world"
+    assert service("call", "/pause_physics", "std_srvs/srv/Empty", "{}") == "{}\n"
+    assert ride.simulator.paused
+    stepped, t = service("call", "/step_simulation", "{steps: 3}", "--json"), ride.simulator.t
+    assert json.loads(stepped) == {"result": {"result": 1, "error_message": ""}}
+    assert t == ride.simulator.t
+    service("call", "/unpause_physics")
+    assert not ride.simulator.paused
+    refused = service("call", "/step_simulation", "{steps: 3}", code=1)
+    assert yaml.safe_load(refused)["result"] == {"result": 4, "error_message": "the simulation is not paused"}
+    refused = service("call", "/gazebo/delete_model", "{model_name: nobody}", code=1)
+    assert "no model or robot `nobody`" in yaml.safe_load(refused)["status_message"]
+    for words, expected in (
+        (["call", "/step_simulatio"], "unknown service `/step_simulatio`; did you mean `/step_simulation`?"),
+        (["type", "delete_model"], "did you mean `/gazebo/delete_model`?"),
+        (["call", "/step_simulation", "{step: 3}"], "did you mean `steps`?"),
+        (["call", "/pause_physics", "std_srvs/Trigger"], "has type std_srvs/srv/Empty, not std_srvs/srv/Trigger"),
+        (["cal"], "did you mean `call`?"),
+    ):
+        line = service(*words, code=2)
+        assert expected in line
+        assert line.count("\n") == 1
+
+
 def test_without_a_simulation_the_error_shows_how_to_start_one(tmp_path: Path, monkeypatch, capsys) -> None:
     monkeypatch.setenv("XDG_RUNTIME_DIR", str(tmp_path))
     assert main(["topic", "list"]) == 2

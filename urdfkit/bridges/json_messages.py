@@ -39,6 +39,11 @@ def to_json(value: Any) -> str:
     return "{" + ",".join(f'"{name}":{to_json(getattr(value, name))}' for name in fields_of(value)) + "}"
 
 
+def json_values(message: Any) -> Any:
+    """Return a message as values of JSON: objects, lists, texts, numbers."""
+    return json.loads(to_json(message))
+
+
 def _array(values: Any) -> str:
     if values.dtype == np.uint8:
         return f'"{base64.b64encode(values.tobytes()).decode("ascii")}"'  # needs no escapes

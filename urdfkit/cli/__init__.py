@@ -43,6 +43,7 @@ COMMANDS = {
     "srdf": "write groups and disabled collisions of a robot for MoveIt",
     "sim": "simulate a robot: teleop, run, sweep, warmup",
     "topic": "inspect and publish topics of a running simulation: list, info, type, find, echo, hz, bw, pub",
+    "service": "list and call services of a running simulation: list, type, call",
     "replay": "show a recording of ROS 1, ROS 2 or urdfkit in the browser",
     "bag": "print the topics of a recording: info",
     "licenses": "print versions and licences of the dependencies, or a software bill of materials",
@@ -53,6 +54,7 @@ COMMANDS = {
 _FOLDERS = {
     **dict.fromkeys(("tf", "ik", "jacobian", "reach", "retime", "srdf"), "kinematics"),
     **dict.fromkeys(("replay", "bag"), "recordings"),
+    "service": "topic",
     "licenses": "installation",
 }
 """Command → the package in ``urdfkit.cli`` that its module is in."""

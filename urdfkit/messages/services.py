@@ -7,6 +7,10 @@ _REPORT = "bool success\nstring status_message"
 SERVICE_MESSAGES: dict[str, str] = {
     "std_srvs/srv/Empty_Request": _EMPTY,
     "std_srvs/srv/Empty_Response": _EMPTY,
+    "std_srvs/srv/SetBool_Request": "bool data",
+    "std_srvs/srv/SetBool_Response": "bool success\nstring message",
+    "std_srvs/srv/Trigger_Request": _EMPTY,
+    "std_srvs/srv/Trigger_Response": "bool success\nstring message",
     "gazebo_msgs/srv/SpawnModel_Response": _REPORT,
     "gazebo_msgs/srv/DeleteModel_Response": _REPORT,
     "gazebo_msgs/srv/SetModelState_Request": "gazebo_msgs/ModelState model_state",

@@ -145,10 +145,10 @@ def register_layouts(layouts: Mapping[str, Any]) -> None:
             cached.cache_clear()
 
 
-def full_type_name(name: str) -> str:
-    """Turn ``geometry_msgs/Twist`` into ``geometry_msgs/msg/Twist``; keep full names."""
+def full_type_name(name: str, kind: str = "msg") -> str:
+    """Turn ``geometry_msgs/Twist`` into ``geometry_msgs/msg/Twist``; keep full names. Services have kind ``srv``."""
     parts = name.split("/")
-    return f"{parts[0]}/msg/{parts[1]}" if len(parts) == 2 else name
+    return f"{parts[0]}/{kind}/{parts[1]}" if len(parts) == 2 else name
 
 
 def stamp(t: float) -> Any:

@@ -91,6 +91,10 @@ def test_topic_lists_echoes_and_publishes_on_another_graph(capsys: pytest.Captur
         assert rows["/simpleton/odom"] == "nav_msgs/msg/Odometry"
         assert main(["topic", "echo", "/simpleton/odom", "--once", "--json", "--live", url]) == 0
         assert json.loads(capsys.readouterr().out)["child_frame_id"] == "base_footprint"
+        assert main(["service", "call", "/get_current_world", "--json", "--live", url]) == 0
+        assert json.loads(capsys.readouterr().out)["world"]["name"] == "empty"
+        assert main(["service", "type", "/gazebo/delete_model", "--live", url]) == 0
+        assert capsys.readouterr().out == "gazebo_msgs/srv/DeleteModel\n"
         words = ["pub", "/simpleton/cmd_vel", "geometry_msgs/Twist", "{linear: {x: 0.25}}", "--once"]
         assert main(["topic", *words, "--live", url]) == 0
         end = time.monotonic() + PATIENCE

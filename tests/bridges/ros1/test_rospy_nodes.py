@@ -13,8 +13,10 @@ from threading import Thread
 from typing import Any
 
 import pytest
+import yaml
 
 from tests.bridges.ros1.conftest import Master, debian_environment
+from tests.processes import running
 from tests.time_limit import PATIENCE
 from urdfkit.app.simulation.bridging.bridges import BridgeOptions, bridged
 from urdfkit.app.simulation.bridging.real_time import RunControls, advance_in_real_time
@@ -104,6 +106,34 @@ def test_nodes_find_each_other_and_again_after_the_master_was_gone(master: Maste
     finally:
         second.close()
         first.close()
+
+
+@pytest.mark.slow
+def test_services_are_called_as_rosservice_calls_them(master: Master, capsys: pytest.CaptureFixture[str]) -> None:
+    environment = debian_environment(master.uri)
+
+    def rosservice(*words: str) -> str:
+        done = subprocess.run(
+            ["/usr/bin/rosservice", *words], env=environment, capture_output=True, text=True, check=True
+        )
+        return done.stdout
+
+    def service(*words: str) -> tuple[int, str]:
+        code = main(["service", *words, "--live", "ros1"])
+        return code, capsys.readouterr().out
+
+    command = ["/usr/bin/python3", str(Path(__file__).parent / "rospy_service.py")]
+    with running(command, env=environment, stdout=subprocess.PIPE, text=True) as lamp:
+        assert lamp.stdout is not None
+        assert lamp.stdout.readline() == "ready\n"
+        assert service("list") == (0, rosservice("list"))
+        assert service("type", "/switch") == (0, rosservice("type", "/switch").replace("/", "/srv/"))
+        for value, code in (("true", 0), ("false", 1)):
+            assert service("call", "/switch", f"{{data: {value}}}")[0] == code
+            expected = yaml.safe_load(rosservice("call", "/switch", value))
+            assert yaml.safe_load(service("call", "/switch", value)[1]) == expected
+        assert main(["service", "call", "/lamp/get_loggers", "--live", "ros1"]) == 2
+        assert "no definition of roscpp/srv/GetLoggers" in capsys.readouterr().err
 
 
 def test_a_node_with_another_type_is_refused_in_one_line(master: Master) -> None:

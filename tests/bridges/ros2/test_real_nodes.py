@@ -17,6 +17,7 @@ import pytest
 
 pytest.importorskip("cyclonedds")
 
+from tests.processes import running
 from urdfkit.sim import Simulator
 
 ROOT = Path(__file__).parents[3]
@@ -126,10 +127,9 @@ def test_a_late_joiner_gets_the_static_transforms_by_cyclonedds_alone() -> None:
     assert "camera" in done.stdout
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("distribution", DISTRIBUTIONS)
-def test_rclpy_publishes_the_topics_and_serves_the_services(distribution: str) -> None:
-    python, domain = node_python(distribution), 45 + DISTRIBUTIONS.index(distribution)
+def urdfkit_by(distribution: str) -> list[str | Path]:
+    """Return the command that runs urdfkit with rclpy; skip the test if its Python is another."""
+    python = node_python(distribution)
     version = "import sys; import std_srvs; print(sys.version_info[:2] == " + repr(sys.version_info[:2]) + ")"
     done = subprocess.run([python, "-c", version], capture_output=True, text=True, check=False)
     if done.stdout.strip() != "True":
@@ -138,7 +138,14 @@ def test_rclpy_publishes_the_topics_and_serves_the_services(distribution: str) -
         f"import site, sys; sys.path.insert(0, {str(ROOT)!r}); site.addsitedir({site.getsitepackages()[0]!r}); "
         "from urdfkit.cli import main; sys.exit(main())"
     )
-    with simulated("simpleton", domain, (python, "-c", code), library="rclpy"):
+    return [python, "-c", code]
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("distribution", DISTRIBUTIONS)
+def test_rclpy_publishes_the_topics_and_serves_the_services(distribution: str) -> None:
+    python, domain = node_python(distribution), 45 + DISTRIBUTIONS.index(distribution)
+    with simulated("simpleton", domain, urdfkit_by(distribution), library="rclpy"):
         found = node(distribution, domain, 90.0, "/simpleton/cmd_vel", "/simpleton/odom")
         words = [python, str(Path(__file__).parent / "real_client.py")]
         environment = {name: value for name, value in os.environ.items() if not name.startswith("PYTHON")}
@@ -147,3 +154,24 @@ def test_rclpy_publishes_the_topics_and_serves_the_services(distribution: str) -
     assert found["x"] > 1.0
     assert found["descriptions"] == 1
     assert done.stdout.splitlines()[-1:] == ["answered"], done.stderr
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("distribution", DISTRIBUTIONS)
+def test_the_command_calls_a_service_of_a_real_node(distribution: str) -> None:
+    command = [*urdfkit_by(distribution), "service"]
+    environment = {name: value for name, value in os.environ.items() if not name.startswith("PYTHON")}
+    environment |= {**LOCAL, "ROS_DOMAIN_ID": str(58 + DISTRIBUTIONS.index(distribution))}
+
+    def service(*words: str) -> subprocess.CompletedProcess[str]:
+        line = [*command, *words, "--live", "ros2"]
+        return subprocess.run(line, capture_output=True, text=True, env=environment, check=False)
+
+    server = [str(node_python(distribution)), str(Path(__file__).parent / "real_service.py")]
+    with running(server, env=environment, stdout=subprocess.PIPE, text=True) as lamp:
+        assert lamp.stdout is not None
+        assert lamp.stdout.readline() == "ready\n"
+        assert service("type", "/switch").stdout == "std_srvs/srv/SetBool\n"
+        on, off = service("call", "/switch", "{data: true}", "--json"), service("call", "/switch", "--json")
+    assert (on.returncode, json.loads(on.stdout)) == (0, {"success": True, "message": "on"}), on.stderr
+    assert (off.returncode, json.loads(off.stdout)) == (1, {"success": False, "message": "stays on"}), off.stderr

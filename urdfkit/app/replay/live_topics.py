@@ -26,12 +26,13 @@ class LiveTopics:
         clock: wall clock [s].
 
     Attributes:
+        node: on the graph.
         calls: received messages, until `update` publishes them.
     """
 
     def __init__(self, node: Node, bus: Bus, report: Callable[[str], None], clock: Callable[[], float]) -> None:
         self.calls = CallQueue()
-        self._node, self._bus, self._report, self._clock = node, bus, report, clock
+        self.node, self._bus, self._report, self._clock = node, bus, report, clock
         self._found: dict[str, str] = {}
         self._closed = Event()
         self._ends: dict[str, End] = {}
@@ -73,11 +74,11 @@ class LiveTopics:
             UrdfkitError: the library lacks the type, or the master is gone.
         """
         if topic not in self._writers:
-            writer = self._writers[topic] = self._node.writer(topic, type, publisher_quality(topic))
+            writer = self._writers[topic] = self.node.writer(topic, type, publisher_quality(topic))
             end = self._clock() + wait
             while self._clock() < end and not writer.is_matched():
                 time.sleep(0.01)
-        self._writers[topic].publish(self._node.encode(message, type))
+        self._writers[topic].publish(self.node.encode(message, type))
 
     def close(self) -> None:
         """End all subscriptions and leave the graph."""
@@ -86,13 +87,13 @@ class LiveTopics:
         for end in self._ends.values():
             end()
         self._ends.clear()
-        self._node.close()
+        self.node.close()
 
     def _search(self) -> None:
         """Find topics, in a thread of its own: a slow graph must not stop the page."""
         while True:
             try:
-                self._found = self._node.topics()
+                self._found = self.node.topics()
             except Exception as error:  # of a graph, by several classes
                 if not self._closed.is_set():
                     self._note(str(error))
@@ -101,7 +102,7 @@ class LiveTopics:
 
     def _follow(self, topic: Topic) -> End:
         try:
-            return self._node.subscribe(topic.name, topic.type, subscription_quality(topic.name), self._receiver(topic))
+            return self.node.subscribe(topic.name, topic.type, subscription_quality(topic.name), self._receiver(topic))
         except (UnknownTypeError, ResourceError) as error:
             self._note(f"{topic.name}: {error}")
             return lambda: None
@@ -111,7 +112,7 @@ class LiveTopics:
 
         def decode(data: bytes) -> Any:
             try:
-                return self._node.decode(data, topic.type)
+                return self.node.decode(data, topic.type)
             except Exception as error:  # of a malformed message, by several classes
                 self._note(f"{topic.name}: a message that is no {topic.type} was dropped ({error})")
                 return None

@@ -1,4 +1,4 @@
-"""Topics of a live graph for the command ``topic``, as if they were those of a simulation."""
+"""Topics and services of a live graph for ``topic`` and ``service``, as if they were those of a simulation."""
 
 from __future__ import annotations
 
@@ -10,6 +10,7 @@ from typing import Any
 
 from urdfkit.app.replay.live_topics import LiveTopics
 from urdfkit.app.replay.live_view import open_source
+from urdfkit.app.simulation.bridging.service_requests import service_requests
 from urdfkit.app.simulation.features.feature import Done
 from urdfkit.app.simulation.features.topic_panel import ECHO, TopicPanel
 from urdfkit.app.simulation.features.topic_stream import KEYS, TopicStreams
@@ -21,6 +22,8 @@ from urdfkit.view.server.server import Server
 
 DISCOVERY = 2.0
 """Seconds to wait for the first topics."""
+OF_EACH_NODE = ("/parameter_events", "/rosout")
+"""Topics of every node of ROS 2, also of this one."""
 PERIOD = 0.02
 
 
@@ -45,18 +48,19 @@ class TopicSession:
         panel = TopicPanel(simulation, server, clock)
         self._features = panel, TopicStreams(simulation, server, clock)
         schema, _ = panel.takes["publish"]
-        server.requests["publish"] = schema
+        self._takes = {"publish": (schema, self._publish), **service_requests(topics.node)}
+        server.requests.update({name: schema for name, (schema, _) in self._takes.items()})
 
     def tick(self) -> None:
         """Run one iteration: requests, messages."""
         self.t = self._clock() - self._begun
         for request in self._server.inbox.take().requests:
             try:
-                self._publish(request)
+                values = self._takes[request.name][1](request)
             except UrdfkitError as error:
                 self._server.answer(request, str(error))
             else:
-                self._server.answer(request)
+                self._server.answer(request, **(values or {}))
         keys = self._server.hub.subscribed_keys
         self._topics.update({key.partition(":")[2] for key in keys if key.startswith((ECHO, *KEYS))})
         for feature in self._features:
@@ -92,9 +96,9 @@ def served_topics(source: str, report: Callable[[str], None]) -> Iterator[str]:
         server.start()
         thread.start()
         end = time.monotonic() + DISCOVERY
-        while not bus.topics and time.monotonic() < end:
+        while all(topic.name in OF_EACH_NODE for topic in bus.topics) and time.monotonic() < end:
             time.sleep(PERIOD)
-        if bus.topics:
+        if time.monotonic() < end:
             time.sleep(DISCOVERY / 4)  # nodes of ROS 2 are discovered one after the other
         yield server.url
     finally:

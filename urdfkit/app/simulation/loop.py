@@ -4,6 +4,7 @@ import math
 import time
 from collections import deque
 from collections.abc import Callable, Mapping, Sequence
+from functools import cached_property
 from threading import Event
 from typing import Any
 
@@ -11,6 +12,8 @@ from numpy.typing import NDArray
 
 from urdfkit.app.page import note
 from urdfkit.app.repair_findings import with_repairs
+from urdfkit.app.simulation.bridging.service_requests import SimulationServices, service_requests
+from urdfkit.app.simulation.bridging.services import simulation_services
 from urdfkit.app.simulation.clock_rate import FRAME, ClockRate
 from urdfkit.app.simulation.displays.displays import Displays
 from urdfkit.app.simulation.features.contact_forces import ContactForces
@@ -29,6 +32,7 @@ from urdfkit.app.simulation.features.topic_stream import TopicStreams
 from urdfkit.app.simulation.features.world_objects import WorldObjects
 from urdfkit.app.simulation.scene_bodies import SceneBodies
 from urdfkit.bridges.bridge import Bridges
+from urdfkit.bridges.service import Service
 from urdfkit.errors import SimulationError, UrdfkitError
 from urdfkit.sim.simulator import Simulator
 from urdfkit.sim.state.quaternion import yaw_of
@@ -108,7 +112,13 @@ class DriveLoop:
             if isinstance(part, Playback):
                 part.pace = self.pace
             self._takes.update(part.takes)
+        self._takes.update(service_requests(SimulationServices(lambda: self.services)))
         server.requests.update({name: schema for name, (schema, _) in self._takes.items()})
+
+    @cached_property
+    def services(self) -> Mapping[str, Service]:
+        """Services of the simulation by name."""
+        return simulation_services(self.simulator, self)
 
     def add_request(self, name: str, schema: Schema, handler: Callable[[Request], Done]) -> None:
         """Accept another request of the page; `handler` returns the values of the answer."""

@@ -12,6 +12,8 @@ from urdfkit.errors import MissingDependencyError
 
 DEPTH = 10
 """Messages that a publisher keeps for a slow subscriber, as ROS's own default."""
+RESPONSE = 10.0
+"""Seconds to wait for the response of a service."""
 CLOCK = "/clock"
 MAPS = ("map", "costmap")
 """Last parts of the names of topics that map_server and Nav2 publish with transient local durability."""
@@ -108,6 +110,27 @@ class Node(Protocol):
 
         Raises:
             UnknownTypeError: the library lacks the type, or services.
+        """
+
+    def services(self) -> list[str]:
+        """Return the names of the services of the graph.
+
+        Raises:
+            UrdfkitError: the library has no services, or the graph does not respond.
+        """
+
+    def service_type(self, service: str) -> str:
+        """Return the type of a service of the graph; an empty string if it is unknown.
+
+        Raises:
+            UrdfkitError: the service does not respond.
+        """
+
+    def call(self, service: str, type: str, fields: Any) -> Any:
+        """Call a service of the graph, and return the fields of its response as JSON values.
+
+        Raises:
+            UrdfkitError: the service fails or does not respond, or its type is unknown or has no such fields.
         """
 
     def close(self) -> None:

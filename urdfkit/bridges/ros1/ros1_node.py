@@ -10,10 +10,21 @@ from threading import Event, Thread
 from typing import Any, TypeVar
 from xmlrpc.client import Error
 
-from urdfkit.bridges.node.node import Done, End, Quality, UnknownTypeError
+from urdfkit.bridges.json_messages import json_values
+from urdfkit.bridges.node.node import RESPONSE, Done, End, Quality, UnknownTypeError
 from urdfkit.bridges.ros1.environment import bind_host, is_remote, master_uri, own_host
 from urdfkit.bridges.ros1.node_functions import NodeFunctions
-from urdfkit.bridges.ros1.ros1_types import ANY, decode, definition, encode, full_name, register, ros1_name
+from urdfkit.bridges.ros1.ros1_types import (
+    ANY,
+    decode,
+    definition,
+    encode,
+    full_name,
+    register,
+    ros1_name,
+    service_checksum,
+)
+from urdfkit.bridges.ros1.service_client import call_service, service_type
 from urdfkit.bridges.ros1.service_server import ServiceServer
 from urdfkit.bridges.ros1.tcpros import TIMEOUT, TcprosError, read_header, write_header
 from urdfkit.bridges.ros1.topic_publisher import TopicPublisher
@@ -21,6 +32,7 @@ from urdfkit.bridges.ros1.topic_subscriber import TopicSubscriber
 from urdfkit.bridges.ros1.xml_rpc import NodeServer, call
 from urdfkit.bridges.service import Service
 from urdfkit.errors import ResourceError, UsageError
+from urdfkit.messages import from_fields
 
 NAME = "/urdfkit"
 WATCH = 2.0
@@ -115,6 +127,24 @@ class Ros1Node:
         """Serve a service."""
         self._services[service.name] = ServiceServer(self.name, service, call)
         self._call_master("registerService", service.name, self._rpc, self._api)
+
+    def services(self) -> list[str]:
+        """Return the names of the services of the master."""
+        return sorted(name for name, _ in self._call_master("getSystemState")[2])
+
+    def service_type(self, service: str) -> str:
+        """Return the type of a service, by its server."""
+        if service not in self.services():
+            return ""
+        return service_type(self.name, service, self._call_master("lookupService", service))
+
+    def call(self, service: str, type: str, fields: Any) -> Any:
+        """Call a service and return the fields of its response."""
+        checksum = service_checksum(type)
+        request = encode(from_fields(f"{type}_Request", fields), f"{type}_Request")
+        address = self._call_master("lookupService", service)
+        content = call_service(self.name, service, address, checksum, request, RESPONSE)
+        return json_values(decode(content, f"{type}_Response"))
 
     def set_parameter(self, name: str, value: Any) -> None:
         """Set a parameter of the master."""

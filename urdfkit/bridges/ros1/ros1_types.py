@@ -54,7 +54,13 @@ def definition(type: str) -> Definition:
 
 
 def service_checksum(type: str) -> str:
-    """Return the checksum of a service: that of the texts of its request and its response."""
+    """Return the checksum of a service: that of the texts of its request and its response.
+
+    Raises:
+        UnknownTypeError: the type is unknown.
+    """
+    if f"{type}_Request" not in ros1_typestore().fielddefs:
+        raise UnknownTypeError(f"no definition of {type}")
     texts = (_hashed_text(f"{type}_Request"), _hashed_text(f"{type}_Response"))
     return md5("".join(texts).encode(), usedforsecurity=False).hexdigest()
 

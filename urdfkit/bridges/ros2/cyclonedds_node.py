@@ -119,6 +119,22 @@ class CycloneddsNode:
         """
         raise UnknownTypeError(f"Cyclone DDS does not serve {service.name}; rclpy does")
 
+    def services(self) -> list[str]:
+        """Refuse: Cyclone DDS for Python has no services.
+
+        Raises:
+            UnknownTypeError: always.
+        """
+        raise UnknownTypeError("Cyclone DDS has no services; they need rclpy: source a ROS 2 workspace, or ros-rclpy")
+
+    def service_type(self, service: str) -> str:
+        """Refuse, as `services` does."""
+        return self.services()[0]
+
+    def call(self, service: str, type: str, fields: Any) -> Any:
+        """Refuse, as `services` does."""
+        return self.services()
+
     encode, decode = staticmethod(encode_cdr), staticmethod(decode_cdr)
 
     def close(self) -> None:

@@ -2,20 +2,25 @@
 
 from __future__ import annotations
 
+import time
 from collections.abc import Callable
 from contextlib import suppress
 from importlib import import_module
 from importlib.util import find_spec
 from queue import Queue
-from threading import Thread
+from threading import Event, Thread
 from typing import Any
 
-from urdfkit.bridges.node.node import Done, End, Node, Quality, UnknownTypeError, Writer
+from urdfkit.bridges.json_messages import json_values
+from urdfkit.bridges.node.node import RESPONSE, Done, End, Node, Quality, UnknownTypeError, Writer
 from urdfkit.bridges.service import Service
 from urdfkit.errors import MissingDependencyError, ResourceError
+from urdfkit.messages import from_fields
 from urdfkit.messages.conversion import decode_cdr, encode_cdr
 
 NAME = "urdfkit"
+DISCOVERY = 5.0
+"""Longest time until a service is discovered [s]."""
 DDS = ("rmw_fastrtps_cpp", "rmw_fastrtps_dynamic_cpp", "rmw_cyclonedds_cpp")
 """Middlewares whose nodes match topics of Cyclone DDS."""
 
@@ -121,6 +126,38 @@ class RclpyNode:
 
         self._node.create_service(kind, service.name, answer)
         self._executor.wake()
+
+    def services(self) -> list[str]:
+        """Return the names of the services of the graph."""
+        return sorted(dict(self._node.get_service_names_and_types()))
+
+    def service_type(self, service: str) -> str:
+        """Return the type of a service; wait until it is discovered."""
+        end = time.monotonic() + DISCOVERY
+        while not (types := dict(self._node.get_service_names_and_types()).get(service)) and time.monotonic() < end:
+            time.sleep(0.05)
+        return str(types[0]) if types else ""
+
+    def call(self, service: str, type: str, fields: Any) -> Any:
+        """Call a service, if its type is installed, and return the fields of its response."""
+        from rclpy.serialization import deserialize_message, serialize_message
+
+        if (kind := self._type(type)) is None:
+            raise UnknownTypeError(f"rclpy lacks {type}: install its ROS package")
+        data = encode_cdr(from_fields(f"{type}_Request", fields), f"{type}_Request")
+        client = self._node.create_client(kind, service)
+        try:
+            done = Event()
+            if not client.wait_for_service(timeout_sec=RESPONSE):
+                raise ResourceError(f"{service} has no server")
+            future = client.call_async(deserialize_message(data, kind.Request))
+            future.add_done_callback(lambda _: done.set())
+            self._executor.wake()
+            if not done.wait(RESPONSE):
+                raise ResourceError(f"{service} does not respond within {RESPONSE:g} s")
+            return json_values(decode_cdr(serialize_message(future.result()), f"{type}_Response"))
+        finally:
+            self._node.destroy_client(client)
 
     encode, decode = staticmethod(encode_cdr), staticmethod(decode_cdr)
 

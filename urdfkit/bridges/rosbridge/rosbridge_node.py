@@ -14,13 +14,13 @@ from tornado.httpclient import HTTPClientError
 from tornado.websocket import WebSocketClientConnection, WebSocketClosedError, websocket_connect
 
 from urdfkit.bridges.json_messages import from_json, to_json
-from urdfkit.bridges.node.node import Done, End, Quality, UnknownTypeError
+from urdfkit.bridges.node.node import RESPONSE, Done, End, Quality, UnknownTypeError
 from urdfkit.bridges.service import Service
 from urdfkit.errors import ResourceError
 from urdfkit.messages import full_type_name
 
 TIMEOUT = 10.0
-"""Seconds to wait for a connection and for responses."""
+"""Seconds to wait for a connection."""
 MAX_FRAME = 256 * 1024 * 1024
 """Bytes of the longest frame that is accepted."""
 THROTTLED = ("sensor_msgs/msg/Image", "sensor_msgs/msg/PointCloud2", "sensor_msgs/msg/CompressedImage")
@@ -84,21 +84,28 @@ class RosbridgeNode:
 
     def topics(self) -> dict[str, str]:
         """Return topic → type, by the service ``/rosapi/topics``."""
-        values = self.call("/rosapi/topics", {})
+        values = self._call("/rosapi/topics", {})
         return {name: full_type_name(type) for name, type in zip(values["topics"], values["types"], strict=True)}
 
-    def call(self, service: str, arguments: dict[str, Any]) -> Any:
-        """Call a service and return the values of its response.
+    def services(self) -> list[str]:
+        """Return the names of the services, by the service ``/rosapi/services``."""
+        return sorted(self._call("/rosapi/services", {})["services"])
 
-        Raises:
-            ResourceError: it fails or does not respond.
-        """
+    def service_type(self, service: str) -> str:
+        """Return the type of a service, by the service ``/rosapi/service_type``."""
+        return full_type_name(self._call("/rosapi/service_type", {"service": service})["type"], "srv")
+
+    def call(self, service: str, type: str, fields: Any) -> Any:
+        """Call a service and return the fields of its response."""
+        return self._call(service, fields or {})
+
+    def _call(self, service: str, fields: Any) -> Any:
         self._number += 1
         number = str(self._number)
         answered = self._responses[number] = Future()
-        self._send(op="call_service", service=service, args=arguments, id=number)
+        self._send(op="call_service", service=service, args=fields, id=number)
         try:
-            message = answered.result(TIMEOUT)
+            message = answered.result(RESPONSE)
         except TimeoutError as error:
             raise ResourceError(f"{self.description}: {service} does not respond") from error
         finally:

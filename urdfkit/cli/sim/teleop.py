@@ -102,7 +102,9 @@ def run(arguments: argparse.Namespace) -> int:
                         note=warnings,
                     )
                 )
-            loop.bridges = stack.enter_context(bridged(loop.simulator, bridges, loop, warnings))
+            loop.bridges = stack.enter_context(
+                bridged(loop.simulator, bridges, loop, warnings, services=loop.services if bridges else {})
+            )
             loop.look = stack.enter_context(recording(loop.simulator, arguments))
             if not loop.simulator.command_topics:
                 note("this robot has no drive that takes velocity commands")

@@ -7,6 +7,7 @@ import argparse
 from importlib import import_module
 
 from urdfkit.cli.parser import HelpFormatter
+from urdfkit.cli.topic.connection import add_connection_options, run_with_client
 
 SUBCOMMANDS = {
     "list": ("list_topics", "list the topics"),
@@ -29,22 +30,11 @@ def configure(parser: argparse.ArgumentParser) -> None:
     subcommands = parser.add_subparsers(dest="subcommand", metavar="SUBCOMMAND", required=True)
     for name, (module, summary) in SUBCOMMANDS.items():
         sub = subcommands.add_parser(name, help=summary, description=summary, formatter_class=HelpFormatter)
-        sub.add_argument(
-            "--url",
-            metavar="ADDRESS",
-            help="address of the simulation that `sim teleop` prints (default: the running simulation)",
-        )
-        sub.add_argument(
-            "--live",
-            metavar="SOURCE",
-            help="use the topics of another graph: ros1, ros2 or rosbridge://HOST:PORT",
-        )
+        add_connection_options(sub)
         import_module(f"urdfkit.cli.topic.{module}").configure(sub, name)
 
 
 def run(arguments: argparse.Namespace) -> int:
     """Run one subcommand until it is done or interrupted by Ctrl-C."""
-    from urdfkit.cli.topic.connection import run_with_client
-
     module, _ = SUBCOMMANDS[arguments.subcommand]
     return run_with_client(import_module(f"urdfkit.cli.topic.{module}").run, arguments)

@@ -36,6 +36,18 @@ class Row:
     subscribers: int
 
 
+def add_connection_options(parser: argparse.ArgumentParser) -> None:
+    """Add the options that select a simulation or another graph."""
+    parser.add_argument(
+        "--url",
+        metavar="ADDRESS",
+        help="address of the simulation that `sim teleop` prints (default: the running simulation)",
+    )
+    parser.add_argument(
+        "--live", metavar="SOURCE", help="connect to another graph: ros1, ros2 or rosbridge://HOST:PORT"
+    )
+
+
 def run_with_client(work: Callable[[Client, argparse.Namespace], Awaitable[int]], arguments: argparse.Namespace) -> int:
     """Run a coroutine with a connection to the running simulation; return its exit code.
 
@@ -46,7 +58,7 @@ def run_with_client(work: Callable[[Client, argparse.Namespace], Awaitable[int]]
     from importlib.util import find_spec
 
     if find_spec("tornado") is None:
-        raise MissingDependencyError("topic needs tornado: pip install 'urdfkit[view]'")
+        raise MissingDependencyError(f"{arguments.command} needs tornado: pip install 'urdfkit[view]'")
     from urdfkit.view.protocol.client import connect
     from urdfkit.view.server.running_simulations import find
 

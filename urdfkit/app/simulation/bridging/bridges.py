@@ -48,7 +48,12 @@ class BridgeOptions:
 
 @contextmanager
 def bridged(
-    simulator: Simulator, options: BridgeOptions, controls: Controls, report: Callable[[str], None]
+    simulator: Simulator,
+    options: BridgeOptions,
+    controls: Controls,
+    report: Callable[[str], None],
+    *,
+    services: Mapping[str, Service] | None = None,
 ) -> Iterator[Bridges]:
     """Serve the bridges inside the context; yield them.
 
@@ -57,6 +62,7 @@ def bridged(
         options: which bridges.
         controls: what pauses and resets the simulation.
         report: receives a line about a message that was dropped.
+        services: that peers can call; None for those of the simulation with these controls.
 
     Raises:
         UsageError: a port is in use.
@@ -69,7 +75,7 @@ def bridged(
     text = publish_description(simulator)
     if options.ros is not None:
         simulator.set_clock_rate(options.ros.clock_rate)
-    services = simulation_services(simulator, controls)
+    services = simulation_services(simulator, controls) if services is None else services
     try:
         open_bridges(
             bridges, options, simulator.bus, lambda: simulator.t, services, text, _packages(simulator).find, report
