@@ -177,7 +177,7 @@ def _load(
 
 def _partial(model: ModelArgument, packages: Packages, texts: Mapping[str, str]) -> Robot | None:
     """Return the robot without the includes and macros that do not exist; None if that is no robot."""
-    from urdfkit.description.xacro.recovery.left_out import without_unknown_values
+    from urdfkit.description.xacro.recovery.missing_parts import without_unknown_values
 
     expanded = expand_leniently(
         model.path, arguments=model.arguments, packages=packages, run_xacro=True, add_prefixes=False, texts=texts

@@ -118,8 +118,8 @@ def driving(
     Raises:
         UrdfkitError: the robot cannot be simulated in the world.
     """
+    from urdfkit.app.simulation.initial_scene import InitialScene
     from urdfkit.app.simulation.loop import DriveLoop
-    from urdfkit.app.simulation.placeholder import Placeholder
     from urdfkit.app.simulation.progress import compile_kernel, compile_rays, progress
     from urdfkit.description.xml.cost_limit import loading_limit
     from urdfkit.sim import Simulator
@@ -127,19 +127,19 @@ def driving(
 
     server = page.server
     try:
-        placeholder = Placeholder(robot, world, strict=strict, density=density)
+        initial_scene = InitialScene(robot, world, strict=strict, density=density)
         page.open()  # the browser starts and shows the robot while the engine is compiled
         # `urdfkit topic` finds the simulation from here on
         with registered(server.port, server.url, robot.name or "robot"):
             with faults_on_page(server):
-                placeholder.show(server)
+                initial_scene.show(server)
                 server.publish_latched("progress", label="preparing the engine …")
                 compile_kernel(server)
                 with progress(server, "loading meshes, building the world …"), loading_limit():
                     simulator = Simulator(
                         robot,
                         world=world,
-                        scene=placeholder.scene,
+                        scene=initial_scene.scene,
                         ros_distro=ros_distro,
                         controllers=controllers,
                         renderer=renderer,

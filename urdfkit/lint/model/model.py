@@ -174,7 +174,7 @@ class Model:
 
     @cached_property
     def _related(self) -> tuple[dict[str, Source], dict[str, Element]]:
-        from urdfkit.lint.model.related import related_files
+        from urdfkit.lint.model.related_files import related_files
 
         return related_files(self.expanded, self.robot, self.package, self.texts)
 

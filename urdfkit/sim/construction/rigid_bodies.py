@@ -18,7 +18,7 @@ from urdfkit.scene import MeshLoader, Scene, Shape
 from urdfkit.scene.colors import DEFAULT, GAZEBO
 from urdfkit.scene.pose_matrices import pose_matrix, upright
 from urdfkit.scene.scene_table import Role
-from urdfkit.sim.construction.convex_hulls import hull_of
+from urdfkit.sim.construction.primitive_hulls import hull_of
 from urdfkit.sim.construction.validation import impossible
 from urdfkit.sim.engine import Body, Piece, Surface
 from urdfkit.sim.state.poses import seven

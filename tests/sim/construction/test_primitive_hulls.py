@@ -7,7 +7,7 @@ import pytest
 
 from urdfkit.description.sdf import Cone, Ellipsoid
 from urdfkit.scene import TriMesh
-from urdfkit.sim.construction.convex_hulls import TOLERANCE, hull_of
+from urdfkit.sim.construction.primitive_hulls import TOLERANCE, hull_of
 
 
 def planes(mesh: TriMesh, scale: tuple[float, float, float] = (1.0, 1.0, 1.0)) -> tuple[np.ndarray, np.ndarray]:

@@ -9,7 +9,7 @@ pytest.importorskip("meshcat")
 pytest.importorskip("numba")
 
 from urdfkit.app.page import faults_on_page
-from urdfkit.app.simulation.placeholder import Placeholder
+from urdfkit.app.simulation.initial_scene import InitialScene
 from urdfkit.app.simulation.scene_bodies import SceneBodies
 from urdfkit.description import load
 from urdfkit.description.sdf import load_world
@@ -41,16 +41,16 @@ class Page:
 @pytest.mark.parametrize("name", ["simpleton", "rrbot"])
 def test_it_stands_where_the_simulation_starts(name: str) -> None:
     robot, world, page = load(name), load_world("empty"), Page()
-    likeness = Placeholder(robot, world)
-    likeness.show(page)
-    simulator = Simulator(robot, world=world, scene=likeness.scene, note=lambda _: None)
-    assert simulator.scene is likeness.scene
+    initial = InitialScene(robot, world)
+    initial.show(page)
+    simulator = Simulator(robot, world=world, scene=initial.scene, note=lambda _: None)
+    assert simulator.scene is initial.scene
     before = page.poses
-    figures = SceneBodies(simulator, page)
-    figures.show()
+    bodies = SceneBodies(simulator, page)
+    bodies.show()
     first, second = page.shown
     assert first == second
-    np.testing.assert_allclose(before, figures.poses(), atol=1e-12)
+    np.testing.assert_allclose(before, bodies.poses(), atol=1e-12)
 
 
 def test_an_open_page_shows_why_the_server_stops(monkeypatch) -> None:

@@ -1,4 +1,4 @@
-"""Placeholder: the robot in its initial pose, on the page while the engine is compiled."""
+"""Initial scene: the robot in its initial pose, on the page while the engine is compiled."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from urdfkit.view.content.display_interface import Display
 
 
-class Placeholder:
+class InitialScene:
     """Scene of a robot that does not move.
 
     Args:
