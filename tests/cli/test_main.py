@@ -16,12 +16,14 @@ def test_version(capsys: pytest.CaptureFixture[str]) -> None:
 
 
 @pytest.mark.parametrize("command", COMMANDS)
-def test_every_command_helps_with_two_examples(command: str, capsys: pytest.CaptureFixture[str]) -> None:
+def test_every_command_helps_with_two_examples_in_80_columns(command: str, capsys, monkeypatch) -> None:
+    monkeypatch.setenv("COLUMNS", "80")
     with pytest.raises(SystemExit) as stopped:
         main([command, "--help"])
     assert stopped.value.code == 0
     printed = capsys.readouterr().out
     assert printed.count(f"\n  urdfkit {command}") >= 2
+    assert [line for line in printed.splitlines() if len(line) > 80] == []
 
 
 def test_a_typo_gets_the_nearest_command(capsys: pytest.CaptureFixture[str]) -> None:

@@ -36,7 +36,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
         "--output",
         type=Path,
         metavar="FILE",
-        help="write to FILE, atomically; missing folders are created, as by xacro",
+        help="write to FILE atomically, and create missing folders, as xacro does",
     )
     output.add_argument(
         "--compare", action="store_true", help="print the first difference from the output of the xacro package"

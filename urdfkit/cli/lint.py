@@ -27,7 +27,7 @@ _EPILOG = """examples:
 
 exit status: 0 no errors or warnings, 1 errors or warnings, 2 linting failed
 suppress in the file:
-  <!-- urdfkit: ignore I503 -->       after an element: this line; alone on a line: the next element
+  <!-- urdfkit: ignore I503 -->       this line (if alone, the next element)
   <!-- urdfkit: ignore-file I503 -->  the whole file
 settings: [lint] in urdfkit.toml or [tool.urdfkit.lint] in pyproject.toml, nearest above the first PATH"""
 
@@ -83,7 +83,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     )
     help = "do not lint robots with the xacro arguments that simulation and display launch files pass"
     add("--no-launch-arguments", action="store_true", help=help)
-    help = "instantiate this macro of the file; key:=value arguments are its parameters, too"
+    help = "instantiate this macro of the file; key:=value arguments also set its parameters"
     add("--macro", metavar="NAME", help=help)
     add("--no-cache", action="store_true", help="lint unchanged files again")
     add("--jobs", type=_count, metavar="N", help="number of processes (default: one per core)")

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import os
+import re
 import sys
 from itertools import takewhile
 
@@ -24,6 +25,8 @@ OTHER_OPTIONS = {
 }
 """Option of another tool → option of urdfkit, where the command has it."""
 
+_NO_BREAK = "\N{NO-BREAK SPACE}"
+
 ROBOT_OPTIONS = ("--robot", "--model", "--urdf", "--xacro", "--file")
 
 
@@ -34,6 +37,28 @@ class HelpFormatter(argparse.RawDescriptionHelpFormatter):
         self, prog: str, indent_increment: int = 2, max_help_position: int = 24, width: int | None = None
     ) -> None:
         super().__init__(prog, indent_increment, max_help_position, width or (columns() or 80) - 2)
+
+    def add_usage(self, usage: str | None, actions: Any, groups: Any, prefix: str | None = None) -> None:
+        """Wrap a usage that a command gives itself; bracketed arguments stay on one line."""
+        if usage is not None and usage is not argparse.SUPPRESS:
+            kept = re.sub(r"\[[^\[\]]*\]", lambda group: group[0].replace(" ", _NO_BREAK), f"usage: {usage}")
+            parts = [re.sub(r"\n +", " ", part) for part in re.split(r"\n(?= +urdfkit)", kept)]
+            usage = "\n".join(self._wrapped(part, " " * 11).replace(_NO_BREAK, " ") for part in parts)[len("usage: ") :]
+        super().add_usage(usage, actions, groups, prefix)
+
+    def _fill_text(self, text: str, width: int, indent: str) -> str:
+        """Wrap the long lines of a description or an epilog, but no commands and no XML, which are copied."""
+        lines = super()._fill_text(text, width, indent).splitlines()
+        return "\n".join(
+            line if line.startswith(("  urdfkit ", "  <")) else self._wrapped(line, "  ") for line in lines
+        )
+
+    def _wrapped(self, line: str, indent: str) -> str:
+        import textwrap
+
+        return textwrap.fill(
+            line, self._width, subsequent_indent=indent, break_long_words=False, break_on_hyphens=False
+        )
 
 
 def columns() -> int | None:

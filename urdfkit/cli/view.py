@@ -34,9 +34,9 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--live",
         metavar="SOURCE",
-        help="show the state of a real robot: ros1, ros2 or rosbridge://HOST:PORT; and drive it from the page",
+        help="show and drive a real robot: through ros1, ros2 or rosbridge://HOST:PORT",
     )
-    parser.add_argument("--fixed-frame", metavar="FRAME", help="with --live: frame in which everything is shown")
+    parser.add_argument("--fixed-frame", metavar="FRAME", help="with --live: frame in which all data is shown")
     add_picture_options(parser)
     add_strict(parser, "a placeholder for a missing mesh")
     parser.epilog = (

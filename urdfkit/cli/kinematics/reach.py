@@ -45,7 +45,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
         "exit status: 0 if any pose is reached, with --base-for if all of its poses are, else 1; 2 on failure\n"
         "examples:\n"
         "  urdfkit reach seven_dof_arm grasping_frame -o reach.npz\n"
-        "  urdfkit reach seven_dof_arm grasping_frame --down --tool-axis x --orientations 12\n"
+        "  urdfkit reach seven_dof_arm grasping_frame --down --tool-axis x\n"
         "  urdfkit reach panda.urdf panda_hand --cone -z,30 --resolution 0.1 --json\n"
         "  urdfkit reach panda.urdf panda_hand --resolution 0.1 --base-for poses.csv"
     )
@@ -69,7 +69,11 @@ def configure(parser: argparse.ArgumentParser) -> None:
     )
     which.add_argument("--position-only", action="store_true", help="ignore the orientation")
     add("--tool-axis", type=_axis, metavar="AXIS", help="axis of TIP for --down and --cone (default: z)")
-    add("--collision-free", action="store_true", help="reach poses only without collisions between links")
+    add(
+        "--collision-free",
+        action="store_true",
+        help="count only poses that are reached without collisions between links",
+    )
     add("--seed", type=_whole, default=0, metavar="N", help="seed of all random numbers (default: 0)")
     add(
         "--base-for",

@@ -27,7 +27,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
         "limits: --acceleration and --jerk before MoveIt's joint_limits.yaml before <limit> of the robot\n"
         "examples:\n"
         "  urdfkit retime seven_dof_arm waypoints.csv --acceleration 3 -o motion.csv\n"
-        "  urdfkit retime arm.urdf waypoints.csv --acceleration elbow=2,wrist=5 --jerk 30 --scale 0.5,0.5 --json\n"
+        "  urdfkit retime arm.urdf waypoints.csv --acceleration 3,elbow=2 --jerk 30\n"
         "  urdfkit sim run seven_dof_arm --trajectory motion.csv"
     )
     parser.add_argument(
@@ -54,7 +54,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
         type=_scale,
         default=(1.0, 1.0),
         metavar="V,A",
-        help="parts of the limits of velocity and acceleration to use",
+        help="fractions of the velocity and acceleration limits to use",
     )
     parser.add_argument("--rate", type=_positive, default=100.0, metavar="HZ", help="samples per second (default: 100)")
     parser.add_argument(

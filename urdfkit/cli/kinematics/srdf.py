@@ -44,7 +44,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
         default=[],
         type=_group,
         metavar="NAME=BASE:TIP",
-        help="a planning group of the chain from BASE to TIP, in place of the groups that are found (repeatable)",
+        help="planning group of the chain from BASE to TIP, instead of automatic groups (repeatable)",
     )
     parser.add_argument(
         "--samples", type=_count, default=100_000, metavar="N", help="random configurations (default: 100000)"
@@ -55,7 +55,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
         "--update",
         type=Path,
         metavar="OLD.srdf",
-        help="replace only the disabled pairs of this SRDF; those with other reasons, and all else, stay",
+        help="replace the disabled pairs of this SRDF; keep pairs with other reasons, groups and comments",
     )
     parser.add_argument("--json", action="store_true", help="print one JSON value, with the samples of each pair")
     parser.add_argument("--view", action="store_true", help="show the pairs in the browser, until interrupted")

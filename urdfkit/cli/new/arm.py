@@ -11,11 +11,11 @@ _SIZES = {"reach": "arm_reach", "mass": "arm_mass", "payload": "payload", "finge
 
 def configure(parser: argparse.ArgumentParser) -> None:
     """Add the arguments."""
-    parser.description = "Add an arm of three to seven joints: a macro in a file of its own, one include, one call."
+    parser.description = "add an arm of three to seven joints: a macro in a file of its own, one include, one call"
     parser.epilog = (
         "examples:\n"
         "  urdfkit new arm --into scout_description --dof 6 --gripper\n"
-        "  urdfkit new arm --into urdf/base.urdf.xacro --name left --reach 0.7 --xyz 0.1 0.2 0.3 --diff"
+        "  urdfkit new arm --into base.urdf.xacro --name left --xyz 0.1 0.2 0.3 --diff"
     )
     add_description(parser)
     parser.add_argument("--dof", choices=("3", "4", "5", "6", "7"), default="6", metavar="N", help="joints, 3 to 7")

@@ -26,7 +26,7 @@ SUMMARY = "controllers for the joints of an existing description"
 def configure(parser: argparse.ArgumentParser) -> None:
     """Add the arguments."""
     parser.description = (
-        "Write controllers: a differential drive for wheels, trajectories for arms and fingers; "
+        "write controllers: a differential drive for wheels, trajectories for arms and fingers; "
         "joints with a drive stay unchanged"
     )
     parser.epilog = (

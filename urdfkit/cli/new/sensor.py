@@ -20,13 +20,11 @@ _ALIASES = {
 
 def configure(parser: argparse.ArgumentParser) -> None:
     """Add the arguments."""
-    parser.description = (
-        "Add a sensor: a macro in a file of its own, one include, one call; other lines stay unchanged."
-    )
+    parser.description = "add a sensor: a macro in a file of its own, one include, one call; other lines stay unchanged"
     parser.epilog = (
         "examples:\n"
         "  urdfkit new sensor lidar --into scout_description\n"
-        "  urdfkit new sensor camera --into urdf/arm.urdf.xacro --name wrist --parent tool0 --xyz 0.05 0 0 --diff"
+        "  urdfkit new sensor camera --into arm.urdf.xacro --parent tool0 --xyz 0.05 0 0"
     )
     parser.add_argument("sensor", nargs="?", metavar="SENSOR", help=", ".join(_KINDS))
     add_description(parser)

@@ -15,7 +15,7 @@ def add_macro(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--macro",
         metavar="NAME",
-        help="instantiate this macro of the file; key:=value arguments are its parameters, too",
+        help="instantiate this macro of the file; key:=value arguments also set its parameters",
     )
 
 

@@ -33,10 +33,14 @@ def add_record(parser: argparse.ArgumentParser) -> None:
         action="append",
         default=[],
         metavar="GLOB",
-        help='record only topics with such a name, e.g. "/scan*" (repeatable; default: all)',
+        help='record only topics that match GLOB, e.g. "/scan*" (repeatable; default: all)',
     )
     group.add_argument(
-        "--exclude", action="append", default=[], metavar="GLOB", help="do not record such topics (repeatable)"
+        "--exclude",
+        action="append",
+        default=[],
+        metavar="GLOB",
+        help="do not record topics that match GLOB (repeatable)",
     )
     group.add_argument("--no-compression", action="store_true", help="do not compress the file")
     group.add_argument(
@@ -48,7 +52,10 @@ def add_record(parser: argparse.ArgumentParser) -> None:
         help="record colour and grey images as JPEG, on TOPIC/compressed (quality 1 to 95, default 90)",
     )
     group.add_argument(
-        "--split", type=_split, metavar="LIMIT", help="continue in another file FILE_1.mcap, … after 30s, 5min or 500MB"
+        "--split",
+        type=_split,
+        metavar="LIMIT",
+        help="start another file, FILE_1.mcap and so on, after a time or size, e.g. 30s, 5min or 500MB",
     )
 
 

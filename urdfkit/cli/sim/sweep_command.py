@@ -35,7 +35,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
         action="append",
         default=[],
         metavar="NAME=VALUES",
-        help="values of a parameter: V1,V2,…, FIRST:LAST:COUNT, or LOW..HIGH, from which each seed draws one "
+        help="values of a parameter: V1,V2,…, FIRST:LAST:COUNT, or LOW..HIGH, from which each seed draws a value "
         "(repeatable; all combinations are simulated)",
     )
     add(
@@ -43,7 +43,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
         type=int,
         default=1,
         metavar="N",
-        help="runs with each combination, with seeds from 0 on (default: 1)",
+        help="runs of each combination, with the seeds 0, 1, … (default: 1)",
     )
     add(
         "--metric",
@@ -59,9 +59,10 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--json", action="store_true", help="print one JSON value")
     parser.epilog = (
         "examples:\n"
-        "  urdfkit sim sweep simpleton --for 5 --cmd-vel 0.5,0,0.5 --vary chassis.mass=1:3:5 --metric path_error\n"
-        "  urdfkit sim sweep simpleton --for 5 --cmd-vel 0.5,0,0.5 --vary left_wheel.mu=0.2..1 --seeds 20 "
-        "--metric odometry_error"
+        "  urdfkit sim sweep simpleton --for 5 --cmd-vel 0.5,0,0.5 \\\n"
+        "      --vary chassis.mass=1:3:5 --metric path_error\n"
+        "  urdfkit sim sweep simpleton --for 5 --cmd-vel 0.5,0,0.5 \\\n"
+        "      --vary left_wheel.mu=0.2..1 --seeds 20 --metric odometry_error"
     )
 
 

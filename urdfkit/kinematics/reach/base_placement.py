@@ -79,7 +79,7 @@ def base_placement(
         poses: poses of the tip in a frame with z up: x y z [m] and quaternion x y z w, shape (N, 7), or homogeneous
             matrices, shape (N, 4, 4).
         position_only: ignore the orientation.
-        collision_free: reach poses only without collisions between links.
+        collision_free: count only poses that are reached without collisions between links.
         tolerance: distance [m] and angle [rad] within which a pose is reached.
         seed: of all random numbers.
         progress: called with the state of the search in words.

@@ -33,7 +33,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
         "exit status: 0 if all poses are reached, 1 if some are not, 2 on failure\n"
         "examples:\n"
         "  urdfkit ik seven_dof_arm wrist_roll_link --xyz 0.3,0.2,0.9 --rpy 0,1.57,0\n"
-        "  urdfkit ik seven_dof_arm wrist_roll_link --xyz 0.3,0.2,0.9 --position-only --all --json\n"
+        "  urdfkit ik seven_dof_arm wrist_roll_link --xyz 0.3,0.2,0.9 --position-only\n"
         "  urdfkit ik panda.urdf panda_hand --targets poses.npy -o solutions.npz"
     )
     add = parser.add_argument
@@ -82,7 +82,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
         help="only solutions in which no links collide, except neighbours and links that collide at rest",
     )
     add("--restarts", type=int, default=200, metavar="N", help="random starts per pose (default: 200)")
-    add("--seed", type=int, default=0, metavar="N", help="number of the random stream (default: 0)")
+    add("--seed", type=int, default=0, metavar="N", help="seed of all random numbers (default: 0)")
     add("--threads", type=int, metavar="N", help="threads for files of poses (default: one per processor)")
     add("-o", "--output", type=Path, metavar="FILE.npz", help="write arrays: joints, q, reached, errors, restarts")
     add("--json", action="store_true", help="print one JSON value")

@@ -125,10 +125,10 @@ def documents_in(text: str) -> tuple[tuple[Node, ...], Broken | None]:
             found.append(_Reader().node(document, 0))
     except yaml.MarkedYAMLError as error:
         mark = error.problem_mark or error.context_mark
-        why = error.problem or error.context or "this is no YAML"
+        why = error.problem or error.context or "invalid YAML"
         return tuple(found), Broken(mark.line + 1 if mark else 1, mark.column + 1 if mark else 1, why)
     except (yaml.YAMLError, RecursionError) as error:
-        return tuple(found), Broken(1, 1, " ".join(str(error).split())[:200] or "this is no YAML")
+        return tuple(found), Broken(1, 1, " ".join(str(error).split())[:200] or "invalid YAML")
     return tuple(found), None
 
 
