@@ -76,7 +76,11 @@ def test_three_hundred_pages_watch_and_one_drives(scene, client, server, until) 
     first = until(lambda: server.drive_lock.holder)
     pages[1].send(json.dumps({"type": "axes", "axes": [-1, 0, 0, 0], "speed": 1, "turn": 1}))
     pages[1].send('{"type":"joints","positions":{"lift":0.25}}')
-    until(lambda: server.inbox.take().joints)
+    pages[1].send('{"type":"control","action":"stop"}')  # every page may stop the robot
+    inputs = until(lambda: (taken := server.inbox.take()).actions and taken)
+    assert inputs.joints == {}
+    pages[0].send('{"type":"joints","positions":{"lift":0.5}}')
+    assert until(lambda: server.inbox.take().joints) == {"lift": 0.5}
     assert server.drive_lock.holder == first
     assert server.drive_lock.axes.axes[0] == 1
     for page in (pages[0], pages[-1]):

@@ -12,7 +12,7 @@ import { joints } from "./joint_sliders.js";
 import { labels } from "../viewport/labels.js";
 import { layers } from "../viewport/display_layers.js";
 import { modes } from "../page/mode_switch.js";
-import { loading } from "../viewport/loading_progress.js";
+import { loading } from "../page/loading_progress.js";
 import { measure } from "./measure.js";
 import { pick } from "../viewport/picking.js";
 import { reach } from "./reach_map.js";

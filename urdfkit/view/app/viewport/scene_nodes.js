@@ -3,6 +3,7 @@
 
 import { decoded } from "../appearance/mesh_decoding.js";
 import { keepTextures, texture } from "../appearance/textures.js";
+import { Downloads } from "./downloads.js";
 import { placeholder } from "./placeholders.js";
 
 const THREE = MeshCat.THREE;
@@ -18,8 +19,7 @@ export class Scene {
     this.hidden = new Map(); // path → function that requests the mesh of a shape when it is shown
     this.used = new Set(); // meshes of the current robot
     this.textures = new Set(); // and their textures
-    this.waiting = new Map(); // promise of a requested mesh → path of its shape
-    this.requested = { count: 0, bytes: 0 }; // since no mesh was waited for
+    this.downloads = new Downloads();
     this.simplified = new Map(); // link → numbers of triangles [in the file, shown]
     this.groups = { visual: new Map(), collision: new Map() };
     this.shown = { visual: true, collision: false };
@@ -143,20 +143,8 @@ export class Scene {
         this.arrived?.(shape);
         this.viewport.dirty();
       })
-      .catch((error) => console.warn(`mesh ${name.slice(0, 8)}: ${error.message}`))
-      .finally(() => {
-        this.waiting.delete(task);
-        this.#report();
-      });
-    if (!this.waiting.size) this.requested = { count: 0, bytes: 0 };
-    this.requested.count += 1;
-    this.waiting.set(task, path);
-    this.#report();
-  }
-
-  #report() {
-    const [path] = this.waiting.values();
-    this.loading?.({ waiting: this.waiting.size, requested: this.requested.count, bytes: this.requested.bytes, link: path && unescaped(path[2]).replace(/^world\//, "") });
+      .catch((error) => console.warn(`mesh ${name.slice(0, 8)}: ${error.message}`));
+    this.downloads.add(task, unescaped(path[2]).replace(/^world\//, ""));
   }
 
   #count(path, { simplifiedFrom, triangles }) {
@@ -186,15 +174,14 @@ export class Scene {
   async #fetched(name) {
     const answer = await fetch(`/geometry/${name}${location.search}`); // a page in a frame sends its token
     if (!answer.ok) throw new Error(`${answer.status}`);
-    this.requested.bytes += Number(answer.headers.get("content-length"));
-    this.#report();
+    this.downloads.received(Number(answer.headers.get("content-length")));
     return answer.arrayBuffer();
   }
 
   /** Resolves when all requested meshes are loaded. */
   async settled() {
     if (!this.groups.visual.size) for (const request of [...this.hidden.values()]) request(); // for `bounds`
-    while (this.waiting.size) await Promise.allSettled([...this.waiting.keys()]);
+    await this.downloads.finished();
     keepTextures(this.textures);
   }
 

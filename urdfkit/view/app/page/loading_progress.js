@@ -1,6 +1,6 @@
 // Shows which meshes are being loaded, how many and how large, and which were simplified for the screen.
 
-import { h, short } from "../page/dom.js";
+import { h, short } from "./dom.js";
 
 const DELAY = 400; // ms before anything is shown
 
@@ -23,7 +23,7 @@ export function loading(page) {
     server = message.label;
     show();
   });
-  page.scene.loading = ({ waiting, requested, bytes, link }) => {
+  page.scene.downloads.changed = ({ waiting, requested, bytes, link }) => {
     const of = link ? `, now ${link}` : "";
     meshes = waiting ? `Loading meshes: ${requested - waiting} of ${requested}, ${short(bytes / 1e6, 1)} MB${of}` : null;
     if (!waiting) showSimplified();
