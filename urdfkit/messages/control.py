@@ -68,7 +68,16 @@ CONTROL_MESSAGES = {
         builtin_interfaces/Duration goal_time_tolerance
         """,
         feedback=f"std_msgs/Header header\nstring[] joint_names\n{_POINT} desired\n{_POINT} actual\n{_POINT} error",
-        result="int32 error_code\nstring error_string",
+        result="""
+        int32 SUCCESSFUL=0
+        int32 INVALID_GOAL=-1
+        int32 INVALID_JOINTS=-2
+        int32 OLD_HEADER_TIMESTAMP=-3
+        int32 PATH_TOLERANCE_VIOLATED=-4
+        int32 GOAL_TOLERANCE_VIOLATED=-5
+        int32 error_code
+        string error_string
+        """,
     ),
     "action_msgs/srv/CancelGoal_Request": "action_msgs/GoalInfo goal_info",
     LOAD: "string name",

@@ -16,6 +16,9 @@ CHECKSUMS = {  # as `rosmsg md5` of Noetic prints them
     "sensor_msgs/msg/LaserScan": "90c7ef2dc6895d81024acba2ac42f369",
     "sensor_msgs/msg/CameraInfo": "c9a58c1b0b154e0e6da7578cb991d214",
     "tf2_msgs/msg/TFMessage": "94810edda583a504dfda3829e70d7eec",
+    "control_msgs/msg/FollowJointTrajectoryActionGoal": "cff5c1d533bf2f82dd0138d57f4304bb",
+    "control_msgs/msg/FollowJointTrajectoryActionResult": "c4fb3b000dc9da4fd99699380efcc5d9",
+    "control_msgs/msg/JointTrajectoryControllerState": "10817c60c2486ef6b33e97dcd87f4474",
     "nav_msgs/msg/Odometry": "cd5e73d190d741a2f92e81eda573aca7",
 }
 

@@ -85,6 +85,28 @@ def test_a_rospy_node_drives_the_robot_a_metre_and_rosbag_records_it(master: Mas
     assert lines == []
 
 
+@pytest.mark.slow
+def test_a_client_of_actionlib_moves_an_arm(master: Master) -> None:
+    lines, simulator = list[str](), Simulator("heterogeneous")
+    (goals,) = [each.name for each in simulator.bus.topics if each.type.endswith("FollowJointTrajectoryActionGoal")]
+    with on_ros1(simulator, lines):
+        node = ["/usr/bin/python3", str(Path(__file__).parent / "actionlib_client.py"), goals.removesuffix("/goal")]
+        done = subprocess.run(
+            node, env=debian_environment(master.uri), capture_output=True, text=True, timeout=PATIENCE, check=False
+        )
+    assert done.returncode == 0, done.stderr
+    seen = json.loads(done.stdout.splitlines()[-1])
+    assert seen["feedback"] > 2
+    assert "jarmLink0" in seen["joints"]
+    preempted, succeeded, aborted, rejected = 2, 3, 4, 5
+    assert seen["reached"][:2] == [succeeded, 0]
+    assert seen["unknown"][:2] == [rejected, -2]
+    assert "unknown joint `jarmLink9`" in seen["unknown"][2]
+    assert seen["cancelled"][0] == preempted
+    assert seen["off"][:2] == [aborted, -4]
+    assert lines == []
+
+
 def test_nodes_find_each_other_and_again_after_the_master_was_gone(master: Master) -> None:
     lines, received = list[str](), list[Any]()
     first, second = Ros1Node(report=lines.append), Ros1Node(name="/other", report=lines.append)

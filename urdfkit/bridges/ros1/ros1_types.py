@@ -17,6 +17,12 @@ from urdfkit.messages.conversion import converted
 ANY = "*"
 """Checksum of a subscriber that accepts every type."""
 
+NOETIC = {
+    "control_msgs/msg/JointTrajectoryControllerState": "std_msgs/Header header\nstring[] joint_names\n"
+    + "".join(f"trajectory_msgs/JointTrajectoryPoint {role}\n" for role in ("desired", "actual", "error"))
+}
+"""Definitions of Noetic that rosbags lacks and that differ from ours."""
+
 
 class Definition(NamedTuple):
     """A message type as ROS 1 names it: its name, its definition with those of its fields, and its checksum."""
@@ -29,9 +35,11 @@ class Definition(NamedTuple):
 @cache
 def ros1_typestore() -> Any:
     """Return rosbags' types of Noetic, with ours that it lacks."""
-    from rosbags.typesys import Stores, get_typestore
+    from rosbags.typesys import Stores, get_types_from_msg, get_typestore
 
     store = get_typestore(Stores.ROS1_NOETIC)
+    for name, text in NOETIC.items():
+        store.register(get_types_from_msg(text, name))
     register_in(store, {name: layout for name, layout in typestore().fielddefs.items() if name not in store.fielddefs})
     return store
 
