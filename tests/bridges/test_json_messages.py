@@ -5,9 +5,18 @@ import math
 import numpy as np
 import pytest
 
+from urdfkit.app.simulation.features.message_values import as_json
 from urdfkit.bridges.json_messages import from_json, to_json
 from urdfkit.errors import UsageError
 from urdfkit.messages import from_fields, message_type
+
+
+def test_constants_are_no_fields() -> None:
+    message = from_fields("actionlib_msgs/msg/GoalStatus", {"status": 3})
+    fields = {"goal_id": {"stamp": {"sec": 0, "nanosec": 0}, "id": ""}, "status": 3, "text": ""}
+    assert json.loads(to_json(message)) == as_json(message) == fields
+    empty = from_fields("std_msgs/msg/Empty", None)
+    assert json.loads(to_json(empty)) == as_json(empty) == {}
 
 
 def test_bytes_are_base64_and_numbers_that_json_lacks_are_null() -> None:

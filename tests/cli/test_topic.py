@@ -7,7 +7,6 @@ import math
 import signal
 import subprocess
 import sys
-import threading
 from collections.abc import Iterator
 from contextlib import AbstractContextManager
 from pathlib import Path
@@ -19,8 +18,8 @@ pytest.importorskip("meshcat")
 pytest.importorskip("numba")
 
 from tests.processes import running
+from tests.served_simulation import driven
 from tests.time_limit import PATIENCE
-from urdfkit.app.simulation.clock_rate import FRAME
 from urdfkit.app.simulation.loop import DriveLoop
 from urdfkit.cli import main
 from urdfkit.cli.topic.echo import as_yaml, part
@@ -37,23 +36,8 @@ ODOM, COMMAND = "/simpleton/odom", "/simpleton/cmd_vel"
 @pytest.fixture(scope="module")
 def ride(tmp_path_factory) -> Iterator[DriveLoop]:
     """Simpleton, as `sim teleop` runs it."""
-    over = threading.Event()
-    with pytest.MonkeyPatch.context() as patch, Server("sim", port=0) as server:
-        patch.setenv("XDG_RUNTIME_DIR", str(tmp_path_factory.mktemp("runtime")))
-        ride = DriveLoop(Simulator("simpleton", note=lambda _: None), server)
-        ride.show()
-
-        def run() -> None:
-            ride.pace.begin(ride.simulator.t)
-            while not over.wait(FRAME):
-                ride.tick()
-
-        thread = threading.Thread(target=run)
-        thread.start()
-        with registered(server.port, server.url, "simpleton"):
-            yield ride
-        over.set()
-        thread.join()
+    with driven(Simulator("simpleton", note=lambda _: None), tmp_path_factory.mktemp("runtime")) as ride:
+        yield ride
 
 
 @pytest.fixture

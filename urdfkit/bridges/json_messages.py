@@ -12,14 +12,7 @@ import numpy as np
 
 from urdfkit.errors import UsageError
 from urdfkit.messages import from_fields, full_type_name, typestore
-
-UNUSED = "structure_needs_at_least_one_member"
-"""The field of messages without fields."""
-
-
-def fields_of(message: Any) -> list[str]:
-    """Return the names of the fields of a message; none for a value that is no message."""
-    return [name for name in getattr(message, "__dataclass_fields__", ()) if name not in ("__msgtype__", UNUSED)]
+from urdfkit.messages.conversion import fields_of
 
 
 def to_json(value: Any) -> str:

@@ -44,6 +44,7 @@ COMMANDS = {
     "sim": "simulate a robot: teleop, run, sweep, warmup",
     "topic": "inspect and publish topics of a running simulation: list, info, type, find, echo, hz, bw, pub",
     "service": "list and call services of a running simulation: list, type, call",
+    "action": "send goals to actions of a running simulation: list, send",
     "replay": "show a recording of ROS 1, ROS 2 or urdfkit in the browser",
     "bag": "inspect a recording: info",
     "licenses": "print versions and licences of the dependencies, or a software bill of materials",
@@ -54,7 +55,7 @@ COMMANDS = {
 _FOLDERS = {
     **dict.fromkeys(("tf", "ik", "jacobian", "reach", "retime", "srdf"), "kinematics"),
     **dict.fromkeys(("replay", "bag"), "recordings"),
-    "service": "topic",
+    **dict.fromkeys(("service", "action"), "topic"),
     "licenses": "installation",
 }
 """Command → the package in ``urdfkit.cli`` that its module is in."""

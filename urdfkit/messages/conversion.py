@@ -2,12 +2,31 @@
 
 from __future__ import annotations
 
+from dataclasses import fields, is_dataclass
+from functools import cache
 from typing import Any
 
 from urdfkit.messages import typestore
 
 ZERO: dict[str, Any] = {"string": "", "wstring": "", "bool": False, "float32": 0.0, "float64": 0.0}
 """Base type → value of a missing field; 0 for others."""
+
+
+UNUSED = "structure_needs_at_least_one_member"
+"""The field of messages without fields."""
+
+
+def fields_of(message: Any) -> tuple[str, ...]:
+    """Return the names of the fields of a message, without its constants; none for a value that is no message."""
+    return _field_names(message.__class__)
+
+
+@cache
+def _field_names(kind: Any) -> tuple[str, ...]:
+    if not is_dataclass(kind):
+        return ()
+    constant = "ClassVar"  # as a text, in classes that rosbags makes of registered types
+    return tuple(each.name for each in fields(kind) if each.name != UNUSED and not str(each.type).startswith(constant))
 
 
 def encode_cdr(message: Any, type: str) -> bytes:

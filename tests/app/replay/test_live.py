@@ -4,23 +4,21 @@ from __future__ import annotations
 
 import json
 import time
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from collections.abc import Callable
 from functools import partial
 from pathlib import Path
-from threading import Thread
 from typing import Any
 
 import pytest
 
 from tests.app.replay.written_bags import Messages, write_bag
+from tests.served_simulation import rosbridge
 from tests.time_limit import PATIENCE
 from urdfkit.app.page import Page
 from urdfkit.app.replay.live_view import following
 from urdfkit.app.replay.observed_session import ObservedSession
 from urdfkit.app.replay.replaying import replaying
-from urdfkit.app.simulation.bridging.bridges import BridgeOptions, bridged
-from urdfkit.app.simulation.bridging.real_time import RunControls, advance_in_real_time
+from urdfkit.app.simulation.bridging.bridges import BridgeOptions
 from urdfkit.app.viewer.shown_robot import ShownRobot
 from urdfkit.bridges.bag_file import BagFile
 from urdfkit.bridges.node.node import Quality
@@ -32,22 +30,6 @@ from urdfkit.sim import Simulator
 from urdfkit.view.protocol.websocket_messages import Axes
 
 pytestmark = pytest.mark.slow
-
-
-@contextmanager
-def rosbridge(simulator: Simulator) -> Iterator[str]:
-    """Simulate in real time with a server of rosbridge; yield its address."""
-    stopped: list[bool] = []
-    options = BridgeOptions(rosbridge=Address("127.0.0.1", 0))
-    with bridged(simulator, options, RunControls(simulator), pytest.fail) as bridges:
-        (server,) = bridges._open
-        thread = Thread(target=advance_in_real_time, args=(simulator, bridges, lambda: bool(stopped)))
-        thread.start()
-        try:
-            yield server.urls[0].replace("ws://", "rosbridge://")  # type: ignore[attr-defined]
-        finally:
-            stopped.append(True)
-            thread.join()
 
 
 def until(session: ObservedSession, condition: Callable[[], Any]) -> None:

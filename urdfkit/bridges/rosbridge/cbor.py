@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from urdfkit.bridges.json_messages import fields_of
+from urdfkit.messages.conversion import fields_of
 
 TYPED_ARRAYS = {
     "u2": 69, "u4": 70, "u8": 71, "i1": 72, "i2": 77, "i4": 78, "i8": 79, "f4": 85, "f8": 86,

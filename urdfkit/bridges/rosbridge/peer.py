@@ -12,6 +12,7 @@ from typing import Any
 from urdfkit.bridges.graph import Graph
 from urdfkit.bridges.json_messages import from_json, to_json
 from urdfkit.bridges.published_message import PublishedMessage
+from urdfkit.bridges.rosbridge.client_goals import ClientGoals
 from urdfkit.bridges.rosbridge.rosapi import Rosapi
 from urdfkit.bridges.rosbridge.subscription import encoder
 from urdfkit.bridges.websocket.send_queue import MAX_MESSAGES, SendQueue, SubscriptionQueue
@@ -21,7 +22,7 @@ from urdfkit.errors import UrdfkitError, UsageError, suggestion
 LEVELS = ("none", "error", "warning", "info")
 IGNORED = ("unadvertise", "auth", "unadvertise_service", "service_response")
 """Operations without an effect here."""
-UNSUPPORTED = ("advertise_service", "advertise_action", "unadvertise_action", "send_action_goal", "cancel_action_goal")
+UNSUPPORTED = ("advertise_service", "advertise_action", "unadvertise_action")
 
 
 class RosbridgePeer:
@@ -39,12 +40,15 @@ class RosbridgePeer:
         self._subscriptions: dict[tuple[str, str], tuple[SubscriptionQueue, Callable[[], None]]] = {}
         self._advertised: dict[str, str] = {}
         self._rosapi = Rosapi(graph)
+        self._goals = ClientGoals(graph, queue.reply)
         self._operations: dict[str, Callable[[dict[str, Any]], None]] = {
             "advertise": self._advertise,
             "publish": self._publish,
             "subscribe": self._subscribe,
             "unsubscribe": self._unsubscribe,
             "call_service": self._call_service,
+            "send_action_goal": self._goals.send,
+            "cancel_action_goal": self._goals.cancel,
             "set_level": self._set_level,
         }
 
@@ -74,6 +78,7 @@ class RosbridgePeer:
             end()
             self._queue.remove(queue)
         self._subscriptions.clear()
+        self._goals.close()
 
     def _fail(self, number: Any, reason: str) -> None:
         self._report(reason)

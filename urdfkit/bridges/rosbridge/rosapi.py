@@ -9,6 +9,7 @@ import json
 from collections.abc import Callable
 from typing import Any
 
+from urdfkit.bridges.actions import actions
 from urdfkit.bridges.graph import Graph
 from urdfkit.bridges.rosbridge.type_details import type_details
 from urdfkit.bus import absolute, nearest_topic
@@ -46,7 +47,7 @@ class Rosapi:
             "node_details": lambda it: self._node(_text(it, "node")),
             "publishers": lambda it: {"publishers": [NODE] if _text(it, "topic") in graph.topics else []},
             "subscribers": lambda it: {"subscribers": [NODE] if _text(it, "topic") in self._subscribed else []},
-            "action_servers": lambda _: {"action_servers": []},
+            "action_servers": lambda _: {"action_servers": list(actions(graph.bus))},
             "get_param_names": lambda _: {"names": list(graph.parameters)},
             "has_param": lambda it: {"exists": _parameter(_text(it, "name")) in graph.parameters},
             "get_param": self._get_parameter,

@@ -8,17 +8,13 @@ from typing import Any
 import numpy as np
 
 from urdfkit.errors import UsageError, did_you_mean
+from urdfkit.messages.conversion import fields_of
 
 LONG = 24
 """Number of entries of an array that are shown."""
 PLOTTED = 64
 """Number of entries of an array that can be plotted."""
 _STEP = re.compile(r"([A-Za-z_]\w*)|\[(\d{1,6})\]")
-
-
-def fields_of(message: Any) -> tuple[str, ...]:
-    """Return the names of a message's fields."""
-    return tuple(name for name in getattr(message, "__dataclass_fields__", ()) if not name.startswith("_"))
 
 
 def as_json(value: Any, long: int = LONG) -> Any:
@@ -48,10 +44,8 @@ def as_json(value: Any, long: int = LONG) -> Any:
     if isinstance(value, np.ndarray | list | tuple):
         shown = [as_json(entry, long) for entry in value[:long]]
         return shown if len(value) <= long else [*shown, f"… {len(value)} in all"]
-    if names := fields_of(value):
-        return {
-            name: as_json(getattr(value, name), long) for name in names if name != "structure_needs_at_least_one_member"
-        }
+    if hasattr(value, "__msgtype__"):
+        return {name: as_json(getattr(value, name), long) for name in fields_of(value)}
     return str(value)
 
 
