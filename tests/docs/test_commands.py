@@ -11,11 +11,16 @@ from pathlib import Path
 
 import pytest
 
+from tests.docs import course
 from tests.processes import running
 from tests.time_limit import PATIENCE
 
 ROOT = Path(__file__).parents[2]
-PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md"))]
+PAGES = [
+    page
+    for page in (ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md")))
+    if page not in course.PAGES  # test_courses runs these
+]
 SERVES = ("view", "sim teleop", "replay")
 
 MODEL = """<?xml version="1.0"?>

@@ -1,0 +1,159 @@
+"""Runs a page as its reader does, in an empty folder: writes its files, makes its changes, enters its commands.
+
+- A fenced block with a title is a file: the block replaces its content.
+- A block ``diff`` with a title changes that file: the lines with a blank or `-` are in it exactly once.
+- In a block ``console`` each line after `$` runs in a shell; the lines below it are its output. `…` stands for any
+  text, in a line of its own for any lines.
+
+``python -m tests.docs.course PAGE`` writes the output that its commands have now into the page.
+"""
+
+from __future__ import annotations
+
+import os
+import re
+import shlex
+import subprocess
+import sys
+import tempfile
+from collections.abc import Iterator
+from contextlib import ExitStack
+from pathlib import Path
+from typing import NamedTuple
+
+from tests.processes import running
+
+ROOT = Path(__file__).parents[2]
+HOME = "/home/me"
+"""Folder of the reader in outputs."""
+
+PAGES = [
+    page
+    for folder in ("guides", "tutorials")
+    for page in sorted((ROOT / "docs" / folder).glob("*.md"))
+    if re.search(r"^```\w+ title=", page.read_text(encoding="utf-8"), re.MULTILINE)
+]
+"""Pages with files of their own."""
+
+SERVES = re.compile(r"urdfkit (view|sim teleop|replay)\b(?!.*--(image|video))")
+WAITS = r"^(urdfkit: )?(warning: )?(compiling the |waiting for the graphics driver).*\n"
+VARIES = ((r"[\d,.]+ × real time", "… × real time"), (r"\b\d+(\.\d+)? m?s \(CPU\)", "… (CPU)"))
+
+
+class Block(NamedTuple):
+    """A fenced block of a page."""
+
+    language: str
+    title: str
+    text: str
+
+
+class Step(NamedTuple):
+    """A command, the output that the page shows, and the output that it has."""
+
+    command: str
+    shown: str
+    printed: str
+
+
+def blocks(page: str) -> Iterator[Block]:
+    """Yield the fenced blocks of a page."""
+    pattern = r"^```(\w+)(?: title=\"([^\"]+)\")?[^\n]*\n(.*?)^```$"
+    for language, title, text in re.findall(pattern, page, re.MULTILINE | re.DOTALL):
+        yield Block(language, title, text)
+
+
+def commands(block: str) -> Iterator[tuple[str, str]]:
+    """Yield each command of a console block and the output below it."""
+    for part in re.split(r"^\$ ", block, flags=re.MULTILINE)[1:]:
+        lines = part.splitlines(keepends=True)
+        count = next((k for k, line in enumerate(lines, 1) if not line.endswith("\\\n")), len(lines))
+        yield "".join(lines[:count]).rstrip("\n"), "".join(lines[count:])
+
+
+def run(page: str, folder: Path) -> Iterator[Step]:
+    """Run a page in a folder; yield its steps. A command that serves a page runs until the next one of them.
+
+    Raises:
+        AssertionError: a change does not match its file, or a command fails.
+    """
+    with ExitStack() as served:
+        for block in blocks(page):
+            if block.language == "console":
+                for command, shown in commands(block.text):
+                    if SERVES.search(command):
+                        served.close()
+                        printed = _serve(command, folder, served)
+                    else:
+                        printed = _output(command, folder)
+                    yield Step(command, shown, printed)
+            elif block.title:
+                file = folder / block.title
+                file.parent.mkdir(parents=True, exist_ok=True)
+                text = _changed(file, block.text) if block.language == "diff" else block.text
+                file.write_text(text, encoding="utf-8")
+
+
+def agrees(shown: str, printed: str) -> bool:
+    """Return whether the output that a page shows stands for the output of the command."""
+    for pattern, text in VARIES:
+        shown, printed = re.sub(pattern, text, shown), re.sub(pattern, text, printed)
+    lines = [
+        r"(?s:.*?)" if line == "…" else re.escape(line).replace("…", ".*") for line in shown.rstrip("\n").split("\n")
+    ]
+    return re.fullmatch("\n".join(lines), printed.rstrip("\n")) is not None
+
+
+def _changed(file: Path, change: str) -> str:
+    lines = change.splitlines(keepends=True)
+    old = "".join(line[1:] for line in lines if line[0] in " -")
+    new = "".join(line[1:] for line in lines if line[0] in " +")
+    text = file.read_text(encoding="utf-8")
+    assert text.count(old) == 1, f"{file.name} contains these lines {text.count(old)} times:\n{old}"
+    return text.replace(old, new)
+
+
+def _environment(folder: Path) -> dict[str, str]:
+    return {**os.environ, "PYTHONPATH": str(ROOT), "COLUMNS": "100", "XDG_RUNTIME_DIR": str(folder)}
+
+
+def _serve(command: str, folder: Path, served: ExitStack) -> str:
+    words = [sys.executable, "-m", "urdfkit", *shlex.split(command)[1:], "--no-browser", "--port", "0"]
+    options = {"stdin": subprocess.DEVNULL, "stdout": subprocess.PIPE, "stderr": subprocess.DEVNULL, "text": True}
+    process = served.enter_context(running(words, cwd=folder, env=_environment(folder), **options))
+    line = process.stdout.readline()
+    assert "http://127.0.0.1:" in line, command
+    return line
+
+
+def _output(command: str, folder: Path) -> str:
+    python = shlex.quote(sys.executable)
+    programs = f'urdfkit() {{ {python} -m urdfkit "$@"; }}; python() {{ {python} "$@"; }}\n'
+    done = subprocess.run(
+        ["/bin/bash", "-c", programs + command],
+        cwd=folder,
+        env=_environment(folder),
+        stdin=subprocess.DEVNULL,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        text=True,
+        check=False,
+    )
+    assert done.returncode in (0, 1), f"{command}\n{done.stdout}"
+    printed = re.sub(WAITS, "", done.stdout, flags=re.MULTILINE)
+    return printed.replace(str(folder), HOME)
+
+
+def updated(page: str) -> str:
+    """Return the page with the output that its commands have now where the page shows another."""
+    with tempfile.TemporaryDirectory() as folder:
+        for step in run(page, Path(folder).resolve()):
+            print(f"$ {step.command}\n{step.printed}", file=sys.stderr)
+            if step.shown.strip() and not SERVES.search(step.command) and not agrees(step.shown, step.printed):
+                page = page.replace(f"$ {step.command}\n{step.shown}", f"$ {step.command}\n{step.printed}", 1)
+    return page
+
+
+if __name__ == "__main__":
+    for name in sys.argv[1:]:
+        Path(name).write_text(updated(Path(name).read_text("utf-8")), "utf-8")

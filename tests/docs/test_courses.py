@@ -1,0 +1,33 @@
+"""Each page with files of its own works as its reader enters it in an empty folder: files, commands, outputs."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from tests.docs.course import PAGES, agrees, run
+
+pytest.importorskip("numba")
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
+def test_a_reader_in_an_empty_folder_sees_the_outputs_of_the_page(page: Path, tmp_path: Path) -> None:
+    steps = list(run(page.read_text("utf-8"), tmp_path.resolve()))
+    assert steps
+    for step in steps:
+        if step.shown.strip() and "urdfkit sim teleop" not in step.command and "urdfkit view" not in step.command:
+            assert agrees(step.shown, step.printed), f"$ {step.command}\n{step.printed}"
+
+
+def test_a_page_with_a_wrong_output_is_found(tmp_path: Path) -> None:
+    page = '```text title="a.txt"\none\ntwo\n```\n```diff title="a.txt"\n one\n-two\n+three\n```\n'
+    page += "```console\n$ cat a.txt\none\ntwo\n$ cat a.txt\none\n…\n$ cat a.txt a.txt\none\n…\nthree\n```\n"
+    assert [agrees(step.shown, step.printed) for step in run(page, tmp_path)] == [False, True, True]
+
+
+def test_a_change_that_matches_nothing_is_an_error(tmp_path: Path) -> None:
+    page = '```text title="a.txt"\none\n```\n```diff title="a.txt"\n-two\n+three\n```\n'
+    with pytest.raises(AssertionError, match="0 times"):
+        list(run(page, tmp_path))
