@@ -8,6 +8,7 @@ import numpy as np
 import pinocchio as pin
 import pytest
 
+from tests.sim.engine.conftest import collision, joint, link, robot
 from urdfkit.errors import SimulationError
 from urdfkit.sim.engine import Surface
 from urdfkit.sim.engine.contacts import ground_contacts
@@ -226,3 +227,35 @@ def test_a_joint_that_starts_far_beyond_its_limit_comes_back_slowly(engine_of):
         speeds.append(abs(engine.v).max())
     assert engine.positions[1] < 2.6
     assert max(speeds) < 60.0
+
+
+def test_joints_beyond_their_limits_return_under_the_weight_of_a_robot(engine_of):
+    """Four legs with box feet: more rows than dofs, whose corrections contradict each other."""
+    shin = collision('<box size="0.03 0.03 0.2"/>', xyz="0 0 -0.1")
+    parts = [link("base", 10.0, (0.05, 0.15, 0.2), collision('<box size="0.4 0.2 0.1"/>'))]
+    for k, (x, y) in enumerate(((0.18, 0.12), (0.18, -0.12), (-0.18, 0.12), (-0.18, -0.12))):
+        parts += [
+            link(f"hip{k}", 0.5, (0.001, 0.001, 0.001)),
+            link(f"thigh{k}", 1.0, (0.004, 0.004, 0.001), at="0 0 -0.1"),
+            link(f"shin{k}", 0.3, (0.001, 0.001, 0.0001), shin, at="0 0 -0.1"),
+            joint(f"roll{k}", "revolute", "base", f"hip{k}", xyz=f"{x} {y} 0", axis="1 0 0", more=limit(-1, 1)),
+            joint(f"pitch{k}", "revolute", f"hip{k}", f"thigh{k}", axis="0 1 0", more=limit(-1.5, 3.4)),
+            joint(
+                f"knee{k}", "revolute", f"thigh{k}", f"shin{k}", xyz="0 0 -0.2", axis="0 1 0", more=limit(-2.7, -0.9)
+            ),
+        ]
+    engine = engine_of(robot(*parts), floating=True)
+    q = engine.kinematics.neutral()
+    q[2] = 0.4
+    engine.reset(q)
+    engine.kd[6:] = 100.0
+    engine.servo_effort[6:] = 1000.0
+    engine.step(300)
+    knees = engine.q[9::3]
+    assert knees == pytest.approx(-0.3, abs=0.03)
+    engine.step(1200)
+    assert engine.q[9::3].max() < -0.9 + 1e-3
+
+
+def limit(lower, upper):
+    return f'<limit lower="{lower}" upper="{upper}" effort="30" velocity="20"/>'

@@ -43,6 +43,8 @@ SOLVED = 1e-10
 """Velocity [m/s or rad/s] that the next round may still change where the law is met."""
 NEAR, GAIN = 1e-6, 0.7
 """The same where a round gains less than this factor over the one before, as where rows contradict each other."""
+RETURN = 0.1
+"""Velocity [rad/s or m/s] of a joint beyond its limit from which on it is always made to return."""
 MEMORY = 1.0 - 1e-6
 """How much of the last step's impulses is started from: a load that nothing determines slowly becomes even."""
 FEW_ROWS, FEW_DOFS = 20, 15
@@ -165,11 +167,15 @@ def take_over(w: KernelWorld, rows: int, hardness: float) -> float:
 
 
 @inlined
-def leave_penetrations(w: KernelWorld, rows: int) -> bool:
-    """Leave all penetrations as they are, since their corrections contradict each other; return whether any is."""
+def leave_violations(w: KernelWorld, first: int, beyond: int, fastest: float) -> bool:
+    """Leave violations that are corrected slower than `fastest`, since corrections contradict each other.
+
+    Returns:
+        Whether there are any from the first row on.
+    """
     found = False
-    for k in range(rows):
-        if w.row_bias[k] < 0.0 and w.high[k] == math.inf and w.low[k] == 0.0:
+    for k in range(first, beyond):
+        if -fastest < w.row_bias[k] < 0.0 and w.high[k] == math.inf and w.low[k] == 0.0:
             w.row_bias[k] = 0.0
             found = True
     return found
@@ -226,8 +232,11 @@ def solve_single_tree(w: KernelWorld, tree: int, stride: int, rows: int, contact
             met = balance == EXACT
             balance = EXACT
         elif attempt != MOVING and (taken < 0 or (attempt == RESTING and total >= FIRST_TRY)):
-            attempt = LEAVING if attempt == RESTING and leave_penetrations(w, rows) else MOVING
-            hardness = HARD if attempt == LEAVING else SOFT
+            if attempt == RESTING and leave_violations(w, joint_rows, rows, math.inf):
+                attempt, hardness = LEAVING, HARD
+            else:
+                attempt, hardness = MOVING, SOFT
+                leave_violations(w, 0, joint_rows, RETURN)
             begin(w, tree, stride, rows, joint_rows, contacts, inertia)
             off = math.inf
         elif taken < 0:
