@@ -16,8 +16,8 @@ class TwoDrivers(RobotRule):
     """A joint is driven by a controller and by another Gazebo plugin.
 
     ## What it does
-    Checks for joints that have a transmission, in robots with gazebo_ros_control, and that a drive or joint controller
-    of the same Gazebo also drives. The same applies to joints with a command interface in ``<ros2_control>`` if its
+    In robots with gazebo_ros_control, checks for joints with a transmission that a drive plugin or joint controller of
+    the same Gazebo also moves. The same applies to joints with a command interface in ``<ros2_control>`` if its
     hardware runs in Gazebo. Sensors and publishers only read their joints.
 
     ## Why is this bad?

@@ -11,10 +11,9 @@ class PluginValueUnknown(RobotRule):
     """A Gazebo plugin has a value that it cannot read.
 
     ## What it does
-    Checks the parameters of drives, joint controllers and joint state publishers: numbers that are not numbers,
-    negative or zero where the plugin divides by them, vectors of another length, flags that are neither true nor
-    false. Checks ``<output_type>`` of the ray sensor plugin of gazebo_ros, and that each ``<remapping>`` has the form
-    ``from:=to``.
+    Checks the parameters of drives, joint controllers and joint state publishers: values that are not numbers, divisors
+    that are negative or zero, vectors of the wrong length, and flags that are neither true nor false. Checks
+    ``<output_type>`` of the ray sensor plugin of gazebo_ros, and that each ``<remapping>`` has the form ``from:=to``.
 
     ## Why is this bad?
     The plugin ignores the value, keeps the default, or publishes nothing ("Invalid <output_type>"). A simulation with
