@@ -192,7 +192,7 @@ def test_the_solution_nearest_to_the_start(capsys: pytest.CaptureFixture[str], a
             ["finger_a", "--xyz", "1,2,3", "--quat", "0,0,3,4"],
             "has the length 5; use one of length 1, such as 0,0,0.6,0.8",
         ),
-        (["finger_a", "--xyz", "1e300,2,3"], "target is no pose: its numbers must be finite and below 1e6"),
+        (["finger_a", "--xyz", "1e300,2,3"], "target is not a pose: its numbers must be finite and below 1e6"),
         (["finger_a", "--xyz", "1,2,3", "--quat", "0,0,0,1", "--rpy", "0,0,0"], "ik: pass one of --quat and --rpy"),
         (
             ["finger_a", "--xyz", "1,2,3", "--tolerance", "0,1"],
@@ -221,7 +221,7 @@ def test_the_solution_nearest_to_the_start(capsys: pytest.CaptureFixture[str], a
         (["finger_a", "--targets", "words.csv"], "words.csv:2: `1,2,3,0,0,0,one` are not numbers"),
         (["finger_a", "--targets", "short.csv"], "short.csv:1: expected 7 numbers x,y,z,qx,qy,qz,qw, got 3"),
         (["finger_a", "--targets", "zero.npy"], "the quaternion of pose 1 has the length 0; use one of length 1"),
-        (["finger_a", "--targets", "nan.npy"], "target 1 is no pose"),
+        (["finger_a", "--targets", "nan.npy"], "target 1 is not a pose"),
         (["finger_a", "--targets", "first.csv"], "first.csv:1: `1,2,3,0,0,0,one` are not numbers"),
         (["finger_a", "--targets", "header.csv"], "ik: --targets header.csv: the file has no poses"),
     ],

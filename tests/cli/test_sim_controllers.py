@@ -67,6 +67,6 @@ def test_an_unused_controller_file_is_reported(tmp_path: Path, capsys: pytest.Ca
     path.write_text(OWN)
     assert main(["sim", "run", "diff_wheeled_robot", "--for", "0.01", "--controllers", str(path)]) == 0
     reported = capsys.readouterr().err
-    assert f"has no plugin that runs controllers: {path} configures nothing" in reported
+    assert f"has no plugin that runs controllers: {path} has no effect" in reported
     assert main(["sim", "run", "rrbot", "--for", "0.01", "--controllers", str(path)]) == 0
-    assert "configures nothing" not in capsys.readouterr().err
+    assert "has no effect" not in capsys.readouterr().err

@@ -91,10 +91,10 @@ def test_poses_and_matrices_are_the_same_target(arm: Robot) -> None:
 )
 def test_targets_that_are_no_pose_are_refused(arm: Robot, target: object) -> None:
     chain = Chain(arm, "world", "finger_a")
-    with pytest.raises(KinematicsError, match=r"^target is no pose"):
+    with pytest.raises(KinematicsError, match=r"^target is not a pose"):
         chain.solve(target)
     good = np.eye(4) if np.shape(target) == (4, 4) else [0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0]
-    with pytest.raises(KinematicsError, match=r"^target 1 is no pose"):
+    with pytest.raises(KinematicsError, match=r"^target 1 is not a pose"):
         chain.solve([good, target, target])
 
 

@@ -104,7 +104,7 @@ def python(tmp_path, monkeypatch):
         ("<version>1.0.0<", "<version>1.0.0</version><version>2.0.0<", "3: package.xml has a second <version>"),
         ("MIT", "", "6: <license> is empty"),
         ('email="cart@example.com"', "", "5: <maintainer> has no `email`"),
-        ("cart@example.com", "cart@example", "5: `cart@example` is no e-mail address"),
+        ("cart@example.com", "cart@example", "5: `cart@example` is not an e-mail address"),
         (">launch_ros<", ">cart<", "8: package `cart` depends on itself"),
         ("<buildtool_depend>ament_cmake</buildtool_depend>", "", "1: package.xml has no <buildtool_depend>ament_cmake"),
     ],

@@ -16,7 +16,7 @@ NANOSECONDS = 1e9
 _MODULE = "rosbags.usertypes"
 REASONS = {
     "File end magic is invalid.": "its end is missing, as after a crash or an incomplete download; "
-    "`mcap recover FILE -o NEW` saves the rest",
+    "`mcap recover FILE -o NEW` recovers the rest",
     "File magic is invalid.": "it is not an MCAP file",
 }
 """Reasons of errors of rosbags, in words of users."""

@@ -157,7 +157,7 @@ def _extent(robot: Robot, mass: float) -> dict[str, Any]:
     return {
         "center_of_mass": [moment / mass for moment in moments] if mass > 0.0 else None,
         "bounding_box": {"min": box[0].tolist(), "max": box[1].tolist()} if box is not None else None,
-        "note": f"the bounding box is without {len(scene.problems)} meshes: {scene.problems[0].error}"
+        "note": f"the bounding box excludes {len(scene.problems)} meshes: {scene.problems[0].error}"
         if scene.problems
         else None,
     }

@@ -314,7 +314,7 @@ class Chain:
         if invalid:
             where = f" {invalid - 1}" if shape else ""
             raise KinematicsError(
-                f"target{where} is no pose: its numbers must be finite and below 1e6, a quaternion not zero, and a "
+                f"target{where} is not a pose: its numbers must be finite and below 1e6, a quaternion not zero, and a "
                 "matrix a rotation"
             )
         return shape, result

@@ -143,7 +143,7 @@ def _parse(path: Path, content: bytes, scale: Vector, beside: Beside, places: bo
         raise
     except Exception as error:  # any error of the reader of the format, which evaluates properties when they are used
         is_described = type(error).__module__ != "builtins" and str(error).strip()
-        reason = str(error).strip().splitlines()[0] if is_described else f"it is no valid {suffix[1:].upper()} file"
+        reason = str(error).strip().splitlines()[0] if is_described else f"it is not a valid {suffix[1:].upper()} file"
         raise ResourceError(f"mesh {path.name} cannot be read: {reason}") from error
     missing, broken = (tuple(dict.fromkeys(names)) for names in (beside.missing, beside.broken))
     return replace(mesh, missing=missing, broken=broken) if missing else mesh

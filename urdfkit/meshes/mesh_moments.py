@@ -34,7 +34,7 @@ def moments(triangles: TriMesh, name: str) -> tuple[Moments, str]:
     a, b, c = (points[faces[:, corner]] for corner in range(3))
     filled = abs(float(np.einsum("ij,ij", a, np.cross(b, c)))) / 6.0
     if not _is_closed(faces) or filled < 1e-6 * box:
-        note = f"the surface of {name} is not closed: its convex hull is taken"
+        note = f"the surface of {name} is not closed: its convex hull is used"
         try:
             import trimesh
 

@@ -159,7 +159,7 @@ class Simulator:
         self.world.install(setup)
         self.controllers = first.controllers
         if controllers and not any(each.plugins.controllers for each in builder.robot_list if each.has_plugins):
-            self.note(f"robot `{self.name}` has no plugin that runs controllers: {controllers[0]} configures nothing")
+            self.note(f"robot `{self.name}` has no plugin that runs controllers: {controllers[0]} has no effect")
         self._scheduler.publications = Clock(self.bus, dt), ModelStates(self.bus, dt, self.world)
         self.world.reset()
         self._snapshots = Snapshots(self.world, self.bus)
@@ -320,7 +320,7 @@ class Simulator:
         """
         linear, angular = three(linear, "the linear velocity", "m/s"), three(angular, "the angular velocity", "rad/s")
         if not self.command_topics:
-            raise SimulationError(f"robot `{self.name}` has no drive that takes velocity commands")
+            raise SimulationError(f"robot `{self.name}` has no drive that accepts velocity commands")
         for topic in self.command_topics:
             if self.controllers.command_topics.get(topic) == TWIST_STAMPED:
                 stamped = message_type(TWIST_STAMPED)(header(self.t, ""), twist(linear, angular))

@@ -119,11 +119,11 @@ def test_nodes_find_each_other_and_again_after_the_master_was_gone(master: Maste
         assert second.topics() == {"/chatter": STRING}
         master.stop()
         until(lambda: lines)
-        assert lines[0] == f"ros1: the master at {master.uri} is gone; the simulation continues"
+        assert lines[0] == f"ros1: the master at {master.uri} has stopped; the simulation continues"
         writer.publish(first.encode(from_fields(STRING, {"data": "alone"}), STRING))
         until(lambda: len(received) == 2)
         master.start()
-        until(lambda: "ros1: the master is back" in lines)
+        until(lambda: "ros1: the master runs again" in lines)
         until(lambda: second.topics() == {"/chatter": STRING})
     finally:
         second.close()

@@ -119,7 +119,7 @@ def test_commands_reach_the_bus_in_the_thread_of_the_simulation() -> None:
     node.subscribed["/r1/cmd_vel"](b"\0\1\0\0short")
     calls.take()
     assert speeds == [0.5]
-    assert lines[0].startswith("`/cmd_vel`: a message that is no geometry_msgs/msg/Twist was dropped")
+    assert lines[0].startswith("`/cmd_vel`: dropped a message that is not a geometry_msgs/msg/Twist")
     bridge.close()
 
 
@@ -132,7 +132,7 @@ def test_topics_are_followed_and_missing_types_reported_in_one_line() -> None:
     bridge.update()
     assert list(node.published) == ["/clock"]
     assert lines == [
-        "`/r1/no-name` is no valid topic name in ROS 2; it is not bridged",
+        "`/r1/no-name` is not a valid topic name in ROS 2; it is not bridged",
         f"/r1/a, /r1/b: not on ROS 2; no {STRING}",
     ]
     bridge.close()

@@ -42,7 +42,7 @@ def test_a_name_that_is_not_there(town: Simulator, ask: Callable[[Simulator], An
 
 
 def test_what_there_is_is_listed_where_nothing_is_near(town: Simulator) -> None:
-    with pytest.raises(SimulationError, match=r"no body or link `xyz` .*\(there are \w+, \w+, "):
+    with pytest.raises(SimulationError, match=r"no body or link `xyz` .*\(available: \w+, \w+, "):
         town.world.push("xyz")
     assert nearest("box", []) == "; none exists"
     assert nearest("box", ["unit_box", "sphere"]) == "; did you mean `unit_box`?"

@@ -114,7 +114,7 @@ class LiveTopics:
             try:
                 return self.node.decode(data, topic.type)
             except Exception as error:  # of a malformed message, by several classes
-                self._note(f"{topic.name}: a message that is no {topic.type} was dropped ({error})")
+                self._note(f"{topic.name}: dropped a message that is not a {topic.type} ({error})")
                 return None
 
         def publish(data: bytes) -> None:

@@ -43,7 +43,7 @@ def open_source(source: str, report: Callable[[str], None]) -> Node:
         from urdfkit.bridges.rosbridge.rosbridge_node import RosbridgeNode
 
         return RosbridgeNode(source, report)
-    raise UsageError(f"`{source}` is no source of live topics; use {SOURCES}")
+    raise UsageError(f"`{source}` is not a source of live topics; use {SOURCES}")
 
 
 @contextmanager

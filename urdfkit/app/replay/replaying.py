@@ -28,7 +28,7 @@ def recorded_model(bag: BagFile) -> Iterator[Path]:
 
     text = recorded_description(bag)
     if text is None:
-        raise UsageError(f"{bag.path} contains no robot description: name the robot, as in `urdfkit replay FILE MODEL`")
+        raise UsageError(f"{bag.path} contains no robot description: name the robot, as in `urdfkit replay FILE ROBOT`")
     with tempfile.TemporaryDirectory() as folder:
         file = Path(folder) / "robot_description.urdf"
         file.write_text(text, encoding="utf-8")

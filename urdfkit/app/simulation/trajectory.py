@@ -31,7 +31,7 @@ def read_trajectory(file: Path) -> JointPath:
     """
     path = read_path(file)
     if path.time is None:
-        raise UsageError(f"{file} has no column `time`; make a trajectory of the path with `urdfkit retime`")
+        raise UsageError(f"{file} has no column `time`; compute a trajectory from the path with `urdfkit retime`")
     if path.time[0] < 0.0:
         raise UsageError(f"{file} starts at {path.time[0]:g} s, before the simulation")
     return path
@@ -50,7 +50,7 @@ def follow(simulator: Simulator, trajectory: JointPath) -> None:
 
     Raises:
         UnknownNameError: a joint is unknown.
-        SimulationError: a joint's controller takes neither trajectories nor positions.
+        SimulationError: a joint's controller accepts neither trajectories nor positions.
     """
     assert trajectory.time is not None
     for joint in trajectory.joints:

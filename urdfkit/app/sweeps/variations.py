@@ -117,7 +117,7 @@ def combine(variations: Mapping[str, Variation], seeds: int) -> list[SweepRun]:
     for values in lists.values():
         count *= len(values)
     if count > MOST:
-        raise UsageError(f"the sweep has {count} runs; it may have {MOST}")
+        raise UsageError(f"the sweep has {count} runs; the maximum is {MOST}")
     runs: list[SweepRun] = []
     for values in product(*lists.values()):
         chosen = dict(zip(lists, values, strict=True))

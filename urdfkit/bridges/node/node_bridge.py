@@ -79,7 +79,7 @@ class NodeBridge:
                 continue
             name = topic.name if topic.name in GLOBAL else self._namespace + topic.name
             if not VALID_NAME.fullmatch(name):
-                self._report(f"`{name}` is no valid topic name in {self._node.ros}; it is not bridged")
+                self._report(f"`{name}` is not a valid topic name in {self._node.ros}; it is not bridged")
                 continue
             try:
                 self._follow(topic, name)
@@ -120,7 +120,7 @@ class NodeBridge:
             try:
                 message = node.decode(data, type)
             except Exception as error:  # of a malformed message, by several classes
-                self._report(f"`{name}`: a message that is no {type} was dropped ({error})")
+                self._report(f"`{name}`: dropped a message that is not a {type} ({error})")
                 return
             self._calls.add(lambda: publish_received(bus, name, message, self._report))
 

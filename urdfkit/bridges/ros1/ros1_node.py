@@ -219,11 +219,11 @@ class Ros1Node:
                 self._call_master("getPid")
                 if gone:
                     self._register_again()
-                    self.report("ros1: the master is back")
+                    self.report("ros1: the master runs again")
                 gone = False
             except ResourceError:
                 if not gone:
-                    self.report(f"ros1: the master at {self.uri} is gone; the simulation continues")
+                    self.report(f"ros1: the master at {self.uri} has stopped; the simulation continues")
                 gone = True
 
     def _register_again(self) -> None:

@@ -51,7 +51,7 @@ class ServiceServer:
         try:
             request = decode(data, self.service.request)
         except Exception as error:  # of a malformed message, by several classes
-            answers.put((None, f"the request is no {self.service.request}: {error}"))
+            answers.put((None, f"the request is not a {self.service.request}: {error}"))
         else:
             self._call(request, lambda response, reason: answers.put((response, reason)))
         response, reason = answers.get()

@@ -125,7 +125,9 @@ class CycloneddsNode:
         Raises:
             UnknownTypeError: always.
         """
-        raise UnknownTypeError("Cyclone DDS has no services; they need rclpy: source a ROS 2 workspace, or ros-rclpy")
+        raise UnknownTypeError(
+            "Cyclone DDS has no services; they need rclpy: source a ROS 2 workspace, or pip install ros-rclpy"
+        )
 
     def service_type(self, service: str) -> str:
         """Refuse, as `services` does."""

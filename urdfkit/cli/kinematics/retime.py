@@ -151,7 +151,7 @@ def _scale(text: str) -> tuple[float, float]:
         raise argparse.ArgumentTypeError(f"`{text}` must be two numbers: V,A")
     velocity, acceleration = map(_positive, parts)
     if max(velocity, acceleration) > 1.0:
-        raise argparse.ArgumentTypeError(f"`{text}`: a part of a limit is at most 1")
+        raise argparse.ArgumentTypeError(f"`{text}`: a fraction of a limit is at most 1")
     return velocity, acceleration
 
 

@@ -241,7 +241,7 @@ def _altered(
     if prefix is None:
         if generation != "classic" and path.suffix != ".xacro":
             raise ResourceError(
-                f"{path} is no xacro file and cannot name its controllers: rename it to {path.stem}.urdf.xacro first"
+                f"{path} is not a xacro file and cannot name its controllers: rename it to {path.stem}.urdf.xacro first"
             )
         changes = [Alteration(path, before, insert_before_end(before, text, path=path))]
         return [*_dependency(path, package, generation), *changes]

@@ -107,7 +107,7 @@ def run(arguments: argparse.Namespace) -> int:
             )
             loop.look = stack.enter_context(recording(loop.simulator, arguments))
             if not loop.simulator.command_topics:
-                note("this robot has no drive that takes velocity commands")
+                note("this robot has no drive that accepts velocity commands")
             elif not from_terminal:
                 note(KEYS)
             warn_of_file_names(robot, quiet=arguments.quiet)

@@ -200,7 +200,7 @@ class Reader:
             return None
         largest = max(map(abs, q))
         if largest == 0.0:
-            message = f'quat_xyzw="{_short(origin.attributes["quat_xyzw"])}" is no rotation'
+            message = f'quat_xyzw="{_short(origin.attributes["quat_xyzw"])}" is not a rotation'
             self.note("zero", message, origin, "quat_xyzw")
             return ZERO
         x, y, z, w = (value / largest for value in q)

@@ -151,7 +151,7 @@ class SerialSolver:
         )
         if invalid:
             raise KinematicsError(
-                "target is no pose: its numbers must be finite and below 1e6, and its quaternion not zero"
+                "target is not a pose: its numbers must be finite and below 1e6, and its quaternion not zero"
             )
         length = size + ROW
         found = [solution_of_row(result[k : k + length], size) for k in range(0, len(result), length)]

@@ -147,7 +147,7 @@ def rename(models: Sequence[Model], cursor: Cursor, name: str) -> list[Edit]:
         if any(other.defines and (other.kind, other.name) == (one.kind, name) for other in every):
             raise UsageError(f"{one.kind} `{name}` already exists")
         if one.kind == "property" and _is_parameter(model, one.name):
-            raise UsageError(f"`{one.name}` is the parameter of a macro too: rename it by hand")
+            raise UsageError(f"`{one.name}` is the parameter of a macro too: rename it manually")
         others = (*every, *in_settings(model), *in_launch_files(model))
         same = [other for other in others if (other.kind, other.name) == (one.kind, one.name)]
         if not any(other.defines for other in same):
@@ -155,7 +155,9 @@ def rename(models: Sequence[Model], cursor: Cursor, name: str) -> list[Edit]:
         for other in same:
             if other.written != one.name:
                 at = f"{other.span.file}:{other.span.line}"
-                raise UsageError(f"`{one.name}` is made by the expression `{other.written}` at {at}: rename it by hand")
+                raise UsageError(
+                    f"`{one.name}` is computed by the expression `{other.written}` at {at}: rename it manually"
+                )
             edits[Edit(other.span, name)] = None
     return sorted(edits)
 

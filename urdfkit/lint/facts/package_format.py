@@ -119,7 +119,7 @@ def _values(files: BuildFiles, root: Tag) -> Iterator[FormatDefect]:
         if email is None:
             yield FormatDefect(tag, "<maintainer> has no `email`")
         elif not re.fullmatch(_EMAIL, email.value):
-            yield FormatDefect(tag, f"`{email.value}` is no e-mail address")
+            yield FormatDefect(tag, f"`{email.value}` is not an e-mail address")
 
 
 def _dependencies(files: BuildFiles, root: Tag) -> Iterator[FormatDefect]:

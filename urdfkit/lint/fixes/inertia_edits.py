@@ -138,7 +138,7 @@ def edits(model: Model, link: Link, value: ComputedInertial) -> list[Edit]:
         children = list(inertial.find_all(tag))
         if len(children) > 1:
             raise UrdfkitError(
-                f"link `{link.name}` has {len(children)} <{tag}>: take one away first", position=_at(children[1])
+                f"link `{link.name}` has {len(children)} <{tag}>: remove one first", position=_at(children[1])
             )
         if children:
             found += _replaced(model, link, children[0], attributes)

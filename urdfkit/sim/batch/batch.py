@@ -178,7 +178,7 @@ class Batch:
     def _mask(self, worlds: ArrayLike) -> NDArray[np.bool_]:
         mask = np.asarray(worlds)
         if mask.shape != (self.n,) or mask.dtype != bool:
-            raise UsageError(f"the worlds are an array of type {mask.dtype}, shape {mask.shape}; use bool, ({self.n},)")
+            raise UsageError(f"the mask has type {mask.dtype} and shape {mask.shape}; it must be bool, ({self.n},)")
         return mask
 
     # Observations

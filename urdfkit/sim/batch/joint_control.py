@@ -68,7 +68,7 @@ class JointControl:
         self.limits = [_effort_limit(mode) for mode in self.modes]
         for joint in ranges or ():
             if joint not in control:
-                raise UsageError(f"a range for `{joint}`, which has no action{nearest(joint, control)}")
+                raise UsageError(f"`ranges` names `{joint}`, which has no action{nearest(joint, control)}")
         found = [(ranges or {}).get(joint) or action_range(simulator, joint, mode) for joint, mode in control.items()]
         self.low, self.high = np.array(found, dtype=float).T.copy()
         if not (self.low <= self.high).all():

@@ -40,7 +40,7 @@ class Topics:
         """Return the absolute topic of a name in the plugin.
 
         Raises:
-            SimulationError: the result is no valid topic name, with its position.
+            SimulationError: the result is not a valid topic name, with its position.
         """
         full = self._below(name)
         found = self._remappings.get(full, full)

@@ -83,4 +83,4 @@ def nearest(name: str, candidates: Any, *, most: int = 12) -> str:
         return f"; did you mean `{min(inside, key=len)}`?"
     if not names:
         return "; none exists"
-    return f" (there are {', '.join(names[:most])}{', …' * (len(names) > most)})"
+    return f" (available: {', '.join(names[:most])}{', …' * (len(names) > most)})"

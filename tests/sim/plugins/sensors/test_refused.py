@@ -161,13 +161,13 @@ REMARKED = [
                 inside=scan(3),
             )
         ),
-        "<radiation> is `ultrasonic`, which is taken for infrared; did you mean `ultrasound`?",
+        "<radiation> is `ultrasonic`, which is treated as infrared; did you mean `ultrasound`?",
     ),
     (
         BLOCK.format(
             sensor(type="camera", inside=CAMERA.replace("<image>", "<distortion><k1>-50</k1></distortion><image>"))
         ),
-        "through this distortion nothing gets to 9",
+        "with this distortion, 9",
     ),
 ]
 

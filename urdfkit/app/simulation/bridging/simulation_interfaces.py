@@ -128,7 +128,7 @@ class _StandardServices:
         if not (name or request.allow_renaming):
             raise _ResultError(NAME_INVALID, "`name` is empty and `allow_renaming` is false")
         if name in world.names and not request.allow_renaming:
-            raise _ResultError(NAME_NOT_UNIQUE, f"there is an entity `{name}`")
+            raise _ResultError(NAME_NOT_UNIQUE, f"entity `{name}` already exists")
         if not (resource.uri or resource.resource_string):
             raise _ResultError(NO_RESOURCE, "`uri` and `resource_string` are empty")
         if request.entity_namespace.strip("/") not in ("", name):
@@ -211,7 +211,7 @@ class _StandardServices:
         try:
             pattern = re.compile(filters.filter)
         except re.error as error:
-            raise _ResultError(FAILED, f"`{filters.filter}` is no regular expression: {error}") from error
+            raise _ResultError(FAILED, f"`{filters.filter}` is not a regular expression: {error}") from error
         categories = [each.category for each in filters.categories]
         return [
             name

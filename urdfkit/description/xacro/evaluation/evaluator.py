@@ -192,7 +192,9 @@ class Evaluator(Reuse):
             name = self.text(self._required(node, "xacro:name"), scope)
             if not name or not isinstance(name, str):
                 self.at = (node, None)
-                raise self.placed(Failure("other", "xacro:element: empty name" if not name else "the name is no text"))
+                raise self.placed(
+                    Failure("other", "xacro:element: empty name" if not name else "the name is not a text")
+                )
             del node.attributes["xacro:name"]
             node.tag = node.name = name
         self.at = (node, None)
@@ -341,7 +343,7 @@ class Evaluator(Reuse):
         value = self.text(node.attributes["value"], scope)
         self.at = (node, None)
         if not name or not isinstance(name, str):
-            raise self.placed(Failure("other", "xacro:attribute: empty name" if not name else "the name is no text"))
+            raise self.placed(Failure("other", "xacro:attribute: empty name" if not name else "the name is not a text"))
         if node.parent is not None:
             node.parent.attributes[name] = value
         node.remove()

@@ -62,7 +62,7 @@ def yaml_values(text: str, name: str, evaluate: Callable[[str], Any], spend: Cal
                             self.flatten_mapping(source)
                             self.merged += len(source.value)
             if self.merged > MAX_ELEMENTS:
-                raise TooLarge(f"its merge keys make more than {MAX_ELEMENTS:,} elements")
+                raise TooLarge(f"its merge keys produce more than {MAX_ELEMENTS:,} elements")
             super().flatten_mapping(node)
 
     def with_unit(factor: float) -> Callable[[Any, Any], float]:

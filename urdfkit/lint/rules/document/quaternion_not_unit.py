@@ -70,7 +70,7 @@ class QuaternionNotUnit(RobotRule):
             yield self.at(
                 model,
                 origin,
-                f'quat_xyzw="{text}" has the norm {norm:g}, not 1' if norm else f'quat_xyzw="{text}" is no rotation',
+                f'quat_xyzw="{text}" has the norm {norm:g}, not 1' if norm else f'quat_xyzw="{text}" is not a rotation',
                 attribute="quat_xyzw",
                 help=f'write quat_xyzw="{unit}"' if norm else 'write quat_xyzw="0 0 0 1" for no rotation',
                 fix=new_value(model, origin, "quat_xyzw", unit, "safe", "Normalise the quaternion") if norm else None,

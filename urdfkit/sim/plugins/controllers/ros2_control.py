@@ -133,7 +133,7 @@ class Ros2Control(ControlLoopPlugin):
                 setup.repairs.leave_out(error, "the interface is left out", "hardware", "C710")
                 self.left_out[joint] = f"interface `{kind}`"
             elif joint in setup.kinematics.mimic_names:
-                setup.note(f"{interface.origin.position}: joint `{joint}` mimics another: it takes no commands")
+                setup.note(f"{interface.origin.position}: joint `{joint}` mimics another joint and accepts no commands")
             elif kind == "effort":
                 found.append(EffortOutput(handle, period))
             elif kind == "velocity":

@@ -239,7 +239,7 @@ def test_hectors_sonar_is_the_nearest_of_its_rays(post) -> None:
         ("", hector("gps", "<drift>-1</drift>"), "<drift> is `-1`; it must be 0 or greater"),
         ("", hector("gps", "<drift>1 2</drift>"), "<drift> is `1 2`; it must be 3 finite numbers"),
         ("", '<plugin name="p" filename="libgazebo_ros_imu.so"/>', "gazebo_ros_imu lacks its <bodyName>"),
-        (bare("logical_camera", "<logical_camera><near>2</near></logical_camera>"), "", "from 2 m to 1 m sees nothing"),
+        (bare("logical_camera", "<logical_camera><near>2</near></logical_camera>"), "", "2 m to 1 m, is empty"),
     ],
 )  # fmt: skip
 def test_what_makes_no_sense_is_left_out_by_name(drone, sensors: str, plugins: str, reported: str) -> None:

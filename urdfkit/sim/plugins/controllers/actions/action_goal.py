@@ -96,7 +96,7 @@ class Action:
             self._controller.note(f"refused a goal: {refusal}")
             self._close(goal, REJECTED, str(refusal), refusal.result, last=self.goal is None)
             return
-        self.give_up("another goal has taken its place")
+        self.give_up("another goal has replaced it")
         self.goal = self._last = goal
         self._topics.states.publish(self._topics.status(self._clock(), goal))
 

@@ -37,8 +37,8 @@ class Forward(RosController):
         (output,) = self.outputs
         if isinstance(output, PositionOutput) and not output.has_gains and self.settings.find("pid") is not None:
             self.hardware.setup.note(
-                f"{self.settings.place.file}: {self.type} does not read `pid`: the hardware takes "
-                "gazebo_ros_control/pid_gains/JOINT, and without those the position is set, whatever that takes"
+                f"{self.settings.place.file}: {self.type} does not read `pid`: the hardware uses "
+                "gazebo_ros_control/pid_gains/JOINT; without these gains it sets the position with any effort"
             )
 
     def start(self, state: State) -> None:

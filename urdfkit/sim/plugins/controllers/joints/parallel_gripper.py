@@ -29,7 +29,9 @@ class ParallelGripper(Gripper):
         super().configure()
         for name in ("max_effort_interface", "max_velocity_interface"):
             if self.settings.text(name, ""):
-                self.note(f"`{name}` is left out: Gazebo's hardware has no such interface, the controller fails there")
+                self.note(
+                    f"`{name}` is left out: Gazebo's hardware has no such interface, so the controller fails in Gazebo"
+                )
 
     def command(self, position: float) -> dict[str, Any]:
         """Return the fields of a goal.
@@ -46,7 +48,7 @@ class ParallelGripper(Gripper):
             RefusalError: the goal is not for exactly one joint.
         """
         if len(command.position) != 1:
-            raise RefusalError(f"a gripper takes one position, not {len(command.position)}")
+            raise RefusalError(f"a gripper accepts one position, not {len(command.position)}")
         return float(command.position[0]), self._usual
 
     def _result(self, state: State, **more: bool) -> dict[str, Any]:

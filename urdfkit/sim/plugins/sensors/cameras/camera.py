@@ -128,7 +128,7 @@ class Camera(SceneSensor):
             optics = replace(optics, lens=replace(optics.lens, distortion=written))
         if (lost := optics.lens.lost) > MOST_LOST:
             place = (camera.find("distortion") or camera).origin.position
-            setup.note(f"{place}: through this distortion nothing gets to {lost:.0%} of the picture, which stays empty")
+            setup.note(f"{place}: with this distortion, {lost:.0%} of the picture stays empty")
         lens, gz = optics.lens, self.spec.generation == "gz"
         return Imager(
             camera.get("name") or "",

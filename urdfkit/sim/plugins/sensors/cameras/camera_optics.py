@@ -91,7 +91,7 @@ def optics_of(camera: Element) -> Optics:
     width, height = number(image, "width", 320.0, least=1.0), number(image, "height", 240.0, least=1.0)
     if width * height > MAX_PIXELS:
         raise SimulationError(
-            f"a picture of {width:g} × {height:g} pixels cannot be taken", position=(image or camera).origin.position
+            f"a picture of {width:g} × {height:g} pixels cannot be rendered", position=(image or camera).origin.position
         )
     angle = number(camera, "horizontal_fov", 1.047)
     near, far = number(clip, "near", 0.1, least=0.0), number(clip, "far", 100.0, infinite=True)

@@ -36,7 +36,7 @@ class GzLogicalCamera(SceneSensor):
         )
         if self._near >= self._far:
             raise SimulationError(
-                f"a logical camera that sees from {self._near:g} m to {self._far:g} m sees nothing",
+                f"the range of a logical camera, {self._near:g} m to {self._far:g} m, is empty",
                 position=(inside or sensor.element).origin.position,
             )
         self._across = tan(number(inside, "horizontal_fov", 1.0, least=0.0) / 2)

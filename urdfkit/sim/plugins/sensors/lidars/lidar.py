@@ -98,7 +98,7 @@ class Lidar(SceneSensor):
         kind = read.text("radiation", RADIATIONS[0])
         if kind not in RADIATIONS:
             setup.note(
-                f"{read.place('radiation')}: <{read.tag('radiation')}> is `{kind}`, which is taken for infrared"
+                f"{read.place('radiation')}: <{read.tag('radiation')}> is `{kind}`, which is treated as infrared"
                 f"{did_you_mean(kind, RADIATIONS)}"
             )
         return kind == "ultrasound"

@@ -65,7 +65,7 @@ class Gps(LinkSensor):
         place = (element or self.plugin.element).origin.position
         setup.note(
             f"{place}: world `{setup.world}` has no <spherical_coordinates>; "
-            f"GPS `{self.name}` takes its origin for latitude and longitude zero"
+            f"GPS `{self.name}` uses latitude and longitude zero for its origin"
         )
         return Earth()
 
