@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import asyncio
 import json
+import math
 import time
 from collections.abc import Callable
 from functools import partial
 from pathlib import Path
+from threading import Thread
 from typing import Any
 
 import pytest
@@ -27,6 +30,7 @@ from urdfkit.bridges.websocket.address import Address
 from urdfkit.cli import main
 from urdfkit.resources import find_model
 from urdfkit.sim import Simulator
+from urdfkit.view.protocol.client import connect
 from urdfkit.view.protocol.websocket_messages import Axes
 
 pytestmark = pytest.mark.slow
@@ -61,6 +65,52 @@ def test_the_page_follows_a_robot_on_rosbridge_and_drives_it() -> None:
             until(session, lambda: abs(simulator.state.v[0]) < 1e-3)
             x = simulator.state.base_pose[0]
             until(session, lambda: session._robot.link_poses(0.0)[root][0] == pytest.approx(x, abs=0.01))
+
+
+def test_tools_of_the_page_publish_a_goal_and_an_initial_pose_on_the_graph() -> None:
+    simulator = Simulator("simpleton")
+    received: dict[str, Any] = {}
+    speeds: list[float] = []
+    kinds = {
+        "/goal_pose": "geometry_msgs/msg/PoseStamped",
+        "/initialpose": "geometry_msgs/msg/PoseWithCovarianceStamped",
+    }
+    answers: list[Any] = []
+
+    async def click(url: str) -> None:
+        async with await connect(url) as client:
+            for tool in ("goal", "estimate"):
+                values = {"as": tool, "position": [1.0, -2.0], "yaw": 0.5}
+                answers.append(await client.request("publish_pose", **values))
+
+    with rosbridge(simulator) as url:
+        other = RosbridgeNode(url, pytest.fail)
+        for name, kind in kinds.items():
+            other.subscribe(name, kind, Quality(), partial(received.__setitem__, name))
+        twist = "geometry_msgs/msg/Twist"
+        other.subscribe(
+            "/simpleton/cmd_vel", twist, Quality(), lambda data: speeds.append(other.decode(data, twist).linear.x)
+        )
+        shown = ShownRobot.read(find_model(["simpleton"]))
+
+        def drive() -> bool:
+            session.server.drive_lock.update(1, Axes((1.0, 0.0, 0.0, 0.0), speed=1.0, turn=1.0))
+            return 1.0 in speeds and len(received) == len(kinds)
+
+        with following(Page("sim", port=0), shown, url, pytest.fail) as session:
+            until(session, lambda: session.bus.latest("/simpleton/odom") and session.bus.latest("/tf"))
+            clicking = Thread(target=lambda: asyncio.run(click(session.server.url)))
+            clicking.start()
+            until(session, lambda: len(answers) == 2)
+            clicking.join()
+            until(session, drive)
+        other.close()
+    assert answers == [{"topic": "/goal_pose", "frame": "odom"}, {"topic": "/initialpose", "frame": "odom"}]
+    goal, estimate = (other.decode(received[name], kind) for name, kind in kinds.items())
+    assert (goal.header.frame_id, goal.pose.position.x, goal.pose.position.y) == ("odom", 1.0, -2.0)
+    assert goal.pose.orientation.z == pytest.approx(math.sin(0.25))
+    assert 0.0 < goal.header.stamp.sec + 1e-9 * goal.header.stamp.nanosec <= simulator.t
+    assert estimate.pose.covariance[0] == 0.25
 
 
 def test_topic_lists_echoes_and_publishes_on_another_graph(capsys: pytest.CaptureFixture[str]) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import time
 from collections.abc import Callable
 from typing import Any
@@ -9,6 +10,7 @@ from typing import Any
 from urdfkit.app.replay.live_topics import LiveTopics
 from urdfkit.app.replay.observed_robot import MOTION, ObservedRobot
 from urdfkit.app.replay.observed_session import ObservedSession
+from urdfkit.app.simulation.displays.displays import POSES, pose_message
 from urdfkit.app.simulation.features.feature import Done
 from urdfkit.app.simulation.features.topic_panel import ECHO
 from urdfkit.app.viewer.shown_robot import ShownRobot
@@ -19,11 +21,10 @@ from urdfkit.teleop import HELD_LAYOUT, HELD_SPEEDS, STOP, Motion, Teleop
 from urdfkit.view.protocol.page_requests import Request
 from urdfkit.view.server.server import Server
 
-GOALS = {
-    "/goal_pose": "geometry_msgs/msg/PoseStamped",
-    "/initialpose": "geometry_msgs/msg/PoseWithCovarianceStamped",
-}
-"""Topics for goals and initial poses that Nav2 and amcl subscribe to."""
+GOAL_OF_ROS_1 = "/move_base_simple/goal"
+"""Topic of goals of move_base; RViz of ROS 1 publishes on it."""
+MATCH = 1.0
+"""Longest time to wait for the subscribers of a new publisher [s]."""
 COMMAND = "cmd_vel"
 PERIOD = 0.05
 """Seconds between two velocity commands."""
@@ -58,11 +59,13 @@ class LiveSession(ObservedSession):
         self._begun = clock()
         self._followed = 0
         self._driven, self._due = False, 0.0
-        schema, _ = self._takes["publish"]
-        self._takes["publish"] = schema, self._publish
+        self._stamp = 0.0
+        self._goal = GOAL_OF_ROS_1 if node.ros == "ROS 1" else POSES["goal"][0]
+        for name, publish in (("publish", self._publish), ("publish_pose", self._publish_pose)):
+            self._takes[name] = self._takes[name][0], publish
         self.begin()
-        for name, type in GOALS.items():
-            self.bus.advertise(name, type)
+        for name, type in POSES.values():
+            self.bus.advertise(name if type == POSES["estimate"][1] else self._goal, type)
 
     def drive_controls(self) -> dict[str, Any]:
         """Return the controls of the page: the robot can be driven."""
@@ -106,7 +109,13 @@ class LiveSession(ObservedSession):
         super().close()
 
     def _observe(self, name: str, type: str) -> None:
-        self.bus.subscribe(name, type, lambda message: self._robot.add(name, type, message, self.t))
+        def receive(message: Any) -> None:
+            self._robot.add(name, type, message, self.t)
+            if not name.endswith("static") and (dated := getattr(message, "transforms", [message])):
+                stamp = dated[-1].header.stamp
+                self._stamp = float(stamp.sec + 1e-9 * stamp.nanosec)
+
+        self.bus.subscribe(name, type, receive)
 
     def _drive(self) -> None:
         held = self.server.drive_lock.axes
@@ -131,6 +140,15 @@ class LiveSession(ObservedSession):
         found = [each for each in self.bus.topics if each.type in (TWIST, TWIST_STAMPED)]
         named = [each for each in found if each.name.rpartition("/")[2] == COMMAND]
         return (named[0].name, named[0].type) if named else (f"/{COMMAND}", TWIST)
+
+    def _publish_pose(self, request: Request) -> Done:
+        """Publish a goal or an initial pose in the fixed frame, at the time of the robot's last motion."""
+        (x, y), yaw = request.values["position"], request.values["yaw"]
+        topic, type = POSES[request.values["as"]]
+        topic = self._goal if request.values["as"] == "goal" else topic
+        frame, pose = self._robot.fixed_frame, (x, y, 0.0, 0.0, 0.0, math.sin(yaw / 2), math.cos(yaw / 2))
+        self.topics.publish(topic, type, pose_message(type, pose, frame, self._stamp), wait=MATCH)
+        return {"topic": topic, "frame": frame}
 
     def _publish(self, request: Request) -> Done:
         name, type = absolute(request.values["topic"]), full_type_name(request.values["type"])

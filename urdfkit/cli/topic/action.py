@@ -25,8 +25,9 @@ PERIOD = 0.05
 def configure(parser: argparse.ArgumentParser) -> None:
     """Add the subcommands."""
     parser.epilog = (
-        "examples:\n  urdfkit action list --types\n  urdfkit action send /arm_controller/follow_joint_trajectory"
-        " '{trajectory: {joint_names: [elbow],\n    points: [{positions: [0.5], time_from_start: 2}]}}'"
+        "examples:\n  urdfkit action list --types\n"
+        "  urdfkit action send /arm_controller/follow_joint_trajectory '{trajectory:\n"
+        "    {joint_names: [elbow], points: [{positions: [0.5], time_from_start: 2}]}}'"
     )
     subcommands = parser.add_subparsers(dest="subcommand", metavar="SUBCOMMAND", required=True)
     for name, summary in SUBCOMMANDS.items():

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
@@ -109,23 +109,32 @@ class Displays(Feature):
         pose = np.eye(4)
         pose[:2, :2] = [[np.cos(yaw), -np.sin(yaw)], [np.sin(yaw), np.cos(yaw)]]
         pose[:2, 3] = x, y
-        px, py, pz, *turn = seven_of(matmul(np.linalg.inv(origin), pose))
-        place = {
-            "position": {"x": px, "y": py, "z": pz},
-            "orientation": dict(zip("xyzw", turn, strict=True)),
-        }
         topic, kind = POSES[request.values["as"]]
-        fields: dict[str, Any] = {"pose": place}
-        if request.values["as"] == "estimate":
-            fields = {"pose": {"pose": place, "covariance": [VARIANCES.get(k, 0.0) for k in range(36)]}}
-        t = self.simulator.t
-        stamp = {"sec": int(t), "nanosec": int(t % 1 * 1e9)}
-        message = from_fields(kind, {"header": {"stamp": stamp, "frame_id": frame}, **fields})
+        message = pose_message(kind, seven_of(matmul(np.linalg.inv(origin), pose)), frame, self.simulator.t)
         try:
             self.simulator.bus.publish(topic, kind, message)
         except UsageError as error:
             raise UsageError(f"{error}; the tool publishes {kind}") from error
         return {"topic": topic, "frame": frame}
+
+
+def pose_message(kind: str, pose: Sequence[float], frame: str, t: float) -> Any:
+    """Return the message of a tool.
+
+    Args:
+        kind: its type, one of `POSES`.
+        pose: x y z [m] and quaternion x y z w in the frame.
+        frame: name of the frame.
+        t: time of the stamp [s].
+    """
+    place: dict[str, Any] = {
+        "position": dict(zip("xyz", pose[:3], strict=True)),
+        "orientation": dict(zip("xyzw", pose[3:], strict=True)),
+    }
+    if kind == POSES["estimate"][1]:
+        place = {"pose": place, "covariance": [VARIANCES.get(k, 0.0) for k in range(36)]}
+    stamp = {"sec": int(t), "nanosec": int(t % 1 * 1e9)}
+    return from_fields(kind, {"header": {"stamp": stamp, "frame_id": frame}, "pose": place})
 
 
 class _Display:
