@@ -13,8 +13,12 @@ import pytest
 pytest.importorskip("rosbags.rosbag2")
 
 from tests.app.replay.written_bags import Messages, Written, write_bag
+from tests.app.simulation.displays.test_displays import Page, shown
+from urdfkit.app.page import Page as ServedPage
+from urdfkit.app.replay.observed_session import ObservedDisplays
 from urdfkit.app.replay.recorded_frames import RecordedFrames
 from urdfkit.app.replay.recorded_robot import RecordedRobot
+from urdfkit.app.replay.replaying import replaying
 from urdfkit.app.replay.timeline import PoseTimeline, Timeline
 from urdfkit.bridges.bag_file import BagFile
 from urdfkit.bridges.recorder import Recorder
@@ -22,6 +26,7 @@ from urdfkit.cli import main
 from urdfkit.errors import ResourceError, UsageError
 from urdfkit.kinematics import Kinematics
 from urdfkit.messages import from_fields
+from urdfkit.resources import find_model
 from urdfkit.scene.pose_matrices import pose_matrices
 from urdfkit.sim import Simulator
 
@@ -88,6 +93,30 @@ def test_a_recorded_simulation_is_replayed_with_its_poses(tmp_path: Path) -> Non
             found, true = robot.link_poses(t), matrices(poses)
             worst = max(worst, float(np.abs(matrices(found)[:, :3] - true[:, :3]).max()))
     assert worst < 2e-3  # odometry: the height of the root link and slip are not in it
+
+
+def test_displays_are_drawn_in_the_recorded_frames(tmp_path: Path) -> None:
+    ros, kind = Messages(2), "nav_msgs/msg/Path"
+    written: list[Written] = [
+        ("/tf_static", 0.0, ros.transforms(0.0, ("map", "odom", turned(5, 0, 0)))),
+        ("/tf", 0.0, ros.transforms(0.0, ("odom", "base", turned(1, 0, 0)))),
+        ("/joint_states", 30.0, ros.joints(30.0, {"wrist": 0.0})),
+    ]
+    arm(tmp_path)
+    with (
+        BagFile(write_bag(tmp_path / "a.mcap", written)) as bag,
+        replaying(ServedPage("sim", port=0), bag, find_model([str(tmp_path / "arm.urdf")])) as session,
+    ):
+        page = Page()
+        displays = ObservedDisplays(session, page, lambda: session.t)  # type: ignore[arg-type]
+        for frame, x in (("odom", 5.0), ("map", 0.0), ("base", 6.0), ("mars", None)):
+            session.bus.publish(f"/in_{frame}", kind, from_fields(kind, {"header": {"frame_id": frame}}))
+            drawn = shown((session, page, displays), f"/in_{frame}")  # type: ignore[arg-type]
+            if x is None:
+                assert drawn["fault"] == "no transform from frame mars to a link of the robot"
+            else:
+                (group,) = drawn["groups"]
+                assert group["pose"] == pytest.approx([x, 0, 0, 0, 0, 0, 1])
 
 
 def test_recorded_transforms_of_links_win_over_joint_states(tmp_path: Path) -> None:

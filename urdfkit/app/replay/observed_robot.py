@@ -110,11 +110,13 @@ class ObservedRobot:
         """Return the pose of the root link by the odometry; shape (4, 4)."""
         return np.eye(4) if self._odometry is None else pose_matrices(self._odometry.at(time))[0]
 
-    def frame_pose(self, frame: str, time: float) -> Array:
-        """Return the pose of a sensor's frame in the fixed frame, shape (4, 4); the origin for an unknown frame."""
+    def frame_pose(self, frame: str, time: float) -> Array | None:
+        """Return the pose of a frame in the fixed frame, shape (4, 4); None for an unknown frame."""
         name = frame.lstrip("/")
+        if name in ("", self.fixed_frame):
+            return np.eye(4)
         found = self.frames.transform(self.fixed_frame, name, time) if name in self.frames else None
         link = name.removeprefix(self._prefix)
         if found is None and link in self._kinematics.link_names:
             return np.asarray(pose_matrices(self.link_poses(time))[self._kinematics.link_names.index(link)])
-        return np.eye(4) if found is None else found
+        return found

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from threading import Event
 from typing import Any
 
@@ -26,6 +26,7 @@ from urdfkit.bridges.bridge import Bridges
 from urdfkit.bus import Bus
 from urdfkit.description.packages.resolver import Packages
 from urdfkit.errors import UrdfkitError
+from urdfkit.linear_algebra import Array
 from urdfkit.messages import from_fields
 from urdfkit.sim.state.quaternion import yaw_of
 from urdfkit.view.content.inspector import inspection
@@ -35,7 +36,19 @@ from urdfkit.view.server.server import Server
 
 STATUS = 0.1
 """Seconds between two status messages to the page."""
-FEATURES: tuple[type[Feature], ...] = (TopicPanel, TopicStreams, Plots, Displays)
+
+
+class ObservedDisplays(Displays):
+    """Displays in the frames of an observed robot."""
+
+    def pose(self, frame: str, links: Mapping[str, Array]) -> Array | None:
+        """Return the pose of a frame in the fixed frame, shape (4, 4); None for an unknown frame."""
+        session: Any = self.simulator
+        found: Array | None = session.frame_pose(frame)
+        return found
+
+
+FEATURES: tuple[type[Feature], ...] = (TopicPanel, TopicStreams, Plots, ObservedDisplays)
 
 
 class ObservedSession:
@@ -97,6 +110,10 @@ class ObservedSession:
     def link_poses(self) -> NDArray[np.float64]:
         """Return x y z [m] and quaternion x y z w of every link; shape (links, 7)."""
         return self._robot.link_poses(self.time_of_poses())
+
+    def frame_pose(self, frame: str) -> Array | None:
+        """Return the pose of a frame on the page, shape (4, 4); None for an unknown frame."""
+        return self._robot.frame_pose(frame, self.time_of_poses())
 
     def close(self) -> None:
         """Close the bridges."""

@@ -1,4 +1,4 @@
-"""Scans, point clouds, images, maps, paths and markers of a recording or live robot on the page."""
+"""Scans, point clouds and images of a recording or live robot on the page."""
 
 from __future__ import annotations
 
@@ -7,7 +7,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
-from urdfkit.app.replay.display_points import MAKERS, display_points
+import numpy as np
+
 from urdfkit.app.replay.observed_robot import ObservedRobot
 from urdfkit.app.simulation.features.sensor_views import WIDTH, picture, points
 from urdfkit.bus import Bus, Topic
@@ -23,11 +24,6 @@ KINDS = {
     "sensor_msgs/msg/PointCloud": POINTS,
     "sensor_msgs/msg/Image": PICTURE,
     "sensor_msgs/msg/CompressedImage": PICTURE,
-    "nav_msgs/msg/OccupancyGrid": COLORED,
-    "nav_msgs/msg/Path": COLORED,
-    "geometry_msgs/msg/PoseArray": COLORED,
-    "visualization_msgs/msg/Marker": COLORED,
-    "visualization_msgs/msg/MarkerArray": COLORED,
 }
 """Type of messages → how they are shown."""
 
@@ -104,16 +100,8 @@ class RecordedSensors:
     def _content(self, kind: int, message: Any, time: float) -> bytes:
         if kind == PICTURE:
             return picture(message) if hasattr(message, "encoding") else _compressed(message)
-        if message.__msgtype__.rpartition("/")[2] in MAKERS:
-            return display_points(message, self._robot.frame_pose(_frame(message), time))
         frame = self._robot.frame_pose(message.header.frame_id, time)
-        return points(message, frame, colored=kind == COLORED)
-
-
-def _frame(message: Any) -> str:
-    """Return the frame of a message; that of the first marker for an array, whose markers share one frame."""
-    first = message if hasattr(message, "header") else next(iter(message.markers), None)
-    return "" if first is None else str(first.header.frame_id)
+        return points(message, np.eye(4) if frame is None else frame, colored=kind == COLORED)
 
 
 def _compressed(message: Any) -> bytes:

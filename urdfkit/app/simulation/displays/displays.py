@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -71,6 +71,10 @@ class Displays(Feature):
         """Return link → pose in the world, shape (4, 4)."""
         simulator = self.simulator
         return dict(zip(simulator.kinematics.link_names, pose_matrices(simulator.link_poses()), strict=True))
+
+    def pose(self, frame: str, links: Mapping[str, Array]) -> Array | None:
+        """Return the pose of a frame in the world of the page, shape (4, 4); None if nothing connects it."""
+        return self.frames.pose(frame, links)
 
     def tick(self) -> None:
         """Subscribe to the wanted topics, and send their drawings."""
@@ -159,7 +163,7 @@ class _Display:
             self._markers.take(message)
             return
         frame = message.header.frame_id
-        self._waiting = message, self._displays.frames.pose(frame, self._displays.links())
+        self._waiting = message, self._displays.pose(frame, self._displays.links())
 
     def send(self, now: float) -> None:
         """Send the drawing, if it has changed."""
@@ -172,7 +176,7 @@ class _Display:
             before = self._sent[0] if self._sent is not None else -1
             groups = self._markers.groups()
             changed = before != self._markers.changes
-            self._groups = [(frame, self._displays.frames.pose(frame, links), items) for frame, items in groups]
+            self._groups = [(frame, self._displays.pose(frame, links), items) for frame, items in groups]
         elif self._waiting is not None:
             (message, pose), self._waiting, changed = self._waiting, None, True
             frame = message.header.frame_id
@@ -181,9 +185,7 @@ class _Display:
             except (ArithmeticError, LookupError, TypeError, ValueError) as error:  # its sizes contradict its data
                 self._groups, fault = [], f"a message cannot be drawn: {error}"
         elif self._topic.type in FIXED:
-            self._groups = [
-                (frame, self._displays.frames.pose(frame, links), items) for frame, _, items in self._groups
-            ]
+            self._groups = [(frame, self._displays.pose(frame, links), items) for frame, _, items in self._groups]
         poses = [None if pose is None else [round(x, 6) for x in seven_of(pose)] for _, pose, _ in self._groups]
         if not changed and (self._sent is None or poses == self._sent[1]):
             return
