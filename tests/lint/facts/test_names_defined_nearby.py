@@ -362,7 +362,7 @@ def test_where_a_text_ceases_to_be_yaml(tmp_path, lines, place, reported):
 
 
 def test_what_a_condition_holds():
-    from urdfkit.lint.facts.names_defined_nearby import is_conditional
+    from urdfkit.lint.facts.conditions import is_conditional
 
     assert is_conditional('<xacro:if value="1"><gazebo/></xacro:if>', "<gazebo")
     assert not is_conditional('<xacro:if value="1"><link/></xacro:if><gazebo/>', "<gazebo")

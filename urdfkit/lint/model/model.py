@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from urdfkit.description.xacro.faults import Fault
     from urdfkit.description.xml.source import Expansion
     from urdfkit.lint.model.masked_names import MaskedNames
+    from urdfkit.lint.model.neighbouring_descriptions import NeighbouringDescriptions
     from urdfkit.lint.model.placement import Extent, Frame
     from urdfkit.lint.model.tags import Attribute, Tag
     from urdfkit.lint.model.xacro_prefix import Signature
@@ -136,6 +137,13 @@ class Model:
         from urdfkit.lint.model.masked_names import MaskedNames
 
         return MaskedNames(self)
+
+    @cached_property
+    def neighbouring_descriptions(self) -> NeighbouringDescriptions:
+        """The descriptions in neighbouring packages."""
+        from urdfkit.lint.model.neighbouring_descriptions import NeighbouringDescriptions
+
+        return NeighbouringDescriptions(self)
 
     @cached_property
     def missing_file(self) -> str:

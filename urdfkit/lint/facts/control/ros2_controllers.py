@@ -136,7 +136,7 @@ def offered(model: Model) -> dict[str, dict[bool, list[str]]] | None:
     None if xacro arguments or another description of the package may define different hardware.
     """
     from urdfkit.description.packages.related_files import package_of
-    from urdfkit.lint.facts.names_defined_nearby import is_conditional
+    from urdfkit.lint.facts.conditions import is_conditional
     from urdfkit.lint.project.entry_files import descriptions
 
     robot = model.robot

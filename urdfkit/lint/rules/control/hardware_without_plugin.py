@@ -81,7 +81,7 @@ def _is_loaded_elsewhere(model: Model) -> bool:
     """Whether another description of the package, or a conditional part of these files, names a plugin."""
     import re
 
-    from urdfkit.lint.facts.names_defined_nearby import is_conditional
+    from urdfkit.lint.facts.conditions import is_conditional
     from urdfkit.lint.project.entry_files import descriptions
 
     if any(is_conditional(source.text, _PLUGIN_OR_HARDWARE) for source in model.expanded.sources.values()):

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 
-from urdfkit.lint.facts.names_defined_nearby import neighbouring_names
 from urdfkit.lint.finding import Finding
 from urdfkit.lint.model.masked_names import unless_masked
 from urdfkit.lint.rule import Findings, Model, RobotRule
@@ -89,7 +88,7 @@ class MoveitNameUndefined(RobotRule):
         name, robot = node.text, model.robot
         if not name or name in robot.joint_by_name or name in others:  # type: ignore[operator]
             return
-        if any(re.fullmatch(pattern, name) for pattern in neighbouring_names(model, "joint")):
+        if model.neighbouring_descriptions.define("joint", name):
             return
         finding = self._at(source, node, f"joint `{name}` does not exist in robot `{robot.name}`", robot.joint_by_name)
         suggestion, _ = meant(name, robot.joint_by_name)

@@ -2,9 +2,6 @@
 
 from __future__ import annotations
 
-import re
-
-from urdfkit.lint.facts.names_defined_nearby import neighbouring_names
 from urdfkit.lint.model.masked_names import unless_masked
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
@@ -55,7 +52,6 @@ class SrdfNameUndefined(RobotRule):
         from urdfkit.lint.fix_builders import meant
 
         robot = model.robot
-        elsewhere: dict[str, list[str]] = {}
         for root in semantics_of(model):
             if not fits(root, robot):
                 continue
@@ -73,9 +69,7 @@ class SrdfNameUndefined(RobotRule):
                     group, severity = groups(root)[suggestion], severity_for(root, model)
                     yield self.at(model, group, message, attribute="name", severity=severity)
                     continue
-                if kind not in elsewhere:
-                    elsewhere[kind] = neighbouring_names(model, kind) if kind != "group" else []
-                if any(re.fullmatch(pattern, name) for pattern in elsewhere[kind]):
+                if kind != "group" and model.neighbouring_descriptions.define(kind, name):
                     continue
                 finding = self._undefined(places[0], root, model, hint, len(places))
                 yield from (finding,) if kind == "group" else unless_masked(model, name, suggestion, finding)

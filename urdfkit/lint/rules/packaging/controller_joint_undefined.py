@@ -1,8 +1,5 @@
 """K959 controller-joint-undefined."""
 
-import re
-
-from urdfkit.lint.facts.names_defined_nearby import neighbouring_names, unresolved_package
 from urdfkit.lint.finding import Finding
 from urdfkit.lint.model.masked_names import is_typo, unless_masked
 from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
@@ -68,8 +65,7 @@ class ControllerJointUndefined(RobotRule):
                 place = entry.position
                 if not entry.value or entry.value in joints or (place.file, place.line, place.column) in places:
                     continue
-                patterns = () if model.target == "urdfkit" else neighbouring_names(model, "joint")
-                if not any(re.fullmatch(pattern, entry.value) for pattern in patterns):
+                if model.target == "urdfkit" or not model.neighbouring_descriptions.define("joint", entry.value):
                     message = f"controller `{name}` names the undefined joint `{entry.value}`"
                     yield self.at(model, place, message, joint=entry.value, severity="note")
 
@@ -80,7 +76,6 @@ class ControllerJointUndefined(RobotRule):
         joints_by_name = model.robot.joint_by_name
         if not joints_by_name:
             return
-        defined_elsewhere: list[str] | None = None
         for source in model.related_files.values():
             if not source.file.endswith((".yaml", ".yml")):
                 continue
@@ -89,14 +84,11 @@ class ControllerJointUndefined(RobotRule):
             undefined = [each for each in references if each.name.rpartition("/")[2] not in joints_by_name]
             is_of_another_robot = 4 * len(undefined) > 3 * len(references)
             for reference in undefined:
-                defined_elsewhere = (
-                    neighbouring_names(model, "joint") if defined_elsewhere is None else defined_elsewhere
-                )
-                if any(re.fullmatch(pattern, reference.name) for pattern in defined_elsewhere):
+                if model.neighbouring_descriptions.define("joint", reference.name):
                     continue
                 suggestion = nearest(reference.name, joints_by_name)
                 is_misspelt = suggestion is not None and is_typo(reference.name, suggestion)
-                if not is_misspelt and (is_of_another_robot or unresolved_package(model)):
+                if not is_misspelt and (is_of_another_robot or model.neighbouring_descriptions.unresolved_package):
                     continue
                 finding = Finding(
                     self.code,

@@ -3,7 +3,6 @@
 import re
 
 from urdfkit.description.xml.source import Source
-from urdfkit.lint.facts.names_defined_nearby import neighbouring_names
 from urdfkit.lint.finding import Finding
 from urdfkit.lint.model.masked_names import unless_masked
 from urdfkit.lint.rule import Findings, Model, RobotRule
@@ -56,7 +55,6 @@ class FrameUndefined(RobotRule):
         links_by_name = model.robot.link_by_name
         if not links_by_name:
             return
-        defined_elsewhere: list[str] | None = None
         for source in model.related_files.values():
             if not source.file.endswith((".yaml", ".yml")):
                 continue
@@ -65,10 +63,7 @@ class FrameUndefined(RobotRule):
                 suggestion, hint = meant(name, links_by_name)
                 if name in links_by_name or (suggestion is None and not _is_drive_frame(source, match, model)):
                     continue
-                defined_elsewhere = (
-                    neighbouring_names(model, "link") if defined_elsewhere is None else defined_elsewhere
-                )
-                if any(re.fullmatch(pattern, name) for pattern in defined_elsewhere):
+                if model.neighbouring_descriptions.define("link", name):
                     continue
                 finding = Finding(
                     self.code,

@@ -1,0 +1,97 @@
+"""NeighbouringDescriptions: the descriptions in neighbouring packages, which may define a name."""
+
+import re
+from functools import cached_property
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from urdfkit.errors import ResourceError
+
+if TYPE_CHECKING:
+    from urdfkit.lint.model.model import Model
+
+
+class NeighbouringDescriptions:
+    """The descriptions in the packages of related files and in their dependencies, read once.
+
+    Args:
+        model: the linted model.
+    """
+
+    def __init__(self, model: "Model") -> None:
+        self._model = model
+        self._patterns: dict[str, re.Pattern[str]] = {}
+
+    def define(self, tag: str, name: str) -> bool:
+        """Return whether they may define a link or joint, for any values of the arguments.
+
+        Args:
+            tag: ``link`` or ``joint``.
+            name: name of the link or joint.
+        """
+        if tag not in self._patterns:
+            self._patterns[tag] = re.compile("|".join(self._names(tag)) or r"(?!)")
+        return self._patterns[tag].fullmatch(name) is not None
+
+    @cached_property
+    def unresolved_package(self) -> str:
+        """A package that they include files from and that is not found here; empty if there is none."""
+        texts = "\n".join(self._texts.values())
+        for name in dict.fromkeys(re.findall(r"<xacro:include\b[^<>]*\$\(find\s+([\w-]+)\)", texts)):
+            try:
+                self._model.expanded.packages.find(str(name))
+            except ResourceError:
+                return str(name)
+        return ""
+
+    def _names(self, tag: str) -> list[str]:
+        """Return patterns of the names of links or joints."""
+        texts = self._texts
+        own = {str(Path(file).absolute()): written.text for file, written in self._model.expanded.sources.items()}
+        is_fixed = not any(re.search(r"<(?:xacro:)?(?:if|unless|arg)\b", text) for text in own.values())
+        texts = {path: text for path, text in texts.items() if path not in own} if is_fixed else {**own, **texts}
+        every = "\n".join(texts.values())
+        # An element whose first child is an interface belongs to ros2_control or a transmission.
+        tags = re.findall(rf"(<{tag}\b[^>]*>)(?!\s*<(?:command_interface|state_interface|hardwareInterface)\b)", every)
+        names = [name for found in tags for name in re.findall(r"\bname\s*=\s*[\"']([^\"']*)", found)[:1]]
+        calls = "\n".join((*re.findall(_CALL, every), *re.findall(_DEFAULTS, every)))
+        return [_pattern(name, calls, every) for name in dict.fromkeys(names)]
+
+    @cached_property
+    def _texts(self) -> dict[str, str]:
+        from urdfkit.description.packages.related_files import dependencies_in, manifest, neighbours, package_of
+        from urdfkit.lint.project.entry_files import SUFFIXES, descriptions
+
+        model = self._model
+        near = neighbours(model.package) if model.package is not None else {}
+        folders: set[Path] = set()
+        for file in model.related_files:
+            package = package_of(Path(file))
+            if package is not None:
+                folders |= {package, *(near[name] for name in dependencies_in(manifest(package)) if name in near)}
+        for folder in folders:
+            model.expanded.packages.watch(folder, *SUFFIXES)
+        return {str(path.absolute()): text for folder in sorted(folders) for path, text in descriptions(folder)}
+
+
+def _pattern(name: str, calls: str, texts: str) -> str:
+    """Return the pattern of a name; literal arguments of the macro's calls replace its parameters."""
+    parts = []
+    for part in re.split(r"(\$\([^()]*\)|\$\{[^{}]*\})", name):
+        if not part.startswith("$"):
+            parts.append(re.escape(part))
+            continue
+        word = re.fullmatch(r"\$\{\s*(\w+)\s*\}", part)
+        values = set(re.findall(rf"(?<![\w:]){word[1]}\s*:?=\s*[\"']?([^\"'\s]*)", calls)) if word else set()
+        is_written = values and len(values) <= _MAX_VALUES and not any("$" in value or "^" in value for value in values)
+        is_set = word is not None and re.search(rf"property\s+name\s*=\s*[\"']{word[1]}[\"']", texts)
+        parts.append(f"(?:{'|'.join(map(re.escape, sorted(values)))})" if is_written and not is_set else ".*")
+    return "".join(parts)
+
+
+_CALL = r"<xacro:(?!macro\b|property\b|arg\b|include\b|if\b|unless\b)[^<>]*>"
+_DEFAULTS = r"\bparams\s*=\s*(?:\"[^\"]*\"|'[^']*')"
+"""Calls of macros, and the defaults of their parameters."""
+
+_MAX_VALUES = 200
+"""Maximum number of values of one parameter."""
