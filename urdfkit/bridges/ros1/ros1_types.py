@@ -39,7 +39,7 @@ def ros1_typestore() -> Any:
 
     store = get_typestore(Stores.ROS1_NOETIC)
     for name, text in NOETIC.items():
-        store.register(get_types_from_msg(text, name))
+        register_in(store, get_types_from_msg(text, name))
     register_in(store, {name: layout for name, layout in typestore().fielddefs.items() if name not in store.fielddefs})
     return store
 
