@@ -17,7 +17,7 @@ ROBOT = """<robot name="broken">
     <visual><geometry><mesh filename="package://gone_description/arm.stl"/></geometry></visual>
     <collision><origin xyz="0 0 0.3"/><geometry><box size="0.1 0.1 0.5"/></geometry></collision>
   </link>
-  <link name="stray"><visual><geometry><sphere radius="0.05"/></geometry></visual></link>
+  <link name="stray"><visual><origin xyz="0 0.5 0"/><geometry><sphere radius="0.05"/></geometry></visual></link>
   <joint name="turn" type="revolute"><parent link="base"/><child link="arm"/>
     <axis xyz="0 1 0"/><limit lower="-1" upper="1" effort="1" velocity="1"/></joint>
 </robot>

@@ -114,8 +114,8 @@ def test_memory_is_limited() -> None:
 
     def fill() -> None:
         with CostLimit(60.0, memory=1):
-            while len(kept) < 3000:
-                kept.append(b"x" * 10**6)
+            while len(kept) < 30:
+                kept.append(b"x" * 10**8)  # so large that no memory freed earlier is used
 
     with pytest.raises(CostError, match=r"more than 1e-09 GB of memory"):
         fill()
