@@ -31,7 +31,12 @@ test: $(VENV)/.test
 	$(BIN)/mypy
 	$(BIN)/lint-imports
 	$(BIN)/urdfkit sim warmup
+ifeq ($(ARGS),)
+	$(BIN)/python -m pytest -n 2 --dist worksteal -m "not browser"
+	$(BIN)/python -m pytest -m browser
+else
 	$(BIN)/python -m pytest $(ARGS)
+endif
 
 quick: $(VENV)/.test
 	$(BIN)/python -m pytest -q -n 2 --dist worksteal -m "not slow and not browser and not catkin and not colcon and not sdformat" $(ARGS)
