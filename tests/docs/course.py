@@ -37,7 +37,7 @@ PAGES = [
 
 SERVES = re.compile(r"urdfkit (view|sim teleop|replay)\b(?!.*--(image|video))")
 WAITS = r"^(urdfkit: )?(warning: )?(compiling the |waiting for the graphics driver).*\n"
-VARIES = ((r"[\d,.]+ × real time", "… × real time"), (r"\b\d+(\.\d+)? m?s \(CPU\)", "… (CPU)"))
+VARIES = ((r"[\d,.]+ × real time", "… × real time"), (r"\b\d+(\.\d+)? m?s \(CPU\)", "… (CPU)"), (r"-(?=0\.0+\b)", ""))
 
 
 class Block(NamedTuple):
