@@ -1,11 +1,13 @@
 import time
+from typing import ClassVar
 
 import pytest
 
 pytest.importorskip("meshcat")
 
 from urdfkit.app.simulation import progress as compiling
-from urdfkit.app.simulation.progress import progress
+from urdfkit.app.simulation.progress import RAYS, Compilation, progress
+from urdfkit.sim.engine import compiling_process
 
 
 class Page:
@@ -47,3 +49,35 @@ def test_an_error_ends_it_too(monkeypatch, until) -> None:
     with pytest.raises(ValueError, match="broken"):
         break_down()
     assert page.reported == ["loading …", None]
+
+
+class Compiling:
+    """A process that compiles, of which the test decides when and how it ends."""
+
+    started: ClassVar[list[str]] = []
+
+    def __init__(self, kernel: str) -> None:
+        self.ended, self.fault = False, None
+        Compiling.started.append(kernel)
+        Compiling.last = self
+
+
+def test_rays_are_compiled_after_the_physics_and_a_failure_is_one_line(capfd, monkeypatch, until) -> None:
+    pytest.importorskip("numba")
+    monkeypatch.setattr("urdfkit.scene.rays.warmup", lambda: None)
+    monkeypatch.setattr(compiling_process, "CompilingProcess", Compiling)
+    page = Page()
+    page.broadcast = lambda _, **values: page.reported.append(values["text"])
+    compilation = Compilation(page, "ray")
+    compilation._report("physics")
+    assert not compilation.rays_are_compiled()
+    assert Compiling.started == []
+    compilation._report(None)
+    assert not compilation.rays_are_compiled()
+    assert Compiling.started == ["rays"]
+    assert page.reported == ["physics", None, RAYS]
+    Compiling.last.ended, Compiling.last.fault = True, "OSError: no space left"
+    until(compilation.rays_are_compiled)
+    failure = "the ray kernels cannot be compiled in another process: OSError: no space left"
+    assert page.reported[3:] == [failure, None]
+    assert capfd.readouterr().err.splitlines() == ["physics", RAYS, failure]

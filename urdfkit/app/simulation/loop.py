@@ -4,6 +4,7 @@ import math
 import time
 from collections import deque
 from collections.abc import Callable, Mapping, Sequence
+from contextlib import AbstractContextManager, nullcontext
 from functools import cached_property
 from threading import Event
 from typing import Any
@@ -81,6 +82,7 @@ class DriveLoop:
         pace: ratio of simulated time to the clock.
         features: features of the page.
         bridges: bridges whose peers are served between two steps.
+        kernels: context in which the loop runs, see `LiveKernels.used`.
     """
 
     def __init__(
@@ -102,6 +104,7 @@ class DriveLoop:
         self.look: Callable[[], None] = lambda: None  # subscribes a recording to new topics
         self.lint: Mapping[str, Any] = {"findings": [], "rules": {}, "fault": None}
         self.bridges = Bridges()
+        self.kernels: Callable[[], AbstractContextManager[None]] = nullcontext
         self.pace = ClockRate(simulator.dt, clock)
         self.sensor_views = SensorViews(simulator, server, clock)
         self.scene_bodies = SceneBodies(simulator, server)
@@ -152,13 +155,14 @@ class DriveLoop:
         self.pace.begin(self.simulator.t)
         due = self._clock()
         try:
-            while not stop.is_set():
-                self.tick()
-                due += FRAME
-                if due > self._clock():
-                    self._rest(due)
-                else:
-                    due = self._clock()
+            with self.kernels():
+                while not stop.is_set():
+                    self.tick()
+                    due += FRAME
+                    if due > self._clock():
+                        self._rest(due)
+                    else:
+                        due = self._clock()
         finally:
             self.replay.close()
 

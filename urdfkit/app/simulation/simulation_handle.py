@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from contextlib import ExitStack, contextmanager
+from contextlib import ExitStack, closing, contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -120,21 +120,24 @@ def driving(
     """
     from urdfkit.app.simulation.initial_scene import InitialScene
     from urdfkit.app.simulation.loop import DriveLoop
-    from urdfkit.app.simulation.progress import compile_kernel, compile_rays, progress
+    from urdfkit.app.simulation.progress import Compilation, progress
     from urdfkit.description.xml.cost_limit import loading_limit
+    from urdfkit.scene.rays import cached, warmup
     from urdfkit.sim import Simulator
     from urdfkit.view.server.running_simulations import registered
 
     server = page.server
     try:
         initial_scene = InitialScene(robot, world, strict=strict, density=density)
-        page.open()  # the browser starts and shows the robot while the engine is compiled
+        page.open()  # the browser starts and shows the robot while the engine is prepared
         # `urdfkit topic` finds the simulation from here on
-        with registered(server.port, server.url, robot.name or "robot"):
-            with faults_on_page(server):
+        with (
+            registered(server.port, server.url, robot.name or "robot"),
+            closing(Compilation(server, renderer)) as compilation,
+        ):
+            with faults_on_page(server), compilation.kernels.used():
                 initial_scene.show(server)
                 server.publish_latched("progress", label="preparing the engine …")
-                compile_kernel(server)
                 with progress(server, "loading meshes, building the world …"), loading_limit():
                     simulator = Simulator(
                         robot,
@@ -150,10 +153,14 @@ def driving(
                     loop = DriveLoop(simulator, server)
                 with progress(server, "drawing …"):
                     loop.show()
-                if loop.sensor_views.find():
-                    compile_rays(server)
+                if loop.sensor_views.find() and cached():
                     with progress(server, "building the ray-casting trees of sensors …"):
+                        warmup()
                         loop.sensor_views.prepare()
+                else:
+                    loop.sensor_views.begin_when(compilation.rays_are_compiled)
+                compilation.show()
+            loop.kernels = compilation.kernels.used
             yield loop
     finally:
         page.close()

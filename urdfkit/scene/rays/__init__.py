@@ -10,7 +10,7 @@ There are two levels of trees: one over the shapes, which is refitted when they 
 once and cached on disk. Rays traverse them in packets of sixteen (see `ray_packet`).
 """
 
-from urdfkit.scene.rays.kernels import announcement, warmup
+from urdfkit.scene.rays.kernels import announcement, cached, warmup
 from urdfkit.scene.rays.ray_scene import Hits, RayTable
 
-__all__ = ["Hits", "RayTable", "announcement", "warmup"]
+__all__ = ["Hits", "RayTable", "announcement", "cached", "warmup"]

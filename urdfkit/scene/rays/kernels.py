@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from contextlib import suppress
 from functools import lru_cache
+from pathlib import Path
 from typing import Any
 
 from urdfkit.description.xml.cost_limit import excluded
-from urdfkit.scene.rays.compilation import load_compiled
+from urdfkit.scene.rays.compilation import load_compiled, sources_digest
 
 Progress = Callable[[int], None]
 """Called with the number of compiled functions, starting with 0; not called if everything is cached."""
@@ -139,6 +141,26 @@ def filler() -> Callable[..., Any]:
     from urdfkit.scene.rays.wide_bvh import fill
 
     return load_compiled(fill, (f[:, ::1], i[:, :, ::1], i, f[:, ::1]))
+
+
+def cached() -> bool:
+    """Return whether numba's cache contains all kernels."""
+    from numba.core.caching import FunctionCache
+
+    from urdfkit.scene.rays.bvh import build
+    from urdfkit.scene.rays.ray_casting import cast
+    from urdfkit.scene.rays.shading.camera_picture import trace
+    from urdfkit.scene.rays.shading.edge_pixels import outline
+    from urdfkit.scene.rays.shape_placement import place
+    from urdfkit.scene.rays.wide_bvh import fill, widen
+
+    index = f"_{sources_digest()[:16]}-*.nbi"  # named by `compile_or_load`
+    with suppress(RuntimeError):  # numba has no folder for its cache
+        return all(
+            any(Path(FunctionCache(function).cache_path).glob(f"*.{function.__name__}_*{index}"))
+            for function in (build, cast, fill, outline, place, trace, widen)
+        )
+    return False
 
 
 def announcement() -> str:

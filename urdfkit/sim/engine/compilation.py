@@ -26,6 +26,19 @@ def register_types() -> None:
         import_module(f"urdfkit.sim.engine.{module}")
 
 
+class KernelFunction(Deferred):
+    """Function that kernels call, compiled on first use.
+
+    Args:
+        function: in Python; an attribute, too.
+        forceinline: whether callers contain its code.
+    """
+
+    def __init__(self, function: Callable[..., Any], *, forceinline: bool) -> None:
+        self.python = function
+        super().__init__(lambda: _compilable(function, forceinline=forceinline))
+
+
 def _compilable(function: Callable[..., Any], *, forceinline: bool) -> Any:
     import numba
 
@@ -35,7 +48,7 @@ def _compilable(function: Callable[..., Any], *, forceinline: bool) -> Any:
 
 def inlined(function: Function) -> Function:
     """Compile a function as part of whichever kernel calls it."""
-    return cast(Function, Deferred(lambda: _compilable(function, forceinline=True)))
+    return cast(Function, KernelFunction(function, forceinline=True))
 
 
 def compiled(function: Function) -> Function:
@@ -43,4 +56,4 @@ def compiled(function: Function) -> Function:
 
     Without `forceinline=False`, numba inlines a function whose first caller is `inlined`.
     """
-    return cast(Function, Deferred(lambda: _compilable(function, forceinline=False)))
+    return cast(Function, KernelFunction(function, forceinline=False))

@@ -3,7 +3,12 @@
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Callable, Sequence
+import os
+import sys
+import threading
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+from contextvars import ContextVar
 from functools import lru_cache
 from pathlib import Path
 from typing import Any
@@ -11,6 +16,8 @@ from typing import Any
 from urdfkit.compilation import own_sources
 from urdfkit.compilation.native import NativeCode, NativeFunction, cache_folders, write_native
 from urdfkit.description.xml.cost_limit import excluded
+from urdfkit.sim.engine.compiling_process import CompilingProcess
+from urdfkit.sim.engine.interpreted_kernel import InterpretedKernel
 
 KERNEL_MODULES = (
     "simulation_memory",
@@ -55,13 +62,77 @@ Progress = Callable[[int], None]
 
 
 def kernel() -> Kernel:
-    """Return the compiled `advance`, from the cache where there is one."""
-    return _native(world=False) or _compile(world=False)
+    """Return the compiled `advance`, from the cache where there is one; see `LiveKernels`."""
+    return _native(world=False) or _interpreted(world=False) or _compile(world=False)
 
 
 def world_kernel() -> Kernel:
-    """Return the compiled `world_step.advance`, from the cache where there is one."""
-    return _native(world=True) or _compile(world=True)
+    """Return the compiled `world_step.advance`, from the cache where there is one; see `LiveKernels`."""
+    return _native(world=True) or _interpreted(world=True) or _compile(world=True)
+
+
+class LiveKernels:
+    """Kernels that Python interprets until another process has compiled them.
+
+    Args:
+        report: receives a message when a kernel is interpreted, and None when it is compiled.
+        warn: receives a message if a kernel cannot be compiled in another process.
+    """
+
+    def __init__(self, report: Callable[[str | None], None], warn: Callable[[str], None]) -> None:
+        self._report, self._warn = report, warn
+        self._kernels: dict[bool, InterpretedKernel] = {}
+
+    @contextmanager
+    def used(self) -> Iterator[None]:
+        """Inside the context, `kernel` and `world_kernel` return these kernels in this thread."""
+        token = _live.set(self)
+        try:
+            yield
+        finally:
+            _live.reset(token)
+
+    def close(self) -> None:
+        """End the processes that compile."""
+        for each in self._kernels.values():
+            each.close()
+
+    def kernel(self, *, world: bool) -> InterpretedKernel:
+        """Return a kernel; the first call for it starts the process that compiles it."""
+        if world not in self._kernels:
+            self._report("compiling the physics kernel; until then the simulation is slow …")
+            self._kernels[world] = InterpretedKernel(
+                _advance(world=world),
+                CompilingProcess("world" if world else "robot"),
+                load=_code(world=world).load,
+                compiled_here=lambda: _compile(world=world),
+                ready=lambda: self._ready(world=world),
+                warn=self._warn,
+            )
+        return self._kernels[world]
+
+    def _ready(self, *, world: bool) -> None:
+        _native.cache_clear()
+        if world == next(reversed(self._kernels)):
+            self._report(None)
+
+
+_live: ContextVar[LiveKernels | None] = ContextVar("live kernels", default=None)
+
+
+def _interpreted(*, world: bool) -> Kernel | None:
+    """Return a kernel that is interpreted until it is compiled; None outside of `LiveKernels.used`."""
+    live = _live.get()
+    return live.kernel(world=world) if live is not None else None
+
+
+def _advance(*, world: bool) -> Kernel:
+    """Return the function of a kernel in Python."""
+    if world:
+        from urdfkit.sim.engine.stepping.world_step import advance
+    else:
+        from urdfkit.sim.engine.stepping.robot_step import advance
+    return advance
 
 
 def announcement(*, world: bool = False) -> str:
@@ -73,11 +144,13 @@ def announcement(*, world: bool = False) -> str:
 def warmup(progress: Progress | None = None, *, world: bool = False) -> bool:
     """Make the kernel ready to run; return whether it had to be compiled (see `announcement`) rather than loaded.
 
+    Inside `LiveKernels.used` this does nothing.
+
     Args:
         progress: called with 0 before a compilation starts and with a growing count while it runs.
         world: whether it is the kernel for a world of several bodies, rather than for one robot on its plane.
     """
-    if _native(world=world) is not None:
+    if _native(world=world) is not None or _live.get() is not None:
         return False
     from numba.core import event
 
@@ -137,10 +210,6 @@ def _native(*, world: bool) -> NativeFunction | None:
 @lru_cache
 def _compile(*, world: bool) -> Kernel:
     """Compile a kernel with numba, and write its machine code for later processes."""
-    if world:
-        from urdfkit.sim.engine.stepping.world_step import advance
-    else:
-        from urdfkit.sim.engine.stepping.robot_step import advance
     import numba
 
     from urdfkit.compilation.load import TESTED_VERSIONS
@@ -148,7 +217,7 @@ def _compile(*, world: bool) -> Kernel:
     digest, code = world_digest() if world else sources_digest(), _code(world=world)
     # numba's cache is needed where machine code is not written, or exists and cannot be loaded.
     cache = code.exists or numba.__version__ not in TESTED_VERSIONS
-    dispatcher = _compiled(advance, ("floats", "integers", "count", "count"), digest, cache=cache)
+    dispatcher = _compiled(_advance(world=world), ("floats", "integers", "count", "count"), digest, cache=cache)
     return write_native(code, dispatcher, arrays=2) or next(iter(dispatcher.overloads.values())).entry_point
 
 
@@ -173,3 +242,19 @@ def _compiled(function: Callable[..., int], arguments: tuple[str, ...], digest: 
     types = {"floats": numba.float64[::1], "integers": numba.int64[::1], "count": numba.int64}
     signature = tuple(types[name] for name in arguments)
     return compile_or_load(function, signature, digest=digest, options=OPTIONS, cache=cache)
+
+
+def main(kernel: str) -> None:
+    """Compile a kernel, ``robot``, ``world`` or ``rays``; end when the standard input ends."""
+
+    def watch() -> None:
+        sys.stdin.read()
+        os._exit(1)
+
+    threading.Thread(target=watch, daemon=True).start()
+    if kernel == "rays":
+        from urdfkit.scene.rays import warmup as compile_rays
+
+        compile_rays()
+    else:
+        warmup(world=kernel == "world")

@@ -89,6 +89,11 @@ class SensorViews:
         self._views: list[SensorView] = []
         self._revision = -1
         self._free = 0.0
+        self._is_ready: Callable[[], bool] | None = None
+
+    def begin_when(self, is_ready: Callable[[], bool]) -> None:
+        """Show views only after `is_ready`, called in every iteration while there are sensors, has returned True."""
+        self._is_ready = is_ready
 
     def find(self) -> bool:
         """Find the sensors, publish their list, and return whether there are any."""
@@ -117,6 +122,11 @@ class SensorViews:
         """Send the view of one sensor, if one is due; return the time spent [s]."""
         if self._simulator.world.revision != self._revision:
             self.find()
+        if self._is_ready is not None:
+            if not (self._views and self._is_ready()):
+                return 0.0
+            self._is_ready = None
+            self.prepare()
         now = self._clock()
         if now < self._free:
             return 0.0
