@@ -143,7 +143,7 @@ class Model:
         """The descriptions in neighbouring packages."""
         from urdfkit.lint.model.neighbouring_descriptions import NeighbouringDescriptions
 
-        return NeighbouringDescriptions(self)
+        return NeighbouringDescriptions(self.expanded, self.package, self.related_files)
 
     @cached_property
     def missing_file(self) -> str:

@@ -1,25 +1,25 @@
 """NeighbouringDescriptions: the descriptions in neighbouring packages, which may define a name."""
 
 import re
+from collections.abc import Iterable
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING
 
+from urdfkit.description.xacro.expanded import Expanded
 from urdfkit.errors import ResourceError
-
-if TYPE_CHECKING:
-    from urdfkit.lint.model.model import Model
 
 
 class NeighbouringDescriptions:
     """The descriptions in the packages of related files and in their dependencies, read once.
 
     Args:
-        model: the linted model.
+        expanded: the expanded robot.
+        package: its package folder, or None.
+        related_files: files of other kinds that belong to the robot.
     """
 
-    def __init__(self, model: "Model") -> None:
-        self._model = model
+    def __init__(self, expanded: Expanded, package: Path | None, related_files: Iterable[str]) -> None:
+        self._expanded, self._package, self._related_files = expanded, package, related_files
         self._patterns: dict[str, re.Pattern[str]] = {}
 
     def define(self, tag: str, name: str) -> bool:
@@ -35,11 +35,11 @@ class NeighbouringDescriptions:
 
     @cached_property
     def unresolved_package(self) -> str:
-        """A package that they include files from and that is not found here; empty if there is none."""
+        """A package that they include files from and that is not found here; empty if all are found."""
         texts = "\n".join(self._texts.values())
         for name in dict.fromkeys(re.findall(r"<xacro:include\b[^<>]*\$\(find\s+([\w-]+)\)", texts)):
             try:
-                self._model.expanded.packages.find(str(name))
+                self._expanded.packages.find(str(name))
             except ResourceError:
                 return str(name)
         return ""
@@ -47,7 +47,7 @@ class NeighbouringDescriptions:
     def _names(self, tag: str) -> list[str]:
         """Return patterns of the names of links or joints."""
         texts = self._texts
-        own = {str(Path(file).absolute()): written.text for file, written in self._model.expanded.sources.items()}
+        own = {str(Path(file).absolute()): written.text for file, written in self._expanded.sources.items()}
         is_fixed = not any(re.search(r"<(?:xacro:)?(?:if|unless|arg)\b", text) for text in own.values())
         texts = {path: text for path, text in texts.items() if path not in own} if is_fixed else {**own, **texts}
         every = "\n".join(texts.values())
@@ -62,15 +62,14 @@ class NeighbouringDescriptions:
         from urdfkit.description.packages.related_files import dependencies_in, manifest, neighbours, package_of
         from urdfkit.lint.project.entry_files import SUFFIXES, descriptions
 
-        model = self._model
-        near = neighbours(model.package) if model.package is not None else {}
+        near = neighbours(self._package) if self._package is not None else {}
         folders: set[Path] = set()
-        for file in model.related_files:
+        for file in self._related_files:
             package = package_of(Path(file))
             if package is not None:
                 folders |= {package, *(near[name] for name in dependencies_in(manifest(package)) if name in near)}
         for folder in folders:
-            model.expanded.packages.watch(folder, *SUFFIXES)
+            self._expanded.packages.watch(folder, *SUFFIXES)
         return {str(path.absolute()): text for folder in sorted(folders) for path, text in descriptions(folder)}
 
 
