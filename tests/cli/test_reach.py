@@ -91,7 +91,7 @@ def test_refusals(capsys: pytest.CaptureFixture[str]) -> None:
         (("--cone", "z"), "`z` must be AXIS,DEG with an angle from 0 to 180, such as -z,30"),
         (("--cone", "w,30"), "`w` is not an axis; use x, y, z, -x, -y, -z or X,Y,Z"),
         (("--down", "--position-only"), "not allowed with argument"),
-        (("--resolution", "-1"), "`-1` is not a positive number"),
+        (("--resolution", "-1"), "`-1` must be greater than zero"),
         (("--resolution", "0.004"), "use a coarser resolution than 0.004 m"),
         (("-o", "map.pyl"), "map.pyl: unsupported file type; use .npz, .json, .ply; did you mean `.ply`?"),
     ):

@@ -5,6 +5,7 @@ from __future__ import annotations
 import sys
 from pathlib import Path
 
+from urdfkit.cli.parser import add_package_path
 from urdfkit.errors import UrdfkitError, UsageError
 
 TYPE_CHECKING = False
@@ -54,13 +55,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
         "--write", action="store_true", help="write the values into the file; without LINK only for links with defects"
     )
     parser.add_argument("--json", action="store_true", help="print one JSON value")
-    parser.add_argument(
-        "--package-path",
-        action="append",
-        default=[],
-        metavar="DIR",
-        help="search this folder for packages too (repeatable)",
-    )
+    add_package_path(parser)
 
 
 def _positive(text: str) -> float:

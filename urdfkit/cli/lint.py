@@ -34,7 +34,7 @@ settings: [lint] in urdfkit.toml or [tool.urdfkit.lint] in pyproject.toml, neare
 
 def configure(parser: argparse.ArgumentParser) -> None:
     """Add the arguments."""
-    from urdfkit.cli.parser import add_time_limit
+    from urdfkit.cli.parser import add_package_path, add_time_limit
 
     add = parser.add_argument
     add(
@@ -68,13 +68,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     add("--write-baseline", type=Path, metavar="FILE", help="write the current findings to FILE as a baseline")
     add("--config", type=Path, metavar="FILE", help="read the settings from FILE")
     add("--no-config", action="store_true", help="ignore settings files")
-    add(
-        "--package-path",
-        action="append",
-        default=[],
-        metavar="DIR",
-        help="search this folder for packages too (repeatable)",
-    )
+    add_package_path(parser)
     add(
         "--confined",
         action="store_true",

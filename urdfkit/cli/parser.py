@@ -229,6 +229,11 @@ def add_model(parser: argparse.ArgumentParser, *, optional: bool = True) -> None
         metavar="ROBOT",
         help="a .urdf or .xacro file, a package folder or a robot name; then key:=value xacro arguments",
     )
+    add_package_path(parser)
+
+
+def add_package_path(parser: argparse.ArgumentParser) -> None:
+    """Add ``--package-path``; its folders arrive as ``arguments.package_path``."""
     parser.add_argument(
         "--package-path",
         action="append",

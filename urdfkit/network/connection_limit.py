@@ -1,5 +1,7 @@
 """Limits of open connections, below the number of files that a process may open: others could use them up otherwise."""
 
+import asyncio
+import contextlib
 from typing import Any, cast
 
 from tornado.http1connection import HTTP1ServerConnection
@@ -53,3 +55,13 @@ class LimitedHTTPServer(HTTPServer):
         """Forget a connection that was closed or has become a WebSocket."""
         self._by_age.pop(server_conn, None)
         super().on_close(server_conn)
+
+    async def close(self) -> None:
+        """Stop accepting requests, close all connections within a second, and cancel all other tasks of the loop."""
+        self.stop()
+        tasks = [task for task in asyncio.all_tasks() if task is not asyncio.current_task()]
+        with contextlib.suppress(TimeoutError, asyncio.TimeoutError):
+            await asyncio.wait_for(self.close_all_connections(), timeout=1.0)
+        for task in tasks:
+            task.cancel()
+        await asyncio.gather(*tasks, return_exceptions=True)

@@ -11,7 +11,6 @@ from concurrent.futures import Future
 from typing import Any, Protocol
 from urllib.parse import urlsplit
 
-from tornado.httpserver import HTTPServer
 from tornado.iostream import StreamClosedError
 from tornado.web import Application
 from tornado.websocket import WebSocketClosedError, WebSocketHandler
@@ -123,10 +122,10 @@ class WebSocketServer:
         try:
             self._loop.run_forever()
         finally:
-            self._loop.run_until_complete(_close(http))
+            self._loop.run_until_complete(http.close())
             self._loop.close()
 
-    async def _open(self) -> HTTPServer:
+    async def _open(self) -> LimitedHTTPServer:
         application = Application(
             [(r"/.*", PeerSocket, {"server": self})],
             websocket_max_message_size=MAX_INBOUND,
@@ -142,16 +141,6 @@ class WebSocketServer:
         )
         http.add_socket(self._socket)
         return http
-
-
-async def _close(http: HTTPServer) -> None:
-    http.stop()
-    tasks = [task for task in asyncio.all_tasks() if task is not asyncio.current_task()]
-    with contextlib.suppress(TimeoutError, asyncio.TimeoutError):
-        await asyncio.wait_for(http.close_all_connections(), timeout=1.0)
-    for task in tasks:
-        task.cancel()
-    await asyncio.gather(*tasks, return_exceptions=True)
 
 
 class PeerSocket(WebSocketHandler):

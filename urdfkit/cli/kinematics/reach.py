@@ -15,6 +15,7 @@ from urdfkit.cli.kinematics.ik.targets import poses_of_file
 from urdfkit.cli.kinematics.robot_page import show_page
 from urdfkit.cli.page_options import add_page_options
 from urdfkit.cli.robot_arguments.tip_link import add_tip, announce, model_of_tip, robot_and_tip
+from urdfkit.cli.sim.option_values import positive, seed
 from urdfkit.errors import UsageError
 
 if TYPE_CHECKING:
@@ -51,7 +52,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     )
     add = parser.add_argument
     add_tip(parser)
-    add("--resolution", type=_positive, default=0.05, metavar="M", help="edge of a cell [m] (default: 0.05)")
+    add("--resolution", type=positive, default=0.05, metavar="M", help="edge of a cell [m] (default: 0.05)")
     add(
         "--orientations",
         type=_count,
@@ -74,7 +75,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
         action="store_true",
         help="count only poses that are reached without collisions between links",
     )
-    add("--seed", type=_whole, default=0, metavar="N", help="seed of all random numbers (default: 0)")
+    add("--seed", type=seed, default=0, metavar="N", help="seed of all random numbers (default: 0)")
     add(
         "--base-for",
         type=Path,
@@ -259,23 +260,7 @@ def _cone(text: str) -> tuple[tuple[float, float, float], float]:
     return _axis(axis), degrees
 
 
-def _positive(text: str) -> float:
-    try:
-        value = float(text)
-    except ValueError:
-        value = math.nan
-    if not 0.0 < value < math.inf:
-        raise argparse.ArgumentTypeError(f"`{text}` is not a positive number")
-    return value
-
-
 def _count(text: str) -> int:
     if not text.isdecimal() or int(text) < 1:
         raise argparse.ArgumentTypeError(f"`{text}` is not a number of orientations")
-    return int(text)
-
-
-def _whole(text: str) -> int:
-    if not text.isdecimal():
-        raise argparse.ArgumentTypeError(f"`{text}` is not a seed; it must be a whole number, zero or more")
     return int(text)

@@ -8,9 +8,11 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from urdfkit.cli.parser import add_package_path
 from urdfkit.cli.robot_arguments.macro_option import add_macro, with_macro
 from urdfkit.cli.robot_arguments.robot_loading import add_strict, load_robot, print_repairs
 from urdfkit.cli.robot_arguments.unused_arguments import note_unused
+from urdfkit.cli.sim.option_values import positive
 from urdfkit.errors import UsageError, did_you_mean
 
 if TYPE_CHECKING:
@@ -56,7 +58,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
         metavar="V,A",
         help="fractions of the velocity and acceleration limits to use",
     )
-    parser.add_argument("--rate", type=_positive, default=100.0, metavar="HZ", help="samples per second (default: 100)")
+    parser.add_argument("--rate", type=positive, default=100.0, metavar="HZ", help="samples per second (default: 100)")
     parser.add_argument(
         "-o",
         "--output",
@@ -67,13 +69,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--json", action="store_true", help="print one JSON value")
     add_macro(parser)
     add_strict(parser, "a second root link")
-    parser.add_argument(
-        "--package-path",
-        action="append",
-        default=[],
-        metavar="DIR",
-        help="search this folder for packages too (repeatable)",
-    )
+    add_package_path(parser)
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -131,25 +127,15 @@ def _limits(text: str) -> dict[str, float]:
         name, separator, value = part.rpartition("=")
         if name in limits or (separator and not name):
             raise argparse.ArgumentTypeError(f"`{part}` must be VALUE or NAME=VALUE, each name once")
-        limits[name] = _positive(value)
+        limits[name] = positive(value)
     return limits
-
-
-def _positive(text: str) -> float:
-    try:
-        value = float(text)
-    except ValueError:
-        value = float("nan")
-    if not 0.0 < value < float("inf"):
-        raise argparse.ArgumentTypeError(f"`{text}` is not a positive number")
-    return value
 
 
 def _scale(text: str) -> tuple[float, float]:
     parts = text.split(",")
     if len(parts) != 2:
         raise argparse.ArgumentTypeError(f"`{text}` must be two numbers: V,A")
-    velocity, acceleration = map(_positive, parts)
+    velocity, acceleration = map(positive, parts)
     if max(velocity, acceleration) > 1.0:
         raise argparse.ArgumentTypeError(f"`{text}`: a fraction of a limit is at most 1")
     return velocity, acceleration

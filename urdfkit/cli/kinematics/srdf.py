@@ -12,9 +12,11 @@ from typing import TYPE_CHECKING, Any
 from urdfkit.app.page import require_page
 from urdfkit.cli.kinematics.robot_page import show_page
 from urdfkit.cli.page_options import add_page_options
+from urdfkit.cli.parser import add_package_path
 from urdfkit.cli.robot_arguments.macro_option import add_macro, with_macro
 from urdfkit.cli.robot_arguments.robot_loading import add_strict, load_robot, print_repairs
 from urdfkit.cli.robot_arguments.unused_arguments import note_unused
+from urdfkit.cli.sim.option_values import seed
 from urdfkit.errors import ResourceError, UsageError
 
 if TYPE_CHECKING:
@@ -49,7 +51,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--samples", type=_count, default=100_000, metavar="N", help="random configurations (default: 100000)"
     )
-    parser.add_argument("--seed", type=_seed, default=0, metavar="N", help="seed of all random numbers (default: 0)")
+    parser.add_argument("--seed", type=seed, default=0, metavar="N", help="seed of all random numbers (default: 0)")
     parser.add_argument("-o", "--output", type=Path, metavar="FILE", help="write the SRDF (default: standard output)")
     parser.add_argument(
         "--update",
@@ -64,13 +66,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     )
     add_macro(parser)
     add_strict(parser, "a second root link")
-    parser.add_argument(
-        "--package-path",
-        action="append",
-        default=[],
-        metavar="DIR",
-        help="search this folder for packages too (repeatable)",
-    )
+    add_package_path(parser)
     add_page_options(parser)
 
 
@@ -188,10 +184,4 @@ def _group(text: str) -> tuple[str, str, str]:
 def _count(text: str) -> int:
     if not text.isdecimal() or int(text) < 1:
         raise argparse.ArgumentTypeError(f"`{text}` is not a number of configurations")
-    return int(text)
-
-
-def _seed(text: str) -> int:
-    if not text.isdecimal():
-        raise argparse.ArgumentTypeError(f"`{text}` is not a seed; it must be a whole number, zero or more")
     return int(text)

@@ -11,6 +11,7 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from urdfkit.cli.parser import add_package_path
 from urdfkit.cli.robot_arguments.joint_positions import joint_positions
 from urdfkit.cli.robot_arguments.macro_option import add_macro, with_macro
 from urdfkit.cli.robot_arguments.robot_loading import add_strict, load_robot, print_repairs
@@ -57,13 +58,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     )
     add_macro(parser)
     add_strict(parser, "a second root link")
-    parser.add_argument(
-        "--package-path",
-        action="append",
-        default=[],
-        metavar="DIR",
-        help="search this folder for packages too (repeatable)",
-    )
+    add_package_path(parser)
 
 
 def run(arguments: argparse.Namespace) -> int:

@@ -10,7 +10,7 @@ import gc
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from urdfkit.cli.parser import add_time_limit
+from urdfkit.cli.parser import add_package_path, add_time_limit
 from urdfkit.errors import MissingDependencyError
 
 if TYPE_CHECKING:
@@ -28,13 +28,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
         metavar="NAME",
         help="consumer of the robot, as for `urdfkit lint` (default: guessed from package.xml)",
     )
-    parser.add_argument(
-        "--package-path",
-        action="append",
-        default=[],
-        metavar="DIR",
-        help="search this folder for packages too (repeatable)",
-    )
+    add_package_path(parser)
     add_time_limit(parser)
     parser.add_argument("--stdio", action="store_true", help="use standard input and output (the default)")
 

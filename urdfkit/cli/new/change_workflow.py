@@ -9,6 +9,7 @@ import sys
 from contextlib import nullcontext
 from pathlib import Path
 
+from urdfkit.cli.parser import add_package_path
 from urdfkit.errors import ResourceError, UsageError, did_you_mean
 
 TYPE_CHECKING = False
@@ -31,13 +32,7 @@ def add_description(parser: argparse.ArgumentParser) -> None:
         help="a .urdf or .xacro file or a package folder (default: the working directory)",
     )
     parser.add_argument("--arg", action="append", default=[], metavar="KEY:=VALUE", help="xacro argument (repeatable)")
-    parser.add_argument(
-        "--package-path",
-        action="append",
-        default=[],
-        metavar="DIR",
-        help="search this folder for packages too (repeatable)",
-    )
+    add_package_path(parser)
     parser.add_argument(
         "--sim",
         choices=SIMULATORS,

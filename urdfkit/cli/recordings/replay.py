@@ -4,6 +4,7 @@ import argparse
 from contextlib import ExitStack
 
 from urdfkit.cli.page_options import add_page_options, announce, read_layout
+from urdfkit.cli.parser import add_package_path
 from urdfkit.cli.sim.bridge_options import add_bridges, bridge_options
 
 
@@ -17,13 +18,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
         help="a .urdf or .xacro file, a package folder or a robot name; then key:=value xacro arguments (default: the "
         "robot description in the recording)",
     )
-    parser.add_argument(
-        "--package-path",
-        action="append",
-        default=[],
-        metavar="DIR",
-        help="search this folder for packages too (repeatable)",
-    )
+    add_package_path(parser)
     parser.add_argument(
         "--fixed-frame", metavar="FRAME", help="frame in which everything is shown (default: map or odom)"
     )

@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import sys
 
+from urdfkit.cli.parser import add_package_path
 from urdfkit.cli.robot_arguments.macro_option import add_macro, with_macro
 from urdfkit.cli.robot_arguments.robot_loading import add_strict, load_robot, print_repairs
 from urdfkit.errors import UsageError
@@ -27,13 +28,7 @@ def add_tip(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--base", metavar="LINK", help="the link that poses are expressed in (default: the root link)")
     add_macro(parser)
     add_strict(parser, "a second root link")
-    parser.add_argument(
-        "--package-path",
-        action="append",
-        default=[],
-        metavar="DIR",
-        help="search this folder for packages too (repeatable)",
-    )
+    add_package_path(parser)
 
 
 def announce(message: str) -> None:

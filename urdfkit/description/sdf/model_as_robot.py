@@ -12,6 +12,7 @@ from math import isinf
 
 from urdfkit.description.sdf.model import WorldAxis, WorldJoint, WorldLink, WorldModel
 from urdfkit.description.sdf.shapes import Kept
+from urdfkit.description.urdf.extensions import plugins_in
 from urdfkit.description.urdf.geometry import IDENTITY, between, compose
 from urdfkit.description.urdf.robot import (
     Dynamics,
@@ -22,7 +23,6 @@ from urdfkit.description.urdf.robot import (
     Limit,
     Link,
     Mimic,
-    Plugin,
     Pose,
     Robot,
     SensorTag,
@@ -339,24 +339,20 @@ def _blocks(model: WorldModel, group: Group, prefix: str) -> list[GazeboBlock]:
     for name, _, link in group.links:
         sensors = [kept.element for kept in link.kept if kept.element.tag == "sensor"]
         if sensors:
-            tags = [SensorTag(e.get("name"), e.get("type"), _plugins_in(e), e) for e in sensors]
+            tags = [SensorTag(e.get("name"), e.get("type"), plugins_in(e), e) for e in sensors]
             element = Element("gazebo", {"reference": name[len(prefix) :]}, sensors, "", sensors[0].origin)
             found.append(GazeboBlock(name[len(prefix) :], (), tuple(tags), element))
     if group.first:
         kept = [each.element for each in all_kept(model) if each.element.tag == "plugin"]
         if kept:
             element = Element("gazebo", {}, kept, "", kept[0].origin)
-            found.append(GazeboBlock(None, _plugins_in(element), (), element))
+            found.append(GazeboBlock(None, plugins_in(element), (), element))
     return found
 
 
 def all_kept(model: WorldModel) -> list[Kept]:
     """Return the preserved elements of a model and of its nested models."""
     return [*model.kept, *(kept for nested in model.models for kept in all_kept(nested))]
-
-
-def _plugins_in(element: Element) -> tuple[Plugin, ...]:
-    return tuple([Plugin(e.get("name"), e.get("filename"), e) for e in element.find_all("plugin")])
 
 
 def _element(tag: str, position: Position | None) -> Element:

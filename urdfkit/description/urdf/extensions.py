@@ -35,8 +35,8 @@ def gazebo_block(reader: Reader, element: Element) -> GazeboBlock:
     for child in element.children:
         if child.tag in GAZEBO_VALUES:
             reader.check_gazebo_value(child)
-    sensors = [SensorTag(e.get("name"), e.get("type"), _plugins(e), e) for e in element.find_all("sensor")]
-    return GazeboBlock(element.get("reference"), _plugins(element), tuple(sensors), element)
+    sensors = [SensorTag(e.get("name"), e.get("type"), plugins_in(e), e) for e in element.find_all("sensor")]
+    return GazeboBlock(element.get("reference"), plugins_in(element), tuple(sensors), element)
 
 
 def ros2_control(element: Element) -> Ros2Control:
@@ -44,7 +44,8 @@ def ros2_control(element: Element) -> Ros2Control:
     return Ros2Control(element.get("name"), element.get("type"), element)
 
 
-def _plugins(element: Element) -> tuple[Plugin, ...]:
+def plugins_in(element: Element) -> tuple[Plugin, ...]:
+    """Return the ``<plugin>`` children of an element."""
     return tuple([Plugin(e.get("name"), e.get("filename"), e) for e in element.find_all("plugin")])
 
 

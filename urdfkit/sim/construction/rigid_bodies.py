@@ -15,9 +15,10 @@ from urdfkit.description.urdf.robot import Geometry, Mesh, Pose
 from urdfkit.errors import SimulationError
 from urdfkit.linear_algebra import Array, inverse_placement, matmul
 from urdfkit.scene import MeshLoader, Scene, Shape
-from urdfkit.scene.colors import DEFAULT, GAZEBO
+from urdfkit.scene.colors import DEFAULT
 from urdfkit.scene.pose_matrices import pose_matrix, upright
 from urdfkit.scene.scene_table import Role
+from urdfkit.scene.world_shapes import color_of
 from urdfkit.sim.construction.primitive_hulls import hull_of
 from urdfkit.sim.construction.validation import impossible
 from urdfkit.sim.engine import Body, Piece, Surface
@@ -246,11 +247,6 @@ def touchable(link: WorldLink) -> Iterator[WorldShape]:
             yield shape
 
 
-def _color(shape: WorldShape) -> tuple[float, float, float, float] | None:
-    rgba = shape.rgba or GAZEBO.get(shape.material.removeprefix("Gazebo/"))
-    return None if rgba is None else (*rgba[:3], rgba[3] * (1.0 - shape.transparency))
-
-
 def _piece(shape: WorldShape, frame: Array, name: str, meshes: MeshLoader) -> Piece:
     return Piece(_shape(shape, shape.name, name, "collision", frame, meshes), _surface(shape))
 
@@ -270,7 +266,7 @@ def _shape(shape: WorldShape, name: str, body: str, role: Role, frame: Array, me
         mesh, geometry = hull_of(geometry), Mesh("")
     elif isinstance(geometry, Mesh):
         mesh = meshes.load(Path(shape.file), geometry.scale)
-    rgba = _color(shape) if role == "visual" else None
+    rgba = color_of(shape) if role == "visual" else None
     return Shape(
         name, body, role, cast("Geometry", geometry), placement, rgba or DEFAULT, rgba is not None, mesh,
         shape.laser_retro,

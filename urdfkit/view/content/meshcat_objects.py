@@ -1,6 +1,7 @@
 """Scene → meshcat objects at ``/robot/links/<link>/{visual,collision}/<n>``."""
 
 import warnings
+from collections.abc import Iterable
 from typing import Any
 
 import numpy as np
@@ -72,11 +73,25 @@ def draw(scene: Scene, window: Any, geometries: GeometryStore) -> None:
         window: receives meshcat commands by ``send``.
         geometries: receives the meshes; meshes of the previous scene are removed.
     """
-    used = set()
     root = meshcat.Visualizer.view_into(window, meshcat.path.Path())
     root["robot"].delete()
+    geometries.keep_only(draw_shapes(scene.shapes, root, geometries))
+
+
+def draw_shapes(shapes: Iterable[Shape], root: Any, geometries: GeometryStore) -> set[str]:
+    """Send shapes, below their links.
+
+    Args:
+        shapes: the shapes to add to the scene.
+        root: meshcat's visualizer.
+        geometries: receives the meshes.
+
+    Returns:
+        The names of the meshes.
+    """
+    used = set()
     counts: dict[str, int] = {}
-    for shape in scene.shapes:
+    for shape in shapes:
         where = f"{link_path(shape.body)}/{shape.role}"
         number = counts[where] = counts.get(where, -1) + 1
         geometry, inner = geometry_of(shape, geometries)
@@ -87,7 +102,7 @@ def draw(scene: Scene, window: Any, geometries: GeometryStore) -> None:
         node = root[f"{where.lstrip('/')}/{number}"]
         node.set_object(geometry, material(shape))
         node.set_transform(np.asarray(shape.placement, dtype=float) @ inner)
-    geometries.keep_only(used)
+    return used
 
 
 def geometry_of(shape: Shape, geometries: GeometryStore) -> tuple[Any, NDArray[np.float64]]:

@@ -3,11 +3,9 @@
 from collections.abc import Iterable, Sequence
 from typing import Any
 
-import numpy as np
-
 from urdfkit.scene import Shape
 from urdfkit.view.content.mesh_store import GeometryStore
-from urdfkit.view.content.meshcat_objects import SharedGeometry, geometry_of, link_path, material
+from urdfkit.view.content.meshcat_objects import SharedGeometry, draw_shapes, geometry_of, link_path
 
 
 def draw_more(
@@ -26,16 +24,7 @@ def draw_more(
     root = meshcat.Visualizer.view_into(window, meshcat.path.Path())
     for body in instead_of:
         root[link_path(body).lstrip("/")].delete()
-    counts: dict[str, int] = {}
-    for shape in shapes:
-        where = f"{link_path(shape.body)}/{shape.role}"
-        number = counts[where] = counts.get(where, -1) + 1
-        geometry, inner = geometry_of(shape, geometries)
-        if geometry is None:
-            continue
-        node = root[f"{where.lstrip('/')}/{number}"]
-        node.set_object(geometry, material(shape))
-        node.set_transform(np.asarray(shape.placement, dtype=float) @ inner)
+    draw_shapes(shapes, root, geometries)
 
 
 def forget_others(shapes: Iterable[Shape], geometries: GeometryStore) -> None:

@@ -12,7 +12,6 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from tornado.httpserver import HTTPServer
 from tornado.web import Application
 
 from urdfkit.network.access_control import LOOPBACK_NAMES, AccessControl, is_loopback
@@ -285,7 +284,7 @@ class Server:
         finally:
             self._loop.run_until_complete(self._close(http))
 
-    async def _open(self) -> HTTPServer:
+    async def _open(self) -> LimitedHTTPServer:
         app: Application = application(self)
         http = LimitedHTTPServer(
             app,
@@ -297,14 +296,8 @@ class Server:
         http.add_socket(self._socket)
         return http
 
-    async def _close(self, http: HTTPServer) -> None:
-        http.stop()
-        tasks = [task for task in asyncio.all_tasks() if task is not asyncio.current_task()]
-        with contextlib.suppress(TimeoutError, asyncio.TimeoutError):
-            await asyncio.wait_for(http.close_all_connections(), timeout=1.0)
-        for task in tasks:
-            task.cancel()
-        await asyncio.gather(*tasks, return_exceptions=True)
+    async def _close(self, http: LimitedHTTPServer) -> None:
+        await http.close()
         await asyncio.get_running_loop().shutdown_default_executor()  # threads that packed meshes
 
 
