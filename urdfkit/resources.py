@@ -198,7 +198,7 @@ def _find(word: str) -> Path:
 def no_path(word: str) -> str | None:
     """Return why a word names no file or folder; None if it may name one."""
     if not word:
-        return "the name of the robot is empty; name a file, a package folder or a robot"
+        return "the name of the robot is empty; pass a file, a package folder or a robot name"
     if (uri := _URI.match(word)) is not None:
         advice = "download it, and name the file" if uri[1].startswith("http") else "name the file by its path"
         return f"{word} is a URI, not a path; {advice}"

@@ -25,7 +25,7 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 @pytest.mark.parametrize(
     ("name", "message"),
     [
-        ("", "the name of the robot is empty; name a file, a package folder or a robot"),
+        ("", "the name of the robot is empty; pass a file, a package folder or a robot name"),
         ("https://e.org/r.urdf", "https://e.org/r.urdf is a URI, not a path; download it, and name the file"),
         ("package://a/r.urdf", "package://a/r.urdf is a URI, not a path; name the file by its path"),
         ("lost.urdf", "lost.urdf is a symbolic link to gone.urdf, which does not exist or leads back to the link"),

@@ -19,8 +19,8 @@ def add_terminal(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--terminal",
         action=argparse.BooleanOptionalAction,
-        help="drive by the keys of this terminal, those of teleop_twist_keyboard, and open no browser "
-        "(default: where there is no browser to open)",
+        help="drive with the keys of teleop_twist_keyboard in this terminal, without a browser "
+        "(default: if no browser can be opened)",
     )
 
 

@@ -63,7 +63,7 @@ def updated_srdf(old: str, matrix: CollisionMatrix, file: str) -> str:
         DescriptionError: the text has no ``</robot>``, or is a URDF.
     """
     if "</robot>" in old and _URDF.search(_COMMENT.sub("", old)):
-        raise DescriptionError(f"{file} is a URDF, not an SRDF; it is left as it is")
+        raise DescriptionError(f"{file} is a URDF, not an SRDF; it was not changed")
     hidden = [match.span() for match in _COMMENT.finditer(old)]
     found = [match for match in _OURS.finditer(old) if not any(a <= match.start() < b for a, b in hidden)]
     kept = old

@@ -263,7 +263,7 @@ def test_a_texture_that_is_not_there_is_named_once(post, tmp_path, content, why:
         (camera(width=99999, height=99999), "a picture of 99999 × 99999 pixels cannot be rendered"),
         (camera(fov=3.5), "<horizontal_fov> is 3.5 rad; it must be between 0 and π"),
         (camera(near=2, far=1), "the range of the camera, 2 m to 1 m, is empty"),
-        ("", "a camera lacks its <camera>"),
+        ("", "a camera sensor has no <camera>"),
     ],
 )
 def test_a_camera_that_makes_no_sense_is_left_out_by_name(post, inside: str, reported: str) -> None:

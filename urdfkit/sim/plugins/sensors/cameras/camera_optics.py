@@ -76,7 +76,7 @@ def cameras_of(sensor: SensorTag) -> list[Element]:
     """
     found = [child for child in sensor.element.children if child.tag == "camera"]
     if not found:
-        raise SimulationError("a camera lacks its <camera>", position=sensor.element.origin.position)
+        raise SimulationError("a camera sensor has no <camera>", position=sensor.element.origin.position)
     return found
 
 
