@@ -10,7 +10,7 @@ import tempfile
 from pathlib import Path
 
 PROGRAM = "from urdfkit.sim.engine.kernel_cache import main; main({!r})"
-"""What the process runs."""
+"""Program of the process, with the name of a kernel."""
 
 
 class CompilingProcess:

@@ -94,7 +94,7 @@ class InterpretedKernel:
         return done
 
     def _take_over(self, process: Compiling) -> None:
-        """Use the compiled kernel; go on without it if the process has failed."""
+        """Use the compiled kernel, or keep interpreting if the process has failed."""
         fault = process.fault
         self.close()
         if fault is not None:
