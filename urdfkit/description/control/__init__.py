@@ -3,7 +3,8 @@
 Input: a robot and its packages; output: settings with their source positions.
 """
 
-from urdfkit.description.control.parameter_yaml import Settings, node_settings, read_settings
+from urdfkit.description.control.parameter_yaml import node_settings, read_settings
 from urdfkit.description.control.ros1_controllers import Configuration, find_configuration
+from urdfkit.description.control.settings import Settings
 
 __all__ = ["Configuration", "Settings", "find_configuration", "node_settings", "read_settings"]

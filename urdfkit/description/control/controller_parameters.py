@@ -1,6 +1,6 @@
 """Parameters of controllers of ros_controllers and ros2_controllers."""
 
-from urdfkit.description.control.parameter_yaml import Settings
+from urdfkit.description.control.settings import Settings
 
 ALWAYS = ("type", "update_rate", "use_sim_time", "is_async", "async_parameters", "params_file", "publish_rate", "pid")
 """Parameters that controllers of every type have."""

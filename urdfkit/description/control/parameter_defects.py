@@ -9,7 +9,7 @@ TYPE_CHECKING = False
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence
 
-    from urdfkit.description.control.parameter_yaml import Settings
+    from urdfkit.description.control.settings import Settings
 
 _NUMBERS = (
     *("state_publish_rate", "action_monitor_rate", "stop_trajectory_duration", "publish_rate", "cmd_vel_timeout"),

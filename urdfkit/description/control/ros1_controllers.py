@@ -14,8 +14,9 @@ from __future__ import annotations
 from contextlib import suppress
 from pathlib import Path
 
-from urdfkit.description.control.parameter_yaml import Settings, read_settings
+from urdfkit.description.control.parameter_yaml import read_settings
 from urdfkit.description.control.ros1_launch import Launch, read_launch
+from urdfkit.description.control.settings import Settings
 from urdfkit.description.packages.resolver import Packages
 from urdfkit.description.urdf.robot import Robot
 from urdfkit.description.xml.reader import shown_path

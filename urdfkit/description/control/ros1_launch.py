@@ -5,7 +5,8 @@ from __future__ import annotations
 import re
 from pathlib import Path
 
-from urdfkit.description.control.parameter_yaml import Settings, parse_settings, read_settings
+from urdfkit.description.control.parameter_yaml import parse_settings, read_settings
+from urdfkit.description.control.settings import Settings
 from urdfkit.description.packages.existence import is_file
 from urdfkit.description.packages.resolver import Packages
 from urdfkit.description.xml.element import Element

@@ -1,6 +1,7 @@
 """Controllers that a controller manager of ROS 2 loads."""
 
-from urdfkit.description.control.parameter_yaml import Settings, node_settings
+from urdfkit.description.control.parameter_yaml import node_settings
+from urdfkit.description.control.settings import Settings
 
 
 def configured_controllers(root: Settings, namespace: str, manager: Settings) -> dict[str, Settings]:

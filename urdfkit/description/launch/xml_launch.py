@@ -12,7 +12,7 @@ TYPE_CHECKING = False
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from urdfkit.description.control.parameter_yaml import Settings
+    from urdfkit.description.control.settings import Settings
 
 _SUBSTITUTION = re.compile(r"\$\(\s*([\w-]+)([^$()]*)\)")
 _COMMAND = re.compile(r"\$\(\s*command\s+(?:'([^']*)'|\"([^\"]*)\"|([^'\"].*)\))", re.DOTALL)
