@@ -2,11 +2,21 @@
 
 import pytest
 
+from tests.bench.fuzz import seed_files
 from tests.bench.fuzz.families import FAMILIES, PREPARATIONS
 from tests.bench.fuzz.runner import outcome
 
 CASES = {"frames": 1}
 """Family → cases, 10 of the others."""
+
+
+@pytest.fixture(autouse=True)
+def own_files(monkeypatch):
+    """Start from files of this project only, so that a seed is the same case on every machine."""
+    monkeypatch.setattr(seed_files, "FOLDERS", seed_files.OWN)
+    seed_files.seeds.cache_clear()
+    yield
+    seed_files.seeds.cache_clear()
 
 
 @pytest.mark.filterwarnings("ignore")

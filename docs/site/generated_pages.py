@@ -10,6 +10,7 @@ import inspect
 import logging
 import re
 import subprocess
+import sys
 from collections.abc import Iterator
 from importlib import import_module
 from pathlib import Path
@@ -57,7 +58,7 @@ def on_page_markdown(markdown: str, *, page: Page, **_: Any) -> str:
 def on_post_build(**_: Any) -> None:
     """Report misspelt words as warnings, which fail a strict build."""
     lines = [f"{name}: {line}" for name, text in _PROSE.items() for line in text.splitlines()]
-    command = ["codespell", "--ignore-words-list", ",".join(ALLOWED_WORDS), "-"]
+    command = [sys.executable, "-m", "codespell_lib", "--ignore-words-list", ",".join(ALLOWED_WORDS), "-"]
     done = subprocess.run(command, input="\n".join(lines), capture_output=True, text=True, check=False)
     for line in filter(None, map(str.strip, (done.stdout + done.stderr).splitlines())):
         LOG.warning("spelling: %s", line)

@@ -35,7 +35,12 @@ CAPSULE = (
 )
 TURN = 'quat_xyzw="0 0 0.6 0.8"'
 CASES = {
-    "zero": (('version="1.2"', "", 'quat_xyzw="0 0 0 0"', LIMIT), "E024", 8, "is no rotation; it is read as 0 0 0 1"),
+    "zero": (
+        ('version="1.2"', "", 'quat_xyzw="0 0 0 0"', LIMIT),
+        "E024",
+        8,
+        "is not a rotation; it is read as",
+    ),
     "quaternion": (("", "", TURN, LIMIT), "E021", 8, "`quat_xyzw` needs URDF 1.1, but the robot is URDF 1.0; it is"),
     "1.0": (('version="1.0"', "", TURN, LIMIT), "E021", 8, "needs URDF 1.1"),
     "capsule": (("", CAPSULE, "", LIMIT), "E021", 5, "<capsule> needs URDF 1.1"),

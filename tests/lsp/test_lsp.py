@@ -218,7 +218,7 @@ def test_renaming_changes_every_place_and_nothing_else(cart, mark, name, words):
 @pytest.mark.parametrize(
     ("file", "mark", "name", "message"),
     [
-        ("cart.urdf.xacro", "<leftJoint>left|_joint<", "l", "made by the expression `${side}_joint`"),
+        ("cart.urdf.xacro", "<leftJoint>left|_joint<", "l", "computed by the expression `${side}_joint`"),
         ("cart.urdf.xacro", '<link name="ma|st"/>', "base", "link `base` already exists"),
         ("cart.urdf.xacro", '<link name="ma|st"/>', 'a"b', "is not a valid name for a link"),
         ("cart.urdf.xacro", "<?xml ver|sion", "x", "nothing to rename here"),

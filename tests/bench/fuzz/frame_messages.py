@@ -68,6 +68,16 @@ def sim_messages(simulator: Simulator, server: Server) -> list[dict[str, Any]]:
             "gains": [{"path": f"{robot}/joint1", "p": 10.0, "i": 0.1, "d": 1.0, "clamp": 5.0}],
             "push": [push],
             "release": [{}],
+            "services": [{}],
+            "service_type": [{"service": "/pause_physics"}],
+            "call_service": [
+                {"service": "/get_simulation_state", "request": {}},
+                {"service": "/spawn_entity", "request": {"name": "x"}},
+            ],
+            "actions": [{}],
+            "send_goal": [{"action": "/arm/follow_joint_trajectory", "goal": {"trajectory": {"joint_names": ["a"]}}}],
+            "goal_state": [{"goal": 1}],
+            "cancel_goal": [{"goal": 1}],
             "record": [{"on": True, "topics": True, "pictures": False}, {"on": False}],
             "replay": [
                 {"action": "pause"},

@@ -8,7 +8,8 @@ from pathlib import Path
 from urdfkit.description.packages.related_files import package_of
 
 ROOT = Path(__file__).parents[3]
-FOLDERS = (ROOT / "robots", ROOT / "urdfkit", ROOT / "templates", ROOT / "tests", ROOT.parent / "shared" / "corpus")
+OWN = (ROOT / "robots", ROOT / "urdfkit", ROOT / "templates", ROOT / "tests")
+FOLDERS = (*OWN, ROOT.parent / "shared" / "corpus")
 MAX_BYTES = 100_000
 
 

@@ -317,7 +317,7 @@ def test_unknown_names_and_wrong_actions_are_refused() -> None:
         batch.step([[0.0, 0.0], [0.0, np.inf]])
     with pytest.raises(UsageError, match="invalid number of steps `-1`"):
         batch.step(None, -1)
-    with pytest.raises(UsageError, match=r"type int64, shape \(2,\)"):
+    with pytest.raises(UsageError, match=r"type int64 and shape \(2,\)"):
         batch.reset([0, 1])
 
 

@@ -93,7 +93,7 @@ def test_it_takes_one_position(rig: Callable[..., Rig]) -> None:
     made.send(0.1, 0.2)
     made.simulator.run(0.5)
     assert made.results == []
-    assert any("takes one position, not 2" in note for note in made.notes)
+    assert any("accepts one position, not 2" in note for note in made.notes)
     assert made.elbow == pytest.approx(0.0, abs=1e-6)
 
 

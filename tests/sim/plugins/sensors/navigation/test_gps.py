@@ -114,4 +114,4 @@ def test_noise_is_in_metres(drone) -> None:
 def test_a_world_that_lies_nowhere_is_remarked_on(drone) -> None:
     notes: list[str] = []
     drone(gps(ROS_2), world='<sdf version="1.9"><world name="w"/></sdf>', note=notes.append)
-    assert any("no <spherical_coordinates>; GPS `g` takes its origin for" in note for note in notes)
+    assert any("no <spherical_coordinates>; GPS `g` uses latitude and longitude zero" in note for note in notes)
