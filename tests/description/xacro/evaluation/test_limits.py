@@ -30,7 +30,7 @@ def test_an_expression_that_grows_is_refused(write: Write, expression: str) -> N
     start = time.process_time()
     with pytest.raises(UrdfkitError) as caught:
         evaluated(path)
-    assert time.process_time() - start < 10
+    assert time.process_time() - start < FINITE
     assert str(caught.value).startswith("m.xacro:2:3: ")
     assert "\n" not in str(caught.value)
 
@@ -41,6 +41,9 @@ def _macros(count: int, body: str) -> str:
 
 KEYS = ", ".join(f"k{key}: 1" for key in range(700))
 MERGES = f"base: &base {{{KEYS}}}\n" + "".join(f"a{number}: {{<<: *base}}\n" for number in range(700))
+FINITE = 60.0
+"""CPU seconds that no refusal needs, on any machine. Without its limits, a hostile file takes hours."""
+
 HOSTILE = {
     "recursion": (
         '<xacro:macro name="m" params="a"><xacro:m a="1"/></xacro:macro><xacro:m a="1"/>',
@@ -99,7 +102,7 @@ def test_a_hostile_file_is_refused(write: Write, name: str) -> None:
     start = time.process_time()
     with pytest.raises(UrdfkitError, match=cause):
         evaluated(path)
-    assert time.process_time() - start < 10
+    assert time.process_time() - start < FINITE
 
 
 def test_recovery_spends_no_more_on_files_that_are_refused(write: Write) -> None:
@@ -107,7 +110,7 @@ def test_recovery_spends_no_more_on_files_that_are_refused(write: Write) -> None
     path = write("m.xacro", "HEAD" + "<l a=\"${xacro.load_yaml('deep.yaml')}\"/>" * 1000 + "</robot>")
     start = time.process_time()
     assert "nested too deep" in expand_leniently(path).faults[0].message
-    assert time.process_time() - start < 10
+    assert time.process_time() - start < FINITE
 
 
 def test_a_file_in_a_folder_without_permission_cannot_be_read(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -133,5 +136,5 @@ def test_many_undefined_names_take_linear_time(definition: str, use: str, write:
     text = "\n".join([*(definition.format(k) for k in names), *(use.format(k) for k in names)])
     start = time.process_time()
     found = expand_leniently(write("m.xacro", f"HEAD\n{text}</robot>"))
-    assert time.process_time() - start < 10
+    assert time.process_time() - start < FINITE
     assert len(found.faults) >= len(names)
