@@ -30,6 +30,20 @@ def test_permissions_and_links_are_kept(tmp_path):
     assert path.stat().st_mode & 0o777 == 0o754
 
 
+def test_a_pipe_and_a_device_stay_what_they_are(tmp_path):
+    pipe = tmp_path / "pipe"
+    os.mkfifo(pipe)
+    with subprocess.Popen(["cat", str(pipe)], stdout=subprocess.PIPE) as reader:
+        write_bytes(pipe, b"x" * 100_000)
+        assert reader.communicate()[0] == b"x" * 100_000
+    assert pipe.is_fifo()
+    write_bytes(Path("/dev/null"), b"1")
+    assert Path("/dev/null").is_char_device()
+    with pytest.raises(ResourceError, match=r"cannot write /dev/full: No space left on device"):
+        write_bytes(Path("/dev/full"), b"1")
+    assert Path("/dev/full").is_char_device()
+
+
 def test_new_files_follow_the_umask(tmp_path):
     before = os.umask(0o027)
     try:

@@ -27,7 +27,7 @@ _MOVES = ".urdfkit-moves"
 def write_text(path: Path, text: str) -> None:
     r"""Replace the contents of a file, or leave it as it was.
 
-    The permissions of an existing file are kept, a symbolic link stays one, and line ends are written as given
+    The permissions of an existing file are kept, a symbolic link, device or pipe stays one, and line ends are written as given
     (``\n`` is not translated).
 
     Args:
@@ -51,6 +51,13 @@ def write_bytes(path: Path, content: bytes) -> None:
         ResourceError: it cannot be written.
     """
     target = path.resolve()
+    if target.exists() and not target.is_file() and not target.is_dir():  # a device or a named pipe stays one
+        try:
+            with target.open("wb") as file:
+                file.write(content)
+        except OSError as error:
+            raise ResourceError(f"cannot write {path}: {error.strerror}") from error
+        return
     temporary: str | None = None
     clean_up(target.parent)
     with undisturbed():

@@ -30,7 +30,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
         "examples:\n"
         "  urdfkit retime seven_dof_arm waypoints.csv --acceleration 3 -o motion.csv\n"
         "  urdfkit retime arm.urdf waypoints.csv --acceleration 3,elbow=2 --jerk 30\n"
-        "  urdfkit sim run seven_dof_arm --trajectory motion.csv"
+        "  urdfkit sim run seven_dof_arm --trajectory motion.csv --for 4"
     )
     parser.add_argument(
         "words",
