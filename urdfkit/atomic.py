@@ -27,8 +27,8 @@ _MOVES = ".urdfkit-moves"
 def write_text(path: Path, text: str) -> None:
     r"""Replace the contents of a file, or leave it as it was.
 
-    The permissions of an existing file are kept, a symbolic link, device or pipe stays one, and line ends are written as given
-    (``\n`` is not translated).
+    The permissions of an existing file are kept; a symbolic link, device or pipe stays one; line ends are written as
+    given (``\n`` is not translated).
 
     Args:
         path: the file; its folder must exist.

@@ -93,7 +93,7 @@ def _row(repair: Repair, number: int, source: Callable[[str], Source | None]) ->
         "chains": [],
         "fix": None,
         "number": number,
-        "lines": [] if at is None or text is None else [text.line(at.line)],
+        "lines": [] if at is None or text is None else [text.excerpt(at.line, at.column)],
         "about": [],
     }
 

@@ -38,6 +38,17 @@ def test_spans_end_after_their_last_character() -> None:
     assert (span.file, span.line, span.column, span.end_line, span.end_column) == ("f", 2, 2, 3, 5)
 
 
+def test_of_a_long_line_the_part_around_a_column_is_shown() -> None:
+    source = Source("r.urdf", f"short\r\n{'a' * 1000}b{'c' * 1000}\n")
+    assert source.excerpt(1, 3) == "short"
+    assert source.part_of_line(1, 3, 10) == ("short", 1)
+    assert source.excerpt(2, 1001) == f"…{'a' * 400}b{'c' * 399}…"
+    assert source.part_of_line(2, 1001, 2) == ("aabc", 999)
+    assert source.excerpt(2, 1) == f"{'a' * 400}…"
+    assert source.excerpt(2, 2001) == f"…{'c' * 401}"
+    assert source.excerpt(9, 1) == ""
+
+
 def test_a_text_of_one_line_gets_line_feeds() -> None:
     assert Source("f", "<a/>").line_end == "\n"
 

@@ -180,7 +180,8 @@ def _lines(source: Source | None, span: Span) -> list[str]:
     if source is None:
         return []
     last = max(span.line, span.end_line - (span.end_column == 1))
-    return [source.line(number) for number in range(span.line, min(last, span.line + LINES - 1) + 1)]
+    numbers = range(span.line, min(last, span.line + LINES - 1) + 1)
+    return [source.excerpt(number, span.column if number == span.line else 1) for number in numbers]
 
 
 def _difference(fix: Fix, outcome: Outcome) -> list[str]:

@@ -46,6 +46,10 @@ _WIDE = {
 """First bytes of an XML file in UTF-32 or UTF-16 → its encoding."""
 
 
+LONG = 400
+"""Characters on each side of a column that `Source.excerpt` shows."""
+
+
 @record(order=True)
 class Span:
     """A range of one file, from `line`:`column` to `end_line`:`end_column` (exclusive)."""
@@ -160,6 +164,27 @@ class Source:
         start = self.line_starts[number - 1]
         end = self.line_starts[number] if number < len(self.line_starts) else len(self.text)
         return self.text[start:end].rstrip("\r\n")
+
+    def part_of_line(self, number: int, column: int, reach: int) -> tuple[str, int]:
+        """Return the part of line `number` within `reach` characters of a column, and the column where it begins.
+
+        In a file written on one line, this takes no time that grows with the file.
+        """
+        if not 1 <= number <= len(self.line_starts):
+            return "", 1
+        start = self.line_starts[number - 1]
+        end = self.line_starts[number] if number < len(self.line_starts) else len(self.text)
+        while end > start and self.text[end - 1] in "\r\n":
+            end -= 1
+        at = start + column - 1
+        first = max(start, at - reach)
+        return self.text[first : min(end, at + reach)], first - start + 1
+
+    def excerpt(self, number: int, column: int = 1) -> str:
+        """Return line `number` for display; of a long line, the part around a column, with ``…`` for the rest."""
+        text, first = self.part_of_line(number, column, LONG)
+        is_cut = len(self.part_of_line(number, column, LONG + 1)[0]) - len(text) > (first > 1)
+        return f"{'…' * (first > 1)}{text}{'…' * is_cut}"
 
     @cached_property
     def line_end(self) -> str:

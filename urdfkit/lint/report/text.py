@@ -82,12 +82,13 @@ class TextReport:
 
     def _excerpt(self, finding: Finding) -> list[str]:
         source = self.sources.get(finding.file)
-        line = source.line(finding.line) if source is not None else ""
+        span = finding.span
+        line, first = source.part_of_line(span.line, span.column, 4 * _LONG) if source is not None else ("", 1)
         if not line.strip():
             return []
-        span = finding.span
-        end = span.end_column if span.end_line == span.line else len(line.rstrip()) + 1
-        before, marked = line[: span.column - 1], line[span.column - 1 : max(end, span.column + 1) - 1]
+        column = span.column - first + 1
+        end = span.end_column - first + 1 if span.end_line == span.line else len(line.rstrip()) + 1
+        before, marked = line[: column - 1], line[column - 1 : max(end, column + 1) - 1]
         shown = re.sub(_CONTROL, "\ufffd", line.rstrip().replace("\t", _TAB))
         start, length = _columns(before), max(_columns(marked), 1)
         number = str(span.line)

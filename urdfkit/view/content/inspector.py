@@ -66,7 +66,8 @@ def excerpts() -> Callable[[Element], dict[str, Any]]:
         text = source(at.file)
         span = element_span(text, at) if text is not None else None
         last = at.line if span is None else min(span.end_line, at.line + LINES - 1)
-        lines = [text.line(number) for number in range(at.line, last + 1)] if text is not None else []
+        numbers = range(at.line, last + 1) if text is not None else ()
+        lines = [text.excerpt(each, at.column if each == at.line else 1) for each in numbers if text is not None]
         return {
             "file": at.file,
             "line": at.line,
