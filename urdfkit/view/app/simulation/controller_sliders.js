@@ -8,7 +8,7 @@ const MANY = 4; // controllers with more joints than this are collapsed
 const PERIOD = 60; // ms between two commands while a slider is dragged
 
 export function arms(page) {
-  const panel = page.panels.add({ id: "arms", title: "Arms", icon: ARM, modes: ["sim"], order: 15 });
+  const panel = page.panels.add({ id: "arms", title: "Arms", icon: ARM, modes: ["sim"], order: 11 });
   page.panels.available("arms", false);
   const rows = new Map(); // controller → joint → row
   const unfolded = new Map(); // controller → whether the user has expanded or collapsed it
