@@ -119,7 +119,7 @@ def test_what_is_shown_can_be_chosen(arm_served, visits, keep, until) -> None:
     assert page.evaluate(shown, "visual")
     assert not page.evaluate(shown, "collision")
     page.get_by_role("button", name="Show", exact=True).click()
-    page.get_by_label("Collision").check()
+    page.get_by_role("checkbox", name="Collision", exact=True).check()
     page.get_by_label("Visual").uncheck()
     assert page.evaluate(shown, "collision")
     assert not page.evaluate(shown, "visual")
