@@ -4,7 +4,7 @@ import { h, icon } from "./dom.js";
 import { PanelPlaces } from "./panel_places.js";
 
 const PIN = "M9 3h6l-1 6 4 4v2H6v-2l4-4zM12 15v6";
-const SETTLE = 800; // ms within which an opened panel receives its content
+const SETTLE = 5000; // ms within which an opened panel receives its content
 const CLOSE = "M6 6l12 12M18 6L6 18";
 
 /** One panel. Its content goes into `body`; `badge` shows a count on the rail. */
