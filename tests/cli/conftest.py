@@ -187,7 +187,8 @@ def lab_page(lab_served: Served, lab_visits: Visits, until: Callable[..., object
         opened = lab_visits.open(lab_served.url)
     else:
         opened = lab_visits.contexts[0].pages[0]
-        opened.evaluate("localStorage.clear()")
+        # The page must not save its layout again before it is left.
+        opened.evaluate("Storage.prototype.setItem = () => {}; localStorage.clear()")
         opened.goto(f"{lab_served.origin}/")
         opened.wait_for_selector(READY)
     opened.get_by_role("button", name="Zero all").click()
