@@ -159,11 +159,7 @@ class Source:
 
     def line(self, number: int) -> str:
         """Return line `number` (from 1) without its line ending; empty if the line does not exist."""
-        if not 1 <= number <= len(self.line_starts):
-            return ""
-        start = self.line_starts[number - 1]
-        end = self.line_starts[number] if number < len(self.line_starts) else len(self.text)
-        return self.text[start:end].rstrip("\r\n")
+        return self.part_of_line(number, 1, len(self.text))[0]
 
     def part_of_line(self, number: int, column: int, reach: int) -> tuple[str, int]:
         """Return the part of line `number` within `reach` characters of a column, and the column where it begins.
@@ -183,7 +179,8 @@ class Source:
     def excerpt(self, number: int, column: int = 1) -> str:
         """Return line `number` for display; of a long line, the part around a column, with ``…`` for the rest."""
         text, first = self.part_of_line(number, column, LONG)
-        is_cut = len(self.part_of_line(number, column, LONG + 1)[0]) - len(text) > (first > 1)
+        end = self.offset(number, first + len(text))
+        is_cut = bool(self.text[end : end + 1].strip("\r\n"))
         return f"{'…' * (first > 1)}{text}{'…' * is_cut}"
 
     @cached_property
