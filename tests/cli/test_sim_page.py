@@ -101,6 +101,20 @@ def look_from_above(page, distance: float = 7.0) -> None:
     drawn(page)
 
 
+def test_a_change_of_the_model_leaves_no_pose_frame_unacknowledged(page) -> None:
+    """The server waits while too many frames are not acknowledged: the robot would stand still for ever."""
+    waits = page.evaluate(
+        """() => {
+          const { scene } = urdfkit, frame = new ArrayBuffer(16);
+          new DataView(frame).setUint8(1, scene.model + 1);
+          scene.poses(frame, () => undefined);
+          scene.use(urdfkit.page.model);
+          return scene.pending === frame;
+        }"""
+    )
+    assert waits
+
+
 def test_step_and_speed(page, keep, until) -> None:
     page.get_by_role("button", name="Pause").click()
     until(lambda: page.locator("#rtf").inner_text() == "paused")

@@ -253,7 +253,7 @@ export class Scene {
     this.linkOf = new Map(this.nodes.map((node, i) => [node, names[i]]));
     // Names of links have no slash; names of world bodies do.
     this.own = this.nodes.filter((_, i) => !model.nodes[i].includes("/world%2F"));
-    this.pending = this.placed = null;
+    this.placed = null; // a pending frame of the model before is acknowledged all the same, or no other would follow
     for (const name of this.meshes.keys()) this.used.has(name) || this.meshes.delete(name);
   }
 
