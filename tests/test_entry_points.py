@@ -33,6 +33,7 @@ def test_loading(tmp_path, monkeypatch):
 
     assert load("x") == [os.path.join]
     assert [entry.name for entry in entry_points("y")] == ["broken", "name"]
+    assert [entry.name for entry in entry_points("x", "y")] == ["broken", "name", "name"]
     with pytest.raises(ResourceError, match=r"a-1\.dist-info: entry point broken = json:nothing: module 'json' has no"):
         load("y")
     assert EntryPoint("a", "b:c", "d") < EntryPoint("b", "a:c", "d")

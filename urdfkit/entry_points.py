@@ -18,6 +18,9 @@ if TYPE_CHECKING:
     from collections.abc import Iterable
     from typing import Any
 
+PLUGIN_GROUPS = ("urdfkit.drives", "urdfkit.sensors", "urdfkit.controllers")
+"""Groups of classes that simulate Gazebo plugins."""
+
 
 @record(order=True)
 class EntryPoint:
@@ -49,19 +52,19 @@ class EntryPoint:
         return found
 
 
-def entry_points(group: str, path: Iterable[str] | None = None) -> list[EntryPoint]:
-    """Return the entry points of a group, sorted by name.
+def entry_points(*groups: str, path: Iterable[str] | None = None) -> list[EntryPoint]:
+    """Return the entry points of groups, sorted by name.
 
     Args:
-        group: e.g. ``urdfkit.rules``.
+        groups: e.g. ``urdfkit.rules``.
         path: folders to search for installed packages; ``sys.path`` when None.
     """
-    found: dict[str, EntryPoint] = {}
+    found: dict[tuple[str, str], EntryPoint] = {}
     for folder in sys.path if path is None else path:
         for name in _distributions(folder or os.curdir):
             file = f"{folder or os.curdir}/{name}/entry_points.txt"
-            for entry in _read(file, group, name):
-                found.setdefault(entry.name, entry)
+            for group, entry in _read(file, groups, name):
+                found.setdefault((group, entry.name), entry)
     return sorted(found.values())
 
 
@@ -82,15 +85,15 @@ def _distributions(folder: str) -> list[str]:
     return [name for name in names if name.endswith((".dist-info", ".egg-info"))]
 
 
-def _read(file: str, group: str, distribution: str) -> list[EntryPoint]:
-    heading = f"[{group}]"
+def _read(file: str, groups: tuple[str, ...], distribution: str) -> list[tuple[str, EntryPoint]]:
+    headings = [f"[{group}]" for group in groups]
     try:  # A hundred of these on every start: unbuffered, because buffered reading takes three times as long.
         descriptor = os.open(file, os.O_RDONLY)
         try:
             content = os.read(descriptor, os.fstat(descriptor).st_size)
         finally:
             os.close(descriptor)
-        if heading.encode() not in content:
+        if not any(heading.encode() in content for heading in headings):
             return []
         text = content.decode()
     except (OSError, UnicodeDecodeError):
@@ -101,7 +104,7 @@ def _read(file: str, group: str, distribution: str) -> list[EntryPoint]:
         line = line.strip()
         if line.startswith("["):
             section = line
-        elif section == heading and "=" in line and not line.startswith(("#", ";")):
+        elif section in headings and "=" in line and not line.startswith(("#", ";")):
             name, _, value = line.partition("=")
-            found.append(EntryPoint(name.strip(), value.partition("[")[0].strip(), distribution))
+            found.append((section, EntryPoint(name.strip(), value.partition("[")[0].strip(), distribution)))
     return found

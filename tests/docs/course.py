@@ -4,6 +4,7 @@
 - A block ``diff`` with a title changes that file: the lines with a blank or `-` are in it exactly once.
 - In a block ``console`` each line after `$` runs in a shell; the lines below it are its output. `…` stands for any
   text, in a line of its own for any lines.
+- ``pip install`` installs without dependencies into a folder beside that of the reader, also for later commands.
 
 ``python -m tests.docs.course PAGE`` writes the output that its commands have now into the page.
 """
@@ -114,7 +115,12 @@ def _changed(file: Path, change: str) -> str:
 
 
 def _environment(folder: Path) -> dict[str, str]:
-    return {**os.environ, "PYTHONPATH": str(ROOT), "COLUMNS": "100", "XDG_RUNTIME_DIR": str(folder)}
+    path = f"{ROOT}{os.pathsep}{_site(folder)}"
+    return {**os.environ, "PYTHONPATH": path, "COLUMNS": "100", "XDG_RUNTIME_DIR": str(folder)}
+
+
+def _site(folder: Path) -> Path:
+    return folder.with_name(folder.name + "-site")
 
 
 def _serve(command: str, folder: Path, served: ExitStack) -> str:
@@ -129,6 +135,8 @@ def _serve(command: str, folder: Path, served: ExitStack) -> str:
 def _output(command: str, folder: Path) -> str:
     python = shlex.quote(sys.executable)
     programs = f'urdfkit() {{ {python} -m urdfkit "$@"; }}; python() {{ {python} "$@"; }}\n'
+    install = f"--no-build-isolation --no-deps --upgrade --target {shlex.quote(str(_site(folder)))}"
+    programs += f'pip() {{ {python} -m pip "$@" -qq --disable-pip-version-check {install}; }}\n'
     done = subprocess.run(
         ["/bin/bash", "-c", programs + command],
         cwd=folder,

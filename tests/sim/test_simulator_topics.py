@@ -76,6 +76,16 @@ def test_a_published_command_reaches_the_drive() -> None:
     assert simulator.state.base_twist[0] > 0.1
 
 
+def test_fields_of_a_message_are_published_and_a_wrong_one_is_named() -> None:
+    simulator = Simulator("simpleton", note=lambda _: None)
+    heard: list[Any] = []
+    simulator.bus.subscribe(simulator.command_topics[0], TWIST, heard.append)
+    simulator.publish(simulator.command_topics[0], TWIST, {"linear": {"x": 0.5}})
+    assert (heard[0].linear.x, heard[0].angular.z) == (0.5, 0.0)
+    with pytest.raises(UsageError, match=r"`linaer`.*did you mean `linear`"):
+        simulator.publish(simulator.command_topics[0], TWIST, {"linaer": {"x": 0.5}})
+
+
 def test_the_state_cannot_be_written(simulator: Simulator) -> None:
     for array in (simulator.state.q, simulator.state.v, simulator.state.tau, simulator.link_poses()):
         with pytest.raises(ValueError, match="read-only"):

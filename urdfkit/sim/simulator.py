@@ -17,7 +17,7 @@ from urdfkit.description.sdf import Physics, World
 from urdfkit.description.urdf.repair_record import Repair
 from urdfkit.errors import SimulationError, UnknownNameError, suggestion
 from urdfkit.linear_algebra import Array
-from urdfkit.messages import TWIST, TWIST_STAMPED, header, message_type, require_message_types, twist
+from urdfkit.messages import TWIST, TWIST_STAMPED, from_fields, header, message_type, require_message_types, twist
 from urdfkit.scene import Scene
 from urdfkit.sim.construction.initial_overlap import note_overlaps
 from urdfkit.sim.construction.loading import require_valid_arguments, world_with_gravity
@@ -350,14 +350,19 @@ class Simulator:
     def publish(self, topic: str, type: str, message: Any) -> None:
         """Publish a message to the subscribers of a topic. Topics of your own are published with `bus.publish`.
 
+        Args:
+            topic: its name.
+            type: type of the message, e.g. ``std_msgs/msg/Float64``.
+            message: a message, or its fields as a dictionary; missing fields are zero or empty.
+
         Raises:
             UnknownNameError: the topic has no subscribers.
-            UsageError: the topic or the message has another type.
+            UsageError: the topic or the message has another type, or no such field.
         """
         subscribed = [each.name for each in self.bus.topics if each.subscribers]
         if (name := absolute(topic)) not in subscribed:
             raise UnknownNameError(f"topic `{name}` has no subscribers{suggestion(nearest_topic(name, subscribed))}")
-        self.bus.publish(topic, type, message)
+        self.bus.publish(topic, type, from_fields(type, message) if isinstance(message, dict) else message)
 
     def link_poses(self) -> Array:
         """Return x y z [m] and quaternion x y z w of every link in the world; shape (n_links, 7)."""

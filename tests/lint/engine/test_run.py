@@ -186,6 +186,27 @@ def test_another_kind_of_file_is_refused(write):
         lint(write("w.urdf", b"<sdf version='1.6'/>"))
 
 
+def test_parameters_of_third_party_plugins_are_checked(write, monkeypatch):
+    write(
+        "site/conveyors.py",
+        b"""
+from urdfkit.description.plugins import Parameter, PluginSpec
+
+class Conveyor:
+    specs = (PluginSpec("belt", "ros1", ("belt_drive",), (), (Parameter("joint", "joint", names="joint"),), "us"),)
+""",
+    )
+    entry = b"[urdfkit.drives]\nbelt = conveyors:Conveyor\nbroken = no_such_module:Drive\n"
+    write("site/conveyors-1.dist-info/entry_points.txt", entry)
+    plugin = '<gazebo><plugin name="b" filename="libbelt_drive.so"><joint>rol</joint></plugin></gazebo>'
+    joint = '<link name="b"/><joint name="roll" type="fixed"><parent link="a"/><child link="b"/></joint>'
+    path = write("r.urdf", f'<robot name="r"><link name="a"/>{joint}{plugin}</robot>'.encode())
+    assert lint(path, select=["Z802"]) == []
+    monkeypatch.setattr(sys, "path", ["site", *sys.path])
+    (finding,) = lint(path, select=["Z802"])
+    assert "undefined joint `rol`" in finding.message
+
+
 def test_third_party_rules_come_from_entry_points(write, monkeypatch):
     write(
         "lib/my_rules.py",

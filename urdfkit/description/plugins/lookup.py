@@ -1,7 +1,9 @@
 """Find the table of a plugin and read its parameters by meaning."""
 
 import re
+import sys
 from collections.abc import Iterator
+from functools import cache
 
 from urdfkit.description.plugins.controller_plugins import CONTROL
 from urdfkit.description.plugins.drives.table import DRIVES
@@ -9,9 +11,11 @@ from urdfkit.description.plugins.sensors.table import SENSORS
 from urdfkit.description.plugins.spec import Parameter, PluginSpec
 from urdfkit.description.urdf.robot import Plugin
 from urdfkit.description.xml.element import Element
+from urdfkit.entry_points import PLUGIN_GROUPS, entry_points
+from urdfkit.errors import ResourceError
 
 ALL_SPECS: tuple[PluginSpec, ...] = (*DRIVES, *CONTROL, *SENSORS)
-"""The tables of all plugins."""
+"""The tables of all plugins that urdfkit brings."""
 
 _VERSIONED = re.compile(r"^(gz-sim|ignition-gazebo)\d+-(.+-system)$")
 
@@ -25,6 +29,24 @@ def stem(filename: str) -> str:
     return name
 
 
+def tables_of(name: str) -> list[PluginSpec]:
+    """Return the tables of a library's bare name, of every generation: urdfkit's own, else those of other packages."""
+    found = [spec for spec in ALL_SPECS if name in spec.filenames]
+    return found or [spec for spec in _installed(tuple(sys.path)) if name in spec.filenames]
+
+
+@cache
+def _installed(path: tuple[str, ...]) -> tuple[PluginSpec, ...]:
+    """Return the tables of installed packages; the simulator reports a package that cannot be imported."""
+    found: list[PluginSpec] = []
+    for entry in entry_points(*PLUGIN_GROUPS, path=path):
+        try:
+            found += entry.load().specs
+        except ResourceError:
+            continue
+    return tuple(found)
+
+
 def match(plugin: Plugin) -> PluginSpec | None:
     """Return the table of a plugin, by file name; None for an unknown plugin.
 
@@ -36,7 +58,7 @@ def match(plugin: Plugin) -> PluginSpec | None:
     if plugin.filename is None:
         return None
     name = stem(plugin.filename)
-    candidates = [spec for spec in ALL_SPECS if name in spec.filenames]
+    candidates = tables_of(name)
     if len(candidates) < 2:
         return candidates[0] if candidates else None
     by_class = [spec for spec in candidates if (plugin.name or "").strip() in spec.class_names]

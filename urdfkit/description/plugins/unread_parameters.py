@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from urdfkit.description.plugins.lookup import ALL_SPECS, stem
+from urdfkit.description.plugins.lookup import stem, tables_of
 from urdfkit.description.plugins.sensor_elements import nearest
 from urdfkit.description.plugins.spec import PluginSpec
 from urdfkit.description.urdf.robot import Plugin
@@ -55,8 +55,7 @@ def tables(plugin: Plugin) -> list[PluginSpec]:
     """Return the tables of every generation that has a plugin of that file name."""
     if plugin.filename is None:
         return []
-    name = stem("".join(plugin.filename.split()))
-    found = [spec for spec in ALL_SPECS if name in spec.filenames]
+    found = tables_of(stem("".join(plugin.filename.split())))
     by_class = [spec for spec in found if (plugin.name or "").strip() in spec.class_names]
     return by_class or found
 

@@ -67,10 +67,10 @@ def folder() -> Path:
 
 
 def cache_for(options: Options) -> Cache | None:
-    """Return the cache of a lint run; None if inputs are unknown to it: unsaved texts and third-party rules."""
-    from urdfkit.entry_points import entry_points
+    """Return the cache of a lint run; None if inputs are unknown to it: unsaved texts, rules and plugins of others."""
+    from urdfkit.entry_points import PLUGIN_GROUPS, entry_points
 
-    return None if options.texts or entry_points("urdfkit.rules") else Cache(options)
+    return None if options.texts or entry_points("urdfkit.rules", *PLUGIN_GROUPS) else Cache(options)
 
 
 def packages_of(options: Options) -> Packages:
