@@ -43,6 +43,22 @@ def test_missing_files_of_one_folder_are_one_finding_from_four_on(count: int, tm
     assert places == [(n + 2, f"l{n}", f"mesh `meshes/part_{n}.stl` not found") for n in range(1, count)]
 
 
+@pytest.mark.parametrize("count", [1, 2, 100])
+def test_meshes_of_one_missing_package_are_one_finding_with_every_place(count: int, tmp_path: Path) -> None:
+    meshes = [f"package://{package}/part_{n}.stl" for package in ("nowhere", "gone") for n in range(count)]
+    path = robot(tmp_path / "r.urdf", meshes)
+    found = lint_json(path, "--select", "G602")
+    starts = [(2, 2 + count), (2 + count, 2 + 2 * count)]
+    assert [(one["line"], *(each["line"] for each in one["related"])) for one in found] == [
+        tuple(range(*lines)) for lines in starts
+    ]
+    command = [sys.executable, "-m", "urdfkit", "lint", "--format", "sarif", "--select", "G602", str(path)]
+    log = json.loads(subprocess.run(command, capture_output=True, text=True, check=False).stdout)
+    places = [one.get("relatedLocations", []) for one in log["runs"][0]["results"]]
+    lines = [[place["physicalLocation"]["region"]["startLine"] for place in each] for each in places]
+    assert lines == [list(range(first + 1, last)) for first, last in starts]
+
+
 def test_errors_with_other_causes_and_other_severities_stay_apart(tmp_path: Path) -> None:
     path = robot(
         tmp_path / "r.urdf", [f"{folder}/{n}.stl" for folder in ("a", "b") for n in range(SMALLEST_ALIKE)], UNIT

@@ -47,7 +47,9 @@ def test_robots_that_load_have_the_findings_that_were_looked_at(monkeypatch):
             continue
         outcome = run([Entry(Path(model["entry"]))], Options(arguments=model.get("args") or {}))
         serious = [f for f in outcome.findings if f.severity != "note" and not is_known(f)]
-        found.update((f.severity, f.code, f.file, f.line, f.message) for f in serious)
+        # The places of one cause with one message, such as the meshes of a missing package, have one verdict.
+        first = {(f.code, f.file, f.message, "" if f.cause else f.line): f for f in reversed(serious)}
+        found.update((f.severity, f.code, f.file, f.line, f.message) for f in first.values())
     known = adjudicated().keys()
     assert sorted(found - known) == []
     assert sorted(known - found) == []

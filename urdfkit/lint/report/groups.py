@@ -30,15 +30,20 @@ def grouped(findings: Iterable[Finding]) -> list[Finding]:
         groups.setdefault((finding.code, finding.severity, finding.cause or _kind(finding)), []).append(finding)
     found: list[Finding] = []
     for first, *others in groups.values():
-        if 1 + len(others) < _smallest(first):
+        if 1 + len(others) < _smallest(first, others):
             found += (first, *others)
         else:
             found.append(Finding(**{**first.__dict__, "related": tuple(others)}))
     return sorted(found, key=lambda one: (one.span, one.code, one.message))
 
 
-def _smallest(finding: Finding) -> int:
-    """Return the number of findings like one from which on they are grouped; notes on one cause always are."""
+def _smallest(finding: Finding, others: list[Finding]) -> int:
+    """Return the number of findings like one from which on they are grouped.
+
+    Notes on one cause always are, and findings whose cause and message are the same: a package that is not found.
+    """
+    if finding.cause and all(other.message == finding.message for other in others):
+        return 2
     if finding.severity == "note":
         return 2 if finding.cause else SMALLEST_ALIKE
     return SMALLEST if finding.cause or finding.severity == "warning" else SMALLEST_ALIKE

@@ -8,8 +8,8 @@ class MeshPackageUnknown(RobotRule):
     """The package of a mesh is not found.
 
     ## What it does
-    Looks up the packages of ``package://`` and ``model://`` in the workspace and the environment. Each package is
-    reported once.
+    Looks up the packages of ``package://`` and ``model://`` in the workspace and the environment. The meshes of
+    one package are shown as one finding.
 
     ## Why is this bad?
     The robot is shown without its meshes. The package name may be misspelt, or the package may be missing on this
@@ -39,21 +39,24 @@ class MeshPackageUnknown(RobotRule):
     severity = "warning"
 
     def check(self, model: Model) -> Findings:
-        """Yield a finding for each missing package, at its first mesh."""
-        reported: set[str] = set()
+        """Yield a finding for each mesh of a missing package; those of one package have one cause."""
+        found: dict[str, bool] = {}
         for mesh, element, link in model.meshes:
-            name = mesh.uri.strip().partition("://")[2].partition("/")[0]
-            if name in reported or "$" in mesh.uri or not mesh.uri.strip().startswith(("package://", "model://")):
+            uri = mesh.uri.strip()
+            if "$" in uri or not uri.startswith(("package://", "model://")):
                 continue
-            reported.add(name)
-            if missing(mesh, model.expanded) == ("package", name):
+            name = uri.partition("://")[2].partition("/")[0]
+            if name not in found:
+                found[name] = missing(mesh, model.expanded) != ("package", name)
+            if not found[name]:
                 yield self.at(
                     model,
                     element,
                     f"package `{name}` of the mesh not found in workspace or environment"
                     if name
-                    else f"mesh URI `{mesh.uri.strip()}` has three slashes, so it contains no package",
+                    else f"mesh URI `{uri}` has three slashes, so it contains no package",
                     attribute="filename",
                     link=link.name,
                     help="pass the folder that contains it with --package-path" if name else "remove a slash",
+                    cause=f"package {name}" if name else "",
                 )
