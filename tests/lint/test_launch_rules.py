@@ -204,3 +204,25 @@ def test_create_ignores_unknown_options_unless_it_has_no_source(source):
         text = f'<launch>\n  <node pkg="ros_gz_sim" exec="create" args="{arguments}"/>\n</launch>\n'
         write(package / "launch/spawn.launch.xml", text)
         assert [found.split()[1] for found in findings(source) if found.startswith("K968")] == [severity]
+
+
+ROBOT = '<robot name="cart" xmlns:xacro="http://www.ros.org/wiki/xacro">\n{}\n  <link name="{}"/>\n</robot>\n'
+OF_PACKAGE = '<xacro:include filename="$(find cart_description)/{}.urdf.xacro"/>'
+
+
+@pytest.mark.parametrize("part", ["none", "in use", "left out"])
+def test_misspelt_arguments_of_a_description_that_another_robot_includes_are_found(source, part):
+    argument = '<xacro:arg name="use_camera" default="false"/>\n<xacro:property name="a" value="$(arg use_camera)"/>'
+    if part != "none":
+        condition = "true" if part == "in use" else "false"
+        argument += f'<xacro:if value="{condition}">{OF_PACKAGE.format("part")}</xacro:if>'
+    own = '<xacro:arg name="speed" default="1"/>' if part != "left out" else '<xacro:arg name="x" default="1"/>'
+    write(source / "cart_description/part.urdf.xacro", ROBOT.format(own, "part"))
+    write(source / "cart_description/cart.urdf.xacro", ROBOT.format(argument, "base_link"))
+    write(source / "cart_description/two.urdf.xacro", ROBOT.format(OF_PACKAGE.format("cart"), "arm"))
+    command = "xacro $(find cart_description)/cart.urdf.xacro use_camra:=true use_camera:=true color:=red speed:=2"
+    launch = f'<launch>\n  <param name="robot_description" command="{command}"/>\n</launch>\n'
+    write(source / "cart_description/launch/cart.launch", launch)
+    found = [one.message.partition("; ")[0] for one in lint(source / "cart_description") if one.code == "L102"]
+    names = {"none": ["use_camra", "color", "speed"], "in use": ["use_camra", "color"], "left out": []}[part]
+    assert found == [f"cart.urdf.xacro has no argument `{name}`" for name in names]

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import re
+from pathlib import Path
+
 from urdfkit.lint.finding import Finding
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
@@ -111,12 +114,14 @@ class LaunchArgumentUnknown(RobotRule):
         from urdfkit.description.xacro.declared_arguments import declared_arguments, is_used
         from urdfkit.lint.facts.launch.receivers import receiver
 
-        path = receiver(call, model)
-        if path is None or not call.passed or path.resolve() != model.expanded.path.resolve():
+        path = receiver(call, model) if call.passed else None
+        # The description of another robot can be a part of this one.
+        if path is None or path.resolve() not in (Path(each).resolve() for each in model.expanded.sources):
             return
         sources = model.expanded.sources.values()
         names = [*declared_arguments(sources), *(each.name for each in call.passed if is_used(each.name, sources))]
-        yield from self._unknown(file, call.passed, names, path.name, bool(model.missing_file), self.severity)
+        may_have_more = bool(model.missing_file) or _leaves_out_files(model)
+        yield from self._unknown(file, call.passed, names, path.name, may_have_more, self.severity)
 
     def _unknown(
         self,
@@ -144,3 +149,14 @@ class LaunchArgumentUnknown(RobotRule):
     def _at(self, file: LaunchActions, name: Named, message: str, severity: Severity) -> Finding:
         span = file.source.span(name.start, name.start + len(name.name))
         return Finding(self.code, self.name, severity, message, span)
+
+
+def _leaves_out_files(model: Model) -> bool:
+    """Return whether a description includes files only with other arguments, which may declare more arguments."""
+    found = {name.rpartition("/")[2] for name in model.expanded.sources}
+    texts = (source.text for source in model.expanded.sources.values())
+    included = (at[1] for text in texts for at in re.finditer(_INCLUDE, text))
+    return any(name.rpartition("/")[2] not in found for name in included)
+
+
+_INCLUDE = r"<xacro:include\b[^<>]*?\bfilename\s*=\s*[\"']([^\"'<>]*)[\"']"
