@@ -226,3 +226,57 @@ def test_misspelt_arguments_of_a_description_that_another_robot_includes_are_fou
     found = [one.message.partition("; ")[0] for one in lint(source / "cart_description") if one.code == "L102"]
     names = {"none": ["use_camra", "color", "speed"], "in use": ["use_camra", "color"], "left out": []}[part]
     assert found == [f"cart.urdf.xacro has no argument `{name}`" for name in names]
+
+
+IN_PYTHON = """from ament_index_python.packages import get_package_share_directory
+from launch import LaunchDescription
+from launch_ros.actions import Node
+from launch_ros.substitutions import FindPackageShare
+
+
+def generate_launch_description():
+    path = {}
+    return LaunchDescription([Node(package="rviz2", executable="rviz2", arguments=[path])])
+"""
+USES = [
+    ("a.launch.py", IN_PYTHON.format('FindPackageShare("{}")')),
+    ("a.launch.py", IN_PYTHON.format('get_package_share_directory("{}")')),
+    ("a.launch", '<launch>\n  <arg name="path" default="$(find {})"/>\n</launch>\n'),
+    ("a.launch", '<launch>\n  <include file="$(find {})/a.launch"/>\n</launch>\n'),
+    ("a.launch", '<launch>\n  <node name="a" pkg="{}" type="a"/>\n</launch>\n'),
+]
+
+
+@pytest.mark.parametrize(("file", "text"), USES)
+@pytest.mark.parametrize(
+    ("used", "meant"),
+    [
+        ("cart_descripton", "cart_description"),
+        ("gazebo_rso", "gazebo_ros"),
+        ("ur5e_moveit", None),
+        ("cart_control", None),
+    ],
+)
+def test_the_advice_on_a_misspelt_package_is_its_name(source, file, text, used, meant):
+    write(source / "ur5_moveit/package.xml", MANIFEST.format(name="ur5_moveit", needed="rviz"))
+    write(source / f"cart_description/launch/{file}", text.format(used))
+    manifest = MANIFEST.format(name="cart_description", needed="rviz2</exec_depend><exec_depend>ur5_moveit")
+    write(source / "cart_description/package.xml", manifest)
+    (found,) = (one for one in lint(source / "cart_description") if one.code == "K956")
+    if meant is None:
+        assert (found.severity, found.message) == ("warning", f"missing dependency on `{used}`")
+        assert found.help == f"add <exec_depend>{used}</exec_depend> to package.xml"
+    else:
+        assert (found.severity, found.message) == ("error", f"unknown package `{used}`; did you mean `{meant}`?")
+        assert found.help is None
+    line = next(number for number, each in enumerate(text.splitlines(), 1) if "{}" in each)
+    assert found.line == line
+
+
+def test_the_misspelt_package_of_a_mesh_is_an_error_with_its_name(source):
+    mesh = '<visual><geometry><mesh filename="package://{}/a.stl"/></geometry></visual>'
+    links = "".join(f'<link name="{one}">{mesh.format(one)}</link>\n' for one in ("cart_descripton", "elsewhere"))
+    write(source / "cart_description/cart.urdf", f'<robot name="cart">\n{links}</robot>\n')
+    found = [one for one in lint(source / "cart_description") if one.code == "G602"]
+    assert [(one.link, one.severity) for one in found] == [("cart_descripton", "error"), ("elsewhere", "warning")]
+    assert found[0].message.endswith("; did you mean `cart_description`?")

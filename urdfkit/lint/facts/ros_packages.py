@@ -143,6 +143,8 @@ def is_slip(name: str, other: str) -> bool:
     left, right = name[start:], other[start:]
     while left and right and left[-1] == right[-1]:
         left, right = left[:-1], right[:-1]
+    if start > 0 and name[start - 1].isdigit():  # ur5 and ur5e are two robots
+        return False
     if ({left, right} == {"", "s"} and not name.endswith("_msg")) or not (left + right).isalpha():
         return False
     return max(len(left), len(right)) <= 1 or sorted(left) == sorted(right)

@@ -3,6 +3,8 @@
 from urdfkit.lint.model.mesh_files import missing
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
+_HELP = "pass the folder that contains it with --package-path"
+
 
 class MeshPackageUnknown(RobotRule):
     """The package of a mesh is not found.
@@ -13,7 +15,8 @@ class MeshPackageUnknown(RobotRule):
 
     ## Why is this bad?
     The robot is shown without its meshes. The package name may be misspelt, or the package may be missing on this
-    machine only. In the latter case, pass its folder with ``--package-path``.
+    machine only. In the latter case, pass its folder with ``--package-path``. A name that differs by one letter from a
+    package of the workspace or a common package is an error.
 
     ## Example
     ```xml
@@ -40,23 +43,32 @@ class MeshPackageUnknown(RobotRule):
 
     def check(self, model: Model) -> Findings:
         """Yield a finding for each mesh of a missing package; those of one package have one cause."""
-        found: dict[str, bool] = {}
+        from urdfkit.description.packages.related_files import neighbours
+        from urdfkit.errors import suggestion
+        from urdfkit.lint.facts.ros_packages import misspelling_of
+
+        exists: dict[str, bool] = {}
+        near: dict[str, str | None] = {}
         for mesh, element, link in model.meshes:
             uri = mesh.uri.strip()
             if "$" in uri or not uri.startswith(("package://", "model://")):
                 continue
             name = uri.partition("://")[2].partition("/")[0]
-            if name not in found:
-                found[name] = missing(mesh, model.expanded) != ("package", name)
-            if not found[name]:
-                yield self.at(
-                    model,
-                    element,
-                    f"package `{name}` of the mesh not found in workspace or environment"
-                    if name
-                    else f"mesh URI `{uri}` has three slashes, so it contains no package",
-                    attribute="filename",
-                    link=link.name,
-                    help="pass the folder that contains it with --package-path" if name else "remove a slash",
-                    cause=f"package {name}" if name else "",
-                )
+            if name not in exists:
+                exists[name] = missing(mesh, model.expanded) != ("package", name)
+            if exists[name]:
+                continue
+            if name not in near:
+                near[name] = misspelling_of(name, neighbours(model.package) if model.package is not None else ())
+            yield self.at(
+                model,
+                element,
+                f"package `{name}` of the mesh not found in workspace or environment{suggestion(near[name])}"
+                if name
+                else f"mesh URI `{uri}` has three slashes, so it contains no package",
+                attribute="filename",
+                link=link.name,
+                help=None if near[name] else _HELP if name else "remove a slash",
+                severity="error" if near[name] else None,
+                cause=f"package {name}" if name else "",
+            )

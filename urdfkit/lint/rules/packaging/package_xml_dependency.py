@@ -26,12 +26,13 @@ class PackageXmlDependency(RobotRule):
     Compares the packages that the files of the robot's package use, by ``$(find …)`` and ``package://…``, with the
     dependencies in package.xml. Also compares the packages that launch files start or include, and ``xacro`` where they
     call it, with the dependencies of their own package. Metapackages, such as ``navigation2``, stand for the packages
-    that they depend on. Each package is reported once; test folders are not checked, nor the optional launch files that
-    the MoveIt Setup Assistant writes, or dependencies that package.xml has in a comment.
+    that they depend on. Names that misspell a dependency, a package of the workspace or a common package by one letter
+    are errors at each place. Each other package is reported once; test folders are not checked, nor the optional launch
+    files that the MoveIt Setup Assistant writes, or dependencies that package.xml has in a comment.
 
     ## Why is this bad?
     The package works only where the dependency happens to be installed: rosdep and the ROS build farm do not install
-    it.
+    it. A misspelt package is not found anywhere.
 
     ## Example
     ```xml
@@ -63,9 +64,11 @@ class PackageXmlDependency(RobotRule):
         if package is None:
             return
         manifest = model.manifest(package)
-        declared = {name_in(manifest, package.name), *_dependencies(manifest, neighbours(package))}
+        near = neighbours(package)
+        declared = {name_in(manifest, package.name), *_dependencies(manifest, near)}
         from urdfkit.lint.facts.ros_packages import is_in_metapackage
 
+        unknown = {fault.name for fault in model.expanded.faults if fault.kind == "package-not-found"}
         for file, source in model.expanded.sources.items():
             uses = "$(find" in source.text or "package://" in source.text
             path = Path(file).absolute()
@@ -78,8 +81,12 @@ class PackageXmlDependency(RobotRule):
                     continue
                 if is_in_metapackage(name, declared):
                     continue
-                declared.add(name)
-                yield self._missing(name, source, match.start(), match.end())
+                finding = self._missing(name, source, match.start(), match.end(), {*near, *declared})
+                if finding.severity == self.severity:
+                    declared.add(name)
+                    yield finding
+                elif name not in unknown:  # xacro has no other finding for it
+                    yield finding
         yield from self._check_launch_files(model, {package: declared})
 
     def _check_launch_files(self, model: Model, declared: dict[Path, set[str]]) -> Findings:
@@ -105,16 +112,25 @@ class PackageXmlDependency(RobotRule):
             is_own = name_in(own, package.name) in dependencies_in(own)
             for name, start, end in () if is_own else packages_used(source):
                 if name not in declared[package] | disabled and not is_in_metapackage(name, declared[package]):
-                    declared[package].add(name)
-                    yield self._missing(name, source, start, end)
+                    near = {*neighbours(package), *declared[package]}
+                    finding = self._missing(name, source, start, end, near)
+                    if finding.severity == self.severity:
+                        declared[package].add(name)
+                    yield finding
 
-    def _missing(self, name: str, source: Source, start: int, end: int) -> Finding:
+    def _missing(self, name: str, source: Source, start: int, end: int, near: set[str]) -> Finding:
+        from urdfkit.lint.facts.ros_packages import misspelling_of
+
+        span = source.span(start, end)
+        if (meant := misspelling_of(name, near)) is not None:
+            message = f"unknown package `{name}`; did you mean `{meant}`?"
+            return Finding(self.code, self.name, "error", message, span, cause=f"package {name}")
         return Finding(
             self.code,
             self.name,
             self.severity,
             f"missing dependency on `{name}`",
-            source.span(start, end),
+            span,
             help=f"add <exec_depend>{name}</exec_depend> to package.xml",
         )
 
