@@ -15,7 +15,7 @@ IN_A_TERMINAL = {
     signal.SIGHUP: signal.SIG_DFL,
 }
 """How Python handles signals in a program that a terminal starts. Under ``nohup`` SIGHUP is ignored, and in the
-background of a script SIGINT; what is ignored stays ignored in the programs that are started from there."""
+background of a script SIGINT; programs that are started from there inherit it."""
 
 
 @contextmanager

@@ -334,7 +334,8 @@ def command(*words: str) -> list[str]:
 
 
 @pytest.mark.slow
-def test_ctrl_c_ends_it_without_a_word(tmp_path: Path) -> None:
+@pytest.mark.parametrize("ignored", [[], [signal.SIGINT]], ids=["terminal", "background job"])
+def test_sigint_ends_it_without_a_word(tmp_path: Path, ignored: list[signal.Signals]) -> None:
     brick = tmp_path / "brick.urdf"
     brick.write_text(
         '<robot name="brick"><link name="base"><inertial><mass value="1"/><inertia ixx="1" iyy="1" izz="1" ixy="0" '
@@ -342,7 +343,7 @@ def test_ctrl_c_ends_it_without_a_word(tmp_path: Path) -> None:
         "</gazebo></robot>"
     )
     words = command(str(brick), "--world", "void", "--for", "1e6")
-    with running(words, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as process:
+    with running(words, ignored=ignored, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as process:
         assert process.stderr is not None
         assert (
             "`libgazebo_ros_vacuum_gripper.so` is not simulated yet" in process.stderr.readline()

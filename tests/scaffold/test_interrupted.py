@@ -49,8 +49,9 @@ def folder(tmp_path):
 
 
 @pytest.mark.slow
-def test_ctrl_c_leaves_nothing(folder):
-    with writing(folder) as process:
+@pytest.mark.parametrize("ignored", [[], [signal.SIGINT]], ids=["terminal", "background job"])
+def test_sigint_leaves_nothing(folder, ignored):
+    with writing(folder, ignored=ignored) as process:
         process.send_signal(signal.SIGINT)
         _, reported = process.communicate(timeout=PATIENCE)
     assert process.returncode == 130
@@ -70,10 +71,9 @@ def test_being_told_to_end_leaves_nothing_not_even_the_folder_it_made(folder, ho
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("how", [signal.SIGHUP, signal.SIGINT])  # as nohup does, and a script for a background job
-def test_an_ignored_signal_stays_ignored(folder, how):
-    with writing(folder, ignored=[how]) as process:
-        process.send_signal(how)
+def test_sighup_under_nohup_stays_ignored(folder):
+    with writing(folder, ignored=[signal.SIGHUP]) as process:
+        process.send_signal(signal.SIGHUP)
         process.communicate("\n", timeout=PATIENCE)
     assert process.returncode == 0
     assert (folder / "scout_description").is_dir()

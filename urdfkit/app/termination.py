@@ -25,8 +25,7 @@ def _interrupt(_number: int, _frame: FrameType | None) -> None:
 def ended_by_signals() -> Iterator[None]:
     """Run a block that SIGTERM and SIGHUP interrupt as Ctrl-C does, so that unfinished work is undone.
 
-    A signal that was ignored before stays ignored: SIGHUP under ``nohup``, and Ctrl-C in a background job of a
-    script. SIGTERM ends these, too.
+    A signal that was ignored before stays ignored, such as SIGHUP under ``nohup``.
 
     Raises:
         SystemExit: 128 plus the number of the signal, as shells report it.

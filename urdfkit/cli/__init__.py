@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import gc
 import os
+import signal
 import sys
 from collections.abc import Sequence
 from importlib import import_module
@@ -113,7 +114,12 @@ def program() -> None:
 
     The light commands exit without finalizing the interpreter: deallocating every object takes a fifth of the time of a
     lint. Commands with threads or compiled libraries exit as usual, so that their exit handlers run.
+
+    SIGINT interrupts also where the program was started with SIGINT ignored, as shells start the background jobs
+    (``&``) of a script: otherwise ``kill -INT`` could not end a server or a simulation. SIGHUP stays ignored (nohup).
     """
+    if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
+        signal.signal(signal.SIGINT, signal.default_int_handler)
     for name in ("stdout", "stderr"):
         if getattr(sys, name) is None:  # closed by the parent process (`2>&-`): output is discarded
             setattr(sys, name, os.fdopen(os.open(os.devnull, os.O_WRONLY), "w"))
