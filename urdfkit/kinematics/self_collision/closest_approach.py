@@ -1,4 +1,8 @@
-"""Search for the closest approach of two links: descent of their distance over the joints between them."""
+"""Search for the closest approach of two links: descent of their distance over the joints between them.
+
+The distance has many local minima, and edges on which descents end early. Further descents start near the best
+configurations: basin hopping (Wales and Doye, J. Phys. Chem. A 101, 1997).
+"""
 
 from typing import NamedTuple
 
@@ -22,6 +26,14 @@ FAR = 0.2
 MORE = 40
 """Further starts, each the nearest of `DRAWN` random configurations."""
 DRAWN = 24
+NEAR = 0.05
+"""Closest approach so far from which descents start near the best configurations [m]."""
+BEST = 4
+"""Configurations from which these descents start, in turns."""
+HOPS = 120
+"""Number of these descents."""
+HOP = (0.1, 0.3)
+"""Standard deviations of the changes of a joint before a descent, in turns [rad] or [m]."""
 
 
 class Approach(NamedTuple):
@@ -52,36 +64,44 @@ def closest_approach(
         bounds: lower and upper limits of the joints of the chain [rad] or [m]; shape (n,) each.
         random: for further starts.
     """
-    best = Approach(np.inf, {})
     if chain is None:
-        return best
+        return Approach(np.inf, {})
     lower, upper = bounds
+    found: list[tuple[float, Array]] = []
     for start in starts:
-        q = np.array([start.get(name, 0.0) for name in chain.joint_names])
-        best = min(best, _approach(chain, check, q, lower, upper), key=lambda one: one.distance)
-        if best.distance <= 0.0:
-            return best
-    for _ in range(MORE if best.distance < FAR else 0):
-        drawn = random.uniform(lower, upper, (DRAWN, len(lower)))
-        poses = chain.forward(drawn)
-        distances = [check.distance(pose[:3, :3], pose[:3, 3])[0] for pose in poses]
-        best = min(
-            best, _approach(chain, check, drawn[np.argmin(distances)], lower, upper), key=lambda one: one.distance
-        )
-        if best.distance <= 0.0:
+        found.append(_approach(chain, check, np.array([start.get(name, 0.0) for name in chain.joint_names]), bounds))
+        if found[-1][0] <= 0.0:
+            return _named(chain, *found[-1])
+    if min(distance for distance, _ in found) < FAR:
+        for _ in range(MORE):
+            drawn = random.uniform(lower, upper, (DRAWN, len(lower)))
+            distances = [check.distance(pose[:3, :3], pose[:3, 3])[0] for pose in chain.forward(drawn)]
+            found.append(_approach(chain, check, drawn[np.argmin(distances)], bounds))
+            if found[-1][0] <= 0.0:
+                return _named(chain, *found[-1])
+    best = sorted(found, key=lambda one: one[0])[:BEST]
+    for k in range(HOPS if best[0][0] < NEAR else 0):
+        near = best[k % len(best)][1] + HOP[k // len(best) % len(HOP)] * random.normal(size=len(lower))
+        best[k % len(best)] = min(best[k % len(best)], _approach(chain, check, near, bounds), key=lambda one: one[0])
+        if best[k % len(best)][0] <= 0.0:
             break
-    return best
+    return _named(chain, *min(best, key=lambda one: one[0]))
 
 
-def _approach(chain: Chain, check: PairCheck, q: Array, lower: Array, upper: Array) -> Approach:
+def _named(chain: Chain, distance: float, q: Array) -> Approach:
+    return Approach(max(0.0, distance), dict(zip(chain.joint_names, q.tolist(), strict=True)))
+
+
+def _approach(chain: Chain, check: PairCheck, q: Array, bounds: tuple[Array, Array]) -> tuple[float, Array]:
     """Return the closest approach from one start: of the convex shapes, then of the triangles."""
+    lower, upper = bounds
     q = np.clip(q, lower, upper)
     distance = np.inf
     for convex in (True, False):
         distance, q = _descend(chain, check, q, lower, upper, convex)
         if distance > 0.0 or check.collides(*_placement(chain, q)):
             break
-    return Approach(max(0.0, distance), dict(zip(chain.joint_names, q.tolist(), strict=True)))
+    return distance, q
 
 
 def _placement(chain: Chain, q: Array) -> tuple[Array, Array]:
@@ -98,7 +118,7 @@ def _descend(chain: Chain, check: PairCheck, q: Array, lower: Array, upper: Arra
         if distance <= 0.0:
             break
         # The point moves with the second link; the distance changes by its velocity along the direction.
-        slope = direction @ jacobian[:3] + np.cross(point - pose[:3, 3], direction) @ jacobian[3:]
+        slope = np.array([*direction, *_cross(point - pose[:3, 3], direction)]) @ jacobian
         free = ~(((q <= lower) & (slope > 0.0)) | ((q >= upper) & (slope < 0.0)))
         slope = np.where(free, slope, 0.0)
         square = float(slope @ slope)
@@ -106,7 +126,7 @@ def _descend(chain: Chain, check: PairCheck, q: Array, lower: Array, upper: Arra
             break
         step = -slope * (distance + DEPTH) / square
         step *= min(1.0, LONGEST / float(np.max(np.abs(step))))
-        tried = np.clip(q + part * step, lower, upper)
+        tried = np.minimum(np.maximum(q + part * step, lower), upper)
         there, turned = chain.forward_and_jacobian(tried)
         found = check.distance(there[:3, :3], there[:3, 3], convex=convex)
         if found[0] < distance - LEAST:
@@ -118,6 +138,12 @@ def _descend(chain: Chain, check: PairCheck, q: Array, lower: Array, upper: Arra
         else:
             part /= 4.0
     return distance, q
+
+
+def _cross(a: Array, b: Array) -> tuple[float, float, float]:
+    """Return the cross product of two vectors; ``np.cross`` takes longer than a whole distance by coal."""
+    (x, y, z), (u, v, w) = a.tolist(), b.tolist()
+    return y * w - z * v, z * u - x * w, x * v - y * u
 
 
 def chain_between(robot: object, first: str, second: str) -> Chain | None:

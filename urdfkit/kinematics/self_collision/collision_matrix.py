@@ -102,10 +102,13 @@ def collision_matrix(
     poses = link_poses(robot, {name: values.astype(float) for name, values in positions.items()})
     rest = link_poses(robot, default(robot))
     adjacent = neighbours(robot, shapes)
+    boxes = {name: box_around(parts) for name, parts in shapes.items()}
+    centres = {name: poses[name][0] @ centre + poses[name][1] for name, (centre, _) in boxes.items()}
     pairs = list(combinations(shapes, 2))
     found = []
     for k, (first, second) in enumerate(pairs):
-        pair = _PairSearch(robot, (first, second), shapes, poses, rest, positions, [seed, k])
+        spheres = [(centres[name], float(np.linalg.norm(boxes[name][1]))) for name in (first, second)]
+        pair = _PairSearch(robot, (first, second), shapes, poses, rest, positions, spheres, [seed, k])
         found.append(pair.result(adjacent=(first, second) in adjacent))
         progress(k + 1, len(pairs))
     return CollisionMatrix(tuple(shapes), tuple(found))
@@ -122,6 +125,7 @@ class _PairSearch:
         poses: dict[str, tuple[Array, Array]],
         rest: dict[str, tuple[Array, Array]],
         positions: dict[str, Array],
+        spheres: list[tuple[Array, float]],
         seed: list[int],
     ) -> None:
         self.robot, self.names, self.positions, self.seed = robot, names, positions, seed
@@ -129,6 +133,7 @@ class _PairSearch:
         first, second = (shapes[name] for name in names)
         self.check = PairCheck(first, second)
         self.boxes = [box_around(first), box_around(second)]
+        self.spheres = spheres
         self.count = len(poses[names[0]][1])
 
     def result(self, *, adjacent: bool) -> Pair:
@@ -198,12 +203,9 @@ class _PairSearch:
 
     def gaps(self) -> Array:
         """Return the distances of the spheres around the boxes of both links [m]; shape (N,)."""
-        centres = []
-        for name, (centre, _) in zip(self.names, self.boxes, strict=True):
-            rotation, translation = self.poses[name]
-            centres.append(rotation @ centre + translation)
-        radii = sum(float(np.linalg.norm(half)) for _, half in self.boxes)
-        return np.asarray(np.linalg.norm(centres[1] - centres[0], axis=1) - radii)
+        (centre, radius), (other, other_radius) = self.spheres
+        between = other - centre
+        return np.asarray(np.sqrt(np.einsum("ni,ni->n", between, between)) - (radius + other_radius))
 
     def starts(self, gaps: Array) -> list[int]:
         """Return the samples with the smallest gap, one from each of some equal parts of all samples."""
