@@ -9,8 +9,9 @@ from pathlib import Path
 
 from urdfkit.description.packages.resolver import Packages
 from urdfkit.description.xml.element import Element
-from urdfkit.description.xml.source import Origin, Position
+from urdfkit.description.xml.source import Position
 from urdfkit.lint.engine.cache import packages_of
+from urdfkit.lint.engine.package_without_robot import empty_root, package_model, package_rules
 from urdfkit.lint.finding import EntryResult, Finding
 from urdfkit.lint.model.model import Model
 from urdfkit.lint.project.entry_files import Entry, is_nearly_robot
@@ -81,7 +82,7 @@ def model_of(
 
         raise ModelError(f"<{root.tag}> is not a robot description", position=root.origin.position)
     parsed = memory.parts if memory is not None else None
-    robot = parse(root if root is not None else _empty_root(path), cached_parts=parsed)
+    robot = parse(root if root is not None else empty_root(path), cached_parts=parsed)
     target, release = family_of(options.target), release_of(options.target)
     return Model(expanded, robot, target, as_written, release, options.texts, extents if extents is not None else {})
 
@@ -119,7 +120,7 @@ class Checker:
         try:
             found, model = self.examine(entry)
             others: list[Model] = []
-            if self.options.launch_arguments and not entry.is_library:
+            if self.options.launch_arguments and entry.has_robot and not entry.is_library:
                 from urdfkit.lint.engine.launch_variants import with_variants
 
                 own = self.options.arguments
@@ -179,6 +180,8 @@ class Checker:
                 options = Options(**{**options.__dict__, "target": guessed.target})
                 note = f"linted for {guessed.target}: {guessed.manifest.parent.name} {guessed.why}"
         packages, extents = self.packages.near_file(entry.path), self.clean.extents if self.clean is not None else None
+        if not entry.has_robot:
+            return self._check_package(entry, options, packages, note)
         model = model_of(entry.path, options, packages=packages, memory=self.memory, extents=extents)
         self.sources.update(model.expanded.sources)
         self._failures: list[str] = []
@@ -202,11 +205,23 @@ class Checker:
         here = str(Path.cwd())
         read = (*model.expanded.sources, *(model.related_files if model.expanded.root is not None else ()))
         files = {name: os.path.join(here, name) for name in read}  # noqa: PTH118
-        if entry.only:
-            only = {path.resolve() for path in entry.only}
-            names = {name for name, path in files.items() if Path(path).resolve() in only}
-            findings = [finding for finding in findings if finding.file in names]
+        findings = _only(entry, findings, files)
         return EntryResult(tuple(findings), files, note, used, "; ".join(self._failures), unused), model
+
+    def _check_package(
+        self, entry: Entry, options: Options, packages: Packages, note: str
+    ) -> tuple[EntryResult, Model]:
+        """Return the findings in the launch, YAML and build files of a package without a robot, and its model."""
+        model = package_model(entry.path, options, packages)
+        self._failures = []
+        rules = [rule for rule in package_rules(model) if self._applies(rule, model.target)]
+        findings = [finding for rule in rules for finding in self._run_robot_rule(rule, entry.path, model)]
+        files = {name: os.path.join(str(Path.cwd()), name) for name in model.related_files}  # noqa: PTH118
+        self.sources.update(model.related_files)
+        without = f"{entry.path.absolute().parent.name} has no robot: only its other files are linted"
+        note = f"{note}; {without}" if note else without
+        result = EntryResult(tuple(_only(entry, findings, files)), files, note, refused="; ".join(self._failures))
+        return result, model
 
     def _run_source_rules(self, model: Model) -> Iterator[Finding]:
         sources = model.expanded.sources
@@ -310,6 +325,15 @@ class Checker:
         return {rule.code: partial(self._applies, rule) for rule in RULES}
 
 
+def _only(entry: Entry, findings: list[Finding], files: Mapping[str, str]) -> list[Finding]:
+    """Return the findings in the files that the entry is about."""
+    if not entry.only:
+        return findings
+    only = {path.resolve() for path in entry.only}
+    names = {name for name, path in files.items() if not only.isdisjoint(((at := Path(path).resolve()), *at.parents))}
+    return [finding for finding in findings if finding.file in names]
+
+
 def _is_part(model: Model) -> bool:
     """Return whether a file without a robot's name uses macros and properties that other files of its package define.
 
@@ -357,8 +381,3 @@ def _third_party() -> tuple[type[Rule], ...]:
     from urdfkit.entry_points import load
 
     return tuple(load("urdfkit.rules"))
-
-
-def _empty_root(path: Path) -> Element:
-    """Return the root element that stands for an unreadable robot."""
-    return Element("robot", {}, [], "", Origin(Position(str(path), 1, 1)))

@@ -18,6 +18,7 @@ from urdfkit.description.packages.related_files import (
     package_of,
 )
 from urdfkit.errors import ResourceError
+from urdfkit.lint.project.inclusion import INCLUDE, above, included_files, includers, matches
 from urdfkit.record import record
 
 SUFFIXES = (".urdf", ".xacro")
@@ -36,10 +37,8 @@ _COMMENT = r"(?s)<!--.*?(?:-->|\Z)"  # an unclosed comment is scanned once
 _FIRST = r"<([A-Za-z_][\w:.-]*)"
 _ROOT = r"<(robot)\b((?:\"[^\"]*\"|'[^']*'|[^>\"'])*)>|<[A-Za-z_]"
 _NAMED = r"(?<![\w:])name\s*="
-_INCLUDE = r"<(?:xacro:)?include\b[^<>]*?filename\s*=\s*(?:\"([^\"]*)\"|'([^']*)')"
 _MACRO = r"(?s)<(?:xacro:)?macro\b.*?</(?:xacro:)?macro\s*>"
 _CONTENT = r"<(?:link|joint|xacro:(?!macro|property|arg)\w)"
-_VARIABLE = r"\$\([^()]*\)|\$\{[^{}]*\}"
 
 
 @record(order=True)
@@ -48,7 +47,7 @@ class Entry:
 
     Attributes:
         path: the file.
-        only: report findings in these files only; in all files if empty.
+        only: report findings in these files, and in files below these folders, only; in all files if empty.
         is_library: the file only defines macros, or it is a fragment whose include is commented out; including files
             may define the names it lacks.
     """
@@ -56,6 +55,11 @@ class Entry:
     path: Path
     only: tuple[Path, ...] = ()
     is_library: bool = False
+
+    @property
+    def has_robot(self) -> bool:
+        """Whether the file describes a robot; the package.xml of a package without a robot stands for its files."""
+        return self.path.name != "package.xml"
 
 
 def find_entries(paths: Iterable[str | Path]) -> list[Entry]:
@@ -111,9 +115,20 @@ def _of_name(name: str) -> list[Entry]:
 
 def _of_folder(folder: Path) -> list[Entry]:
     found = _robots_in(folder)
+    if not found and (package := package_of(folder / "package.xml")) is not None and _has_related_files(folder):
+        return _robots_of(package / "package.xml", folder)
+    if not found:
+        manifests = sorted((*folder.glob("*/package.xml"), *folder.glob("*/*/package.xml")))
+        found = [entry for file in manifests for entry in _robots_of(file, file.parent)]
     if not found:
         raise ResourceError(f"no robot description (.urdf or .xacro with a <robot> in it) in {folder}")
     return found
+
+
+def _has_related_files(folder: Path) -> bool:
+    """Return whether a folder is a package, or has launch, YAML or SRDF files."""
+    endings = (*LAUNCH, *YAML, *SRDF)
+    return (folder / "package.xml").is_file() or any(file.name.endswith(endings) for file in folder.rglob("*"))
 
 
 def descriptions(folder: Path) -> Iterator[tuple[Path, str]]:
@@ -134,13 +149,13 @@ def near_descriptions(package: Path | None, path: Path) -> Iterator[tuple[Path, 
 def _robots_in(folder: Path) -> list[Entry]:
     texts = {path: _text(path) for path in walk(folder)}
     robots = {path: text for path, text in texts.items() if _is_robot(text) or _is_broken(text)}
-    included = _included(robots)
+    included = included_files(robots)
     alone = [path for path in robots if path not in included]
     if candidates := _to_merge(alone):
-        alone = [path for path in alone if not any(_matches(text, path) for text in candidates.values())] or alone
+        alone = [path for path in alone if not any(matches(text, path) for text in candidates.values())] or alone
     alone = _without_misnamed(alone, texts)
     unused = {path for path in alone if _is_fragment(robots[path])}
-    unused &= _included({path: _written(path) for path in robots}) if unused else unused
+    unused &= included_files({path: _written(path) for path in robots}) if unused else unused
     found = [
         Entry(path, (), path in unused or (_is_robot(text := robots[path]) and _is_library(text))) for path in alone
     ]
@@ -158,7 +173,7 @@ def _without_misnamed(paths: list[Path], texts: dict[Path, str]) -> list[Path]:
     unnamed = [path for path, root in roots.items() if root is not None and not re.search(_NAMED, root[2] or "")]
     if not unnamed or len(unnamed) == len(paths):
         return paths
-    includes = {double or single for text in texts.values() for double, single in re.findall(_INCLUDE, text)}
+    includes = {double or single for text in texts.values() for double, single in re.findall(INCLUDE, text)}
     names = {path.name for path in texts}
     missing = {each for each in includes if each.endswith(SUFFIXES) and each.rpartition("/")[2] not in names}
     folders = {folder.name for path in texts for folder in path.absolute().parents}
@@ -179,7 +194,7 @@ def _unreached(included: set[Path], robots: dict[Path, str]) -> list[Path]:
     broken = {path for path, text in robots.items() if not _is_well_formed(text)} if included else set()
     if len(broken) < 2:
         return []
-    return [path for path in robots if path in included & broken and (_above(path, robots) - {path}) & broken]
+    return [path for path in robots if path in included & broken and (above(path, robots) - {path}) & broken]
 
 
 def _to_merge(paths: Iterable[Path]) -> dict[Path, str]:
@@ -210,7 +225,7 @@ def _of_file(path: Path) -> list[Entry]:
         place = Path(os.path.abspath(path))  # noqa: PTH100 - keep symbolic links
         robots = _nearby(place.parent)
     candidates = _to_merge([place])
-    above = _includers(place, robots | candidates)
+    above = includers(place, robots | candidates)
     if above := [model for model in above if model not in candidates] or above:
         return [Entry(_relative(model), (path,)) for model in above]
     return [Entry(path, (), not is_named and _is_library(text))]
@@ -242,7 +257,8 @@ def _begins_with_robot(text: str) -> bool:
 def _related_robots(path: Path) -> list[Entry]:
     """Return the robots that a launch, YAML, SRDF or build file belongs to.
 
-    These are the robots of its package, else of neighbouring dependencies; without a package, those in its folder.
+    These are the robots of its package, else of neighbouring dependencies, else its package without a robot; without a
+    package, those in its folder.
     """
     package = package_of(path)
     if package is None and path.name.endswith(SRDF):
@@ -252,69 +268,29 @@ def _related_robots(path: Path) -> list[Entry]:
         raise ResourceError(f"{path}: no robot description in its folder, and not in a package")
     if package is None:
         raise ResourceError(f"{path}: not in a package, so no robot belongs to it")
+    return _robots_of(package / "package.xml", path)
+
+
+def _robots_of(manifest_file: Path, only: Path) -> list[Entry]:
+    """Return the robots of a package, else of a neighbouring dependency, else the package without a robot.
+
+    Args:
+        manifest_file: package.xml of the package.
+        only: the file or folder to report findings in.
+    """
+    package = manifest_file.absolute().parent
     needed = dependencies_in(manifest(package))
     folders = [package, *(folder for name, folder in neighbours(package).items() if name in needed)]
     for folder in folders:
         robots = [entry for entry in _robots_in(folder) if not entry.path.name.endswith(SRDF)]
         if found := [entry for entry in robots if not entry.is_library]:
-            return [Entry(_relative(entry.path), (path,)) for entry in found]
-    raise ResourceError(f"{path}: no robot description in its package or in a neighbouring package that it depends on")
+            return [Entry(_relative(entry.path), (only,)) for entry in found]
+    return [Entry(_relative(manifest_file), (only,))]
 
 
 def _relative(path: Path) -> Path:
     here = Path.cwd()
     return path.relative_to(here) if path.is_relative_to(here) else path
-
-
-def _includers(path: Path, robots: dict[Path, str]) -> list[Path]:
-    """Return the top-level files that include `path` directly or indirectly."""
-    included = _included(robots)
-    return sorted(other for other in _above(path, robots) - {path} if other not in included)
-
-
-def _above(path: Path, robots: dict[Path, str]) -> set[Path]:
-    """Return a file and all files that include it directly or indirectly."""
-    reached = {path}
-    while True:
-        more = {other for other, text in robots.items() if any(_matches(text, file) for file in reached)}
-        if more <= reached:
-            return reached
-        reached |= more
-
-
-def _included(robots: dict[Path, str]) -> set[Path]:
-    patterns: dict[str, list[tuple[Path, re.Pattern[str]]]] = {}
-    for other, text in robots.items():
-        for name, pattern in _patterns(text):
-            patterns.setdefault(name, []).append((other, pattern))
-    return {
-        path
-        for path in robots
-        if any(
-            other != path and pattern.search(path.as_posix())
-            for other, pattern in (*patterns.get(path.name, ()), *patterns.get("", ()))
-        )
-    }
-
-
-def _matches(text: str, path: Path) -> bool:
-    return any(pattern.search(path.as_posix()) for _, pattern in _patterns(text))
-
-
-def _patterns(text: str) -> list[tuple[str, re.Pattern[str]]]:
-    """Return name and pattern of the path of each included file: the part after the last ``$(…)`` or ``..``.
-
-    The name is empty if it is computed.
-    """
-    found = []
-    for double, single in re.findall(_INCLUDE, text):
-        written = (double or single).replace("\\", "/").rpartition("../")[2].removeprefix("./")
-        written = re.sub(r"^\$\(find[^()]*\)/", "", written)
-        parts = [re.escape(part) for part in re.split(_VARIABLE, written)]
-        if any(parts):
-            name = written.rpartition("/")[2]
-            found.append(("" if re.search(_VARIABLE, name) else name, re.compile(f"(^|/){'.*'.join(parts)}$")))
-    return found
 
 
 def _is_robot(text: str) -> bool:
