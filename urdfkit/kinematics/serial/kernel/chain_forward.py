@@ -28,7 +28,7 @@ def place(steps: Floats, variables: Integers, count: int, q: Floats, pose: Float
 
     Args:
         steps: `STEP` numbers per step, then `END`.
-        variables: index of each step's variable.
+        variables: index of each step's variable; the variables are numbered in the order of their first steps.
         count: number of steps.
         q: the configuration.
         pose: written: rotation (9, by rows) and translation (3) of the tip.
@@ -120,7 +120,15 @@ def place(steps: Floats, variables: Integers, count: int, q: Floats, pose: Float
 
 @inlined
 def geometric_jacobian(
-    steps: Floats, variables: Integers, count: int, size: int, pose: Floats, axes: Floats, jacobian: Floats
+    steps: Floats,
+    variables: Integers,
+    count: int,
+    size: int,
+    pose: Floats,
+    axes: Floats,
+    row: int,
+    column: int,
+    jacobian: Floats,
 ) -> None:
     """Compute the Jacobian at the tip in the axes of the base, linear rows first.
 
@@ -131,10 +139,11 @@ def geometric_jacobian(
         size: number of variables.
         pose: see `place`.
         axes: see `place`.
-        jacobian: written: six numbers per variable.
+        row: numbers in memory from one row to the next.
+        column: numbers in memory from the column of one variable to that of the next.
+        jacobian: written: six rows, ``size`` columns.
     """
-    for k in range(6 * size):
-        jacobian[k] = 0.0
+    known = 0
     for k in range(count):
         turn = steps[STEP * k + 12]
         slide = steps[STEP * k + 14]
@@ -145,13 +154,17 @@ def geometric_jacobian(
         a = pose[9] - axes[g + 3]
         b = pose[10] - axes[g + 4]
         c = pose[11] - axes[g + 5]
-        j = 6 * variables[k]
+        j = column * variables[k]
+        if variables[k] == known:  # its first step
+            for r in range(6):
+                jacobian[j + row * r] = 0.0
+            known += 1
         jacobian[j] += turn * (y * c - z * b) + slide * x
-        jacobian[j + 1] += turn * (z * a - x * c) + slide * y
-        jacobian[j + 2] += turn * (x * b - y * a) + slide * z
-        jacobian[j + 3] += turn * x
-        jacobian[j + 4] += turn * y
-        jacobian[j + 5] += turn * z
+        jacobian[j + row] += turn * (z * a - x * c) + slide * y
+        jacobian[j + 2 * row] += turn * (x * b - y * a) + slide * z
+        jacobian[j + 3 * row] += turn * x
+        jacobian[j + 4 * row] += turn * y
+        jacobian[j + 5 * row] += turn * z
 
 
 @inlined

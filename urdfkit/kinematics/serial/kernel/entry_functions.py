@@ -50,13 +50,10 @@ def forward(
                 matrix[12 + r] = 0.0
             matrix[15] = 1.0
         if wanted & 2:
-            geometric_jacobian(steps, variables, count, size, pose, work, jacobian)
             rows = shifted(jacobians, 6 * size * i)
-            for r in range(6):
-                for j in range(size):
-                    rows[size * r + j] = jacobian[6 * j + r]
+            geometric_jacobian(steps, variables, count, size, pose, work, size, 1, rows)
         elif wanted & 4:
-            geometric_jacobian(steps, variables, count, size, pose, work, jacobian)
+            geometric_jacobian(steps, variables, count, size, pose, work, 1, 6, jacobian)
             poses[i] = volume(jacobian, size, 3 if wanted & 8 else 6)
     return 0
 
