@@ -95,7 +95,7 @@ class State:
 
     def __repr__(self) -> str:
         """Return time, base position and joint positions."""
-        x, y, z = self.base_pose[:3]
+        x, y, z = self._shown_position()
         joints = "".join(f", {name} {self.position(name):.3g}" for name in list(self._index)[:MOST_SHOWN])
         more = ", …" if len(self._index) > MOST_SHOWN else ""
         return f"<State at t = {self.t:g} s: base at {x:.3g} {y:.3g} {z:.3g} m{joints}{more}>"
@@ -109,11 +109,14 @@ class State:
             f"<td>{self.effort(name):.4g}</td></tr>"
             for name in self._index
         )
-        x, y, z = self.base_pose[:3]
+        x, y, z = self._shown_position()
         return (
             f"<p>t = {self.t:g} s, base at {x:.4g} {y:.4g} {z:.4g} m</p><table><tr><th>joint</th>"
             f"<th>position [rad, m]</th><th>velocity [rad/s, m/s]</th><th>effort [N·m, N]</th></tr>{rows}</table>"
         )
+
+    def _shown_position(self) -> tuple[float, ...]:
+        return tuple(round(value, 9) + 0.0 for value in self.base_pose[:3])  # no -5.562e-17 of a robot on the ground
 
     def attach(self, engine: Engine, articulation: Articulation | None = None) -> None:
         """Read from another engine from now on, which simulates the same robot in a changed world."""
