@@ -341,7 +341,7 @@ def test_objects_are_inserted_moved_turned_and_deleted(page, keep, until) -> Non
     page.get_by_label("yaw of crate").fill("45")
     page.get_by_label("yaw of crate").press("Enter")
     until(lambda: order(page, "get_pose", name="crate")["pose"][5] == pytest.approx(math.pi / 4, abs=0.02))
-    page.get_by_role("button", name="Move with the mouse").click()
+    page.get_by_role("button", name="Move with mouse or arrows").click()
     handle = spot(page, *order(page, "get_pose", name="crate")["pose"][:3])
     drawn(page)
     page.mouse.move(*handle)
@@ -475,6 +475,44 @@ def test_walls_with_a_door_are_drawn_and_the_world_is_saved(page, keep, until, t
     order(page, "remove", name="walls")
 
 
+def test_walls_are_drawn_and_moved_by_the_keyboard_alone(page, keep, until) -> None:
+    put_down(page)
+    look_from_above(page, 9.0)
+    page.locator("#open-world").press("Enter")
+    page.locator("#draw-walls").press("Enter")
+    for corner in ((-1.5, -1.2), (1.75, -1.2), (1.75, 1.5)):
+        for axis, value in zip("xy", corner, strict=True):
+            page.locator(f"#wall-{axis}").fill(str(value))
+        page.locator("#wall-y").press("Enter")
+    page.locator("#wall-number").fill("3")
+    page.locator("#wall-number").press("Enter")
+    until(lambda: page.locator("#toast").inner_text() == "there is no wall 3; the last one is 2")
+    page.locator("#wall-number").fill("2")
+    page.locator("#wall-door-at").fill("1.5")
+    page.get_by_role("button", name="Add door").press("Enter")
+    assert page.evaluate("urdfkit.walls.corners") == [[-1.5, -1.2], [1.75, -1.2], [1.75, 1.5]]
+    assert page.evaluate("urdfkit.walls.doors") == [{"segment": 1, "at": 1.5, "width": 0.9}]
+    keep(page, "walls-typed")
+    page.locator("#wall-build").press("Enter")
+    until(lambda: page.evaluate("urdfkit.scene.byLink.has('world/walls')"))
+    page.keyboard.press("Escape")
+
+    page.locator("[data-object=walls] button").press("Enter")
+    page.locator("#move-object").press("Enter")
+    before = order(page, "get_pose", name="walls")["pose"]
+    for key in ("ArrowUp", "ArrowUp", "ArrowLeft", "Shift+ArrowUp", "Shift+ArrowLeft"):
+        page.keyboard.press(key)
+    step = (-0.05, 0.1, 0.05, 0.0, 0.0, math.radians(5))  # seen from -y
+    after = [start + by for start, by in zip(before, step, strict=True)]
+    until(lambda: order(page, "get_pose", name="walls")["pose"] == pytest.approx(after, abs=1e-6))
+    until(lambda: page.evaluate("document.activeElement.id") == "move-object")  # the form is created again
+    assert page.evaluate("urdfkit.drive.timer") is None  # the robot was not driven
+    keep(page, "walls-moved")
+    page.get_by_role("button", name="Undo: moved walls").press("Enter")
+    until(lambda: order(page, "get_pose", name="walls")["pose"] != pytest.approx(after, abs=1e-6))
+    put_down(page)
+
+
 def test_parameters_are_changed_while_it_runs(page, keep, until) -> None:
     page.locator("#open-physics").click()
     page.get_by_label("Gravity of a planet").select_option(label="none")
@@ -509,8 +547,42 @@ def test_a_link_is_pushed_with_the_mouse(page, keep, until) -> None:
     assert page.evaluate("urdfkit.push.grip") is None
     page.get_by_label("Torque").check()
     assert "N·m/m" in page.locator("output[for=push-strength]").inner_text()
+    page.get_by_label("Force at the point").check()
     page.keyboard.press("Escape")
     assert page.evaluate("urdfkit.page.tools.held") is None
+
+
+def test_a_push_of_a_given_force_and_time_by_the_keyboard_alone(page, keep, until) -> None:
+    put_down(page)
+    order(page, "gravity", gravity=[0, 0, 0])
+    order(page, "spawn", model="crate", pose=[1.0, 1.0, 1.0])
+    page.get_by_role("button", name="Pause").press("Enter")
+    until(lambda: page.locator("#rtf").inner_text() == "paused")
+    mass = page.evaluate("Number(document.querySelector('tr[data-of=crate] input').value)")
+    start = order(page, "get_pose", name="crate")
+    page.locator("#open-push").press("Enter")
+    until(lambda: page.locator("#push-link option", has_text="crate").count() == 1)
+    page.locator("#push-link").select_option("crate")
+    page.locator("#push-seconds").fill("many")
+    page.locator("#push-seconds").press("Enter")
+    until(lambda: page.locator("#toast").inner_text() == "duration: “many” is not a number, such as 0.5")
+    page.locator("#push-seconds").fill("0.05")
+    force = 20 * mass
+    page.get_by_label("force along z [N]").fill(str(force))
+    page.get_by_label("force along z [N]").press("Enter")
+    until(lambda: page.locator("#push-now").inner_text() == f"crate: {force:.4g} N for 0.05 s")
+    keep(page, "push-typed")
+    page.locator("#steps").fill("100")
+    page.get_by_role("button", name="Step", exact=True).press("Enter")
+    raised = 0.5 * 20 * 0.05**2 + 20 * 0.05 * 0.05  # 20 m/s² for 0.05 s, then 0.05 s without a force
+    until(
+        lambda: order(page, "get_pose", name="crate")["pose"][2] == pytest.approx(start["pose"][2] + raised, abs=1e-3)
+    )
+    page.get_by_label("Torque").check()
+    assert page.get_by_label("torque about z [N·m]").is_visible()
+    page.get_by_label("Force at the point").check()
+    put_down(page)
+    order(page, "gravity", gravity=[0, 0, -9.81])
 
 
 def test_contact_forces_slip_and_trails_are_drawn(page, keep, until) -> None:

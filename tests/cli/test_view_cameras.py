@@ -51,6 +51,24 @@ def test_measuring_between_two_points_that_stay_on_their_links(page, until, keep
     assert page.locator(".measure-label").count() == 0
 
 
+def test_measuring_and_publishing_by_the_keyboard_alone(page, lab_served, until, keep) -> None:
+    page.locator("#open-measure").press("Enter")
+    page.locator("#measure-from").select_option("base")
+    page.locator("#measure-to").select_option("lower")
+    for name, place in (("from", (0.15, 0.15, 0.1)), ("to", (0.03, 0.03, 0.3))):
+        for axis, value in zip("xyz", place, strict=True):
+            page.locator(f"#measure-{name}-{axis}").fill(str(value))
+    page.locator("#measure-to-z").press("Enter")
+    length = math.dist((0.15, 0.15, 0.1), (0.03, 0.03, 0.7))
+    until(
+        lambda: page.locator(".measure-label").all_inner_texts() == [f"{1000 * length:.1f}".removesuffix(".0") + " mm"]
+    )
+    keep(page, "measure-typed")
+    page.get_by_role("button", name="Publish the first").press("Enter")
+    until(lambda: page.locator("#toast").inner_text() == "Published 0.15, 0.15, 0.1 in base")
+    page.get_by_role("button", name="Clear", exact=True).press("Enter")
+
+
 def test_a_point_is_published(page, lab_served, until, keep) -> None:
     page.get_by_role("button", name="Publish a point").click()
     page.mouse.click(*at(page, "base", (0.147, 0.147, 0.1)))

@@ -89,7 +89,7 @@ def test_a_link_follows_the_handle_within_its_limits(page, until, keep) -> None:
     until(lambda: values(page)["tip"] == 0.6)
     page.evaluate("urdfkit.page.select({ link: 'left' })")
     page.get_by_role("button", name="Drag the selected link").click()
-    assert page.locator("#ik-strip").inner_text().startswith("Drag the handle of left.")
+    assert page.locator("#ik-strip").inner_text().startswith("Drag the handle of left, or press the arrow keys.")
     drawn(page)
     x, y = at(page, "left")
     page.mouse.move(x, y)
@@ -107,6 +107,24 @@ def test_a_link_follows_the_handle_within_its_limits(page, until, keep) -> None:
     page.get_by_label("Keep the orientation").check()
     assert page.evaluate("urdfkit.ik.gizmo.handles.filter((h) => h.userData.kind === 'about' && h.visible).length") == 6
     keep(page, "drag-rings")
+
+
+def test_a_link_follows_the_arrow_keys(page, until) -> None:
+    page.evaluate("urdfkit.page.setJoints({ turn: 0, bend: 0.6, tip: 0.6 })")
+    until(lambda: values(page)["tip"] == 0.6)
+    page.evaluate("urdfkit.page.select({ link: 'left' })")
+    page.get_by_role("button", name="Drag the selected link").press("Enter")
+    where = "urdfkit.kinematics.forward(urdfkit.page.values).get('left').slice(0, 3)"
+    place = page.evaluate(where)
+    for key, axis, step in (("Shift+ArrowDown", 2, -0.01), ("Shift+ArrowDown", 2, -0.01), ("ArrowDown", None, 0.01)):
+        before, place = place, list(place)
+        page.keyboard.press(key)
+        until(lambda b=before: math.dist(page.evaluate(where), b) > 5e-3)
+        place = page.evaluate(where)
+        assert math.dist(place, before) == pytest.approx(0.01, abs=1e-4)
+        if axis is not None:
+            assert place[axis] - before[axis] == pytest.approx(step, abs=1e-4)
+    page.keyboard.press("Escape")
 
 
 def test_solutions_to_choose_from_and_the_motions_that_are_lost(page, until, keep) -> None:

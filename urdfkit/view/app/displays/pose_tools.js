@@ -2,7 +2,7 @@
 /* global MeshCat */
 
 import { h } from "../page/dom.js";
-import { numberField } from "../page/number_field.js";
+import { unitField } from "../page/number_field.js";
 
 const THREE = MeshCat.THREE;
 const GOAL = "M6 21V4M6 4h11l-3 4 3 4H6";
@@ -30,8 +30,7 @@ export class PoseTools {
 
   #form() {
     const fields = [["x", "m"], ["y", "m"], ["yaw", "°"]].map(([name, unit]) => {
-      const input = numberField({ value: "0", step: unit === "m" ? 0.1 : 5, unit, id: `pose-${name}`, "aria-label": `${name} of the pose [${unit}]` });
-      return [input, h("label", {}, `${name} `, input, h("span.unit", {}, unit))];
+      return unitField(name, { value: "0", step: unit === "m" ? 0.1 : 5, unit, id: `pose-${name}`, "aria-label": `${name} of the pose [${unit}]` });
     });
     const values = () => fields.map(([{ valueAsNumber }]) => valueAsNumber);
     const button = (id) => h("button", { type: "button", id: `publish-${id}`, onclick: () => { const [x, y, yaw] = values(); this.publish(id, [x, y], (yaw * Math.PI) / 180); } }, TOOLS[id][2]);

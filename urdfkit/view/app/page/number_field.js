@@ -78,6 +78,28 @@ export function numberField({ min = null, max = null, step = null, unit = "", wh
   return input;
 }
 
+/** Create a number field below its name and unit. @returns [input, label] */
+export function unitField(words, { unit, ...attributes }) {
+  const input = numberField({ unit, ...attributes });
+  return [input, h("label", {}, `${words} `, input, h("span.unit", {}, unit))];
+}
+
+/** Create a form; `run` is called when it is submitted and its numbers are valid. `form.valid()` reports an invalid one. */
+export function numberForm(attributes, run, ...children) {
+  const form = h("form", { novalidate: true, ...attributes }, ...children);
+  form.valid = () => {
+    const refused = [...form.querySelectorAll("input.number")].find((input) => wrong(input.value, input.bounds));
+    refused?.focus();
+    refused?.dispatchEvent(new Event("change", { bubbles: true })); // reports it
+    return !refused;
+  };
+  form.addEventListener("submit", (event) => {
+    event.preventDefault();
+    if (form.valid()) run();
+  });
+  return form;
+}
+
 // "mass of chassis [kg]" → "mass of chassis: …"
 function named(input, words) {
   const name = (input.getAttribute("aria-label") ?? input.labels?.[0]?.firstChild?.textContent ?? "").replace(/\s*\[[^\]]*\]$/, "").trim();

@@ -2,7 +2,7 @@
 /* global MeshCat */
 
 import { check, h, short } from "../page/dom.js";
-import { Gizmo, nearest } from "../viewport/gizmo.js";
+import { Gizmo, gizmoKeys, nearest } from "../viewport/gizmo.js";
 import { LinkSolver } from "./link_solver.js";
 import { LostMotions } from "./lost_motions.js";
 import { SolutionChoice } from "./solution_choice.js";
@@ -14,6 +14,7 @@ const RESTARTS = 3; // additional starting points per move of the handle, withou
 const ALL = 40; // … and when the handle is released
 const DISCRETE = 6; // joints from which a pose with its orientation has few solutions, a position alone infinitely many
 const COMPILING = 1000; // ms until the server is queried again while it compiles the solver
+const STEP = 0.01; // of an arrow key [m]
 const SIZE = 0.14; // of the smaller of height and width of the viewport
 
 export class Dragging {
@@ -34,6 +35,7 @@ export class Dragging {
     pane.addEventListener("pointerdown", (event) => this.#down(event), { capture: true });
     pane.addEventListener("pointermove", (event) => this.#move(event), { capture: true });
     for (const end of ["pointerup", "pointercancel"]) pane.addEventListener(end, (event) => this.#up(event), { capture: true });
+    gizmoKeys(page, { active: () => this.gizmo.visible && !this.drag, step: STEP, moved: (by, turn) => this.#step(by, turn) });
     page.on("draw", () => this.#place());
     page.on("tool", () => this.show());
     page.on("select", () => this.show());
@@ -142,12 +144,25 @@ export class Dragging {
       goal = [x, y, z, ...pose.slice(3)];
     }
     this.drag.goal = goal;
-    this.#reach(RESTARTS);
+    this.#reach(this.drag, RESTARTS);
+  }
+
+  // A step of the handle by a key: x y z in the frame of the grid, and a turn about its z axis.
+  #step(by, angle) {
+    const { link, page } = this;
+    const { scene } = this.viewer;
+    this.choice.clear();
+    const pose = page.robot.kinematics.forward(page.values).get(link);
+    const at = scene.localToWorld(scene.worldToLocal(page.labels.at(link)).add(new THREE.Vector3(...by)));
+    const up = this.#directionInRoot(new THREE.Vector3(0, 0, 1).transformDirection(scene.matrixWorld));
+    const turn = new THREE.Quaternion().setFromAxisAngle(up, angle).toArray();
+    const goal = [...this.#inRoot(at), ...compose([0, 0, 0, ...turn], [0, 0, 0, ...pose.slice(3)]).slice(3)];
+    this.#reach({ link, values: { ...page.values }, goal, tried: 0, keyed: true }, ALL);
   }
 
   // Without a server there is time for a few starting points while the handle moves, different ones each time; on release, for all.
-  #reach(restarts) {
-    const { drag, page } = this;
+  #reach(drag, restarts) {
+    const { page } = this;
     if (this.solver.ready) {
       const { link, goal } = drag;
       const values = { link, pose: goal, turn: this.turn, limits: !page.ignoreLimits, collision_free: this.free };
@@ -159,7 +174,7 @@ export class Dragging {
     drag.reached = true; // there is nothing left to try
     if (!collisions.length) this.page.setJoints(solutions[0]);
     if (drag.link !== this.link) return;
-    if (this.drag === drag) this.#showError({ error, turned, reason }, collisions);
+    this.#report(drag, { error, turned, reason }, collisions);
     this.#showLost(lost);
   }
 
@@ -170,7 +185,7 @@ export class Dragging {
     drag.tried = found.reached ? 0 : drag.tried + restarts;
     Object.assign(drag.values, found.values);
     page.setJoints(found.values);
-    if (this.drag === drag) this.#showError(found);
+    this.#report(drag, found);
     page.viewport.dirty();
   }
 
@@ -196,10 +211,12 @@ export class Dragging {
     return axis.clone().transformDirection(this.#root.matrixWorld.clone().invert());
   }
 
-  #showError({ error, turned, reason }, collisions = []) {
+  #report(drag, { error, turned, reason }, collisions = []) {
+    if (this.drag !== drag && !drag.keyed) return;
     const cause = reason?.startsWith("limit") ? `: ${reason.replaceAll("`", "")}` : "";
     const far = error > 5e-4 ? `${short(1000 * error, 0)} mm out of reach` : turned > 5e-3 && this.turn ? `${short((turned * 180) / Math.PI, 0)}° out of reach` : "";
     const away = collisions.length ? `collision of ${collisions[0].join(" and ")}` : far && far + cause;
+    if (drag.keyed) return away && this.page.toast(`${drag.link}: ${away}`, "warning");
     if (!away && this.label) this.#quiet();
     else if (away && !this.label) this.label = this.page.labels.add(h("span.measure-label"), () => this.drag?.at ?? null);
     if (this.label) this.label.textContent = away;
@@ -215,7 +232,7 @@ export class Dragging {
     event.stopImmediatePropagation();
     if (this.drag.goal && !this.drag.reached) {
       this.drag.tried = 0;
-      this.#reach(ALL);
+      this.#reach(this.drag, ALL);
     }
     this.drag = null;
     this.#quiet();
@@ -240,7 +257,7 @@ export function ik(page) {
   const showHint = () => {
     strip.hidden = page.tools.held !== "ik";
     const name = page.selected?.link ?? page.selected?.joint;
-    strip.firstChild.textContent = dragging.link ? `Drag the handle of ${dragging.link}.` : name ? "No joint moves this link." : "Click the link to drag.";
+    strip.firstChild.textContent = dragging.link ? `Drag the handle of ${dragging.link}, or press the arrow keys.` : name ? "No joint moves this link." : "Click the link to drag.";
     for (const part of [hold.label, free.label, dragging.choice.element, mapped]) part.hidden = !dragging.link;
     for (const part of [free.label, dragging.choice.element, mapped]) part.hidden ||= !dragging.solver.ready;
   };

@@ -3,6 +3,7 @@
 
 import { h, icon, short } from "../page/dom.js";
 import { copyText } from "./inspector.js";
+import { numberForm, unitField } from "../page/number_field.js";
 
 const THREE = MeshCat.THREE;
 const RULER = "M3 16L16 3l5 5L8 21zM7 12l2 2M10 9l3 3M13 6l2 2";
@@ -44,9 +45,12 @@ export function measure(page) {
   const panel = page.panels.add({ id: "measure", title: "Measure", icon: RULER, order: 47 });
   const hint = h("p.quiet", {}, "Select the ruler or the point tool in the toolbar, then click on the robot or the ground. Clicks snap to corners.");
   const list = h("ol.measures");
+  const [from, to] = ["from", "to"].map((name) => pointFields(name));
+  const publishes = h("button", { type: "button", id: "publish-point", onclick: () => form.valid() && publish(typed(from)) }, "Publish the first");
+  const form = numberForm({ id: "measure-form" }, () => add([typed(from), typed(to)]), h("h3", {}, "By numbers"), from.element, to.element, h("div.row", {}, h("button", { type: "submit", id: "measure-typed" }, "Measure"), publishes));
   const clear = h("button", { type: "button", hidden: true, onclick: () => (items.slice().forEach(remove), (first = null)) }, "Clear");
   panel.tools.append(clear);
-  panel.body.append(hint, list);
+  panel.body.append(hint, list, form);
   let items = []; // {points: [one or two], label, row, text}
   let first = null;
   let last = "";
@@ -67,6 +71,7 @@ export function measure(page) {
   });
   page.on("draw", update);
   page.on("robot", () => page.viewport.dirty());
+  page.on("model", () => [from, to].forEach(offer));
   page.expose("measures", { get items() { return items; } });
 
   function measured(point) {
@@ -77,6 +82,28 @@ export function measure(page) {
     }
     add([first, point]);
     first = null;
+  }
+
+  // A frame and a point in it.
+  function pointFields(name) {
+    const frame = h("select", { id: `measure-${name}` });
+    const fields = [..."xyz"].map((axis) => unitField(axis, { id: `measure-${name}-${axis}`, value: "0", step: 0.01, unit: "m", "aria-label": `${axis} in the frame, ${name} [m]` }));
+    const element = h("div", {}, h("label.field.choice", {}, name === "from" ? "From" : "To", frame), h("div.pose", {}, fields.map(([, label]) => label)));
+    return { frame, inputs: fields.map(([input]) => input), element };
+  }
+
+  function offer({ frame }) {
+    const before = frame.value;
+    const names = [...page.scene.byLink.keys()];
+    frame.replaceChildren(h("option", { value: "" }, "ground"), ...names.map((link) => h("option", { value: link }, link.replace(/^world\//, ""))));
+    frame.value = names.includes(before) ? before : "";
+  }
+
+  function typed({ frame, inputs }) {
+    const local = inputs.map(({ valueAsNumber }) => valueAsNumber);
+    const point = { link: frame.value || null, local, point: local };
+    points.at(point);
+    return point;
   }
 
   async function publish(point) {

@@ -1,11 +1,12 @@
-// Moving an object with the mouse: a handle with arrows and rings, and a box at the target pose.
+// Moving an object with the mouse or the arrow keys: a handle with arrows and rings, and a box at the target pose.
 /* global MeshCat */
 
-import { Gizmo, nearest } from "../viewport/gizmo.js";
+import { Gizmo, gizmoKeys, nearest } from "../viewport/gizmo.js";
 
 const THREE = MeshCat.THREE;
 const SIZE = 0.13; // of the viewport's height
 const GRID = 0.05; // m
+const REST = 250; // ms after the last key until the object is moved
 const UP = new THREE.Vector3(0, 0, 1);
 
 export class Mover {
@@ -19,15 +20,22 @@ export class Mover {
     this.ghost.visible = false;
     this.viewer.scene.add(this.gizmo, this.ghost);
     this.drag = null;
+    this.timer = null;
     const { pane } = page.viewport;
     pane.addEventListener("pointerdown", (event) => this.#down(event), { capture: true });
     pane.addEventListener("pointermove", (event) => this.#move(event), { capture: true });
     for (const end of ["pointerup", "pointercancel"]) pane.addEventListener(end, (event) => this.#up(event), { capture: true });
+    gizmoKeys(page, { active: () => this.held && !this.drag, step: GRID, moved: (by, turn) => this.#step(by, turn) });
     page.on("draw", () => this.#size());
   }
 
   get held() {
     return this.gizmo.visible;
+  }
+
+  /** Whether a move has begun that is not yet requested. */
+  get moving() {
+    return this.drag !== null || this.timer !== null;
   }
 
   /** Attach the handle to an object. @param links its links; @param pose x y z roll pitch yaw */
@@ -56,6 +64,7 @@ export class Mover {
   }
 
   drop() {
+    this.timer = clearTimeout(this.timer) ?? null;
     this.gizmo.visible = this.ghost.visible = false;
     this.drag = null;
     this.page.viewport.dirty();
@@ -118,6 +127,24 @@ export class Mover {
     this.#follow();
   }
 
+  // Keys pressed quickly move the object once, after the last one.
+  #step(by, turn) {
+    this.ghost.visible = true;
+    this.ghost.position.add(new THREE.Vector3(...by));
+    this.ghost.quaternion.premultiply(new THREE.Quaternion().setFromAxisAngle(UP, turn));
+    this.#follow();
+    clearTimeout(this.timer);
+    this.timer = setTimeout(() => {
+      this.timer = null;
+      this.ghost.visible = false;
+      this.#done();
+    }, REST);
+  }
+
+  #done() {
+    this.moved([...this.ghost.position.toArray(), ...this.ghost.quaternion.toArray()]);
+  }
+
   // To the grid, along the moved axis or in the plane; with Shift the object moves freely.
   #snap(axis) {
     for (const part of "xyz") {
@@ -134,7 +161,7 @@ export class Mover {
     this.ghost.visible = false;
     this.viewer.controls.enabled = true;
     const moved = this.ghost.position.distanceTo(drag.position) > 1e-6 || this.ghost.quaternion.angleTo(drag.turn) > 1e-6;
-    if (moved) this.moved([...this.ghost.position.toArray(), ...this.ghost.quaternion.toArray()]);
+    if (moved) this.#done();
     this.page.viewport.dirty();
   }
 }

@@ -1,7 +1,8 @@
-// Pushing a link with the mouse: drag from a point of the link to apply a force there, or a torque.
+// Pushing a link: drag from a point of the link to apply a force there, or a torque; or type it.
 /* global MeshCat */
 
 import { h, short } from "../page/dom.js";
+import { numberForm, unitField } from "../page/number_field.js";
 
 const THREE = MeshCat.THREE;
 const PUSH = "M4 12h11M11 7l5 5-5 5M20 5v14";
@@ -26,7 +27,7 @@ export class Push {
     for (const end of ["pointerup", "pointercancel"]) pane.addEventListener(end, (event) => this.#up(event), { capture: true });
     addEventListener("blur", () => this.release());
     page.on("lost", () => this.release());
-    page.on("parameters", ({ rows }) => this.#suit(rows));
+    page.on("parameters", ({ rows }) => (this.#suit(rows), this.#offer(rows)));
     page.on("poses", () => this.grip && this.#pull());
   }
 
@@ -34,17 +35,45 @@ export class Push {
     this.panel = this.page.panels.add({ id: "push", title: "Push", icon: PUSH, modes: ["sim"], order: 37 });
     this.strength = h("input", { id: "push-strength", type: "range", min: -1, max: 4, step: 0.01, value: 1 });
     this.words = h("output", { for: "push-strength" });
-    const showGain = () => (this.words.textContent = `${short(this.gain, this.gain < 10 ? 1 : 0)} ${this.torque ? "N·m" : "N"}/m`);
+    const showGain = () => (this.words.textContent = `${short(this.gain, this.gain < 10 ? 1 : 0)} ${this.unit}/m`);
     this.strength.addEventListener("input", showGain);
     const kind = (value, words) => {
       const input = h("input", { type: "radio", name: "push-kind", value, checked: value === "force" });
-      input.addEventListener("change", () => ((this.torque = value === "torque"), showGain()));
+      input.addEventListener("change", () => {
+        this.torque = value === "torque";
+        showGain();
+        this.#name();
+      });
       return h("label.check", {}, input, ` ${words}`);
     };
     this.now = h("p.now", { role: "status", id: "push-now" }, "Drag a link to push it.");
     const hold = h("button.wide", { type: "button", id: "push-hold", onclick: () => this.page.tools.hold(this.page.tools.held === "push" ? null : "push") }, "Activate the tool");
-    this.panel.body.append(hold, h("div.checks", {}, kind("force", "Force at the point"), kind("torque", "Torque")), h("label.field", { for: "push-strength" }, "Strength ", this.words, this.strength), this.now);
+    this.panel.body.append(hold, h("div.checks", {}, kind("force", "Force at the point"), kind("torque", "Torque")), h("label.field", { for: "push-strength" }, "Strength ", this.words, this.strength), this.now, this.#typed());
     showGain();
+    this.#name();
+  }
+
+  /** Fields for a push of a given force or torque and duration. */
+  #typed() {
+    this.choice = h("select", { id: "push-link" });
+    this.fields = ["x", "y", "z"].map((axis) => unitField(axis, { id: `push-${axis}`, value: "0", unit: "N" }));
+    const [seconds, duration] = unitField("duration", { id: "push-seconds", value: "0.5", min: 0.001, max: 60, step: 0.1, unit: "s" });
+    const apply = () => {
+      const link = this.choice.value;
+      const values = this.fields.map(([input]) => input.valueAsNumber);
+      const done = () => (this.now.textContent = `${link}: ${short(Math.hypot(...values), 2)} ${this.unit} for ${seconds.value} s`);
+      this.#request(link, values, [0, 0, 0], { seconds: seconds.valueAsNumber }).then(done, (error) => this.page.toast(error.message, "error"));
+    };
+    return numberForm({ id: "push-form" }, apply, h("h3", {}, "Push for a time"), h("label.field.choice", {}, "Link", this.choice), h("div.pose", {}, this.fields.map(([, label]) => label), duration), h("button.wide", { type: "submit", id: "push-apply" }, "Apply"));
+  }
+
+  // The links and bodies that move, by the names of the simulation.
+  #offer(rows) {
+    const before = this.choice.value;
+    const moved = rows.filter(({ mass }) => mass !== null);
+    const names = moved.map(({ name, link }) => (!link ? name : name === rows[0].name ? link : `${name}::${link}`));
+    this.choice.replaceChildren(...names.map((name) => h("option", { value: name }, name)));
+    if (names.includes(before)) this.choice.value = before;
   }
 
   // Default: accelerates a robot of this mass with 4 m/s² per metre.
@@ -56,6 +85,17 @@ export class Push {
     if (!this.suited) return;
     this.strength.value = Math.log10(4 * mass);
     this.strength.dispatchEvent(new Event("input"));
+  }
+
+  get unit() {
+    return this.torque ? "N·m" : "N";
+  }
+
+  #name() {
+    this.fields.forEach(([input, label], i) => {
+      label.querySelector(".unit").textContent = input.bounds.unit = this.unit;
+      input.setAttribute("aria-label", `${this.torque ? "torque about" : "force along"} ${"xyz"[i]} [${this.unit}]`);
+    });
   }
 
   /** Force [N] or torque [N·m] per metre of the drag. */
@@ -127,21 +167,22 @@ export class Push {
       this.arrow.setDirection(pull.normalize());
       this.arrow.setLength(length, Math.min(0.3 * length, 0.12), Math.min(0.18 * length, 0.07));
     }
-    this.now.textContent = `${grip.link.replace("world/", "")}: ${short(grip.wrench.length(), 2)} ${this.torque ? "N·m" : "N"}`;
+    this.now.textContent = `${grip.link.replace("world/", "")}: ${short(grip.wrench.length(), 2)} ${this.unit}`;
     this.page.viewport.dirty();
   }
 
   #send() {
     const { grip } = this;
     if (!grip?.wrench) return;
-    const values = grip.wrench.toArray();
-    const still = [0, 0, 0];
-    this.page.connection
-      .request("push", { link: grip.link.replace(/^world\//, ""), force: this.torque ? still : values, torque: this.torque ? values : still, at: grip.local })
-      .catch((error) => {
-        this.page.toast(error.message, "error");
-        this.release();
-      });
+    this.#request(grip.link.replace(/^world\//, ""), grip.wrench.toArray(), grip.local).catch((error) => {
+      this.page.toast(error.message, "error");
+      this.release();
+    });
+  }
+
+  #request(link, values, at, more = {}) {
+    const [force, torque] = this.torque ? [[0, 0, 0], values] : [values, [0, 0, 0]];
+    return this.page.connection.request("push", { link, force, torque, at, ...more });
   }
 }
 

@@ -3,7 +3,7 @@
 
 import { h, short } from "../page/dom.js";
 import { Mover } from "./object_gizmo.js";
-import { numberField } from "../page/number_field.js";
+import { numberField, unitField } from "../page/number_field.js";
 
 const THREE = MeshCat.THREE;
 const WORLD = "M12 3l8 4.5v9L12 21l-8-4.5v-9zM12 12l8-4.5M12 12v9M12 12L4 7.5";
@@ -16,6 +16,7 @@ export class Objects {
     this.chosen = null; // the model that a click inserts
     this.picked = null; // the selected object
     this.objects = [];
+    this.moves = 0; // requested so far
     this.panel = page.panels.add({ id: "world", title: "World", icon: WORLD, modes: ["sim"], order: 30 });
     this.filter = h("input", { type: "search", id: "library-filter", placeholder: "Filter the library", "aria-label": "Filter the library", autocomplete: "off" });
     this.filter.addEventListener("input", () => this.#library());
@@ -83,8 +84,7 @@ export class Objects {
   /** Fields for the pose of the inserted model. */
   #typed() {
     const field = (name, unit, step) => {
-      const input = numberField({ step, unit, value: "0", id: `insert-${name}`, "aria-label": `${name} of the inserted model [${unit}]` });
-      return [input, h("label", {}, `${name} `, input, h("span.unit", {}, unit))];
+      return unitField(name, { step, unit, value: "0", id: `insert-${name}`, "aria-label": `${name} of the inserted model [${unit}]` });
     };
     const [[x, atX], [y, atY], [yaw, turned]] = [field("x", "m", 0.1), field("y", "m", 0.1), field("yaw", "°", 5)];
     const insert = () => this.#insert([x.valueAsNumber, y.valueAsNumber, 0], (yaw.valueAsNumber * Math.PI) / 180);
@@ -130,7 +130,7 @@ export class Objects {
     const name = this.page.mode === "sim" ? this.nameOf(selected?.link) : null;
     this.picked = name;
     for (const item of this.list.children) item.toggleAttribute("data-chosen", item.dataset.object === name);
-    this.detail.hidden = !name;
+    this.detail.hidden = true; // until the pose has arrived
     this.mover.drop();
     if (!name) return;
     const done = await this.#request("get_pose", { name });
@@ -152,13 +152,22 @@ export class Objects {
     const away = h("button.danger", { type: "button", onclick: () => this.remove() }, "Delete");
     const twin = h("button", { type: "button", id: "duplicate-object", onclick: () => this.duplicate() }, "Duplicate");
     away.hidden = twin.hidden = Boolean(object?.first);
-    const hold = h("button", { type: "button", id: "move-object", "aria-pressed": "false" }, "Move with the mouse");
+    const hold = h("button", { type: "button", id: "move-object", "aria-pressed": "false" }, "Move with mouse or arrows");
+    hold.title = "Arrow keys: 5 cm; with Shift: up, down, turn by 5°";
     hold.addEventListener("click", () => {
       if (this.mover.held) this.mover.drop();
       else this.mover.take(this.#links(name), pose);
       hold.setAttribute("aria-pressed", this.mover.held);
     });
+    this.detail.hidden = false;
     this.detail.replaceChildren(h("h3", {}, name), grid, h("div.row.wrap", {}, hold, twin, h("span.space"), away));
+  }
+
+  // A selector of the control that has the focus, which is created again.
+  #focus() {
+    const { activeElement: element } = document;
+    if (!this.detail.contains(element)) return null;
+    return element.id ? `#${element.id}` : `[aria-label="${CSS.escape(element.getAttribute("aria-label"))}"]`;
   }
 
   #links(name) {
@@ -167,15 +176,19 @@ export class Objects {
 
   async #place(pose) {
     const name = this.picked;
+    const number = (this.moves += 1);
     const before = await this.#request("get_pose", { name });
     if (!before || !(await this.#request("place", { name, pose }))) return;
     const put = (where) => () => this.page.connection.request("place", { name, pose: where });
     this.page.history.add({ words: `moved ${name}`, undo: put(before.pose), redo: put(pose) });
     const now = await this.#request("get_pose", { name });
-    if (!now || this.picked !== name) return;
+    if (!now || this.picked !== name || this.moves !== number || this.mover.moving) return; // a later move is on its way
     const held = this.mover.held;
+    const focus = this.#focus();
+    this.mover.drop();
     this.#show(name, now.pose);
     if (held) document.getElementById("move-object").click();
+    if (focus) this.detail.querySelector(focus)?.focus();
   }
 
   /** Delete the selected object. */

@@ -3,6 +3,9 @@
 
 const THREE = MeshCat.THREE;
 const COLOURS = [0xe5484d, 0x30a46c, 0x3e7bfa];
+const ARROWS = { ArrowLeft: [0, -1], ArrowRight: [0, 1], ArrowUp: [1, 0], ArrowDown: [-1, 0] };
+const STEEP = 0.3; // of a direction's length parallel to the ground below which it counts as vertical
+const TURN = (5 * Math.PI) / 180; // rad
 const AXES = [new THREE.Vector3(1, 0, 0), new THREE.Vector3(0, 1, 0), new THREE.Vector3(0, 0, 1)];
 
 function material(color, opacity = 0.95) {
@@ -57,4 +60,33 @@ export function nearest(ray, from, along) {
   if (below < 1e-4) return null; // the ray is parallel to the line
   const s = (b * ray.direction.dot(w) - along.dot(w)) / below;
   return from.clone().addScaledVector(along, s);
+}
+
+/**
+ * Move a handle by the arrow keys while `active()`, wherever the focus is, except in a field.
+ * @param step length of a step [m]; @param moved called with x y z of the step in the frame of the grid, and the turn about z [rad]
+ */
+export function gizmoKeys(page, { active, step, moved }) {
+  const listen = (event) => {
+    if (!(event.key in ARROWS) || event.ctrlKey || event.metaKey || event.altKey || !active()) return;
+    if (event.target.closest?.("input, select, textarea, dialog")) return;
+    event.preventDefault();
+    event.stopImmediatePropagation(); // the arrows drive a robot and rotate the view otherwise
+    const [ahead, right] = ARROWS[event.key];
+    if (event.shiftKey) return moved([0, 0, ahead * step], -right * TURN);
+    const [x, y] = forward(page.viewport.viewer);
+    moved([(x * ahead + y * right) * step, (y * ahead - x * right) * step, 0], 0);
+  };
+  addEventListener("keydown", listen, { capture: true });
+}
+
+// The axis of the ground that leads away from the viewer, x y.
+function forward({ camera, scene }) {
+  camera.updateMatrixWorld();
+  const inside = scene.matrixWorld.clone().invert();
+  const [up, back] = [new THREE.Vector3(), new THREE.Vector3()];
+  camera.matrixWorld.extractBasis(new THREE.Vector3(), up, back);
+  const ahead = back.negate().transformDirection(inside);
+  const { x, y } = Math.hypot(ahead.x, ahead.y) > STEEP ? ahead : up.transformDirection(inside);
+  return Math.abs(x) >= Math.abs(y) ? [Math.sign(x), 0] : [0, Math.sign(y)];
 }
