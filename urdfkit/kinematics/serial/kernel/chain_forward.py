@@ -143,7 +143,7 @@ def geometric_jacobian(
         column: numbers in memory from the column of one variable to that of the next.
         jacobian: written: six rows, ``size`` columns.
     """
-    known = 0
+    cleared = 0
     for k in range(count):
         turn = steps[STEP * k + 12]
         slide = steps[STEP * k + 14]
@@ -155,10 +155,10 @@ def geometric_jacobian(
         b = pose[10] - axes[g + 4]
         c = pose[11] - axes[g + 5]
         j = column * variables[k]
-        if variables[k] == known:  # its first step
+        if variables[k] == cleared:  # its first step
             for r in range(6):
                 jacobian[j + row * r] = 0.0
-            known += 1
+            cleared += 1
         jacobian[j] += turn * (y * c - z * b) + slide * x
         jacobian[j + row] += turn * (z * a - x * c) + slide * y
         jacobian[j + 2 * row] += turn * (x * b - y * a) + slide * z
