@@ -123,7 +123,6 @@ def geometric_jacobian(
     steps: Floats,
     variables: Integers,
     count: int,
-    size: int,
     pose: Floats,
     axes: Floats,
     row: int,
@@ -136,12 +135,11 @@ def geometric_jacobian(
         steps: see `place`.
         variables: see `place`.
         count: number of steps.
-        size: number of variables.
         pose: see `place`.
         axes: see `place`.
         row: numbers in memory from one row to the next.
         column: numbers in memory from the column of one variable to that of the next.
-        jacobian: written: six rows, ``size`` columns.
+        jacobian: written: six rows, one column per variable.
     """
     cleared = 0
     for k in range(count):

@@ -105,7 +105,7 @@ def descend(
             since = 0
         since += 1
         if moved:
-            geometric_jacobian(steps, variables, count, size, pose, axes, 1, 6, jacobian)
+            geometric_jacobian(steps, variables, count, pose, axes, 1, 6, jacobian)
             for j in range(size):
                 gradient = 0.0
                 for k in range(3):

@@ -51,9 +51,9 @@ def forward(
             matrix[15] = 1.0
         if wanted & 2:
             rows = shifted(jacobians, 6 * size * i)
-            geometric_jacobian(steps, variables, count, size, pose, work, size, 1, rows)
+            geometric_jacobian(steps, variables, count, pose, work, size, 1, rows)
         elif wanted & 4:
-            geometric_jacobian(steps, variables, count, size, pose, work, 1, 6, jacobian)
+            geometric_jacobian(steps, variables, count, pose, work, 1, 6, jacobian)
             poses[i] = volume(jacobian, size, 3 if wanted & 8 else 6)
     return 0
 

@@ -72,7 +72,7 @@ def rank(
         pose = stack(12)
         jacobian = shifted(work, AXIS * count)
         place(steps, variables, count, q, pose, work)
-        geometric_jacobian(steps, variables, count, size, pose, work, 1, 6, jacobian)
+        geometric_jacobian(steps, variables, count, pose, work, 1, 6, jacobian)
         return -volume(jacobian, size, 6 if angular > 0.0 else 3)
     total = 0.0
     for j in range(size):
