@@ -45,7 +45,8 @@ def configure(parser: argparse.ArgumentParser) -> None:
         "--targets",
         type=Path,
         metavar="FILE",
-        help="a .npy, .npz (array `targets`) or .csv file of poses: x y z [m] and a quaternion x y z w per row",
+        help="a .npy, .npz (array `targets`) or .csv file of poses: x y z [m] and a quaternion x y z w per row, or "
+        "x y z with --position-only",
     )
     add(
         "--from",
@@ -108,7 +109,7 @@ def run(arguments: argparse.Namespace) -> int:
 
         return solve_pose(robot, tip, pose, start, hold, options, arguments)
     require_packages("ik: --targets", "sim", {"numpy": "numpy", "numba": "numba"})
-    poses = poses_of_file(arguments.targets)
+    poses = poses_of_file(arguments.targets, position_only=arguments.position_only)
     from urdfkit.cli.kinematics.ik.many_poses import solve_poses
 
     return solve_poses(robot, tip, poses, start, hold, options, arguments)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import math
+import sys
 from pathlib import Path
 
 from urdfkit.errors import ResourceError, UsageError
@@ -15,6 +16,12 @@ if TYPE_CHECKING:
 
 UNIT = 0.01
 """Difference of a quaternion's length from 1 beyond which it is taken for a mistake, not for rounded numbers."""
+
+
+IK = "ik: --targets"
+MAGIC = {".npy": b"\x93NUMPY", ".npz": b"PK"}
+"""File type → the first bytes of its files (https://numpy.org/doc/stable/reference/generated/numpy.lib.format.html)."""
+TURN = 2.0 * math.pi
 
 
 def numbers(text: str, count: int, option: str) -> list[float]:
@@ -48,7 +55,14 @@ def pose_of(arguments: argparse.Namespace) -> list[float] | None:
         return None
     xyz = numbers(arguments.xyz, 3, "--xyz")
     if arguments.rpy is not None:
-        return [*xyz, *quaternion_of(numbers(arguments.rpy, 3, "--rpy"))]
+        rpy = numbers(arguments.rpy, 3, "--rpy")
+        if (largest := max(rpy, key=abs)) and abs(largest) > TURN and not arguments.quiet:
+            print(
+                f"urdfkit: warning: --rpy {arguments.rpy}: {largest:g} rad is more than a turn; if it is in degrees, "
+                f"use {','.join(f'{math.radians(angle):.6g}' for angle in rpy)}",
+                file=sys.stderr,
+            )
+        return [*xyz, *quaternion_of(rpy)]
     quaternion = numbers(arguments.quat, 4, "--quat") if arguments.quat is not None else [0.0, 0.0, 0.0, 1.0]
     length = math.hypot(*quaternion)
     if abs(length - 1.0) > UNIT:
@@ -70,8 +84,13 @@ def quaternion_of(rpy: list[float]) -> list[float]:
     ]
 
 
-def poses_of_file(path: Path, option: str = "ik: --targets") -> Array:
+def poses_of_file(path: Path, option: str = IK, *, position_only: bool = False) -> Array:
     """Return the poses of a file, named by an option; shape (N, 7) or (N, 4, 4).
+
+    Args:
+        path: the file.
+        option: the option, for messages.
+        position_only: accept rows of x y z too, to which the orientation of the base is added.
 
     Raises:
         ResourceError: the file cannot be read.
@@ -83,18 +102,16 @@ def poses_of_file(path: Path, option: str = "ik: --targets") -> Array:
     if suffix not in (".npy", ".npz", ".csv"):
         raise UsageError(f"{option} {path}: unsupported file type; use .npy, .npz or .csv")
     try:
-        if suffix == ".csv":
-            poses = _poses_of_csv(path)
-        else:
-            with path.open("rb") as file:
-                loaded = np.load(file, allow_pickle=False)
-                poses = _array_named_targets(f"{option} {path}", loaded) if suffix == ".npz" else loaded
+        poses = _poses_of_csv(path, option, position_only) if suffix == ".csv" else _array_of(path, option)
     except OSError as error:
         raise ResourceError(f"{option} {path}: {error.strerror or error}") from error
     except (ValueError, EOFError) as error:
         raise UsageError(f"{option} {path}: not readable as {suffix}: {error}") from error
+    if position_only and poses.shape[1:] == (3,):
+        poses = np.hstack([poses, np.tile([0.0, 0.0, 0.0, 1.0], (len(poses), 1))])
     if poses.dtype.kind not in "fiu" or (poses.shape[1:] not in ((7,), (4, 4))):
-        raise UsageError(f"{option} {path}: expected an array of shape (N, 7) or (N, 4, 4), got {poses.shape}")
+        hint = "; use --position-only for positions" if option == IK and poses.shape[1:] == (3,) else ""
+        raise UsageError(f"{option} {path}: expected an array of shape (N, 7) or (N, 4, 4), got {poses.shape}{hint}")
     if not len(poses):
         raise UsageError(f"{option} {path}: the file has no poses")
     poses = np.ascontiguousarray(poses, dtype=float)
@@ -105,6 +122,43 @@ def poses_of_file(path: Path, option: str = "ik: --targets") -> Array:
             "of length 1"
         )
     return poses
+
+
+def _array_of(path: Path, option: str) -> Array:
+    """Read the array of a .npy or .npz file.
+
+    Raises:
+        OSError: the file cannot be read.
+        ValueError: it is damaged.
+        UsageError: it is a file of another type, or has no array of numbers.
+    """
+    import numpy as np
+
+    suffix = path.suffix.lower()
+    with path.open("rb") as file:
+        start = file.read(16)
+        if not start.startswith(MAGIC[suffix]):
+            raise UsageError(f"{option} {path}: {_other_file(start, suffix)}")
+        file.seek(0)
+        try:
+            loaded = np.load(file, allow_pickle=False)
+            return _array_named_targets(f"{option} {path}", loaded) if suffix == ".npz" else loaded
+        except ValueError as error:
+            if "llow_pickle" in str(error):
+                raise UsageError(f"{option} {path}: the array has Python objects, not numbers") from None
+            raise
+
+
+def _other_file(start: bytes, suffix: str) -> str:
+    """Return what is wrong with a file that does not start as those of its type, and what to do."""
+    if not start:
+        return "the file is empty"
+    if other := next((kind for kind, magic in MAGIC.items() if start.startswith(magic)), None):
+        return f"the file is a {other} file; rename it to {other}"
+    line = next(iter(start.decode("utf-8", "replace").split("\n")), "").strip()
+    found = f"; it starts with `{line}`" if line and line.isprintable() and "\ufffd" not in line else ""
+    made = "numpy.save" if suffix == ".npy" else "numpy.savez"
+    return f"not an array written by {made}{found}; rename a text of comma-separated numbers to .csv"
 
 
 def _array_named_targets(place: str, loaded: object) -> Array:
@@ -123,7 +177,7 @@ def _is_number(text: str) -> bool:
     return True
 
 
-def _poses_of_csv(path: Path) -> Array:
+def _poses_of_csv(path: Path, option: str, position_only: bool) -> Array:
     """Read rows of numbers; the first line may be a header."""
     import csv
 
@@ -131,14 +185,19 @@ def _poses_of_csv(path: Path) -> Array:
 
     with path.open(encoding="utf-8", newline="") as file:
         rows = [(number, row) for number, row in enumerate(csv.reader(file), 1) if any(cell.strip() for cell in row)]
-    found = []
+    found: list[list[float]] = []
     for number, row in rows:
         try:
-            found.append([float(cell) for cell in row])
+            values = [float(cell) for cell in row]
         except ValueError:
             if number > 1 or any(map(_is_number, row)):
-                raise UsageError(f"ik: {path}:{number}: `{','.join(row)}` are not numbers") from None
+                raise UsageError(f"{option} {path}:{number}: `{','.join(row)}` are not numbers") from None
             continue
-        if len(found[-1]) != 7:
-            raise UsageError(f"ik: {path}:{number}: expected 7 numbers x,y,z,qx,qy,qz,qw, got {len(found[-1])}")
-    return np.array(found, dtype=float).reshape(len(found), 7)
+        expected = {len(found[0])} if found else {7, 3} if position_only else {7}
+        if len(values) not in expected:
+            wanted = "7 numbers x,y,z,qx,qy,qz,qw" + (" or 3 numbers x,y,z" if position_only else "")
+            wanted = f"{len(found[0])} numbers as before" if found and position_only else wanted
+            hint = "; use --position-only for positions" if option == IK and len(values) == 3 and not found else ""
+            raise UsageError(f"{option} {path}:{number}: expected {wanted}, got {len(values)}{hint}")
+        found.append(values)
+    return np.array(found, dtype=float).reshape(len(found), len(found[0]) if found else 7)
