@@ -134,6 +134,34 @@ def test_poses_of_files(capsys: pytest.CaptureFixture[str], tmp_path: Path, arm_
     assert (code, found["targets"], found["reached"], len(found["solutions"])) == (1, 20, 19, 20)
 
 
+@pytest.mark.parametrize("suffix", [".csv", ".npy"])
+def test_positions_of_files(capsys: pytest.CaptureFixture[str], tmp_path: Path, arm_file: str, suffix: str) -> None:
+    file, output = tmp_path / f"positions{suffix}", tmp_path / "solutions.npz"
+    positions = [[0.28, 0.16, 0.59], [0.3, 0.1, 0.5]]
+    if suffix == ".npy":
+        np.save(file, positions)
+    else:
+        file.write_text("x,y,z\n" + "".join(f"{x},{y},{z}\n" for x, y, z in positions))
+    words = [arm_file, "finger_a", "--targets", str(file), "--position-only", "-o", str(output)]
+    assert ran(capsys, *words)[0] == 0
+    chain = Chain(load(arm_file), None, "finger_a")
+    with np.load(output) as arrays:
+        np.testing.assert_allclose(chain.forward(arrays["q"])[:, :3, 3], positions, rtol=0, atol=1e-3)
+
+
+def test_warnings_of_limits_and_degrees(capsys: pytest.CaptureFixture[str], arm_file: str) -> None:
+    words = ["ik", arm_file, "finger_a", "--xyz", "0.28,0.16,0.59", "--position-only"]
+    main([*words, "--hold", "bend=3", "--from", "slide=9", "--rpy", "0,90,0"])
+    assert capsys.readouterr().err.splitlines() == [
+        "urdfkit: warning: --rpy 0,90,0: 90 rad is more than a turn; if it is in degrees, use 0,1.5708,0",
+        "urdfkit: warning: joint `slide` at 9 m is outside its limits [-0.1, 0.4] m",
+        "urdfkit: warning: joint `bend` at 3 rad is outside its limits [-1.5, 2] rad",
+        "urdfkit: warning: joint `dial_joint` at 4.3 rad is outside its limits [-3, 3] rad",  # mimics `bend`
+    ]
+    assert main([*words, "-q", "--hold", "bend=3"]) in (0, 1)
+    assert capsys.readouterr().err == ""
+
+
 def test_one_pose_is_written_as_arrays(capsys: pytest.CaptureFixture[str], tmp_path: Path, arm_file: str) -> None:
     output = tmp_path / "one.npz"
     words = [arm_file, "finger_a", "--xyz", "0.28,0.16,0.59", "--position-only"]
@@ -217,9 +245,23 @@ def test_the_solution_nearest_to_the_start(capsys: pytest.CaptureFixture[str], a
         (["finger_a", "--xyz", "1,2,3", "-o", "a.txt"], "ik: -o a.txt: unsupported file type; use .npz"),
         (["finger_a", "--targets", "wide.npy"], "expected an array of shape (N, 7) or (N, 4, 4), got (2, 6)"),
         (["finger_a", "--targets", "no_array.npz"], "no array `targets`; its arrays: a, b"),
-        (["finger_a", "--targets", "broken.npy"], "not readable as .npy"),
+        (
+            ["finger_a", "--targets", "broken.npy"],
+            "not an array written by numpy.save; it starts with `nothing`; rename",
+        ),
+        (["finger_a", "--targets", "empty.npy"], "ik: --targets empty.npy: the file is empty"),
+        (["finger_a", "--targets", "archive.npy"], "archive.npy: the file is a .npz file; rename it to .npz"),
+        (["finger_a", "--targets", "objects.npy"], "objects.npy: the array has Python objects, not numbers"),
         (["finger_a", "--targets", "words.csv"], "words.csv:2: `1,2,3,0,0,0,one` are not numbers"),
-        (["finger_a", "--targets", "short.csv"], "short.csv:1: expected 7 numbers x,y,z,qx,qy,qz,qw, got 3"),
+        (
+            ["finger_a", "--targets", "short.csv"],
+            "short.csv:1: expected 7 numbers x,y,z,qx,qy,qz,qw, got 3; use --position-only",
+        ),
+        (["finger_a", "--targets", "mixed.csv", "--position-only"], "mixed.csv:2: expected 3 numbers as before, got 7"),
+        (
+            ["finger_a", "--xyz", "1,2,3", "--hold", "arm=1"],
+            "no movable joint `arm` in robot `arm`; its movable joints",
+        ),
         (["finger_a", "--targets", "zero.npy"], "the quaternion of pose 1 has the length 0; use one of length 1"),
         (["finger_a", "--targets", "nan.npy"], "target 1 is not a pose"),
         (["finger_a", "--targets", "first.csv"], "first.csv:1: `1,2,3,0,0,0,one` are not numbers"),
@@ -241,7 +283,12 @@ def test_refusals(
     Path("first.csv").write_text("1,2,3,0,0,0,one\n")
     Path("header.csv").write_text("x,y,z,qx,qy,qz,qw\n")
     np.savez("no_array.npz", a=np.zeros(3), b=np.zeros(3))
+    np.savez("archive.npz", a=np.zeros(3))
+    Path("archive.npz").rename("archive.npy")
+    np.save("objects.npy", np.array([{}, 1], dtype=object), allow_pickle=True)
     Path("broken.npy").write_bytes(b"nothing")
+    Path("empty.npy").touch()
+    Path("mixed.csv").write_text("1,2,3\n0,0,0,0,0,0,1\n")
     Path("words.csv").write_text("0,0,0,0,0,0,1\n1,2,3,0,0,0,one\n")
     Path("short.csv").write_text("1,2,3\n")
     code, out, err = ran(capsys, arm_file, *words)

@@ -99,7 +99,7 @@ def test_the_direction_that_a_stretched_arm_loses(capsys: pytest.CaptureFixture[
 def test_warnings_and_refusals(capsys: pytest.CaptureFixture[str], arm_file: str) -> None:
     code, _, err = ran(capsys, arm_file, "finger_a", "--joint", "bend=3")
     assert code == 0
-    assert "joint `bend` at 3 is outside its limits [-1.5, 2]" in err
+    assert "joint `bend` at 3 rad is outside its limits [-1.5, 2] rad" in err
     for words, message in (
         (["finger_a", "--joint", "bnd=1"], "no movable joint `bnd` in robot `arm`; did you mean `bend`?"),
         (["finger_a", "--joint", "dial_joint=1"], "joint `dial_joint` mimics another"),

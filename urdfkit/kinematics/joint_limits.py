@@ -1,7 +1,10 @@
 """Position limits of joints, and the error for a position outside them."""
 
-from urdfkit.description.urdf.robot import Joint
+from collections.abc import Mapping
+
+from urdfkit.description.urdf.robot import Joint, Robot
 from urdfkit.errors import KinematicsError
+from urdfkit.kinematics.mimic import couplings
 
 UNITS = {"revolute": "rad", "continuous": "rad", "prismatic": "m"}
 """Joint type → unit of its position."""
@@ -38,3 +41,26 @@ def position_limits(joint: Joint) -> tuple[float, float]:
         return float("-inf"), float("inf")
     lower, upper = joint.limit.lower, joint.limit.upper
     return (0.0 if lower is None else lower), (0.0 if upper is None else upper)
+
+
+def limit_errors(robot: Robot, positions: Mapping[str, float]) -> list[JointLimitError]:
+    """Return an error, not raised, for each joint outside its limits, mimic joints of the given joints included.
+
+    Args:
+        robot: the robot.
+        positions: joint → position [rad] or [m]; other names are ignored.
+
+    Raises:
+        KinematicsError: see `urdfkit.kinematics.mimic.couplings`.
+    """
+    values = dict(positions)
+    for name, coupling in couplings(robot).items():
+        if coupling.master is not None and coupling.master in positions:
+            values[name] = coupling.multiplier * positions[coupling.master] + coupling.offset
+    found = []
+    for name, value in values.items():
+        if (joint := robot.joint_by_name.get(name)) is not None:
+            lower, upper = position_limits(joint)
+            if not lower <= value <= upper:
+                found.append(JointLimitError(joint, value, lower, upper))
+    return found

@@ -16,13 +16,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from urdfkit.description import Robot, load
-from urdfkit.errors import KinematicsError, did_you_mean
+from urdfkit.errors import KinematicsError
 from urdfkit.kinematics.forward_kinematics import ForwardKinematics
 from urdfkit.kinematics.joint_limits import JointLimitError, position_limits
 from urdfkit.kinematics.joint_variables import finite, index_variables, rates, unit_pose
 from urdfkit.kinematics.mimic import Coupling, couplings
 from urdfkit.kinematics.pinocchio_model import build_model, pin
-from urdfkit.kinematics.variable_names import require_independent, unknown_variable
+from urdfkit.kinematics.variable_names import require_independent, unknown_frame, unknown_variable
 from urdfkit.linear_algebra import Array, matmul
 
 SMALL = 100
@@ -258,11 +258,7 @@ class Kinematics:
             KinematicsError: no link of that name.
         """
         if name not in self._frames:
-            some = [*self.link_names[:8], *("…" for _ in self.link_names[8:9])]
-            hint = did_you_mean(name, self.link_names) or f"; its frames are {', '.join(some)}"
-            if (joint := self.robot.joint_by_name.get(name)) is not None:
-                hint = f"; `{name}` is a joint, its frame is that of its child link `{joint.child}`"
-            raise KinematicsError(f"no frame `{name}` in robot `{self.robot.name}`{hint}")
+            raise KinematicsError(unknown_frame(self.robot, name))
         return self._frames[name]
 
     def link_poses(self, q: Array) -> Array:

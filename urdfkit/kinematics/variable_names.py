@@ -1,4 +1,4 @@
-"""Names of a robot's independent variables, and the error for any other name."""
+"""Names of a robot's independent variables and frames, and the errors for any other name."""
 
 from __future__ import annotations
 
@@ -55,9 +55,23 @@ def unknown_variable(robot: Robot, couplings: Mapping[str, Coupling], names: Col
         owner, _, part = name.rpartition("/")
         moved = f"{owner}/trans_{part}"
         independent = [each for each in names if each not in couplings]
-        hint = f"; did you mean `{moved}`?" if moved in names else did_you_mean(name, independent)
+        hint = f"; did you mean `{moved}`?" if moved in names else _nearest_or_some(name, independent, "movable joints")
         return f"no movable joint `{name}` in robot `{robot.name}`{hint}"
     if joint.type in PARTS:
         parts = ", ".join(f"`{name}/{part}`" for part in PARTS[joint.type])
         return f"joint `{name}` is {joint.type} and has more than one position: {parts}"
     return f"joint `{name}` is {joint.type or 'without a type'}: it does not move"
+
+
+def unknown_frame(robot: Robot, name: str) -> str:
+    """Return the message for a name that is no link."""
+    hint = _nearest_or_some(name, robot.link_by_name, "frames")
+    if (joint := robot.joint_by_name.get(name)) is not None:
+        hint = f"; `{name}` is a joint, its frame is that of its child link `{joint.child}`"
+    return f"no frame `{name}` in robot `{robot.name}`{hint}"
+
+
+def _nearest_or_some(name: str, names: Collection[str], what: str) -> str:
+    """Return the hint for a name that is not one of `names`: the nearest, or the first ones."""
+    some = [*list(names)[:8], *("…" for _ in list(names)[8:9])]
+    return did_you_mean(name, names) or (f"; its {what} are {', '.join(some)}" if some else "")

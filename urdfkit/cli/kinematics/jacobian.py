@@ -5,11 +5,10 @@ from __future__ import annotations
 import argparse
 import json
 import math
-import sys
 from typing import TYPE_CHECKING
 
 from urdfkit.app.page import require_packages
-from urdfkit.cli.robot_arguments.joint_positions import joint_positions
+from urdfkit.cli.robot_arguments.joint_positions import joint_positions, warn_of_limits
 from urdfkit.cli.robot_arguments.tip_link import add_tip, announce, robot_and_tip
 
 if TYPE_CHECKING:
@@ -50,12 +49,7 @@ def run(arguments: argparse.Namespace) -> int:
     chain = Chain(robot, arguments.base, tip, compiling=None if arguments.quiet else announce)
     chain.configuration(positions)  # refuses unknown names
     q = [positions.get(name, 0.0) for name in chain.joint_names]
-    for name, value, lower, upper in zip(chain.joint_names, q, chain.lower, chain.upper, strict=True):
-        if name in positions and not lower <= value <= upper and not arguments.quiet:
-            print(
-                f"urdfkit: warning: joint `{name}` at {value:g} is outside its limits [{lower:g}, {upper:g}]",
-                file=sys.stderr,
-            )
+    warn_of_limits(robot, positions, quiet=arguments.quiet)
     jacobian = chain.jacobian(q)
     analysis = analyse(jacobian)
     lost = [direction_in_words(direction, chain.base) for direction in analysis.lost]

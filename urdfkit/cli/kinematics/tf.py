@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from urdfkit.cli.parser import add_package_path
-from urdfkit.cli.robot_arguments.joint_positions import joint_positions
+from urdfkit.cli.robot_arguments.joint_positions import joint_positions, warn_of_limits
 from urdfkit.cli.robot_arguments.macro_option import add_macro, with_macro
 from urdfkit.cli.robot_arguments.robot_loading import add_strict, load_robot, print_repairs
 from urdfkit.cli.robot_arguments.unused_arguments import note_unused
@@ -89,7 +89,8 @@ def run(arguments: argparse.Namespace) -> int:
         note_unused(found, robot.files, quiet=arguments.quiet)
         print_repairs(robot, quiet=arguments.quiet)
         tree = TransformTree(robot)
-    _warn_of_limits(tree, positions)
+    tree.kinematics.followed(positions)  # refuses unknown names
+    warn_of_limits(robot, positions, quiet=False)
     if arguments.tree:
         if frames:
             raise UsageError("tf: PARENT and CHILD cannot be combined with --tree")
@@ -111,19 +112,6 @@ def _split(words: list[str]) -> tuple[list[str], list[str]]:
     """Split the words into the model with its arguments and the frames."""
     plain = [word for word in words if ":=" not in word]
     return [*plain[:1], *(word for word in words if ":=" in word)], plain[1:]
-
-
-def _warn_of_limits(tree: TransformTree, positions: dict[str, float]) -> None:
-    """Warn of positions outside the limits, including mimic joints of the set joints; the positions are used anyway.
-
-    Raises:
-        KinematicsError: an unknown joint, or a mimic joint.
-    """
-    kinematics = tree.kinematics
-    moved = set(positions) | {name for name, c in kinematics.couplings.items() if c.master in positions}
-    values = kinematics.followed(positions)
-    for error in kinematics.limit_errors({name: value for name, value in values.items() if name in moved}):
-        print(f"urdfkit: warning: {error}", file=sys.stderr)
 
 
 def _repairs(tree: TransformTree) -> dict[str, Any]:

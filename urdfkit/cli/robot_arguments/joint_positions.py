@@ -2,9 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+import sys
+from collections.abc import Iterable, Mapping
 
 from urdfkit.errors import UsageError
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from urdfkit.description import Robot
 
 
 def joint_positions(words: Iterable[str], option: str) -> dict[str, float]:
@@ -31,3 +36,11 @@ def joint_positions(words: Iterable[str], option: str) -> dict[str, float]:
         if values[name] - values[name] != 0.0:  # NaN or infinite
             raise UsageError(f"{option} {name}: {text} is not a finite number")
     return values
+
+
+def warn_of_limits(robot: Robot, positions: Mapping[str, float], *, quiet: bool) -> None:
+    """Warn of positions outside the limits, of mimic joints of these joints included; the positions are used anyway."""
+    from urdfkit.kinematics.joint_limits import limit_errors
+
+    for error in () if quiet else limit_errors(robot, positions):
+        print(f"urdfkit: warning: {error}", file=sys.stderr)

@@ -8,7 +8,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from urdfkit.description.urdf.robot import Joint, Robot
-from urdfkit.errors import KinematicsError, did_you_mean
+from urdfkit.errors import KinematicsError
 from urdfkit.kinematics.joint_limits import position_limits
 from urdfkit.kinematics.mimic import Coupling, couplings
 from urdfkit.kinematics.serial.rigid_placement import (
@@ -21,7 +21,7 @@ from urdfkit.kinematics.serial.rigid_placement import (
     rotation_to,
     turned,
 )
-from urdfkit.kinematics.variable_names import PARTS, require_independent, variable_names
+from urdfkit.kinematics.variable_names import PARTS, require_independent, unknown_frame, variable_names
 
 TURN = 2.0 * math.pi
 UNITS = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
@@ -180,10 +180,7 @@ class SerialChain:
         """
         robot = self.robot
         if link not in robot.link_by_name:
-            hint = did_you_mean(link, robot.link_by_name)
-            if (joint := robot.joint_by_name.get(link)) is not None:
-                hint = f"; `{link}` is a joint, its frame is that of its child link `{joint.child}`"
-            raise KinematicsError(f"no frame `{link}` in robot `{robot.name}`{hint}")
+            raise KinematicsError(unknown_frame(robot, link))
         joints: list[Joint] = []
         while above := robot.parents_of.get(link):
             joints.append(above[0])

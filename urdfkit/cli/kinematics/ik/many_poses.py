@@ -14,6 +14,7 @@ import numpy as np
 
 from urdfkit.atomic import write_bytes
 from urdfkit.cli.kinematics.ik.printing import solution_as_json
+from urdfkit.cli.robot_arguments.joint_positions import warn_of_limits
 from urdfkit.cli.robot_arguments.tip_link import announce
 from urdfkit.description import Robot
 from urdfkit.kinematics.chain import Chain
@@ -48,7 +49,9 @@ def solve_poses(
         arguments: those of the command line.
     """
     chain = Chain(robot, arguments.base, tip, hold=hold, compiling=None if arguments.quiet else announce)
-    solutions = _solved(chain, poses, chain.configuration(start), options, arguments)
+    from_ = chain.configuration(start)
+    warn_of_limits(robot, {**start, **hold}, quiet=arguments.quiet)
+    solutions = _solved(chain, poses, from_, options, arguments)
     solver = SerialSolver(chain.serial)
     if arguments.output is not None:
         write_arrays(arguments.output, chain.serial, solutions)

@@ -7,6 +7,7 @@ import json
 from collections.abc import Mapping, Sequence
 
 from urdfkit.cli.kinematics.ik.printing import solution_as_json, table
+from urdfkit.cli.robot_arguments.joint_positions import warn_of_limits
 from urdfkit.cli.robot_arguments.tip_link import announce
 from urdfkit.kinematics.serial.serial_chain import SerialChain
 from urdfkit.kinematics.serial.serial_solver import SerialSolver, SolverOptions
@@ -42,6 +43,7 @@ def solve_pose(
     chain = SerialChain(robot, arguments.base, tip, hold=hold)
     solver = SerialSolver(chain, None if arguments.quiet else announce)
     from_ = chain.start(start)
+    warn_of_limits(robot, {**start, **hold}, quiet=arguments.quiet)
     solutions = solver.solve(pose, from_, options, rows=MOST if arguments.all else 1)
     if arguments.collision_free:
         from urdfkit.kinematics.self_collision.collision_free_search import CollisionFreeSearch
