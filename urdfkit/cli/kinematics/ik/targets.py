@@ -150,7 +150,7 @@ def _array_of(path: Path, option: str) -> Array:
 
 
 def _other_file(start: bytes, suffix: str) -> str:
-    """Return what is wrong with a file that does not start as those of its type, and what to do."""
+    """Return the defect of a file whose first bytes are not those of its type, and what to do."""
     if not start:
         return "the file is empty"
     if other := next((kind for kind, magic in MAGIC.items() if start.startswith(magic)), None):
