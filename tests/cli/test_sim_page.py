@@ -8,6 +8,7 @@ from pathlib import Path
 
 import pytest
 
+from tests.cli.accessibility import violations
 from tests.cli.conftest import Visits
 from tests.cli.lab import drawn, sized
 
@@ -199,6 +200,15 @@ def test_everything_has_a_name_and_the_keyboard_reaches_it_and_shows_where_it_is
     )
     order = [reached.index(name) for name in expected]
     assert order == sorted(order)
+
+
+def test_axe_finds_no_violation_in_any_panel(page, until) -> None:
+    page.locator("#open-world").press("Enter")
+    page.locator(".library-entry").first.press("Enter")  # with the forms that a chosen model, a tool, a selection open
+    page.evaluate("urdfkit.objects.pick('simpleton')")
+    until(lambda: page.locator("#move-object").count() == 1)
+    page.evaluate("urdfkit.page.tools.hold('walls')")
+    assert violations(page) == {"light": [], "dark": []}
 
 
 def test_sliders_that_stay_and_stop(page, keep, until) -> None:

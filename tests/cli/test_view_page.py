@@ -12,6 +12,7 @@ from PIL import Image
 pytest.importorskip("pinocchio")
 pytest.importorskip("meshcat")
 
+from tests.cli.accessibility import violations
 from tests.cli.lab import ROBOT, TWINS, at, drawn, panel, values, write
 
 pytestmark = pytest.mark.browser
@@ -241,6 +242,12 @@ def test_everything_has_a_name_and_the_keyboard_reaches_it(page) -> None:
         reached.append(page.evaluate("document.activeElement.id || document.activeElement.className"))
     order = [reached.index(name) for name in ("theme", "help-open", "pane", "tool-fit", "open-joints", "open-camera")]
     assert order == sorted(order)
+
+
+def test_axe_finds_no_violation_in_any_panel(page) -> None:
+    page.evaluate("urdfkit.page.select({ link: 'left' })")
+    page.evaluate("urdfkit.page.tools.hold('ik')")
+    assert violations(page) == {"light": [], "dark": []}
 
 
 def test_a_panel_can_be_kept_open_beside_others(page, keep, until) -> None:
