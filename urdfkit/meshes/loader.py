@@ -13,7 +13,14 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from urdfkit.description.meshes.format_faults import glb_fault, obj_fault
+from urdfkit.description.meshes.format_faults import (
+    glb_fault,
+    obj_fault,
+    other_format,
+    reading_fault,
+    text_fault,
+    wrong_format,
+)
 from urdfkit.description.meshes.limits import MAX_BYTES, MAX_TRIANGLES
 from urdfkit.description.packages.similar_names import near_path
 from urdfkit.description.urdf.robot import Vector
@@ -98,19 +105,29 @@ def _read(path: Path) -> bytes:
         content = path.read_bytes()
     except OSError as error:
         raise ResourceError(f"cannot read mesh {path}: {error.strerror or error}") from error
+    if not content:
+        raise ResourceError(f"mesh {path.name} is empty")
     if content.startswith(_LFS):
         raise ResourceError(f"mesh {path.name} is a Git LFS pointer; run `git lfs pull`")
+    if fault := _fault(path.suffix.lower(), content):
+        raise ResourceError(f"mesh {path.name} {fault}")
     if path.suffix.lower() == ".dae" and (reason := rejection_reason(content)) is not None:
         raise ResourceError(f"mesh {path.name} is rejected: {reason}")
-    if path.suffix.lower() == ".stl" and b"facet" not in content:  # binary: 80 bytes, a count, 50 bytes a triangle
-        count = int.from_bytes(content[80:84], "little")
-        if len(content) < 84 + 50 * count or len(content) < 84:
-            raise ResourceError(f"mesh {path.name} is truncated: {len(content)} bytes instead of {84 + 50 * count}")
-    suffix = path.suffix.lower()
-    fault = obj_fault(content) if suffix == ".obj" else glb_fault(content, len(content)) if suffix == ".glb" else ""
-    if fault:
-        raise ResourceError(f"mesh {path.name} {fault}")
     return content
+
+
+def _fault(suffix: str, content: bytes) -> str:
+    """Return the fault of the content of a mesh file that is found without its reader; else an empty text."""
+    if suffix == ".obj":
+        return obj_fault(content)
+    if suffix == ".glb":
+        return glb_fault(content, len(content))
+    if suffix != ".stl":
+        return text_fault(suffix, content)
+    size, wanted = len(content), 84 + 50 * int.from_bytes(content[80:84], "little")  # binary: header, count, triangles
+    if b"facet" in content or 84 <= size >= wanted:
+        return ""
+    return wrong_format(content, suffix) if other_format(content) else f"is truncated: {size} bytes instead of {wanted}"
 
 
 def _side_files(path: Path, content: bytes) -> Iterator[bytes]:
@@ -142,9 +159,7 @@ def _parse(path: Path, content: bytes, scale: Vector, beside: Beside, places: bo
     except ResourceError:
         raise
     except Exception as error:  # any error of the reader of the format, which evaluates properties when they are used
-        is_described = type(error).__module__ != "builtins" and str(error).strip()
-        reason = str(error).strip().splitlines()[0] if is_described else f"it is not a valid {suffix[1:].upper()} file"
-        raise ResourceError(f"mesh {path.name} cannot be read: {reason}") from error
+        raise ResourceError(f"mesh {path.name} cannot be read: {reading_fault(suffix, content)}") from error
     missing, broken = (tuple(dict.fromkeys(names)) for names in (beside.missing, beside.broken))
     return replace(mesh, missing=missing, broken=broken) if missing else mesh
 

@@ -7,6 +7,7 @@ from math import isfinite
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
+    from mmap import mmap
     from typing import BinaryIO
 
     Corners = tuple[tuple[float, float, float], tuple[float, float, float]]
@@ -70,3 +71,24 @@ def part(file: BinaryIO, start: int, size: int) -> bytes:
     """Return a part of an open file."""
     file.seek(start)
     return file.read(size)
+
+
+def has_infinite(content: bytes | mmap, first: int, end: int, stride: int) -> bool:
+    """Return whether a coordinate is infinite or not a number.
+
+    All eight bits of the exponent of such a number are set: seven in its last byte, one in the byte before.
+
+    Args:
+        content: points of three 32-bit numbers, the lowest byte first.
+        first: the position of the first point.
+        end: the position after the last point.
+        stride: bytes from point to point.
+    """
+    for number in range(first, first + 12, 4):
+        last = content[number + 3 : end : stride]
+        if (b"\x7f" in last or b"\xff" in last) and any(
+            high & 0x7F == 0x7F and low & 0x80
+            for high, low in zip(last, content[number + 2 : end : stride], strict=False)
+        ):
+            return True
+    return False

@@ -27,8 +27,12 @@ _SMALL = 40_000
 
 
 def is_binary(size: int, head: bytes) -> bool:
-    """Return whether a file is valid binary STL: its size fits its number of triangles."""
-    return len(head) >= HEADER and 0 < int.from_bytes(head[80:HEADER], "little") * SIZE == size - HEADER
+    """Return whether a file is valid binary STL: it contains its number of triangles, and perhaps more bytes."""
+    return len(head) >= HEADER and 0 < _count(head) * SIZE <= size - HEADER
+
+
+def _count(head: bytes) -> int:
+    return int.from_bytes(head[80:HEADER], "little")
 
 
 def corners(content: bytes) -> Corners:
@@ -38,20 +42,25 @@ def corners(content: bytes) -> Corners:
         UnusualFileError: the file is not valid.
     """
     if not is_binary(len(content), content[:HEADER]):
-        return corners_of_numbers(_text_words(content))
+        words = _text_words(content)
+        if len(words) % 9:
+            raise UnusualFileError  # the last triangle is cut off
+        return corners_of_numbers(words)
     if len(content) > HEADER + SIZE * _SMALL or "numpy" in sys.modules:
         try:
             return _with_numpy(content)
         except ImportError:
             pass
-    return corners_of_columns(list(zip(*Struct("<12x9f2x").iter_unpack(content[HEADER:]), strict=True)))
+    return corners_of_columns(
+        list(zip(*Struct("<12x9f2x").iter_unpack(content[HEADER : HEADER + SIZE * _count(content)]), strict=True))
+    )
 
 
 def _with_numpy(content: bytes) -> Corners:
     import numpy as np
 
     record = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("rest", "<u2")])
-    points = np.frombuffer(content, dtype=record, offset=HEADER)["corners"]
+    points = np.frombuffer(content, dtype=record, count=_count(content), offset=HEADER)["corners"]
     low, high = points.min(axis=(0, 1)), points.max(axis=(0, 1))
     if not (np.isfinite(low).all() and np.isfinite(high).all()):  # both propagate values that are not numbers
         raise UnusualFileError
@@ -68,8 +77,8 @@ def estimated_corners(file: BinaryIO, size: int) -> Corners | None:
     Raises:
         UnusualFileError: the file is not valid.
     """
-    if is_binary(size, file.read(HEADER)):
-        count = (size - HEADER) // SIZE
+    if is_binary(size, head := file.read(HEADER)):
+        count = _count(head)
         if count <= 2 * SAMPLES:
             return None
         import mmap

@@ -29,6 +29,7 @@ class MeshBoxes:
     def __init__(self) -> None:
         self.were_used = False
         self.version = 0
+        self._faults: dict[str, str] = {}
         self._boxes: dict[Mesh, tuple[Vector, Vector] | None] = {}
         self._measured: set[str] = set()
         self._newest: set[str] = set()
@@ -38,9 +39,13 @@ class MeshBoxes:
         self.were_used = True
         if mesh not in self._boxes:
             path = path_of(mesh, expanded)
-            corners = None if path is None else _corners(path, estimated=mesh.uri not in self._measured)
+            corners = None if path is None else self._corners(mesh, path)
             self._boxes[mesh] = None if corners is None else _scaled(corners, mesh.scale)
         return self._boxes[mesh]
+
+    def fault(self, mesh: Mesh) -> str:
+        """Return why the file of a mesh whose box has been requested cannot be read; empty if it can."""
+        return self._faults.get(mesh.uri, "")
 
     def measure(self, robot: Robot, links: Iterable[str | None]) -> bool:
         """Make the boxes of the meshes of links exact, or those of all links if a name is None.
@@ -62,23 +67,25 @@ class MeshBoxes:
         """Return whether the last call of `measure` has changed the box of a mesh among some shapes."""
         return any(getattr(shape.geometry, "uri", None) in self._newest for shape in shapes)
 
+    def _corners(self, mesh: Mesh, path: Path) -> Corners | None:
+        """Return the corners of a mesh; trimesh reads the formats that the quick readers do not read."""
+        from urdfkit.description.meshes.bounds import bounds
 
-def _corners(path: Path, *, estimated: bool) -> Corners | None:
-    """Return the corners of a mesh; trimesh reads the formats that the quick readers do not read."""
-    from urdfkit.description.meshes.bounds import bounds
+        corners = bounds(path, estimated=mesh.uri not in self._measured)
+        if corners is not None:
+            return corners
+        from urdfkit.errors import UrdfkitError
 
-    corners = bounds(path, estimated=estimated)
-    if corners is not None:
-        return corners
-    from urdfkit.errors import UrdfkitError
+        try:
+            from urdfkit.meshes.loader import MeshLoader
 
-    try:
-        from urdfkit.meshes.loader import MeshLoader
-
-        low, high = MeshLoader().load(path).bounds.tolist()
-    except (UrdfkitError, ImportError):
-        return None
-    return tuple(low), tuple(high)
+            low, high = MeshLoader().load(path).bounds.tolist()
+        except ImportError:
+            return None
+        except UrdfkitError as error:
+            self._faults[mesh.uri] = str(error).removeprefix(f"mesh {path.name} ")
+            return None
+        return tuple(low), tuple(high)
 
 
 def _scaled(corners: Corners, scale: Vector) -> tuple[Vector, Vector]:

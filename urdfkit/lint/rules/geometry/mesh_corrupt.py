@@ -4,7 +4,16 @@ import re
 from pathlib import Path
 
 from urdfkit.description.meshes.bounds import bounds
-from urdfkit.description.meshes.format_faults import glb_fault, obj_fault
+from urdfkit.description.meshes.format_faults import (
+    NOT_FINITE,
+    TITLES,
+    glb_fault,
+    has_infinite_stl_vertex,
+    obj_fault,
+    other_format,
+    text_fault,
+    wrong_format,
+)
 from urdfkit.description.meshes.limits import MAX_BYTES, MAX_TRIANGLES
 from urdfkit.description.packages.existence import exists, is_file, is_folder
 from urdfkit.lint.model.mesh_files import LFS, path_of
@@ -26,9 +35,11 @@ class MeshCorrupt(RobotRule):
     """A mesh file exists but contains no usable mesh.
 
     ## What it does
-    Checks for folders, empty mesh files, Git LFS pointers, truncated STL and glTF files, invalid COLLADA files, files
-    without triangles, meshes with all triangles in one point, and meshes above 256 MiB or 5 million triangles. In OBJ
-    files, checks for vertices that are not finite and, up to 2 MiB, for faces with missing vertices.
+    Checks for folders, empty mesh files, Git LFS pointers, files of another format than their suffix, truncated STL
+    and glTF files, invalid COLLADA files, files without triangles, meshes with all triangles in one point, and meshes
+    above 256 MiB or 5 million triangles. In STL and OBJ files, checks for vertices that are not finite, and in OBJ
+    files up to 2 MiB for faces with missing vertices. Files that the linter cannot read itself are read by trimesh if
+    it is installed.
 
     ## Why is this bad?
     Viewers show nothing, and simulators stop with an error of the mesh reader that does not name the cause.
@@ -65,6 +76,8 @@ class MeshCorrupt(RobotRule):
                 box = model.box_of(mesh) if path is not None and not faults[mesh.uri] and any(mesh.scale) else None
                 if box is not None and not any(box[1]):
                     faults[mesh.uri] = "has all triangles in one point"
+                elif box is None and path is not None and path.suffix.lower() in TITLES:
+                    faults[mesh.uri] = faults[mesh.uri] or model.mesh_boxes.fault(mesh)
             if faults[mesh.uri]:
                 yield self.at(
                     model,
@@ -94,10 +107,10 @@ def _fault(path: Path) -> str:
         return "is a Git LFS pointer: run `git lfs pull`"
     if suffix == ".stl":
         return _stl_fault(path, head, size)
-    if suffix == ".dae" and b"<COLLADA" not in head.replace(b"\0", b"") and b"<?xml" not in head.replace(b"\0", b""):
-        return "is not a COLLADA file"
     if suffix == ".glb":
         return glb_fault(head, size)
+    if suffix in (".dae", ".gltf", ".ply") and (fault := text_fault(suffix, head)):
+        return fault
     if suffix == ".obj" and size <= _LARGE and (fault := obj_fault(path.read_bytes())):
         return fault
     faces = _FACES.get(suffix)
@@ -109,13 +122,22 @@ def _fault(path: Path) -> str:
 
 
 def _stl_fault(path: Path, head: bytes, size: int) -> str:
-    if head.lstrip().startswith(b"solid") and (b"facet" in head or (size <= _LARGE and b"facet" in path.read_bytes())):
-        return ""
-    if head.lstrip().startswith(b"solid") and size < 84:
-        return "contains no triangles"
     triangles = int.from_bytes(head[80:84], "little")
-    if size < 84 or size < 84 + 50 * triangles:
-        return f"is truncated: {size} bytes, but {triangles} triangles need {84 + 50 * triangles}"
-    if triangles > MAX_TRIANGLES:
-        return f"has {triangles} triangles; at most {MAX_TRIANGLES} are supported: decimate it"
-    return "" if triangles else "contains no triangles"
+    is_text = head.lstrip().startswith(b"solid") and (
+        b"facet" in head or (size <= _LARGE and b"facet" in path.read_bytes())
+    )
+    if not is_text:
+        if head.lstrip().startswith(b"solid") and size < 84:
+            return "contains no triangles"
+        if size < 84 or size < 84 + 50 * triangles:
+            if other_format(head):
+                return wrong_format(head, ".stl")
+            return f"is truncated: {size} bytes, but {triangles} triangles need {84 + 50 * triangles}"
+        if triangles > MAX_TRIANGLES:
+            return f"has {triangles} triangles; at most {MAX_TRIANGLES} are supported: decimate it"
+        if not triangles:
+            return "contains no triangles"
+    from mmap import ACCESS_READ, mmap
+
+    with path.open("rb") as file, mmap(file.fileno(), 0, access=ACCESS_READ) as content:
+        return NOT_FINITE if has_infinite_stl_vertex(content) else ""
