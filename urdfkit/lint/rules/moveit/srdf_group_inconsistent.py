@@ -54,13 +54,12 @@ class SrdfGroupInconsistent(RobotRule):
         for root in semantics_of(model):
             by_name, severity = groups(root), severity_for(root, model)
             for name, group in by_name.items():
+                empty = severity_for(root, model, "error")  # MoveIt has no joints to plan for
                 for chain in group.find_all("chain"):
-                    yield from self._chain(chain, model, severity)
+                    yield from self._chain(chain, model, empty)
                 for below in group.find_all("group"):
                     if _contains(below.get("name") or "", name, by_name):
-                        yield self.at(
-                            model, below, f"group `{name}` contains itself", attribute="name", severity=severity
-                        )
+                        yield self.at(model, below, f"group `{name}` contains itself", attribute="name", severity=empty)
             for joint in root.find_all("virtual_joint"):
                 child = joint.get("child_link") or ""
                 if root_link and child != root_link and child in model.robot.link_by_name:

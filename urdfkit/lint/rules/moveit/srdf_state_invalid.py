@@ -26,7 +26,7 @@ class SrdfStateInvalid(RobotRule):
 
     ## What it does
     Compares the values of each ``<group_state>`` with the limits and types of the joints, and its joints with the
-    active joints of its group.
+    active joints of its group. A value that MoveIt cannot use is an error.
 
     ## Why is this bad?
     MoveIt refuses a goal beyond the limits, and ignores values for joints of other groups.
@@ -74,7 +74,7 @@ class SrdfStateInvalid(RobotRule):
                 group, values = state.get("group") or "", state.find_all("joint")
                 members = (joints_of(group, root, robot) if fits(root, robot) else None) or set()
                 for value in values:
-                    yield from self._value(value, model, severity)
+                    yield from self._value(value, model, severity_for(root, model, "error"))
                 foreign = [
                     value for value in values if members and value.get("name") in robot.joint_by_name.keys() - members
                 ]

@@ -12,7 +12,7 @@ class ControllerJointUndefined(RobotRule):
     Compares the joints of controllers in the YAML files of the robot's package and of neighbouring packages that depend
     on it with the joints of the robot. Nothing is reported if the joint may be defined by another description in these
     packages, or under other arguments or conditions. A file most of whose joints the robot lacks belongs to another
-    robot; its joints are reported only if they are misspelt.
+    robot; its joints are reported only if they are misspelt. A misspelt joint is an error.
 
     ## Why is this bad?
     The controller does not start, because it cannot claim the joint.
@@ -93,7 +93,7 @@ class ControllerJointUndefined(RobotRule):
                 finding = Finding(
                     self.code,
                     self.name,
-                    self.severity,
+                    "error" if is_misspelt else self.severity,
                     f"controller joint `{reference.name}` does not exist in robot `{model.robot.name}`"
                     f"{f'; did you mean `{suggestion}`?' if suggestion else ''}",
                     source.span(reference.start, reference.start + len(reference.name)),

@@ -1,11 +1,17 @@
 """K962 controller-settings-misspelt."""
 
+from __future__ import annotations
+
 import re
 from itertools import pairwise
 
 from urdfkit.description.xml.source import Source
 from urdfkit.lint.finding import Finding
 from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from urdfkit.lint.finding import Severity
 
 _KEY = r"(?m)^([ \t]*)[\"']?([\w/]+)[\"']?[ \t]*:[ \t]*\r?$"
 _GROUP = r"(?m)(?:^|[{,])[ \t]*[\"']?(ros_*[A-Za-z_]+)[\"']?[ \t]*:[ \t]*(?=\r?$|[{&*])"
@@ -20,9 +26,10 @@ class ControllerSettingsMisspelt(RobotRule):
     Checks the controller parameters in the YAML files of the robot's package and of neighbouring packages that
     depend on it for misspelt controller types of ros_controllers and ros2_controllers, misspelt names of controller
     sections, misspelt or missing ``ros__parameters`` keys (with two underscores), misspelt parameters and
-    interfaces, and tabs. Types that a package of the workspace exports are accepted. With
-    ``--target urdfkit``, a type of another package is a note if a Gazebo plugin of the robot loads the controller,
-    because a simulation leaves it out. Unknown parameters of such a controller are notes too.
+    interfaces, and tabs. Misspelt types, interfaces and ``ros__parameters``, and tabs, are errors. Types that a package
+    of the workspace exports are accepted. With ``--target urdfkit``, a type of another package is a note if a Gazebo
+    plugin of the robot loads the controller, because a simulation leaves it out. Unknown parameters of such a
+    controller are notes too.
 
     ## Why is this bad?
     Loading fails with "Loader for controller not found", or the controller starts without its joints, because unknown
@@ -75,12 +82,13 @@ class ControllerSettingsMisspelt(RobotRule):
                 suggestion = meant_type(reference.name)
                 if suggestion is not None and not is_exported_plugin(model, reference.name):
                     message = f"unknown controller type `{reference.name}`; did you mean `{suggestion}`?"
-                    yield self._at(source, reference.start, reference.name, message)
+                    yield self._at(source, reference.start, reference.name, message, severity="error")
             yield from self._keys(source, text)
             yield from self._parameters(source, model)
             yield from self._sections(source)
             if (tab := re.search(_TAB, text)) is not None:
-                yield self._at(source, tab.start(), tab[0], "YAML is indented with a tab", help="indent with spaces")
+                message = "YAML is indented with a tab"
+                yield self._at(source, tab.start(), tab[0], message, "indent with spaces", "error")
 
     def _loaded(self, model: Model) -> Findings:
         """Yield a note for each loaded controller of another package, for urdfkit, and for unknown parameters."""
@@ -112,7 +120,8 @@ class ControllerSettingsMisspelt(RobotRule):
         keys = [(key[2], key.start(2), len(key[1])) for key in re.finditer(_KEY, text)]
         for name, start in ((key[1], key.start(1)) for key in re.finditer(_GROUP, text)):
             if name != _PARAMETERS and nearest(name, [_PARAMETERS], cutoff=0.85) is not None:
-                yield self._at(source, start, name, f"unknown key `{name}`; did you mean `{_PARAMETERS}`?")
+                message = f"unknown key `{name}`; did you mean `{_PARAMETERS}`?"
+                yield self._at(source, start, name, message, severity="error")
         declared = set(controllers(source))
         sections = [
             (name, name.rpartition("/")[2], start)
@@ -145,7 +154,7 @@ class ControllerSettingsMisspelt(RobotRule):
                 matches = [name for name in TYPES if written == name or name.endswith(f"/{written}")]
                 if matches:
                     message = f"unknown controller type `{kind.text}`; did you mean `{matches[0]}`?"
-                    yield Finding(self.code, self.name, self.severity, message, span_of(source, kind))
+                    yield Finding(self.code, self.name, "error", message, span_of(source, kind))
             for key, section in root.entries if _PARAMETERS in source.text else ():
                 inner = {name.text for node in walk(section) for name, _ in node.entries}
                 is_manager = key.text == "controller_manager" and section.find("update_rate") is not None
@@ -164,12 +173,21 @@ class ControllerSettingsMisspelt(RobotRule):
             # hardware-interface-lacking compares interfaces with the hardware.
             if suggestion not in INTERFACES or not offered(model):
                 message = f"{description}; did you mean `{suggestion}`?"
-                yield Finding(self.code, self.name, self.severity, message, span_of(source, node))
+                severity: Severity = "error" if suggestion in INTERFACES else self.severity
+                yield Finding(self.code, self.name, severity, message, span_of(source, node))
 
         for key, suggestion, controller in misspelt(source):
             message = f"unknown parameter `{key.text}` of controller `{controller.name}`; did you mean `{suggestion}`?"
             yield Finding(self.code, self.name, self.severity, message, span_of(source, key))
 
-    def _at(self, source: Source, start: int, text: str, message: str, help: str | None = None) -> Finding:
+    def _at(
+        self,
+        source: Source,
+        start: int,
+        text: str,
+        message: str,
+        help: str | None = None,
+        severity: Severity | None = None,
+    ) -> Finding:
         span = source.span(start, start + len(text))
-        return Finding(self.code, self.name, self.severity, message, span, help=help)
+        return Finding(self.code, self.name, severity or self.severity, message, span, help=help)

@@ -17,6 +17,7 @@ class LaunchPathMissing(RobotRule):
     files are parsed, not executed, so computed paths are not checked, nor are paths that are only tested for existence.
     Files that CMakeLists.txt or setup.py mentions, or that exist elsewhere in the package, are accepted. So are maps,
     recordings and files that git ignores, which users and programs create, unless a file with a similar name exists.
+    Folders and configurations of RViz, without which the launch continues, are warnings.
 
     ## Why is this bad?
     The launch fails, or starts without the robot, the world or the parameters.
@@ -63,7 +64,7 @@ class LaunchPathMissing(RobotRule):
                 yield Finding(
                     self.code,
                     self.name,
-                    self.severity,
+                    "error" if hint or Path(reference.path).suffix in _REQUIRED else self.severity,
                     f"`{reference.path}` does not exist in package `{reference.package}`{hint}",
                     source.span(reference.start, reference.end),
                 )
@@ -105,6 +106,9 @@ def _is_created_at_run_time(package: Path, path: str) -> bool:
     places = [path, file.name, *file.parts[:-1], f"{package.name}/{path}"]
     return any(fnmatchcase(place, pattern) for place in places for pattern in patterns)
 
+
+_REQUIRED = frozenset((".launch", ".py", ".sdf", ".srdf", ".urdf", ".world", ".xacro", ".xml", ".yaml", ".yml"))
+"""Suffixes of files without which the launch stops, or the robot, the world or the parameters are missing."""
 
 _RECORDINGS = frozenset((".bag", ".db3", ".mcap", ".log", ".csv", ".pcd", ".pgm", ".pbstream", ".posegraph", ".pickle"))
 _RUN_TIME_FOLDERS = frozenset(
