@@ -45,7 +45,7 @@ _ACTIONS = ("follow_joint_trajectory", "gripper_cmd", "gripper_action")
 _KEYS = (
     *("controller_list", "joint_limits", "planner_configs", "planning_plugins", "request_adapters"),
     *("response_adapters", "moveit_simple_controller_manager", "moveit_controller_manager", "trajectory_execution"),
-    *("default_velocity_scaling_factor", "default_acceleration_scaling_factor"),
+    *(_SCALING_FACTORS := ("default_velocity_scaling_factor", "default_acceleration_scaling_factor")),
 )
 """Names at the start of MoveIt's files."""
 
@@ -69,6 +69,8 @@ def planning_defects(source: Source, groups: Collection[str]) -> Defects:
                 near = nearest(key.text, _KEYS, cutoff=0.9) if key.text not in _KEYS else None
                 if near is not None and key.text.rstrip("s") != near.rstrip("s"):
                     yield key, f"unknown parameter `{key.text}` of MoveIt; did you mean `{near}`?"
+                if key.text in _SCALING_FACTORS:
+                    yield from _scaling_factor(key, value)
                 if key.text == "planner_configs" or value.kind != "group":
                     continue
                 configs = value.find("planner_configs")
@@ -79,6 +81,14 @@ def planning_defects(source: Source, groups: Collection[str]) -> Defects:
                     yield configs, f"`planner_configs` of group `{key.text}` is a text; write a list"
                 if is_of_group:
                     yield from _planners(key, value, top.find("planner_configs"))
+
+
+def _scaling_factor(key: Node, value: Node) -> Defects:
+    """Yield a factor that MoveIt does not use: it limits factors to 1, and replaces those that are not positive."""
+    if problem := not_a_number(value):
+        yield value, f"`{key.text}` is {problem}"
+    elif value.kind == "text" and value.text and "$" not in value.text and not 0.0 < float(value.text) <= 1.0:
+        yield value, f"`{key.text}` is {float(value.text):g}; it must be greater than 0 and at most 1"
 
 
 def _hint(name: str, names: Iterable[str]) -> str:

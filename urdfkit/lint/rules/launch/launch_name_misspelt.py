@@ -34,8 +34,9 @@ class LaunchNameMisspelt(RobotRule):
     ## What it does
     Compares quoted words in launch files with ``use_sim_time``, ``robot_description``, ``joint_states`` and
     ``controller_manager``, keys in YAML files with the first two, and the topics that remappings of well-known nodes
-    replace with the topics of these nodes. Words that differ by more than one letter, or that the file declares as a
-    launch argument, are accepted.
+    replace with the topics of these nodes. In YAML files, also compares the parameters of common nodes, such as
+    ``teleop_twist_joy_node`` and ``amcl``, with those that the nodes have. Words that differ by more than one letter,
+    or that the file declares as a launch argument, are accepted.
 
     ## Why is this bad?
     The node does not use the simulated time, or waits for a description that is never published.
@@ -62,7 +63,9 @@ class LaunchNameMisspelt(RobotRule):
         """Yield a finding for each misspelt name."""
         from urdfkit.description.packages.related_files import LAUNCH
         from urdfkit.lint.facts.control.launch_package_paths import uncommented
+        from urdfkit.lint.facts.control.yaml_tree import span_of
         from urdfkit.lint.facts.launch.actions import actions_of
+        from urdfkit.lint.facts.launch.node_parameters import misspelt_parameters
         from urdfkit.lint.facts.ros_packages import is_slip
 
         for source in model.related_files.values():
@@ -79,6 +82,9 @@ class LaunchNameMisspelt(RobotRule):
                     continue
                 if not (is_launch and written in actions_of(source).declared):
                     yield self._at(source, written, start, near)
+            for key, node, near in () if is_launch else misspelt_parameters(source):
+                message = f"unknown parameter `{key.text}` of node `{node}`; did you mean `{near}`?"
+                yield Finding(self.code, self.name, "warning", message, span_of(source, key))
             if is_launch and not source.file.endswith(".py"):
                 for topic, near in _remapped(source):
                     yield self._at(source, topic.name, topic.start, near)

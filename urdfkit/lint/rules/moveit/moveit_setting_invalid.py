@@ -20,8 +20,8 @@ class MoveitSettingInvalid(RobotRule):
     Checks YAML files in packages with an SRDF of the robot for misspelt parameters, solvers, planners, plugins, actions
     and controller types, for limits that are negative or zero while ``has_…_limits`` is true, or far beyond those of
     the robot, for ``has_…_limits`` without a limit or that is not a boolean, for values of the wrong type, for solver
-    timeouts that are not positive, for groups and controllers without a required parameter, and for joints of a group
-    that no controller moves.
+    timeouts that are not positive, for default scaling factors beyond 1, for groups and controllers without a required
+    parameter, and for joints of a group that no controller moves.
 
     ## Why is this bad?
     MoveIt ignores misspelt parameters. With a limit of zero, time parameterisation of trajectories fails. A trajectory
@@ -126,6 +126,10 @@ def _group(entry: MoveitEntry) -> Iterator[tuple[Node, str]]:
             yield node, f"`{name}` of group `{entry.name.text}` is {value:g}; it must be positive"
 
 
+_TRUTHS = ("true", "false", "yes", "no", "on", "off", "y", "n")
+"""What yaml-cpp reads as a boolean."""
+
+
 def _joint(entry: MoveitEntry) -> Iterator[tuple[Node, str]]:
     from urdfkit.lint.facts.moveit.settings import LIMIT_KEYS
 
@@ -134,7 +138,7 @@ def _joint(entry: MoveitEntry) -> Iterator[tuple[Node, str]]:
     for key, node in settings.entries:
         quantity, _, kind = key.text.removeprefix("has_").rpartition("_")
         is_flag = key.text.startswith("has_") and kind == "limits"
-        if is_flag and _number(node) is not None:
+        if is_flag and node.kind == "text" and node.text and node.text.lower() not in _TRUTHS and "$" not in node.text:
             yield node, f"`{key.text}` of joint `{joint}` is `{node.text}`; write true or false"
         elif is_flag and node.text.lower() in ("true", "yes", "on"):
             limit = settings.find(f"max_{quantity}")

@@ -19,9 +19,9 @@ class SrdfDuplicate(RobotRule):
     """An SRDF defines a group, state or pair of links twice.
 
     ## What it does
-    Reports groups, states of a group, end effectors, virtual and passive joints with the same name, and names twice in
-    a group. A pair of links that is disabled twice, and two SRDF files for one robot in the folder ``config``, are
-    notes. A pair of a link with itself is a warning.
+    Reports groups, states of a group, end effectors, virtual and passive joints with the same name, two virtual joints
+    of one link, and names twice in a group. A pair of links that is disabled twice, and two SRDF files for one robot in
+    the folder ``config``, are notes. A pair of a link with itself is a warning.
 
     ## Why is this bad?
     MoveIt uses one of the definitions: "A group named 'arm' already exists. Not adding."
@@ -73,6 +73,7 @@ class SrdfDuplicate(RobotRule):
 
     def _repeated(self, elements: list[Element], model: Model, severity: Severity | None, of: str = "") -> Findings:
         first: dict[Hashable, Element] = {}
+        virtual: dict[str, Element] = {}
         for element in elements:
             shown = f"{element.tag.replace('_', ' ')} `{element.get('name')}`"
             key: Hashable = (element.tag, element.get("name"))
@@ -90,6 +91,13 @@ class SrdfDuplicate(RobotRule):
             elif (not of and element.tag not in _NAMED) or element.get("name") is None:
                 continue
             before = first.setdefault(key, element)
+            child = element.get("child_link") if element.tag == "virtual_joint" and not of else None
+            other = virtual.setdefault(child, element) if child else element
+            if before is element and other is not element:
+                message = (
+                    f"second virtual joint of link `{child}`; the first is at {model.shown(other.origin.position)}"
+                )
+                yield self.at(model, element, message, attribute="child_link", link=child, severity=severity)
             if before is not element:
                 message = f"duplicate {shown}{of}; the first is at {model.shown(before.origin.position)}"
                 yield self.at(model, element, message, severity="note" if is_pair else severity)

@@ -105,9 +105,12 @@ class HardwareInterfaceLacking(RobotRule):
         misspelt: set[str],
         model: Model,
     ) -> Findings:
+        from urdfkit.errors import suggestion
+        from urdfkit.lint.facts.control.controller_settings import INTERFACES
         from urdfkit.lint.facts.control.hardware_interfaces import meant_interface
         from urdfkit.lint.facts.control.ros2_controllers import wanted
         from urdfkit.lint.facts.control.yaml_tree import span_of
+        from urdfkit.lint.fix_builders import nearest
 
         reported: set[tuple[int, int]] = set()
         for requirement in wanted(controller):
@@ -133,11 +136,15 @@ class HardwareInterfaceLacking(RobotRule):
             else:
                 provided = ", ".join(f"`{name}`" for name in interfaces[requirement.is_command]) or "none"
                 tag = "command_interface" if requirement.is_command else "state_interface"
+                near = None
+                if requirement.interface not in INTERFACES:
+                    near = nearest(requirement.interface, interfaces[requirement.is_command], cutoff=0.8)
                 message = (
                     f"controller `{controller.name}` {verb} the {requirement.interface} interface of joint "
-                    f"`{requirement.joint}`, whose hardware provides {provided}"
+                    f"`{requirement.joint}`, whose hardware provides {provided}{suggestion(near)}"
                 )
                 help = f'add <{tag} name="{requirement.interface}"/> to the hardware, or change the controller'
+                help = help if near is None else f"write `{near}`"
             reported.add(position)
             span = span_of(source, requirement.where)
             yield Finding(self.code, self.name, self.severity, message, span, joint=requirement.joint, help=help)

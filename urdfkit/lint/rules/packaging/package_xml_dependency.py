@@ -25,10 +25,12 @@ class PackageXmlDependency(RobotRule):
     ## What it does
     Compares the packages that the files of the robot's package use, by ``$(find …)`` and ``package://…``, with the
     dependencies in package.xml. Also compares the packages that launch files start or include, and ``xacro`` where they
-    call it, with the dependencies of their own package. Metapackages, such as ``navigation2``, stand for the packages
-    that they depend on. Names that misspell a dependency, a package of the workspace or a common package by one letter
-    are errors at each place. Each other package is reported once; test folders are not checked, nor the optional launch
-    files that the MoveIt Setup Assistant writes, or dependencies that package.xml has in a comment.
+    call it, with the dependencies of their own package, and the packages of ROS 2 controllers in YAML with the
+    dependencies of all packages of the robot, if one of these is about controllers. Metapackages, such as
+    ``navigation2``, stand for the packages that they depend on. Names that misspell a dependency, a package of the
+    workspace or a common package by one letter are errors at each place. Each other package is reported once; test
+    folders are not checked, nor the optional launch files that the MoveIt Setup Assistant writes, or dependencies that
+    package.xml has in a comment.
 
     ## Why is this bad?
     The package works only where the dependency happens to be installed: rosdep and the ROS build farm do not install
@@ -88,6 +90,7 @@ class PackageXmlDependency(RobotRule):
                 elif name not in unknown:  # xacro has no other finding for it
                     yield finding
         yield from self._check_launch_files(model, {package: declared})
+        yield from self._check_controllers(model)
 
     def _check_launch_files(self, model: Model, declared: dict[Path, set[str]]) -> Findings:
         """Yield a finding for each package that a launch file uses without a dependency in its own package."""
@@ -117,6 +120,35 @@ class PackageXmlDependency(RobotRule):
                     if finding.severity == self.severity:
                         declared[package].add(name)
                     yield finding
+
+    def _check_controllers(self, model: Model) -> Findings:
+        """Yield a finding for each package of a controller in YAML that none of the related packages depends on."""
+        from urdfkit.description.control.controller_types import TYPES
+        from urdfkit.lint.facts.control.ros2_controllers import PARAMETERS, declared
+        from urdfkit.lint.facts.control.yaml_tree import span_of, yamls
+        from urdfkit.lint.facts.ros_packages import is_in_metapackage, names
+
+        files = [source for source in yamls(model) if PARAMETERS in source.text]
+        manifests = [text.text for name, text in model.related_files.items() if name.endswith("package.xml")]
+        if not files or not manifests:
+            return
+        needed = {name for text in manifests for name in (*dependencies_in(text), name_in(text))}
+        kinds = {kind.partition("/")[0] for kind in TYPES}
+        if needed.isdisjoint({*kinds, "controller_manager", "ros2_control"}):
+            return  # another package starts the controllers
+        for source in files:
+            package = package_of(Path(source.file))
+            for controller in declared(source) if package is not None else ():
+                name, _, kind = controller.kind.text.partition("/")
+                # Grippers have the type of another package.
+                if controller.kind.text not in TYPES or name not in names() or kind == "GripperActionController":
+                    continue
+                if name not in needed and not is_in_metapackage(name, needed):
+                    needed.add(name)
+                    span = span_of(source, controller.kind)
+                    message = f"missing dependency on `{name}`, whose controller `{controller.name}` is"
+                    help = f"add <exec_depend>{name}</exec_depend> to package.xml"
+                    yield Finding(self.code, self.name, self.severity, message, span, help=help)
 
     def _missing(self, name: str, source: Source, start: int, end: int, near: set[str]) -> Finding:
         from urdfkit.lint.facts.ros_packages import misspelling_of

@@ -1,0 +1,80 @@
+"""Controllers in YAML: the packages that they need, and interfaces that the hardware does not provide."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from urdfkit.lint import Finding, lint
+
+MANIFEST = """<package format="3">
+  <name>arm_description</name>
+  <version>1.0.0</version>
+  <description>A package for tests.</description>
+  <maintainer email="nobody@example.org">nobody</maintainer>
+  <license>MIT</license>
+  <buildtool_depend>ament_cmake</buildtool_depend>
+  {depends}
+  <export><build_type>ament_cmake</build_type></export>
+</package>
+"""
+ROBOT = """<robot name="arm">
+  <link name="base"/>
+  <link name="hand"/>
+  <joint name="elbow" type="revolute">
+    <parent link="base"/><child link="hand"/><axis xyz="0 0 1"/>
+    <limit lower="-1" upper="1" effort="1" velocity="1"/>
+  </joint>
+  <ros2_control name="system" type="system">
+    <hardware><plugin>mock_components/GenericSystem</plugin></hardware>
+    <joint name="elbow"><command_interface name="position"/><state_interface name="position"/></joint>
+  </ros2_control>
+</robot>
+"""
+YAML = """controller_manager:
+  ros__parameters:
+    arm_controller: {{type: joint_trajectory_controller/JointTrajectoryController}}
+    hand_controller: {{type: position_controllers/GripperActionController}}
+arm_controller:
+  ros__parameters:
+    joints: [elbow]
+    command_interfaces: [{interface}]
+    state_interfaces: [position]
+"""
+
+
+def findings(folder: Path, code: str, *depends: str, interface: str = "position") -> list[Finding]:
+    package = folder / "arm_description"
+    package.mkdir()
+    lines = "\n  ".join(f"<exec_depend>{name}</exec_depend>" for name in depends)
+    (package / "package.xml").write_text(MANIFEST.format(depends=lines))
+    (package / "arm.urdf").write_text(ROBOT)
+    (package / "controllers.yaml").write_text(YAML.format(interface=interface))
+    return [one for one in lint(package) if one.code == code]
+
+
+@pytest.mark.parametrize(
+    ("depends", "is_missing"),
+    [
+        (["controller_manager"], True),
+        (["controller_manager", "joint_trajectory_controller"], False),
+        (["ros2_control", "ros2_controllers"], False),
+        (["rviz2"], False),
+    ],
+)
+def test_packages_of_controllers_are_dependencies(tmp_path, depends, is_missing):
+    found = [(one.line, one.message) for one in findings(tmp_path, "K956", *depends)]
+    message = "missing dependency on `joint_trajectory_controller`, whose controller `arm_controller` is"
+    assert found == ([(3, message)] if is_missing else [])
+
+
+@pytest.mark.parametrize(("interface", "near"), [("positiion", "position"), ("velocity", None)])
+def test_a_misspelt_interface_is_answered_with_its_name(tmp_path, interface, near):
+    (found,) = findings(tmp_path, "K965", interface=interface)
+    assert found.message.endswith("; did you mean `position`?") is (near is not None)
+    assert found.help == (
+        f"write `{near}`"
+        if near
+        else f'add <command_interface name="{interface}"/> to the hardware, or change the controller'
+    )
