@@ -136,13 +136,22 @@ def descriptions(folder: Path) -> Iterator[tuple[Path, str]]:
     yield from ((path, _text(path)) for path in walk(folder))
 
 
-def near_descriptions(package: Path | None, path: Path) -> Iterator[tuple[Path, str]]:
-    """Yield the descriptions of a package; without a package, those in the file's folder and its subfolders."""
+def near_descriptions(
+    package: Path | None, path: Path, endings: tuple[str, ...] = (".xacro",)
+) -> Iterator[tuple[Path, str]]:
+    """Yield the descriptions of a package; without a package, those in the file's folder and its subfolders.
+
+    Args:
+        package: the package folder.
+        path: a file, for descriptions without a package.
+        endings: the file names without a package end like this.
+    """
     if package is not None:
         yield from descriptions(package)
         return
     folder = path.absolute().parent
-    files = sorted(file for file in (*folder.glob("*.xacro"), *folder.glob("*/*.xacro")) if file.is_file())
+    patterns = (f"{place}*{end}" for end in endings for place in ("", "*/"))
+    files = sorted(file for pattern in patterns for file in folder.glob(pattern) if file.is_file())
     yield from ((file, _text(file)) for file in files[:_MAX_FILES])
 
 

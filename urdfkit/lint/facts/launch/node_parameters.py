@@ -32,7 +32,7 @@ laser_min_range laser_model_type max_beams max_particles min_particles recovery_
 resample_interval robot_model_type save_pose_rate sigma_hit tf_broadcast transform_tolerance update_min_a update_min_d
 scan_topic map_topic set_initial_pose always_reset_initial_pose first_map_only;
 """
-"""Names of nodes: parameters; others are accepted."""
+"""Names of nodes: parameters; similar names are misspelt ones, other names are ignored."""
 
 _MIN_LENGTH = 5
 """Length of a parameter from which on a similar name is a misspelt one."""
@@ -41,7 +41,7 @@ _MIN_LENGTH = 5
 @cache
 def _parameters() -> dict[str, tuple[str, ...]]:
     rows = (row.partition(":") for row in _PARAMETERS.strip(";\n").split(";"))
-    return {name: tuple(known.split()) for names, _, known in rows for name in names.split()}
+    return {name: tuple(accepted.split()) for names, _, accepted in rows for name in names.split()}
 
 
 def misspelt_parameters(source: Source) -> Iterator[tuple[Node, str, str]]:
@@ -52,12 +52,12 @@ def misspelt_parameters(source: Source) -> Iterator[tuple[Node, str, str]]:
         return
     for document in documents(source)[0]:
         for name, section in document.entries:
-            known = _parameters().get(name.text.rpartition("/")[2], ())
+            accepted = _parameters().get(name.text.rpartition("/")[2], ())
             group = section.find("ros__parameters") or section
-            written = {key.text.partition(".")[0] for key, _ in group.entries} if known else set()
-            lacking = [each for each in known if each not in written and len(each) >= _MIN_LENGTH]
+            written = {key.text.partition(".")[0] for key, _ in group.entries} if accepted else set()
+            lacking = [each for each in accepted if each not in written and len(each) >= _MIN_LENGTH]
             for key, _ in group.entries if lacking else ():
                 first = key.text.partition(".")[0]
-                near = next((each for each in lacking if is_slip(first, each)), None) if first not in known else None
+                near = next((each for each in lacking if is_slip(first, each)), None) if first not in accepted else None
                 if near is not None:
                     yield key, name.text, near

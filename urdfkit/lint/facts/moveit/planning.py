@@ -84,7 +84,7 @@ def planning_defects(source: Source, groups: Collection[str]) -> Defects:
 
 
 def _scaling_factor(key: Node, value: Node) -> Defects:
-    """Yield a factor that MoveIt does not use: it limits factors to 1, and replaces those that are not positive."""
+    """Yield a factor beyond the range of MoveIt, which limits it to 1 or replaces it."""
     if problem := not_a_number(value):
         yield value, f"`{key.text}` is {problem}"
     elif value.kind == "text" and value.text and "$" not in value.text and not 0.0 < float(value.text) <= 1.0:

@@ -39,6 +39,9 @@ ELEMENTS: dict[str, dict[str, str]] = {
 }
 """Element, after its parent unless that is the root → attribute → kind of the name in it."""
 
+NAME = r"<robot\b[^>]*?(?<![\w:])name\s*=\s*[\"']([^\"']*)"
+"""Matches the name of a robot in a description or SRDF."""
+
 OPTIONAL = frozenset(("parent_group", "reason"))
 
 _LOWEST_SHARE = 0.5
@@ -159,16 +162,18 @@ def joints_of(group: str, root: Element, robot: Robot) -> set[str] | None:
 
 
 def robot_names(model: Model) -> list[str]:
-    """Return patterns of the names of all robots in the packages of the related files."""
+    """Return patterns of the names of all robots in the packages of the related files, or in the robot's folder."""
     from pathlib import Path
 
     from urdfkit.description.packages.related_files import package_of
-    from urdfkit.lint.project.entry_files import descriptions
+    from urdfkit.lint.project.entry_files import SUFFIXES, descriptions, near_descriptions
 
     folders = {package_of(Path(file)) for file in (*model.related_files, *model.expanded.sources)}
     found = [re.escape(model.robot.name or "")]
-    for folder in sorted(folder for folder in folders if folder is not None):
-        for _, text in descriptions(folder):
-            for name in re.findall(r"<robot\b[^>]*?(?<![\w:])name\s*=\s*[\"']([^\"']*)", text):
-                found.append(re.sub(r"\\\$\\[({].*?\\[)}]", ".*", re.escape(name)))
+    texts = [text for folder in sorted(filter(None, folders)) for _, text in descriptions(folder)]
+    if model.package is None:
+        texts += [text for _, text in near_descriptions(None, model.expanded.path, SUFFIXES)]
+    for text in texts:
+        for name in re.findall(NAME, text):
+            found.append(re.sub(r"\\\$\\[({].*?\\[)}]", ".*", re.escape(name)))
     return found

@@ -33,10 +33,10 @@ class LaunchNameMisspelt(RobotRule):
 
     ## What it does
     Compares quoted words in launch files with ``use_sim_time``, ``robot_description``, ``joint_states`` and
-    ``controller_manager``, keys in YAML files with the first two, and the topics that remappings of well-known nodes
+    ``controller_manager``, keys in YAML files with the first two, and the topics that remappings of common nodes
     replace with the topics of these nodes. In YAML files, also compares the parameters of common nodes, such as
-    ``teleop_twist_joy_node`` and ``amcl``, with those that the nodes have. Words that differ by more than one letter,
-    or that the file declares as a launch argument, are accepted.
+    ``teleop_twist_joy_node`` and ``amcl``, with the parameters of these nodes. Words that differ by more than one
+    letter, or that the file declares as a launch argument, are accepted.
 
     ## Why is this bad?
     The node does not use the simulated time, or waits for a description that is never published.

@@ -1,14 +1,23 @@
 """M101 srdf-not-well-formed."""
 
+from __future__ import annotations
+
+import re
+
 from urdfkit.lint.finding import Finding
 from urdfkit.lint.rule import Findings, Model, RobotRule
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from urdfkit.description.xml.source import Source
 
 
 class SrdfNotWellFormed(RobotRule):
     """An SRDF file is not well-formed.
 
     ## What it does
-    Parses the SRDF files (``.srdf``) of the robot's package and of neighbouring packages that depend on it.
+    Parses the SRDF files (``.srdf``) of the robot's package and of neighbouring packages that depend on it. A file that
+    names another robot of these packages is reported with that robot only.
 
     ## Why is this bad?
     MoveIt does not start: "Could not parse the SRDF XML File".
@@ -46,7 +55,19 @@ class SrdfNotWellFormed(RobotRule):
             try:
                 document_of(source)
             except XmlError as error:
+                if _is_of_another_robot(source, model):
+                    continue
                 at = error.position
                 start = source.offset(at.line, at.column) if at is not None else 0
                 span = source.span(start, min(start + 1, len(source.text)))
                 yield Finding(self.code, self.name, self.severity, error.message, span)
+
+
+def _is_of_another_robot(source: Source, model: Model) -> bool:
+    """Return whether a malformed SRDF names another robot of these packages, with which it is reported."""
+    from urdfkit.lint.facts.moveit.srdf import NAME, robot_names
+
+    name = re.search(NAME, source.text)
+    if name is None or name[1] == model.robot.name:
+        return False
+    return any(re.fullmatch(pattern, name[1]) for pattern in robot_names(model))

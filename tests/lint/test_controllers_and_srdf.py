@@ -1,4 +1,4 @@
-"""Controllers in YAML: the packages that they need, and interfaces that the hardware does not provide."""
+"""Controllers in YAML and the packages that they need, and SRDF files of several robots."""
 
 from __future__ import annotations
 
@@ -78,3 +78,15 @@ def test_a_misspelt_interface_is_answered_with_its_name(tmp_path, interface, nea
         if near
         else f'add <command_interface name="{interface}"/> to the hardware, or change the controller'
     )
+
+
+@pytest.mark.parametrize("has_package", [False, True])
+@pytest.mark.parametrize(("name", "is_reported"), [("leg", False), ("arm", True), ("foot", True)])
+def test_the_broken_srdf_of_another_robot_is_reported_with_that_robot(tmp_path, has_package, name, is_reported):
+    if has_package:
+        (tmp_path / "package.xml").write_text(MANIFEST.format(depends=""))
+    for robot in ("arm", "leg"):
+        (tmp_path / f"{robot}.urdf").write_text(f'<robot name="{robot}">\n  <link name="base"/>\n</robot>\n')
+    (tmp_path / "any.srdf").write_text(f'<robot name="{name}">\n  <group name="all">\n</robot>\n')
+    assert ("M101" in {one.code for one in lint(tmp_path / "arm.urdf")}) is is_reported
+    assert "M101" in {one.code for one in lint(tmp_path)}
