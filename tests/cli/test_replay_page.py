@@ -1,4 +1,4 @@
-"""The page of a recording: its robot description is shown, time is controlled, no simulation is offered."""
+"""The pages of a recording and of a live robot: what has no effect on them is not offered."""
 
 from __future__ import annotations
 
@@ -8,9 +8,43 @@ from typing import Any
 import pytest
 
 pytest.importorskip("meshcat")
+pytest.importorskip("numba")
 
 from tests.app.replay.test_replay import ARM, turned
 from tests.app.replay.written_bags import Messages, Written, write_bag
+from tests.served_simulation import rosbridge
+from urdfkit.sim import Simulator
+
+TOOLS_OF_SIMULATIONS = {"tool-push", "tool-place", "tool-walls"}
+
+
+def tools(page: Any) -> set[str]:
+    found: list[str] = page.locator("#tools button:visible").evaluate_all("tools => tools.map(({ id }) => id)")
+    return set(found)
+
+
+@pytest.mark.browser
+def test_a_live_robot_is_driven_and_has_no_controls_of_a_simulation(
+    serve: Any, visits: Any, until: Any, keep: Any
+) -> None:
+    simulator = Simulator("simpleton")
+    with rosbridge(simulator) as url:
+        page = visits.open(serve("view", "simpleton", "--live", url).url)
+        until(lambda: page.locator("#open-displays").is_visible())
+        names = set(page.locator(".rail-button:visible").all_inner_texts())
+        assert names >= {"Drive", "Topics", "Plots", "Displays"}
+        assert names.isdisjoint({"World", "Physics", "Push", "Record", "Replay"})
+        assert TOOLS_OF_SIMULATIONS.isdisjoint(tools(page))
+        assert {"tool-goal", "tool-estimate", "tool-point"} <= tools(page)
+        for control in ("pause", "reset", "factor", "step"):
+            assert not page.locator(f"#{control}").is_visible(), control
+        keep(page, "live")
+        page.locator("#pane").focus()
+        page.keyboard.down("w")
+        until(lambda: simulator.state.base_pose[0] > 0.05)
+        page.keyboard.up("w")
+        until(lambda: abs(simulator.state.v[0]) < 1e-3)
+    assert visits.problems == []
 
 
 @pytest.mark.browser
@@ -30,8 +64,11 @@ def test_a_recording_with_its_own_robot_is_replayed(tmp_path: Path, serve: Any, 
     assert "Topics" in names
     assert "Replay" in names
     assert not {"Drive", "World", "Physics", "Push"} & set(names)
+    assert TOOLS_OF_SIMULATIONS.isdisjoint(tools(page))
+    assert "tool-goal" not in tools(page)
     page.locator("#pause").click()
     until(lambda: page.evaluate("urdfkit.page.status.paused"))
+    assert not page.locator("#step").is_visible()
     page.evaluate("urdfkit.connection.request('replay', { action: 'show', at: 7.0 })")
     until(lambda: page.evaluate("Math.abs(urdfkit.page.status.pose.x - 7) < 1e-6"))
     hand = "urdfkit.page.scene.byLink.get('hand').position"

@@ -128,6 +128,7 @@ class ObservedSession:
             root=kinematics.link_names.index(kinematics.root),
             draw=lambda server: draw(scene, server, server.geometries),
         )
+        self.server.publish_latched("accepts", requests=sorted(self._takes))
         self.server.publish_latched("teleop", **self.drive_controls())
         self.server.publish_latched("findings", findings=[], rules={}, fault=None)
         self.server.publish_latched("inspect", **inspection(kinematics))

@@ -38,6 +38,7 @@ page.on("hello", (message) => {
   for (const element of document.querySelectorAll("[data-mode]:not(body)")) element.hidden = element.dataset.mode !== message.mode;
   page.panels.use(message.mode);
 });
+page.on("accepts", (message) => (page.requests = message.requests));
 page.on("model", (message) => {
   if (!page.model || (page.mode === "sim" && page.model.name !== message.name)) fitted = false;
   changed = true;

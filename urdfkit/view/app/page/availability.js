@@ -1,5 +1,11 @@
 // Switches the controls off, with the reason, while they have no effect: no connection, no response, another driver.
+// Hides panels, tools and controls of requests that the server does not accept: those of a recording or a live robot.
 
+const NEEDS = {
+  panels: { world: "spawn", physics: "gravity", push: "push", recorder: "replay" },
+  tools: { push: "push", place: "spawn", walls: "walls", goal: "publish_pose", estimate: "publish_pose", point: "publish" },
+  controls: { pause: "speed", reset: "speed", factor: "speed", "publish-pose": "publish_pose", "publish-point": "publish", "publish-new": "publish" },
+};
 const CONTROLS = [".transport", "#pad", "#drive-section"];
 const RESPONSE = 1500; // ms without a status message after which the simulation counts as not responding
 const INPUT = 500; // ms of input without becoming the driver after which the input counts as interrupted
@@ -32,6 +38,12 @@ export function availability(page) {
     for (const selector of CONTROLS) for (const part of document.querySelectorAll(selector)) part.inert = state === "off";
     if (state === "off" && window.urdfkit.drive?.timer != null) window.urdfkit.drive.release();
   }
+  page.on("accepts", () => {
+    for (const [id, request] of Object.entries(NEEDS.panels)) page.panels.available(id, page.accepts(request));
+    for (const [id, request] of Object.entries(NEEDS.tools)) if (!page.accepts(request)) page.tools.buttons.get(id).button.dataset.modes = "";
+    for (const [id, request] of Object.entries(NEEDS.controls)) document.getElementById(id).hidden = !page.accepts(request);
+    page.tools.offer();
+  });
   page.on("you", (message) => {
     me = message.client;
     lost = false;

@@ -8,6 +8,7 @@ export class Page {
     this.model = null; // the last message `model`
     this.selected = null; // {link} or {joint}, by name
     this.connection = null;
+    this.requests = null; // names of the requests that the server accepts; null for all
     this.shortcuts = [];
     this.handlers = new Map();
     addEventListener("keydown", (event) => this.#key(event));
@@ -32,6 +33,11 @@ export class Page {
         reportError(error);
       }
     }
+  }
+
+  /** Whether the server accepts a request. */
+  accepts(request) {
+    return this.requests === null || this.requests.includes(request);
   }
 
   /** Send a message to the server; see docs/protocol.md. */

@@ -74,7 +74,7 @@ export function clock(page) {
     $("pause").querySelector("span").textContent = message.paused ? "Continue" : "Pause";
     $("pause").setAttribute("aria-label", message.paused ? "Continue" : "Pause");
     $("pause").setAttribute("aria-pressed", message.paused);
-    step.hidden = steps.hidden = !message.paused;
+    step.hidden = steps.hidden = !message.paused || !page.accepts("step");
     if (document.activeElement !== speed) speed.value = message.factor ?? "";
     const other = message.driver !== null && message.driver !== me;
     document.body.dataset.watching = other;

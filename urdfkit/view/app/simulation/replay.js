@@ -40,15 +40,12 @@ export function recorder(page) {
   speed.addEventListener("change", () => state.running && request("replay", { action: "play", speed: Number(speed.value) }));
   end.addEventListener("click", () => request("replay", { action: "end" }));
 
-  // The page shows a file and no simulation: everything that changes one is not available.
+  // The page shows a file and no simulation.
   function ofFile(name) {
     if (document.body.dataset.recording === name) return;
     document.body.dataset.recording = name;
     for (const part of [record, topics.label, pictures.label, end]) part.hidden = true;
-    for (const id of ["drive", "arms", "world", "physics", "push"]) page.panels.available(id, false);
     banner.textContent = `Replay of ${name}`;
-    for (const id of ["push", "place", "walls"]) page.tools.buttons.get(id).button.dataset.modes = "";
-    page.tools.offer();
     panel.button.children[1].textContent = "Replay";
     panel.button.title = panel.section.querySelector("h2").textContent = "Replay";
     page.panels.open("recorder");

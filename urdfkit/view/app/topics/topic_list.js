@@ -60,7 +60,7 @@ export class Topics {
     this.page.connection.subscribe(`echo:${topic.name}`, true);
     this.message = h("pre.message", { tabindex: 0, "aria-label": `Last message of ${topic.name}` }, "no message yet");
     this.count = h("span.quiet");
-    const publish = h("details.publish", { id: "publish" }, h("summary", {}, "Publish"));
+    const publish = h("details.publish", { id: "publish", hidden: !this.page.accepts("publish") }, h("summary", {}, "Publish"));
     const plot = h("details.numbers", { id: "numbers" }, h("summary", {}, "Plot a number"));
     const head = h("div.row", {}, h("h3", {}, topic.name), h("span.space"), this.count);
     this.detail.replaceChildren(head, h("p.quiet.type", {}, topic.type), this.message, plot, publish);
