@@ -64,7 +64,7 @@ def test_a_misspelt_option_gets_the_nearest_one(capsys: pytest.CaptureFixture[st
         ("sim", "sim: pass a subcommand: teleop, run, sweep, warmup"),
         ("sim simpleton", "sim: no subcommand `simpleton`; did you mean `urdfkit sim teleop simpleton`?"),
         ("sim rum simpleton", "sim: no subcommand `rum`; did you mean `run`?"),
-        ("sim run simpleton --duration 3", "sim run: unrecognized arguments: --duration; did you mean `--for`?"),
+        ("sim run simpleton --duration 3", "sim run: unrecognized arguments: --duration 3; did you mean `--for`?"),
         ("topic ecko /odom", "topic: no subcommand `ecko`; did you mean `echo`?"),
         ("topic --list", "topic: unrecognized arguments: --list; did you mean `list`?"),
         (
@@ -108,7 +108,7 @@ def test_an_unwritable_place_is_one_line(capsys: pytest.CaptureFixture[str], mon
 
 def test_a_misspelt_option_is_reported_before_the_missing_argument(capsys):
     assert main(["sim", "run", "simpleton", "--fro", "2"]) == 2
-    assert capsys.readouterr().err == "urdfkit: sim run: unrecognized arguments: --fro; did you mean `--for`?\n"
+    assert capsys.readouterr().err == "urdfkit: sim run: unrecognized arguments: --fro 2; did you mean `--for`?\n"
 
 
 def test_an_option_with_a_value_that_it_does_not_take(capsys):

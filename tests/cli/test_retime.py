@@ -107,11 +107,13 @@ def test_a_simulated_robot_follows_the_motion(place, capsys):
     assert main(["retime", "arm.urdf", "path.csv", "--acceleration", "5", "-o", "m.csv"]) == 0
     duration = np.loadtxt("m.csv", delimiter=",", skiprows=1)[-1, 0]
     capsys.readouterr()
-    for seconds in (duration / 2, duration + 0.5):
-        assert main(["sim", "run", "arm.urdf", "--trajectory", "m.csv", "--for", f"{seconds:.3f}", "--json"]) == 0
-        joints = json.loads(capsys.readouterr().out)["joints"]
+    for seconds, words in ((duration / 2, ["--for", f"{duration / 2:.3f}"]), (duration + 0.5, [])):
+        assert main(["sim", "run", "arm.urdf", "--trajectory", "m.csv", *words, "--json"]) == 0
+        report = json.loads(capsys.readouterr().out)
+        assert report["duration"] == pytest.approx(seconds, abs=1e-3)
+        joints = report["joints"]
         table = np.loadtxt("m.csv", delimiter=",", skiprows=1)
         for name, column in (("shoulder", 1), ("elbow", 2)):
             wanted = np.interp(seconds, table[:, 0], table[:, column])
             assert joints[name]["position"] == pytest.approx(wanted, abs=1e-3)  # half of a time step of 1 ms
-    assert "has no column `time`" in refusal(capsys, "sim", "run", "arm.urdf", "--trajectory", "path.csv", "--for", "1")
+    assert "has no column `time`" in refusal(capsys, "sim", "run", "arm.urdf", "--trajectory", "path.csv")

@@ -15,7 +15,13 @@ from urdfkit.cli.robot_arguments.file_name_case import warn_of_file_names
 from urdfkit.cli.sim import option_values
 from urdfkit.cli.sim.bridge_options import add_bridges, bridge_options
 from urdfkit.cli.sim.record_option import NEW_TOPIC_PERIOD, add_record, check_record, recording
-from urdfkit.cli.sim.run_options import add_run_options, check_run_options, load_robot_of_run, run_options_of
+from urdfkit.cli.sim.run_options import (
+    add_run_options,
+    check_run_options,
+    duration_of,
+    load_robot_of_run,
+    run_options_of,
+)
 from urdfkit.cli.sim.warnings import GroupedWarnings
 
 if TYPE_CHECKING:
@@ -81,7 +87,7 @@ def run(arguments: argparse.Namespace) -> int:
     check_record(arguments)
     options = bridge_options(arguments)
     save_options.check_places("--save-world", [Path(arguments.save_world)] if arguments.save_world is not None else [])
-    run_options = run_options_of(arguments)
+    run_options, duration = run_options_of(arguments), duration_of(arguments)
     simulator = load(arguments, run_options)
     run_options.schedule(simulator)
     images = image_files.find_topics(simulator, arguments.save_image)
@@ -92,7 +98,7 @@ def run(arguments: argparse.Namespace) -> int:
     ):
         if arguments.record is not None:
             simulator.every(NEW_TOPIC_PERIOD, subscribe_to_new)
-        spent = advance(simulator, arguments.duration, arguments.until, bridges)
+        spent = advance(simulator, duration, arguments.until, bridges)
     for file, content in [*image_files.contents(simulator, images), *scan_files.contents(simulator, ranges)]:
         write_bytes(file, content)
     if arguments.save_world is not None:

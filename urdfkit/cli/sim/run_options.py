@@ -24,6 +24,10 @@ if TYPE_CHECKING:
     from urdfkit.description import Robot
 
 
+SETTLE = 0.5
+"""Simulated time after the end of a trajectory without ``--for`` [s]."""
+
+
 def add_run_options(parser: argparse.ArgumentParser) -> None:
     """Add the robot, the start, the step, the plugins and the commands."""
     # argparse parses `-1,0,0` as an option unless this pattern matches it.
@@ -32,7 +36,13 @@ def add_run_options(parser: argparse.ArgumentParser) -> None:
     add_macro(parser)
     add_launch_arguments(parser, "simulation")
     add = parser.add_argument
-    add("--for", dest="duration", required=True, type=option_values.duration, metavar="SECONDS", help="simulated time")
+    add(
+        "--for",
+        dest="duration",
+        type=option_values.duration,
+        metavar="SECONDS",
+        help=f"simulated time (default with --trajectory: its last time and {SETTLE:g} s)",
+    )
     add(
         "--world",
         default="empty",
@@ -108,17 +118,34 @@ def add_run_options(parser: argparse.ArgumentParser) -> None:
 
 
 def check_run_options(arguments: argparse.Namespace, command: str) -> None:
-    """Reject options that need another one.
+    """Reject options that need another one, and a run without an end.
 
     Args:
         arguments: with the options of `add_run_options`.
         command: name of the command.
 
     Raises:
-        UsageError: ``--cmd-ramp`` without ``--cmd-vel``.
+        UsageError: ``--cmd-ramp`` without ``--cmd-vel``, or neither ``--for`` nor ``--trajectory``.
     """
+    if arguments.duration is None and arguments.trajectory is None:
+        raise UsageError(f"{command}: the following arguments are required: --for")
     if arguments.cmd_ramp is not None and arguments.cmd_vel is None:
         raise UsageError(f"{command}: --cmd-ramp requires --cmd-vel")
+
+
+def duration_of(arguments: argparse.Namespace) -> float:
+    """Return the simulated time [s]: that of ``--for``, else until shortly after the end of the trajectory.
+
+    Raises:
+        UrdfkitError: the trajectory cannot be read.
+    """
+    if arguments.duration is not None:
+        return float(arguments.duration)
+    from urdfkit.app.simulation.trajectory import read_trajectory
+
+    times = read_trajectory(arguments.trajectory).time
+    assert times is not None
+    return float(times[-1]) + SETTLE
 
 
 def run_options_of(arguments: argparse.Namespace) -> RunOptions:

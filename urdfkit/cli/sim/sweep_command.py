@@ -14,7 +14,13 @@ from typing import TYPE_CHECKING
 
 from urdfkit.app.page import require_packages
 from urdfkit.app.termination import ended_by_signals
-from urdfkit.cli.sim.run_options import add_run_options, check_run_options, load_robot_of_run, run_options_of
+from urdfkit.cli.sim.run_options import (
+    add_run_options,
+    check_run_options,
+    duration_of,
+    load_robot_of_run,
+    run_options_of,
+)
 from urdfkit.errors import UsageError
 
 if TYPE_CHECKING:
@@ -98,7 +104,7 @@ def run(arguments: argparse.Namespace) -> int:
             load=load,
             vary=vary,
             metrics=arguments.metric,
-            duration=arguments.duration,
+            duration=duration_of(arguments),
             seeds=arguments.seeds,
             world=arguments.world,
             until=arguments.until,
