@@ -1,7 +1,10 @@
 """Installation of a robot's plugins: select and configure a class for each element, report skipped plugins."""
 
+from __future__ import annotations
+
 from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -11,6 +14,7 @@ from urdfkit.description.plugins.lookup import stem
 from urdfkit.description.plugins.sensors.table import BARE
 from urdfkit.description.plugins.unknown_plugins import unknown, unsupported
 from urdfkit.description.sdf.reader.world_plugins import NEEDLESS
+from urdfkit.description.urdf.repair_record import Repair
 from urdfkit.description.urdf.robot import Plugin, Robot, SensorTag
 from urdfkit.errors import DescriptionError, SimulationError, UrdfkitError, UsageError, with_effect
 from urdfkit.sim.plugins.base import Controller, Drive, Sensor
@@ -22,6 +26,13 @@ from urdfkit.sim.plugins.drives import DRIVES
 from urdfkit.sim.plugins.sensors import SENSORS
 from urdfkit.sim.plugins.setup import Setup
 from urdfkit.sim.plugins.unknown_tags import SharedTopics, misspelt, not_read
+
+if TYPE_CHECKING:
+    from urdfkit.description.urdf.repair_record import RepairKind
+    from urdfkit.position import Position
+
+_NOT_SIMULATED = "Z833"
+"""Code of the lint rule that reports parts that are not simulated."""
 
 
 @dataclass(frozen=True)
@@ -40,10 +51,16 @@ class LeftOut:
     """Decision not to simulate a plugin.
 
     Attributes:
-        reason: note for the user, with the position of the plugin.
+        message: reason, without the position.
+        position: source position of the plugin or sensor.
+        code: code of the lint rule that reports the same defect; None for an invalid parameter.
+        attribute: attribute that has the defect; None for the whole element.
     """
 
-    reason: str
+    message: str
+    position: Position | None
+    code: str | None = None
+    attribute: str | None = None
 
 
 @dataclass(frozen=True)
@@ -108,17 +125,21 @@ def install(robot: Robot, setup: Setup, *, seed: int) -> Installed:
         if isinstance(decision, Simulated):
             decision = _configure(decision.made, own)
         if isinstance(decision, LeftOut):
-            setup.note(decision.reason)
+            _report(decision, "plugin", setup)
         elif isinstance(decision, Simulated):
             installed.add(decision.made)
             if isinstance(decision.made, Sensor):
                 shared.add(decision.made)
-    if robot.ros2_control and not any(controller.kind == "ros2_control" for controller in installed.controllers):
+    specs = [match(plugin) for plugin, _, _ in _plugins(robot)] if robot.ros2_control else []
+    if not any(
+        spec is not None and spec.kind == "ros2_control" for spec in specs
+    ):  # its own repair reports a plugin that is left out
         for block in robot.ros2_control:
-            setup.note(
-                f"{block.element.origin.position}: no plugin runs ros2_control `{block.name or ''}`; "
+            message = (
+                f"no plugin runs ros2_control `{block.name or ''}`; "
                 f"add gz_ros2_control or gazebo_ros2_control{simulation_hint(robot)}"
             )
+            _report(LeftOut(message, block.element.origin.position, _NOT_SIMULATED), "hardware", setup)
     if not installed.publishes_joint_states:
         installed.joint_states.append(all_joint_states(setup))
     return installed
@@ -144,7 +165,7 @@ def _choose(plugin: Plugin, setup: Setup, classes: tuple[type[Drive | Sensor | C
     bare = sensor is not None and plugin.element is sensor.element
     spec = BARE.get((sensor.type or "").strip()) if bare and sensor is not None else match(plugin)
     if sensor is not None and (reason := unsupported(sensor, simulated=spec is not None or not bare)):
-        return LeftOut(f"{sensor.element.origin.position}: {reason}")
+        return LeftOut(reason, sensor.element.origin.position, _NOT_SIMULATED, "type")
     for warning in not_read(plugin, spec) if spec is not None and not bare else ():
         setup.note(warning)
     if spec is not None and spec.kind == "joint_state_publisher":
@@ -163,7 +184,7 @@ def _choose(plugin: Plugin, setup: Setup, classes: tuple[type[Drive | Sensor | C
         return Needless()
     brought = [name for each in classes for table in each.specs for name in table.filenames]
     reason = unknown(plugin, None if sensor is None else sensor.name or "", [*NEEDLESS, *brought])
-    return LeftOut(f"{plugin.element.origin.position}: {reason}")
+    return LeftOut(reason, plugin.element.origin.position, _NOT_SIMULATED, "filename")
 
 
 def _configure(made: Drive | Sensor | Controller | JointStates, setup: Setup) -> Decision:
@@ -181,10 +202,18 @@ def _configure(made: Drive | Sensor | Controller | JointStates, setup: Setup) ->
             return _leave_out(made.plugin, error, setup)
         if not isinstance(error, (SimulationError, UsageError)):
             raise
-        place = "" if error.position is not None else f"{made.plugin.element.origin.position}: "
         name = setup.sensor.name if setup.sensor is not None else made.plugin.name
-        return LeftOut(place + with_effect(str(error), f"sensor `{name}` is left out"))
+        message = with_effect(error.message, f"sensor `{name}` is left out")
+        return LeftOut(message, error.position or made.plugin.element.origin.position)
     return Simulated(made)
+
+
+def _report(part: LeftOut, kind: RepairKind, setup: Setup) -> None:
+    """Report a part that is not simulated; robots with such a part are never refused."""
+    if part.code is None or setup.repairs.strict:
+        setup.note(f"{part.position}: {part.message}")
+    else:
+        setup.repairs.add(Repair(kind, part.code, part.message, part.position, attribute=part.attribute))
 
 
 def _leave_out(plugin: Plugin, error: UrdfkitError, setup: Setup) -> Needless:

@@ -14,6 +14,7 @@ from tests.sim import arm_package
 from tests.suggestions import contains
 from urdfkit.description import load
 from urdfkit.errors import SimulationError, UrdfkitError
+from urdfkit.lint import lint
 from urdfkit.messages import FLOATS, JOINT_STATE, TRAJECTORY, TRAJECTORY_STATE, from_fields
 from urdfkit.sim import Simulator, Spawn
 from urdfkit.sim.plugins.controllers.simulation_arguments import simulation_hint
@@ -343,11 +344,18 @@ def test_arguments_of_included_files_are_listed_too(tmp_path: Path) -> None:
     assert simulation_hint(load(path)) == "; pass sim_mode:=true"
 
 
-def test_a_block_that_no_plugin_runs_is_noted(tmp_path: Path) -> None:
+def test_a_block_that_no_plugin_runs_is_left_out_with_a_finding(tmp_path: Path) -> None:
     notes: list[str] = []
     block = BLOCK.format(filename="", name="", hardware=GZ[2], commands="", more="", initial="", path="")
-    Simulator(arm_package.write_arm(tmp_path, block[: block.index("<gazebo>")]), note=notes.append)
-    assert any("no plugin runs ros2_control `arm`" in note for note in notes)
+    path = arm_package.write_arm(tmp_path, block[: block.index("<gazebo>")])
+    (repair,) = Simulator(path, note=notes.append).repairs
+    assert "no plugin runs ros2_control `arm`" in repair.message
+    assert str(repair) in notes
+    assert (repair.kind, repair.code) == ("hardware", "Z833")
+    (finding,) = lint(path, target="urdfkit", select=["Z833"])
+    assert repair.position is not None
+    assert (finding.span.file, finding.line) == (repair.position.file, repair.position.line)
+    assert Simulator(path, note=notes.append, strict=True).repairs == ()
 
 
 def test_the_controller_manager_takes_requests(make: Make) -> None:

@@ -27,9 +27,9 @@ class ControllerSettingsMisspelt(RobotRule):
     depend on it for misspelt controller types of ros_controllers and ros2_controllers, misspelt names of controller
     sections, misspelt or missing ``ros__parameters`` keys (with two underscores), misspelt parameters and
     interfaces, and tabs. Misspelt types, interfaces and ``ros__parameters``, and tabs, are errors. Types that a package
-    of the workspace exports are accepted. With ``--target urdfkit``, a type of another package is a note if a Gazebo
+    of the workspace exports are accepted. With ``--target urdfkit``, a type of another package is reported if a Gazebo
     plugin of the robot loads the controller, because a simulation leaves it out. Unknown parameters of such a
-    controller are notes too.
+    controller are notes.
 
     ## Why is this bad?
     Loading fails with "Loader for controller not found", or the controller starts without its joints, because unknown
@@ -91,7 +91,7 @@ class ControllerSettingsMisspelt(RobotRule):
                 yield self._at(source, tab.start(), tab[0], message, "indent with spaces", "error")
 
     def _loaded(self, model: Model) -> Findings:
-        """Yield a note for each loaded controller of another package, for urdfkit, and for unknown parameters."""
+        """Yield a finding for each loaded controller of another package, for urdfkit, and for unknown parameters."""
         from urdfkit.description.control.controller_parameters import unknown_parameters
         from urdfkit.description.control.controller_types import TYPES, meant_type
         from urdfkit.lint.facts.control.controller_settings import misspelt
@@ -111,7 +111,7 @@ class ControllerSettingsMisspelt(RobotRule):
             is_defect = model.target == "urdfkit" or "/" not in (kind.value or "")
             if is_defect and kind.value and kind.value not in TYPES and meant_type(kind.value) is None:
                 message = f"controller `{name}`: urdfkit does not simulate the type `{kind.value}` of another package"
-                yield self.at(model, kind.position, message, severity="note")
+                yield self.at(model, kind.position, message)
 
     def _keys(self, source: Source, text: str) -> Findings:
         from urdfkit.lint.facts.control.controller_joints import controllers
