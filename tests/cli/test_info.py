@@ -47,6 +47,8 @@ def test_json(model: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert facts["joints"][1]["mimic"] == "shoulder"
     assert facts["degrees_of_freedom"] == 1
     assert facts["mass"] == 4.0
+    (finger,) = facts["estimated_masses"]
+    assert finger == {"link": "finger", "joint": "grip", "file": "arm.urdf", "line": 7, "column": 3}
     assert facts["center_of_mass"] == pytest.approx([0.25, 0.0, 0.25])
     assert facts["bounding_box"] == {"min": [-1.0, -0.5, -0.5], "max": pytest.approx([1.5, 0.5, 1.5])}
     assert facts["drives"] == [
@@ -57,10 +59,12 @@ def test_json(model: Path, capsys: pytest.CaptureFixture[str]) -> None:
 
 def test_text(model: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["info", str(model)]) == 0
-    lines = dict(line.split(maxsplit=1) for line in capsys.readouterr().out.splitlines() if "  " in line)
+    text = capsys.readouterr().out
+    lines = dict(line.split(maxsplit=1) for line in text.splitlines() if "  " in line)
     assert lines["links"] == "3, root base"
     assert lines["joints"] == "1 revolute, 1 continuous"
     assert lines["mass"] == "4 kg"
+    assert "estimated masses    1 body, in `sim` only: `finger` (arm.urdf:7:3)" in text
     assert lines["sensor"] == "eye (camera) on upper, 30 Hz"
 
 

@@ -18,6 +18,9 @@ from urdfkit.errors import MissingDependencyError, UrdfkitError
 if TYPE_CHECKING:
     from urdfkit.description.urdf.robot import Robot
 
+_SHOWN = 3
+"""Largest number of links in a line."""
+
 _FREEDOMS = {"revolute": 1, "continuous": 1, "prismatic": 1, "planar": 3, "floating": 6}
 
 
@@ -52,6 +55,8 @@ def facts_of(robot: Robot) -> dict[str, Any]:
 
     Lengths are in metres, masses in kilograms; centre of mass and bounding box (of visuals and collisions) are in the
     root frame with all joints at zero, null where they cannot be computed: ``note`` contains the reason.
+    ``estimated_masses`` are the bodies without mass or inertia, which a simulation estimates: a link of each, the joint
+    that moves it (null for the base), and the position of the link.
     """
     from urdfkit.description.urdf.queries import mass
 
@@ -64,6 +69,7 @@ def facts_of(robot: Robot) -> dict[str, Any]:
         "joints": [_joint(joint) for joint in robot.joints],
         "degrees_of_freedom": sum(_FREEDOMS.get(j.type or "", 0) for j in robot.joints if j.mimic is None),
         "mass": sum(mass(robot, link.name) for link in robot.links),
+        "estimated_masses": _estimated_masses(robot),
         "center_of_mass": None,
         "bounding_box": None,
         "drives": _drives(robot),
@@ -94,6 +100,24 @@ def _joint(joint: Any) -> dict[str, Any]:
         "velocity": limit.velocity if limit is not None else None,
         **{rate: getattr(limit, rate, None) for rate in RATES},
     }
+
+
+def _estimated_masses(robot: Robot) -> list[dict[str, Any]]:
+    from urdfkit.description.urdf.massless_links import is_free, massless
+
+    found = []
+    for link, joint in massless(robot, floating=is_free(robot)):
+        place = link.element.origin.position
+        found.append(
+            {
+                "link": link.name,
+                "joint": joint and joint.name,
+                "file": place and place.file,
+                "line": place and place.line,
+                "column": place and place.column,
+            }
+        )
+    return found
 
 
 def _drives(robot: Robot) -> list[dict[str, Any]]:
@@ -172,6 +196,11 @@ def _table(facts: dict[str, Any]) -> str:
         ("degrees of freedom", str(facts["degrees_of_freedom"])),
         ("mass", f"{facts['mass']:.6g} kg"),
     ]
+    if estimated := facts["estimated_masses"]:
+        places = [f"`{one['link']}` ({one['file']}:{one['line']}:{one['column']})" for one in estimated[:_SHOWN]]
+        more = f" and {len(estimated) - _SHOWN} more" if len(estimated) > _SHOWN else ""
+        bodies = "1 body" if len(estimated) == 1 else f"{len(estimated)} bodies"
+        rows.append(("estimated masses", f"{bodies}, in `sim` only: {', '.join(places)}{more}"))
     if (center := facts["center_of_mass"]) is not None:
         rows.append(("centre of mass", f"{_triple(center)} m in {facts['root']}"))
     if (box := facts["bounding_box"]) is not None:
