@@ -48,7 +48,8 @@ def test_an_update_replaces_only_lines_of_ours(tmp_path, capsys):
         '  <disable_collisions link1="base_link" link2="shoulder_pan_link" reason="User"/>\n'
         '  <group_state name="home" group="mine"/>\n</robot>\n'
     )
-    written(capsys, "--update", str(old))
+    assert main(["srdf", "seven_dof_arm", *QUICK, "--update", str(old)]) == 0
+    assert f"{old}: robot `seven_dof_arm` has no link `gone`; pairs" in capsys.readouterr().err
     new = old.read_text()
     for kept in ("<!-- <disable_collisions", '<group name="mine">', 'reason="User"', "<group_state"):
         assert new.count(kept) == 1
@@ -68,6 +69,23 @@ def test_an_update_refuses_a_urdf_and_leaves_it_as_it_is(tmp_path, capsys):
     assert main(["srdf", "seven_dof_arm", *QUICK, "--update", str(urdf)]) == 2
     assert "is a URDF, not an SRDF" in capsys.readouterr().err
     assert urdf.read_text() == text
+
+
+@pytest.mark.parametrize(
+    ("name", "link", "message"),
+    [
+        ("six_dof_arm", "base_link", "old.srdf is the SRDF of robot `six_dof_arm`, not of `seven_dof_arm`; it was not"),
+        ("seven_dof_arm", "arm_base", "links, such as `arm_base`, do not exist in robot `seven_dof_arm`; it was not"),
+    ],
+)
+def test_an_update_refuses_the_srdf_of_another_robot(tmp_path, capsys, name, link, message):
+    old = tmp_path / "old.srdf"
+    text = f'<robot name="{name}">\n  <group name="g"><chain base_link="{link}" tip_link="hand"/></group>\n</robot>\n'
+    old.write_text(text)
+    assert main(["srdf", "seven_dof_arm", *QUICK, "--update", str(old)]) == 2
+    (line,) = capsys.readouterr().err.splitlines()
+    assert message in line
+    assert old.read_text() == text
 
 
 @pytest.mark.parametrize(

@@ -84,19 +84,25 @@ def run(arguments: argparse.Namespace) -> int:
 
     require_pinocchio("srdf")
     from urdfkit.kinematics.self_collision import collision_matrix
-    from urdfkit.kinematics.srdf import find_groups, group_of_chain, new_srdf, updated_srdf
+    from urdfkit.kinematics.srdf import find_groups, group_of_chain, missing_links, new_srdf, updated_srdf
 
     found = with_macro(find_model(arguments.words, package_path=arguments.package_path), arguments)
     with loading_limit():
         robot = load_robot(found, arguments)
         note_unused(found, robot.files, quiet=arguments.quiet)
         print_repairs(robot, quiet=arguments.quiet)
+    note = _silent if arguments.quiet else _note
+    if old is not None and (missing := missing_links(old, robot, str(arguments.update))):
+        names = ", ".join([*(f"`{name}`" for name in missing[:8]), *("…" for _ in missing[8:9])])
+        note(
+            f"{arguments.update}: robot `{robot.name}` has no link {names}; "
+            "pairs with a reason of urdfkit are removed, other lines are unchanged"
+        )
     effectors: list[EndEffector] = []
     if arguments.group:
         groups = [group_of_chain(robot, *words) for words in arguments.group]
     else:
         groups, effectors = find_groups(robot)
-    note = _silent if arguments.quiet else _note
     progress = _show if sys.stderr.isatty() and not arguments.quiet else _silent
     matrix = collision_matrix(robot, samples=arguments.samples, seed=arguments.seed, note=note, progress=progress)
     if progress is _show:

@@ -4,6 +4,6 @@ A robot and its collision matrix go in; the text of an SRDF comes out, a new one
 """
 
 from urdfkit.kinematics.srdf.groups import EndEffector, PlanningGroup, find_groups, group_of_chain
-from urdfkit.kinematics.srdf.srdf_text import new_srdf, updated_srdf
+from urdfkit.kinematics.srdf.srdf_text import missing_links, new_srdf, updated_srdf
 
-__all__ = ["EndEffector", "PlanningGroup", "find_groups", "group_of_chain", "new_srdf", "updated_srdf"]
+__all__ = ["EndEffector", "PlanningGroup", "find_groups", "group_of_chain", "missing_links", "new_srdf", "updated_srdf"]

@@ -2,8 +2,9 @@
 
 import re
 from collections.abc import Iterable, Sequence
-from xml.sax.saxutils import quoteattr
+from xml.sax.saxutils import quoteattr, unescape
 
+from urdfkit.description.urdf.robot import Robot
 from urdfkit.errors import DescriptionError
 from urdfkit.kinematics.self_collision import CollisionMatrix
 from urdfkit.kinematics.srdf.groups import EndEffector, PlanningGroup
@@ -18,6 +19,11 @@ _PAIR = re.compile(r"<disable_collisions\b[^<>]*>")
 _COMMENT = re.compile(r"<!--.*?-->", re.DOTALL)
 _URDF = re.compile(r"<(?:visual|collision|inertial|parent)\b")
 """Elements of a URDF that no SRDF has."""
+_NAME = re.compile(r"<robot\b[^<>]*?\bname\s*=\s*([\"'])(.*?)\1")
+_LINK = re.compile(r"<link\b[^<>]*?\bname\s*=\s*([\"'])(.*?)\1")
+_LINKS = re.compile(r"\b(?:link[12]|base_link|tip_link|parent_link|child_link)\s*=\s*([\"'])(.*?)\1")
+SHARED = 0.5
+"""Part of the links of an SRDF that a robot has at least, unless the SRDF is another robot's."""
 
 
 def new_srdf(
@@ -51,6 +57,34 @@ def new_srdf(
     return "\n".join([*lines, "</robot>", ""])
 
 
+def missing_links(old: str, robot: Robot, file: str) -> list[str]:
+    """Return the links that an SRDF names and the robot does not have, in the order of the SRDF.
+
+    Args:
+        old: text of the SRDF; values with a ``$`` of xacro are left out.
+        robot: the robot.
+        file: name of the SRDF, for messages.
+
+    Raises:
+        DescriptionError: the text is a URDF, or the SRDF is that of another robot, by its name or most of its links.
+    """
+    text = _COMMENT.sub("", old)
+    if "</robot>" in text and _URDF.search(text):
+        raise DescriptionError(f"{file} is a URDF, not an SRDF; it was not changed")
+    names = [unescape(match[2]) for match in _NAME.finditer(text)][:1]
+    if names and "$" not in names[0] and names[0] != robot.name:
+        raise DescriptionError(f"{file} is the SRDF of robot `{names[0]}`, not of `{robot.name}`; it was not changed")
+    found = (unescape(match[2]) for pattern in (_LINK, _LINKS) for match in pattern.finditer(text))
+    links = dict.fromkeys(name for name in found if "$" not in name)
+    missing = [name for name in links if name not in robot.link_by_name]
+    if len(missing) > (1.0 - SHARED) * len(links):
+        raise DescriptionError(
+            f"{file} is the SRDF of another robot `{robot.name}`: {len(missing)} of its {len(links)} links, such as "
+            f"`{missing[0]}`, do not exist in robot `{robot.name}`; it was not changed"
+        )
+    return missing
+
+
 def updated_srdf(old: str, matrix: CollisionMatrix, file: str) -> str:
     """Return an SRDF whose lines of disabled pairs with a reason of `REASONS` are replaced; the rest stays.
 
@@ -60,10 +94,8 @@ def updated_srdf(old: str, matrix: CollisionMatrix, file: str) -> str:
         file: its name, for the message.
 
     Raises:
-        DescriptionError: the text has no ``</robot>``, or is a URDF.
+        DescriptionError: the text has no ``</robot>``.
     """
-    if "</robot>" in old and _URDF.search(_COMMENT.sub("", old)):
-        raise DescriptionError(f"{file} is a URDF, not an SRDF; it was not changed")
     hidden = [match.span() for match in _COMMENT.finditer(old)]
     found = [match for match in _OURS.finditer(old) if not any(a <= match.start() < b for a, b in hidden)]
     kept = old
