@@ -13,7 +13,7 @@ import pytest
 pytest.importorskip("meshcat")
 pytest.importorskip("pinocchio")
 
-from tests.app.simulation.displays.test_displays import Simulation
+from tests.app.simulation.displays.test_displays import MARK, Simulation, mesh_marker, package_with_mesh
 from tests.cli.lab import drawn, panel
 from tests.view.conftest import show
 from urdfkit.app.simulation.displays.displays import Displays
@@ -152,6 +152,28 @@ def test_topics_are_drawn_with_their_options_and_saved_as_a_layout(shown, visits
         drawn(second)
         keep(second, "layout")
     visits.problems.clear()  # the browser reports the closed connection
+
+
+def test_the_mesh_of_a_marker_is_drawn(shown, visits, until, keep, tmp_path: Path) -> None:
+    page = visits.open(shown.server.url, ready=False)
+    shown.simulation.kinematics.robot.packages = package_with_mesh(tmp_path)
+    shown.simulation.publish("/props", MARK, "base", **mesh_marker(1, "package://props/cone.obj"))
+    until(lambda: shown.tick() or page.locator("#open-displays").is_visible())
+    panel(page, "displays")
+    until(lambda: shown.tick() or page.locator("[data-display='/props']").is_visible())
+    page.locator("[data-display='/props'] input[type=checkbox]").check()
+    size = """() => {
+      const { THREE } = MeshCat, box = new THREE.Box3();
+      urdfkit.viewport.viewer.scene.traverse((object) => {
+        if (object.parent?.userData.display === "/props" && object.isMesh) box.expandByObject(object);
+      });
+      return box.isEmpty() ? [] : box.getSize(new THREE.Vector3()).toArray();
+    }"""
+    until(lambda: shown.tick() or page.evaluate(size) == pytest.approx([0.5, 0.5, 0.5], abs=1e-3))
+    page.evaluate("urdfkit.viewport.fit(urdfkit.scene.bounds(), [-0.3, -1, 0.9], 3)")
+    drawn(page)
+    keep(page, "marker-mesh")
+    assert visits.problems == []
 
 
 def test_a_goal_is_published_with_the_mouse_and_by_numbers(shown, visits, until) -> None:

@@ -25,14 +25,22 @@ class GeometryStore:
 
     def __init__(self) -> None:
         self._meshes: dict[str, TriMesh] = {}
+        self._kept: set[str] = set()
         self._packed: dict[str, bytes] = {}
         self._textures: dict[str, Texture] = {}
         self._images: dict[tuple[str, int], bytes] = {}
         self._lock = Lock()
 
-    def add(self, mesh: TriMesh) -> str:
-        """Store a mesh unless it is already stored; return its name, 64 hexadecimal digits."""
+    def add(self, mesh: TriMesh, *, keep: bool = False) -> str:
+        """Store a mesh unless it is already stored; return its name, 64 hexadecimal digits.
+
+        Args:
+            mesh: the mesh.
+            keep: `keep_only` does not remove it.
+        """
         name = _name(mesh.hash)
+        if keep:
+            self._kept.add(name)
         self._meshes.setdefault(name, mesh)
         for texture in mesh.textures:
             self._textures.setdefault(_name(texture.hash), texture)
@@ -62,6 +70,7 @@ class GeometryStore:
 
     def keep_only(self, names: Collection[str]) -> None:
         """Remove all other meshes, and the textures that only they use."""
+        names = {*names, *self._kept}
         self._meshes = {name: mesh for name, mesh in self._meshes.items() if name in names}
         self._packed = {name: packed for name, packed in self._packed.items() if name in names}
         used = {_name(texture.hash) for mesh in self._meshes.values() for texture in mesh.textures}

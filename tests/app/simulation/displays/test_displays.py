@@ -5,6 +5,7 @@ from __future__ import annotations
 import base64
 import io
 import json
+from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
 
@@ -17,12 +18,32 @@ pytest.importorskip("pinocchio")
 from urdfkit.app.simulation.displays.displays import DISPLAY, FRAMES, TYPES, Displays
 from urdfkit.app.simulation.displays.drawings import drawing
 from urdfkit.bus import Bus
+from urdfkit.description.packages.resolver import Packages
 from urdfkit.errors import UsageError
 from urdfkit.messages import from_fields
+from urdfkit.view.content.mesh_store import GeometryStore
 from urdfkit.view.protocol.page_requests import Request
 
+MARK = "visualization_msgs/msg/Marker"
 TURNED = {"x": 0.0, "y": 0.0, "z": np.sin(np.pi / 4), "w": np.cos(np.pi / 4)}
 """90° about z."""
+
+
+def package_with_mesh(folder: Path) -> Packages:
+    """Write a package ``props`` with a tetrahedron, and one outside of it; return a resolver that finds the package."""
+    (folder / "props").mkdir()
+    (folder / "props/package.xml").write_text("<package><name>props</name></package>")
+    corners = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)]
+    lines = [f"v {x} {y} {z}" for x, y, z in corners] + ["f 1 3 2", "f 1 2 4", "f 2 3 4", "f 3 1 4"]
+    for path in (folder / "props/cone.obj", folder / "outside.obj"):
+        path.write_text("\n".join(lines))
+    return Packages([folder])
+
+
+def mesh_marker(id: int, uri: str) -> dict[str, Any]:
+    """Return the fields of a red marker with a mesh."""
+    half = {"x": 0.5, "y": 0.5, "z": 0.5}
+    return {"id": id, "type": 10, "mesh_resource": uri, "scale": half, "color": {"r": 1.0, "a": 1.0}}
 
 
 class Simulation:
@@ -30,7 +51,7 @@ class Simulation:
 
     def __init__(self) -> None:
         self.bus, self.t = Bus(), 0.0
-        self.kinematics = SimpleNamespace(link_names=("base", "laser"))
+        self.kinematics = SimpleNamespace(link_names=("base", "laser"), robot=SimpleNamespace(packages=None))
 
     def link_poses(self) -> np.ndarray:
         return np.array([[1.0, 2.0, 0.0, 0, 0, 0, 1], [1.0, 2.0, 0.5, 0, 0, 0, 1]])
@@ -48,6 +69,7 @@ class Simulation:
 class Page:
     def __init__(self) -> None:
         self.hub = SimpleNamespace(subscribed_keys=set())
+        self.geometries = GeometryStore()
         self.sent: list[tuple[str, dict[str, Any]]] = []
 
     def send_to_subscribers(self, key: str, type: str, **values: Any) -> None:
@@ -161,6 +183,30 @@ def test_markers_stay_until_they_are_deleted_or_their_lifetime_ends(made) -> Non
     assert groups[0]["pose"][:3] == [1.0, 2.0, 0.5]
     put(1, action=2)
     assert len(shown(made, "/marks")["groups"]) == 1  # and 20 s later the text has ended
+
+
+def test_a_marker_has_a_mesh_of_a_package_and_no_other_file(made, tmp_path: Path) -> None:
+    simulation, page, _ = made
+    simulation.kinematics.robot.packages = package_with_mesh(tmp_path)
+    simulation.publish("/marks", MARK, "laser", **mesh_marker(1, "package://props/cone.obj"))
+    (group,) = shown(made, "/marks")["groups"]
+    (item,) = group["items"]
+    assert [item["scale"], item["color"], item["own"]] == [[0.5] * 3, [1.0, 0.0, 0.0, 1.0], False]
+    page.geometries.keep_only([])  # as when another entity is drawn
+    assert page.geometries.get(item["mesh"]) is not None
+    for uri, words in (
+        (f"file://{tmp_path}/outside.obj", "is not a file of a package"),
+        ("package://props/../outside.obj", "is outside its package"),
+        ("package://prop/cone.obj", "no package `prop`"),
+        ("package://props/package.xml", "unsupported format"),
+    ):
+        simulation.publish("/marks", MARK, "laser", **mesh_marker(2, uri))
+        sent = shown(made, "/marks")
+        assert len([each for group in sent["groups"] for each in group["items"]]) == 1
+        assert words in sent["fault"]
+    simulation.publish("/marks", MARK, "laser", id=2, action=2)
+    assert shown(made, "/marks")["fault"] is None
+    assert len(page.geometries) == 1
 
 
 def test_frames_have_their_ages(made) -> None:

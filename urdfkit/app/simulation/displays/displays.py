@@ -9,9 +9,11 @@ import numpy as np
 
 from urdfkit.app.simulation.displays.drawings import CLOUDS, KINDS, Item, drawing
 from urdfkit.app.simulation.displays.frame_tree import FrameTree, seven_of
+from urdfkit.app.simulation.displays.marker_meshes import MarkerMeshes
 from urdfkit.app.simulation.displays.markers import MARKER, MARKERS, MarkerStore
 from urdfkit.app.simulation.features.feature import Done, Feature, Takes
 from urdfkit.bus import Subscription, Topic
+from urdfkit.description.packages.resolver import Packages
 from urdfkit.errors import UsageError
 from urdfkit.linear_algebra import Array, matmul
 from urdfkit.messages import from_fields
@@ -49,6 +51,7 @@ class Displays(Feature):
         self._frames: FrameTree | None = None
         self._shown: dict[str, _Display] = {}
         self._free = 0.0
+        self._meshes: MarkerMeshes | None = None
 
     @property
     def takes(self) -> Takes:
@@ -75,6 +78,17 @@ class Displays(Feature):
     def pose(self, frame: str, links: Mapping[str, Array]) -> Array | None:
         """Return the pose of a frame in the world of the page, shape (4, 4); None if nothing connects it."""
         return self.frames.pose(frame, links)
+
+    def mesh(self, uri: str) -> str:
+        """Return the name of the mesh at a URI for the page.
+
+        Raises:
+            ResourceError: it is not a mesh file of a package.
+        """
+        if self._meshes is None:
+            packages = self.simulator.kinematics.robot.packages or Packages()
+            self._meshes = MarkerMeshes(packages, self.server.geometries)
+        return self._meshes.name(uri)
 
     def tick(self) -> None:
         """Subscribe to the wanted topics, and send their drawings."""
@@ -148,7 +162,7 @@ class _Display:
         self._displays, self._key, self._topic, self._field = displays, key, topic, field
         simulator = displays.simulator
         is_marker = topic.type in (MARKER, MARKERS)
-        self._markers = MarkerStore(lambda: simulator.t) if is_marker else None
+        self._markers = MarkerStore(lambda: simulator.t, displays.mesh) if is_marker else None
         self._groups: list[tuple[str, Array | None, list[Item]]] = []
         self._waiting: tuple[Any, Array | None] | None = None
         self._sent: tuple[int, list[Any]] | None = None
@@ -193,8 +207,8 @@ class _Display:
         lost = sorted({frame for frame, pose, _ in self._groups if pose is None})
         if lost:
             fault = f"no transform from frame {', '.join(lost)} to a link of the robot"
-        if self._markers is not None and self._markers.skipped:
-            fault = fault or "markers with meshes are not shown"
+        if self._markers is not None:
+            fault = fault or self._markers.fault or None
         shown = [
             {"pose": pose, "items": items}
             for pose, (_, _, items) in zip(poses, self._groups, strict=True)

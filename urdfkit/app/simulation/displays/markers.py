@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from urdfkit.app.simulation.displays.drawings import Item, finite, seven, xyz_of
+from urdfkit.errors import UrdfkitError
 
 MARKER, MARKERS = "visualization_msgs/msg/Marker", "visualization_msgs/msg/MarkerArray"
 SHAPES = {1: "cube", 2: "sphere", 3: "cylinder"}
@@ -23,6 +24,7 @@ class _Kept:
     frame: str
     items: list[Item]
     ends: float
+    fault: str
 
 
 class MarkerStore:
@@ -30,17 +32,16 @@ class MarkerStore:
 
     Args:
         now: the time of the simulation [s].
+        mesh: function that returns the name of the mesh at a URI for the page; it raises `UrdfkitError`.
 
     Attributes:
         changes: number of changes.
-        skipped: number of markers with a mesh, which are not drawn.
     """
 
-    def __init__(self, now: Callable[[], float]) -> None:
-        self._now = now
+    def __init__(self, now: Callable[[], float], mesh: Callable[[str], str]) -> None:
+        self._now, self._mesh = now, mesh
         self._kept: dict[tuple[str, int], _Kept] = {}
         self.changes = 0
-        self.skipped = 0
 
     def take(self, message: Any) -> None:
         """Apply a Marker or MarkerArray."""
@@ -53,10 +54,9 @@ class MarkerStore:
                 self._kept.pop(key, None)
             elif len(self._kept) < MOST or key in self._kept:
                 life = marker.lifetime.sec + 1e-9 * marker.lifetime.nanosec
-                self.skipped += marker.type == MESH
-                self._kept[key] = _Kept(
-                    marker.header.frame_id, items(marker), self._now() + life if life > 0 else math.inf
-                )
+                drawn, fault = self._of_mesh(marker) if marker.type == MESH else (items(marker), "")
+                ends = self._now() + life if life > 0 else math.inf
+                self._kept[key] = _Kept(marker.header.frame_id, drawn, ends, fault)
 
     def groups(self) -> list[tuple[str, list[Item]]]:
         """Return frame and items of the present markers; drop those whose lifetime has ended."""
@@ -66,6 +66,20 @@ class MarkerStore:
             del self._kept[key]
         self.changes += bool(ended)
         return [(kept.frame, kept.items) for kept in self._kept.values()]
+
+    @property
+    def fault(self) -> str:
+        """Why a marker with a mesh is not drawn; empty if all are."""
+        return next((kept.fault for kept in self._kept.values() if kept.fault), "")
+
+    def _of_mesh(self, marker: Any) -> tuple[list[Item], str]:
+        """Return the item of a marker with a mesh; no item and a fault if the mesh cannot be read."""
+        try:
+            name = self._mesh(marker.mesh_resource)
+        except UrdfkitError as error:
+            return [], f"a marker is not shown: {error}"
+        look = {"color": _rgba(marker.color), "own": bool(marker.mesh_use_embedded_materials)}
+        return [{"mesh": name, "pose": seven(marker.pose), "scale": xyz_of(marker.scale), **look}], ""
 
 
 def items(marker: Any) -> list[Item]:

@@ -88,7 +88,7 @@ export class Display {
     const { decay } = this.options;
     while (this.drawn.length && (decay <= 0 || this.drawn.length >= MOST || this.drawn[0].time < time - decay || this.drawn.at(-1).time >= time)) this.#drop();
     const root = new THREE.Group();
-    const options = { ...this.options, changed: () => this.page.viewport.dirty() };
+    const options = { ...this.options, changed: () => this.page.viewport.dirty(), mesh: (name) => this.page.scene.mesh(name) };
     const groups = content.map(({ pose, items }) => place(build(items, options), pose));
     root.add(...groups);
     root.traverse((object) => (object.userData.display = this.topic));

@@ -51,6 +51,7 @@ const MAKE = {
   dots: ({ dots, ...item }, options) => placed(new THREE.Points(vertices(dots, item.colors), material(THREE.PointsMaterial, item, options, { size: item.size, sizeAttenuation: true })), item.pose),
   shape: shape,
   text: text,
+  mesh: mesh,
   triangles: ({ triangles, ...item }, options) => {
     const geometry = vertices(triangles, item.colors);
     geometry.computeVertexNormals();
@@ -156,6 +157,19 @@ function scale(values, [low, high]) {
     color.setHSL(0.67 * (1 - Math.min(1, Math.max(0, part))), 1, 0.5).toArray(colours, 3 * i);
   }
   return colours;
+}
+
+// A mesh file, with the colours of the file or that of its marker; it appears when it is loaded.
+function mesh({ mesh: name, own, ...item }, options) {
+  const group = placed(new THREE.Group(), item.pose);
+  group.scale.set(...item.scale);
+  const add = ({ geometry }) => {
+    const look = own ? { colors: geometry.getAttribute("color"), color: [1, 1, 1, item.color[3] || 1] } : item;
+    group.add(new THREE.Mesh(geometry, material(THREE.MeshLambertMaterial, look, options, { side: THREE.DoubleSide })));
+  };
+  const failed = (error) => console.warn(`mesh ${name.slice(0, 8)}: ${error.message}`);
+  options.mesh(name).then((parts) => (parts.forEach(add), options.changed())).catch(failed);
+  return group;
 }
 
 const GEOMETRIES = {

@@ -128,7 +128,7 @@ export class Scene {
 
   #request(path, object, name) {
     const generation = this.generation;
-    const task = this.#mesh(name)
+    const task = this.mesh(name)
       .then(async (parts) => {
         const shape = new THREE.Group();
         for (const part of parts) shape.add(await this.#part(part, object.materials[0]));
@@ -162,7 +162,8 @@ export class Scene {
     return new THREE.Mesh(geometry, material);
   }
 
-  #mesh(name) {
+  /** Return a promise of the parts of a mesh, see mesh_decoding.js. */
+  mesh(name) {
     if (!this.meshes.has(name)) {
       const mesh = (window.urdfkitMesh ?? ((each) => this.#fetched(each)))(name).then(decoded);
       mesh.catch(() => this.meshes.delete(name));
