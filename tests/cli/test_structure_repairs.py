@@ -82,9 +82,14 @@ def test_strict_refuses_the_robot(command: str, capsys: pytest.CaptureFixture[st
     )
 
 
-def test_quiet_prints_no_warnings(capsys: pytest.CaptureFixture[str]) -> None:
-    assert main(["tf", "bad.urdf", "-q"]) == 0
-    assert capsys.readouterr().err == ""
+@pytest.mark.parametrize("command", ["tf", "sim"])
+def test_quiet_prints_warnings_and_no_notes(command: str, capsys: pytest.CaptureFixture[str]) -> None:
+    main(COMMANDS[command])
+    lines = capsys.readouterr().err.splitlines()
+    assert main([*COMMANDS[command], "-q"]) == 0
+    warnings = capsys.readouterr().err.splitlines()
+    assert warnings == [line for line in lines if line.startswith("urdfkit: warning: ")]
+    assert any("its parent link `bse` does not exist" in line for line in warnings)
 
 
 def test_many_undefined_parents_are_one_warning_in_every_command(capsys: pytest.CaptureFixture[str]) -> None:

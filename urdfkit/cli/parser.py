@@ -253,7 +253,9 @@ def add_common(parser: argparse.ArgumentParser, *, nested: bool = False) -> None
     defined = parser._option_string_actions
     off, auto = (argparse.SUPPRESS, argparse.SUPPRESS) if nested else (False, "auto")
     if "--quiet" not in defined and "-q" not in defined:
-        parser.add_argument("-q", "--quiet", action="store_true", default=off, help="print results only, no notes")
+        parser.add_argument(
+            "-q", "--quiet", action="store_true", default=off, help="print results and warnings only, no notes"
+        )
     if "--verbose" not in defined and "-v" not in defined:
         parser.add_argument("-v", "--verbose", action="store_true", default=off, help="print more notes")
     if "--color" not in defined:

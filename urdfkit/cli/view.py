@@ -14,7 +14,7 @@ from urdfkit.cli.robot_arguments.file_name_case import warn_of_file_names
 from urdfkit.cli.robot_arguments.launch_arguments import add_launch_arguments, with_launch_arguments
 from urdfkit.cli.robot_arguments.macro_option import add_macro, with_macro
 from urdfkit.cli.robot_arguments.required_arguments import listing_required_arguments
-from urdfkit.cli.robot_arguments.robot_loading import add_strict
+from urdfkit.cli.robot_arguments.robot_loading import add_strict, shown_repairs
 from urdfkit.cli.robot_arguments.unused_arguments import note_unused
 from urdfkit.errors import UsageError
 
@@ -76,8 +76,7 @@ def run(arguments: argparse.Namespace) -> int:
             shown = ShownRobot.read(model, strict=arguments.strict)
         note_unused(named, shown.files, quiet=arguments.quiet)
         warn_of_file_names(shown.kinematics.robot, quiet=arguments.quiet)
-        if not arguments.quiet:
-            note_repairs(shown.repairs)
+        note_repairs(shown_repairs(shown.repairs, quiet=arguments.quiet))
         return shown
 
     if is_picture:

@@ -10,7 +10,10 @@ from urdfkit.cli.robot_arguments.required_arguments import listing_required_argu
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
+    from collections.abc import Iterable
+
     from urdfkit.description import Robot
+    from urdfkit.description.urdf.repair_record import Repair
     from urdfkit.resources import ModelArgument
 
 
@@ -51,10 +54,15 @@ def print_repairs(robot: Robot, *, quiet: bool) -> None:
 
     Args:
         robot: the robot.
-        quiet: print nothing.
+        quiet: print warnings only.
     """
     from urdfkit.description.urdf.repair_record import grouped
 
     warn_of_file_names(robot, quiet=quiet)
-    for repair in () if quiet else grouped(robot.repairs):
+    for repair in grouped(shown_repairs(robot.repairs, quiet=quiet)):
         print(f"urdfkit: {repair.severity}: {repair}", file=sys.stderr)
+
+
+def shown_repairs(repairs: Iterable[Repair], *, quiet: bool) -> list[Repair]:
+    """Return the repairs to print: all, or with ``--quiet`` the warnings."""
+    return [repair for repair in repairs if not quiet or repair.severity == "warning"]

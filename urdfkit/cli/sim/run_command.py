@@ -122,9 +122,9 @@ def load(arguments: argparse.Namespace, options: RunOptions) -> Simulator:
         robot = load_robot_of_run(arguments)
         world = load_world(arguments.world)
     prepare_kernel(sys.stderr)
-    warnings = GroupedWarnings()
+    warnings = GroupedWarnings(quiet=arguments.quiet)
     with limit, warnings:
-        simulator = options.build(robot, world, (lambda text: None) if arguments.quiet else warnings)
+        simulator = options.build(robot, world, warnings)
     warn_of_file_names(robot, quiet=arguments.quiet)
     return simulator
 

@@ -20,13 +20,19 @@ class GroupedWarnings:
     """Prints warnings; inside of a ``with`` block only at its end, those with one cause in one line.
 
     Warnings about one package have one cause, and warnings that differ in names and numbers only.
+
+    Args:
+        quiet: print warnings only, no notes and no progress.
     """
 
-    def __init__(self) -> None:
+    def __init__(self, *, quiet: bool = False) -> None:
+        self._is_quiet = quiet
         self._waiting: list[str] | None = None
 
     def __call__(self, text: str) -> None:
         """Print a warning, or keep it until the end of the block."""
+        if self._is_quiet and text.startswith(("compiling ", "note: ")):
+            return
         if self._waiting is None or text.startswith("compiling "):
             print_warning(text)
         else:
