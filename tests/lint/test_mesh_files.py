@@ -98,3 +98,30 @@ def test_pipes_and_devices_are_not_read(name: str, tmp_path: Path) -> None:
     assert [one.message for one in lint(path, select=["G607", "G608"])] == expected
     cached = [run([Entry(path)], Options(), cached=True) for _ in range(2)]
     assert [[one.code for one in outcome.findings] for outcome in cached] == [["G607"]] * 2
+
+
+def test_meshes_that_have_not_changed_are_searched_for_faults_once(tmp_path: Path, monkeypatch) -> None:
+    import trimesh
+
+    from urdfkit.lint.rules.geometry import mesh_corrupt
+
+    read: list[int] = []
+    search = mesh_corrupt._stl_fault
+    monkeypatch.setattr(mesh_corrupt, "_stl_fault", lambda *words: read.append(1) or search(*words))
+    mesh, path = tmp_path / "part.stl", tmp_path / "part.urdf"
+    trimesh.creation.box((1.0, 1.0, 1.0)).export(mesh)
+    path.write_text(
+        '<robot name="part"><link name="part"><visual><geometry><mesh filename="part.stl"/></geometry></visual></link>'
+        "</robot>"
+    )
+    old = mesh.stat().st_mtime_ns
+    assert [lint(path, select=["G607"]) for _ in range(2)] == [[], []]
+    assert len(read) == 2, "a file that has just changed is read again"
+    monkeypatch.setattr(mesh_corrupt, "_JUST_CHANGED", -(10**12))
+    assert [lint(path, select=["G607"]) for _ in range(3)] == [[], [], []]
+    assert len(read) == 3
+    content = bytearray(mesh.read_bytes())
+    content[96:100] = b"\x00\x00\x80\x7f"  # infinite
+    mesh.write_bytes(content)
+    os.utime(mesh, ns=(old, old))
+    assert [one.code for one in lint(path, select=["G607"])] == ["G607"]

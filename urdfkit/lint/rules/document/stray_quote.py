@@ -99,10 +99,9 @@ def _is_suspect(text: str) -> bool:
 
 
 def _has_quotes_outside(text: str) -> bool:
-    """Whether a quote follows a tag or precedes an end tag."""
-    if any(piece.rstrip().endswith(('"', "'")) for piece in text.split("</")[:-1]):
-        return True
-    return re.search(r">\s*[\"']", text) is not None
+    """Whether a quote follows a tag or precedes an end tag, with or without white space between them."""
+    dense = "".join(text.split())  # a regular expression takes three times as long
+    return any(pair in dense for pair in ('"</', "'</", '>"', ">'"))
 
 
 def _cleaned(value: str) -> str | None:

@@ -1,6 +1,8 @@
 """G607 mesh-corrupt-or-lfs-pointer."""
 
 import re
+import time
+from functools import lru_cache
 from pathlib import Path
 
 from urdfkit.description.meshes.bounds import bounds
@@ -21,6 +23,9 @@ from urdfkit.lint.rule import Findings, Model, RobotRule
 
 _LARGE = 64 * 2**20
 """Size in bytes above which files are not searched for triangles."""
+
+_JUST_CHANGED = 2_000_000_000
+"""[ns]"""
 
 _UTF16 = (b"\xff\xfe", b"\xfe\xff")
 
@@ -93,11 +98,18 @@ def _fault(path: Path) -> str:
     if not is_file(path):
         return "is a folder" if is_folder(path) else "is not a regular file"
     try:
-        size = path.stat().st_size
-        with path.open("rb") as file:
-            head = file.read(1024)
+        status = path.stat()
+        version = (status.st_ino, status.st_mtime_ns, status.st_ctime_ns)
+        # Of two changes within the resolution of the file system's clock, the second one would not be seen.
+        is_old = time.time_ns() - max(version[1:]) > _JUST_CHANGED
+        return (_fault_of_version if is_old else _fault_in)(path, status.st_size, *version)
     except OSError as error:
         return f"cannot be read: {error.strerror}"
+
+
+def _fault_in(path: Path, size: int, *_version: int) -> str:
+    with path.open("rb") as file:
+        head = file.read(1024)
     suffix = path.suffix.lower()
     if not size:
         return "is empty"
@@ -119,6 +131,10 @@ def _fault(path: Path) -> str:
     if size <= _LARGE and not head.startswith(_UTF16) and not faces.search(path.read_bytes()):
         return "contains no triangles"
     return ""
+
+
+_fault_of_version = lru_cache(maxsize=2_000)(_fault_in)
+"""The fault of a mesh file that has not changed; an editor reads it at each key."""
 
 
 def _stl_fault(path: Path, head: bytes, size: int) -> str:

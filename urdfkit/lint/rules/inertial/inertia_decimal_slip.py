@@ -64,37 +64,36 @@ class InertiaDecimalSlip(RobotRule):
 
     def check(self, model: Model) -> Findings:
         """Yield a finding for each moment that is off by a power of ten."""
+        extents = model.extents
         for link in model.robot.links:
             inertial = link.inertial
             if inertial is None or not inertial.mass or inertial.mass < 0.0 or inertial.inertia is None:
                 continue
             inertia = inertial.inertia
-            written = {"ixx": inertia.ixx, "iyy": inertia.iyy, "izz": inertia.izz}
-            extent = model.extents.get(link.name)
-            if extent is None or min(written.values()) <= 0.0 or _has_mirrored_part(model, link):
+            written = (inertia.ixx, inertia.iyy, inertia.izz)
+            extent = extents.get(link.name)
+            if extent is None or min(written) <= 0.0:
                 continue
             values = tensor_of(link, extent, inertial.mass)
             if values is None or min(values[0], values[3], values[5]) <= 0.0:
                 continue
-            expected = {"ixx": values[0], "iyy": values[3], "izz": values[5]}
-            ratios = {name: written[name] / expected[name] for name in written}
-            outliers = [name for name, ratio in ratios.items() if not 1.0 / AGREEMENT < ratio < AGREEMENT]
-            if len(outliers) != 1:
+            ratios = (written[0] / values[0], written[1] / values[3], written[2] / values[5])
+            outliers = [axis for axis, ratio in enumerate(ratios) if not 1.0 / AGREEMENT < ratio < AGREEMENT]
+            if len(outliers) != 1 or _has_mirrored_part(model, link):
                 continue
-            name = outliers[0]
+            axis = outliers[0]
+            name, moment, ratio = ("ixx", "iyy", "izz")[axis], written[axis], ratios[axis]
             powers = (-3, -2, -1, 1, 2, 3)
-            power = next(
-                (k for k in powers if 1.0 / SCALED_AGREEMENT < ratios[name] * 10.0**k < SCALED_AGREEMENT), None
-            )
+            power = next((k for k in powers if 1.0 / SCALED_AGREEMENT < ratio * 10.0**k < SCALED_AGREEMENT), None)
             if power is not None:
-                corrected = f"{written[name] * 10.0**power:.6g}"
+                corrected = f"{moment * 10.0**power:.6g}"
                 yield self.at(
                     model,
                     inertia.element,
-                    f"link `{link.name}`: {name}={written[name]:g} kg·m² is off by a factor of {10 ** abs(power)}",
+                    f"link `{link.name}`: {name}={moment:g} kg·m² is off by a factor of {10 ** abs(power)}",
                     attribute=name,
                     link=link.name,
-                    help=f"shape and mass give {written[name] / ratios[name]:.3g} kg·m²; did you mean {corrected}?",
+                    help=f"shape and mass give {moment / ratio:.3g} kg·m²; did you mean {corrected}?",
                     fix=new_value(model, inertia.element, name, corrected, "unsafe", f"Replace with {corrected}"),
                 )
 
