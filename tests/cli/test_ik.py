@@ -209,6 +209,21 @@ def test_the_solution_nearest_to_the_start(capsys: pytest.CaptureFixture[str], a
         assert abs(json.loads(out)["solutions"][0]["positions"]["turn"] - turn) <= np.pi
 
 
+@pytest.mark.slow
+def test_the_solution_is_the_nearest_of_all(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
+    chain = Chain("seven_dof_arm", None, "grasping_frame")
+    for matrix in chain.forward(random_configurations(chain, 3, 5)):
+        words = ["seven_dof_arm", "grasping_frame", *pose_words(matrix), "--from", "elbow_pitch_joint=1", "--json"]
+        listed = json.loads(ran(capsys, *words, "--all")[1])["solutions"]
+        (one,) = json.loads(ran(capsys, *words)[1])["solutions"]
+        start = chain.configuration({"elbow_pitch_joint": 1.0})
+        distances = [np.linalg.norm(list(each["positions"].values()) - start) for each in [one, *listed]]
+        assert distances[0] <= min(distances[1:]) + 1e-9
+    np.save(tmp_path / "pose.npy", [[float(number) for k in (3, 5) for number in words[k].split(",")]])
+    words = [*words[:2], "--targets", str(tmp_path / "pose.npy"), *words[-3:], "--prefer", "nearest"]
+    assert json.loads(ran(capsys, *words)[1])["solutions"][0]["positions"] == pytest.approx(one["positions"], abs=1e-6)
+
+
 @pytest.mark.parametrize(
     ("words", "message"),
     [

@@ -16,7 +16,7 @@ from urdfkit.description import Robot, load
 from urdfkit.errors import KinematicsError
 from urdfkit.kinematics.serial.kernel.native_code import Compiling, function
 from urdfkit.kinematics.serial.serial_chain import SerialChain
-from urdfkit.kinematics.serial.serial_solver import APPROACHES, ROW, SerialSolver, SolverOptions
+from urdfkit.kinematics.serial.serial_solver import APPROACHES, FURTHER, ROW, SerialSolver, SolverOptions
 from urdfkit.kinematics.serial.solutions import Solutions
 from urdfkit.linear_algebra import Array
 
@@ -141,6 +141,7 @@ class Chain:
         threads: int | None = None,
         approach: bool = True,
         collision_free: bool = False,
+        further: int = FURTHER,
     ) -> Solutions:
         """Find configurations that place the tip at targets, within the limits of the joints.
 
@@ -154,7 +155,7 @@ class Chain:
             position_only: ignore the orientation.
             tolerance: distance [m] and angle [rad] within which a target is reached.
             prefer: ``first``: the first solution found; ``nearest``: the one nearest to the seed; ``manipulability``:
-                the one with the largest manipulability. The latter two compare the solutions of several restarts.
+                the one with the largest manipulability. The latter two compare the solutions of `further` restarts.
             restarts: maximum number of random starts per target.
             seed: number of the random stream.
             threads: number of threads; that of the processors when None.
@@ -162,12 +163,16 @@ class Chain:
                 angle; otherwise any configuration with a small error is returned, in a fifth of the time.
             collision_free: reach targets only without collisions between links; see
                 `urdfkit.kinematics.self_collision.configuration_check` for the pairs that are checked.
+            further: number of restarts after the first solution; with that of `restarts` all of them are compared, as
+                in `solve_all`.
 
         Raises:
             KinematicsError: an unknown preference, targets or seeds of another shape, or numbers that are no pose.
             ResourceError: `collision_free` is set, and a mesh cannot be read.
         """
-        options = SolverOptions(position_only, *tolerance, prefer, restarts, seed, APPROACHES if approach else 0)
+        options = SolverOptions(
+            position_only, *tolerance, prefer, restarts, seed, APPROACHES if approach else 0, further
+        )
         shape, rows = self._solve(targets, seeds, options, 1, threads)
         collisions = None
         if collision_free:

@@ -15,7 +15,7 @@ LINEAR = 2.0
 """Weight of a metre of distance, relative to a radian of angle, while the solver descends."""
 PREFERENCES = {"first": 0, "nearest": 1, "manipulability": 2, "all": 3}
 """Which solution is kept: see `serial.kernel.search`."""
-MORE = 16
+FURTHER = 16
 """Restarts after the first solution that search for a better one."""
 APPROACHES = 100
 """Descents to the configuration nearest to a target that cannot be reached."""
@@ -41,6 +41,7 @@ class SolverOptions:
         seed: number of the random stream.
         approaches: number of descents to the configuration nearest to a target that cannot be reached, the first from
             the start; with 0, one with a small error is returned, in less time.
+        further: number of restarts after the first solution that search for a better one, unless `prefer` is ``first``.
     """
 
     position_only: bool = False
@@ -50,6 +51,7 @@ class SolverOptions:
     restarts: int = 200
     seed: int = 0
     approaches: int = APPROACHES
+    further: int = FURTHER
 
     def __post_init__(self) -> None:
         """Check the values.
@@ -71,7 +73,19 @@ class SolverOptions:
         angular = 0.0 if self.position_only else 1.0
         kept, seed = PREFERENCES[self.prefer], self.seed % 2**53
         return array(
-            "d", (LINEAR, angular, self.distance, self.angle, self.restarts, kept, rows, MORE, seed, self.approaches)
+            "d",
+            (
+                LINEAR,
+                angular,
+                self.distance,
+                self.angle,
+                self.restarts,
+                kept,
+                rows,
+                self.further,
+                seed,
+                self.approaches,
+            ),
         )
 
 

@@ -73,8 +73,8 @@ def configure(parser: argparse.ArgumentParser) -> None:
     add(
         "--prefer",
         choices=("nearest", "first", "manipulability"),
-        default="nearest",
-        help="solution to print of those found: nearest to --from (default), first found, or most manipulable",
+        help="solution to print: of those of --all the nearest to --from (default) or the most manipulable, or the "
+        "first one found; without this option, --targets compares those of 16 restarts only",
     )
     add("--all", action="store_true", help="print all solutions found, with all whole turns within the limits")
     add(
@@ -116,11 +116,16 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def _options(arguments: argparse.Namespace) -> SolverOptions:
+    from dataclasses import replace
+
     from urdfkit.cli.kinematics.ik.targets import numbers
     from urdfkit.kinematics.serial.serial_solver import SolverOptions
 
     distance, angle = numbers(arguments.tolerance, 2, "--tolerance")
-    prefer = "all" if arguments.all else arguments.prefer
+    prefer = "all" if arguments.all else arguments.prefer or "nearest"
     if arguments.restarts < 0:
         raise UsageError(f"ik: --restarts {arguments.restarts}: the number must not be negative")
-    return SolverOptions(arguments.position_only, distance, angle, prefer, arguments.restarts, arguments.seed)
+    options = SolverOptions(arguments.position_only, distance, angle, prefer, arguments.restarts, arguments.seed)
+    if arguments.prefer is None and arguments.targets is not None:
+        return options
+    return replace(options, further=arguments.restarts)

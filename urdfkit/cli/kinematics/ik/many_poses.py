@@ -100,6 +100,7 @@ def _solved(
             seed=options.seed,
             threads=arguments.threads,
             collision_free=arguments.collision_free,
+            further=options.further,
         )
         solutions += found.listed()
         if shows_progress:
