@@ -42,10 +42,12 @@ def moments(triangles: TriMesh, name: str) -> tuple[Moments, str]:
         except ImportError as error:
             raise MissingDependencyError(f"{name} is not closed, its hull needs scipy: pip install scipy") from error
         except Exception:
-            return Moments(0.0, (0.0, 0.0, 0.0), (0.0,) * 6), f"{name} is flat: it has no volume"
+            return _flat(name)
         points, faces = np.asarray(hull.vertices, dtype=float), np.asarray(hull.faces)
     a, b, c = (points[faces[:, corner]] for corner in range(3))
     volumes = np.einsum("ij,ij->i", a, np.cross(b, c)) / 6.0
+    if note and abs(float(volumes.sum())) < 1e-9 * float(np.ptp(points, axis=0).max()) ** 3:  # points may be joggled
+        return _flat(name)
     first = matmul(volumes, a + b + c) / 4.0
     corners = np.stack([a, b, c], axis=1)
     whole = corners.sum(axis=1)
@@ -55,6 +57,10 @@ def moments(triangles: TriMesh, name: str) -> tuple[Moments, str]:
     x, y, z = (sign * first).tolist()
     squares = tuple((sign * second[np.triu_indices(3)]).tolist())
     return Moments(abs(float(volumes.sum())), (x, y, z), squares), note
+
+
+def _flat(name: str) -> tuple[Moments, str]:
+    return Moments(0.0, (0.0, 0.0, 0.0), (0.0,) * 6), f"{name} is flat: it has no volume"
 
 
 def _is_closed(faces: Any) -> bool:
