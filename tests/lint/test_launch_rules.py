@@ -280,3 +280,32 @@ def test_the_misspelt_package_of_a_mesh_is_an_error_with_its_name(source):
     found = [one for one in lint(source / "cart_description") if one.code == "G602"]
     assert [(one.link, one.severity) for one in found] == [("cart_descripton", "error"), ("elsewhere", "warning")]
     assert found[0].message.endswith("; did you mean `cart_description`?")
+
+
+XACRO = """<launch>
+  <arg name="model" default="$(find cart_description)/cart.urdf.xacro"/>
+  <param name="robot_description" command="xacro $(arg model) use_camra:=true color:=red"/>
+</launch>
+"""
+BY_ARGUMENT = [
+    ("cart.launch", XACRO),
+    (
+        "cart.launch.py",
+        IN_PYTHON.format('FindPackageShare("cart_description")').replace(
+            "    return LaunchDescription([",
+            '    model = DeclareLaunchArgument("model", default_value=[path, "/cart.urdf.xacro"])\n'
+            '    command = Command(["xacro ", LaunchConfiguration("model"), " use_camra:=true", " color:=red"])\n'
+            "    return LaunchDescription([model, ",
+        ),
+    ),
+]
+
+
+@pytest.mark.parametrize(("file", "launch"), BY_ARGUMENT)
+def test_misspelt_arguments_of_the_default_description_are_found(source, file, launch):
+    """Another description can have arguments that the default one lacks."""
+    argument = '<xacro:arg name="use_camera" default="false"/>\n<xacro:property name="a" value="$(arg use_camera)"/>'
+    write(source / "cart_description/cart.urdf.xacro", ROBOT.format(argument, "base_link"))
+    write(source / f"cart_description/launch/{file}", launch)
+    found = [one.message for one in lint(source / "cart_description") if one.code == "L102"]
+    assert found == ["cart.urdf.xacro has no argument `use_camra`; did you mean `use_camera`?"]

@@ -20,6 +20,7 @@ from urdfkit.record import record
 _FIND = r"\$\(find(?:-pkg-share)?\s+([^\s()]+)\s*\)"
 _USED = r"\$\((?:arg|var)\s+([\w.-]+)\s*\)|\$\(eval\b[^()]*\barg\(\s*['\"]([\w.-]+)['\"]\s*\)"
 _XACRO = r"(?<![\w.])xacro(?:\.py)?['\"]?(?![\w/])(.*)"
+_ARGUMENT = r"\s*['\"]?\$\((?:arg|var)\s+([\w.-]+)\s*\)['\"]?\s*"
 _PASSED = r"([\w.-]+):="
 
 
@@ -85,6 +86,9 @@ def _read(action: LaunchAction, found: LaunchActions) -> None:
         is_fixed = "value" in at
         declared = Declared(name, not is_fixed and "default" not in at, is_fixed)
         found.declared.setdefault(name.name, declared)
+        default = at.get("value") or at.get("default")
+        if default is not None:
+            found.defaults.setdefault(name.name, default.name)
     elif tag in ("let", "set_launch_configuration", "set_var") and name is not None:
         found.assigned.add(name.name)
     elif tag == "include":
@@ -99,11 +103,13 @@ def _read(action: LaunchAction, found: LaunchActions) -> None:
         found.nodes.append(Executable(*literal))
     for one in at.values():
         if "xacro" in one.name and (command := re.search(_XACRO, one.name, re.DOTALL)) is not None:
-            shares = (share_of(word) for word in _words(command[1]) if ":=" not in word)
-            package, path = next((share for share in shares if share[0]), ("", ""))
+            words = [word for word in _words(command[1]) if ":=" not in word]
+            defaults = [found.defaults.get(use[1], "") for word in words if (use := re.fullmatch(_ARGUMENT, word))]
+            package, path = next((share for word in (*words, *defaults) if (share := share_of(word))[0]), ("", ""))
             start = one.start + command.start(1)
             passed = [Named(word[1], start + word.start(1)) for word in re.finditer(_PASSED, command[1])]
-            found.xacro.append(Call(package, path, start, start + len(command[1]), tuple(passed)))
+            end = start + len(command[1])
+            found.xacro.append(Call(package, path, start, end, tuple(passed), bool(defaults)))
     for child in action.children:
         _read(child, found)
 

@@ -153,5 +153,21 @@ class _PythonActions:
             for word in re.finditer(r"([\w.-]+):=", text.name)
         ]
         paths = [found for part in parts if (found := self._path(part))[0]]
-        is_computed = any(isinstance(part, (ast.Starred, ast.BinOp, ast.JoinedStr)) for part in parts)
+        defaults = [] if paths else [found for part in parts if (found := self._default(part))[0]]
+        paths += defaults
+        is_computed = bool(defaults) or any(isinstance(part, (ast.Starred, ast.BinOp, ast.JoinedStr)) for part in parts)
         self._add(self._found.xacro, paths[0] if paths else ("", ""), node, passed, is_computed)
+
+    def _default(self, node: ast.expr) -> tuple[str, str]:
+        """Return package and path of the default of the launch argument in ``LaunchConfiguration("name")``."""
+        if isinstance(node, ast.Name):
+            node = self._constants.assigned.get(node.id) or node
+        if not isinstance(node, ast.Call) or name_of(node.func) != "LaunchConfiguration" or not node.args:
+            return "", ""
+        name = self._constants.text(node.args[0])
+        for call in ast.walk(self._tree):
+            if isinstance(call, ast.Call) and name_of(call.func) in _DECLARATIONS and call.args:
+                default = next((word.value for word in call.keywords if word.arg == "default_value"), None)
+                if default is not None and name is not None and self._constants.text(call.args[0]) == name:
+                    return self._path(default)
+        return "", ""

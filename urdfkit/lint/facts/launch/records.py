@@ -38,7 +38,7 @@ class Call:
         start: offset of the action.
         end: offset after the action, or after its first tag.
         passed: the arguments that it passes.
-        passes_all: whether it may pass more arguments.
+        passes_all: whether it may pass more arguments, or names another file than the default of a launch argument.
     """
 
     package: str
@@ -66,6 +66,7 @@ class LaunchActions:
         is_ros1: whether roslaunch reads it.
         declared: the declared arguments by name; the first of several.
         used: the names of used arguments, and whether the use has a default.
+        defaults: the defaults of declared arguments in XML and YAML.
         assigned: names that the file assigns without declaring them.
         includes: the included launch files.
         xacro: the xacro commands.
@@ -76,6 +77,7 @@ class LaunchActions:
     is_ros1: bool = False
     declared: dict[str, Declared] = field(default_factory=dict)
     used: list[tuple[Named, bool]] = field(default_factory=list)
+    defaults: dict[str, str] = field(default_factory=dict)
     assigned: set[str] = field(default_factory=set)
     includes: list[Call] = field(default_factory=list)
     xacro: list[Call] = field(default_factory=list)

@@ -120,7 +120,7 @@ class LaunchArgumentUnknown(RobotRule):
             return
         sources = model.expanded.sources.values()
         names = [*declared_arguments(sources), *(each.name for each in call.passed if is_used(each.name, sources))]
-        may_have_more = bool(model.missing_file) or _leaves_out_files(model)
+        may_have_more = call.passes_all or bool(model.missing_file) or _leaves_out_files(model)
         yield from self._unknown(file, call.passed, names, path.name, may_have_more, self.severity)
 
     def _unknown(
