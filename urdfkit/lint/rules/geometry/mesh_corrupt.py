@@ -27,6 +27,9 @@ _LARGE = 64 * 2**20
 _JUST_CHANGED = 2_000_000_000
 """[ns]"""
 
+_MOST = 3.4e38
+"""Size in metres above which coordinates are not finite as 32-bit numbers, as which they are stored."""
+
 _UTF16 = (b"\xff\xfe", b"\xfe\xff")
 
 _FACES = {
@@ -81,6 +84,8 @@ class MeshCorrupt(RobotRule):
                 box = model.box_of(mesh) if path is not None and not faults[mesh.uri] and any(mesh.scale) else None
                 if box is not None and not any(box[1]):
                     faults[mesh.uri] = "has all triangles in one point"
+                elif box is not None and max(box[1]) > _MOST:
+                    faults[mesh.uri] = NOT_FINITE
                 elif box is None and path is not None and path.suffix.lower() in TITLES:
                     faults[mesh.uri] = faults[mesh.uri] or model.mesh_boxes.fault(mesh)
             if faults[mesh.uri]:
