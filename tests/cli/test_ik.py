@@ -158,8 +158,6 @@ def test_warnings_of_limits_and_degrees(capsys: pytest.CaptureFixture[str], arm_
         "urdfkit: warning: joint `bend` at 3 rad is outside its limits [-1.5, 2] rad",
         "urdfkit: warning: joint `dial_joint` at 4.3 rad is outside its limits [-3, 3] rad",  # mimics `bend`
     ]
-    assert main([*words, "-q", "--hold", "bend=3"]) in (0, 1)
-    assert capsys.readouterr().err == ""
 
 
 def test_one_pose_is_written_as_arrays(capsys: pytest.CaptureFixture[str], tmp_path: Path, arm_file: str) -> None:

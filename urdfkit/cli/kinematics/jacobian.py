@@ -49,7 +49,7 @@ def run(arguments: argparse.Namespace) -> int:
     chain = Chain(robot, arguments.base, tip, compiling=None if arguments.quiet else announce)
     chain.configuration(positions)  # refuses unknown names
     q = [positions.get(name, 0.0) for name in chain.joint_names]
-    warn_of_limits(robot, positions, quiet=arguments.quiet)
+    warn_of_limits(robot, positions)
     jacobian = chain.jacobian(q)
     analysis = analyse(jacobian)
     lost = [direction_in_words(direction, chain.base) for direction in analysis.lost]

@@ -91,10 +91,9 @@ def run(arguments: argparse.Namespace) -> int:
         robot = load_robot(found, arguments)
         note_unused(found, robot.files, quiet=arguments.quiet)
         print_repairs(robot, quiet=arguments.quiet)
-    note = _silent if arguments.quiet else _note
     if old is not None and (missing := missing_links(old, robot, str(arguments.update))):
         names = ", ".join([*(f"`{name}`" for name in missing[:8]), *("…" for _ in missing[8:9])])
-        note(
+        _note(
             f"{arguments.update}: robot `{robot.name}` has no link {names}; "
             "pairs with a reason of urdfkit are removed, other lines are unchanged"
         )
@@ -104,7 +103,7 @@ def run(arguments: argparse.Namespace) -> int:
     else:
         groups, effectors = find_groups(robot)
     progress = _show if sys.stderr.isatty() and not arguments.quiet else _silent
-    matrix = collision_matrix(robot, samples=arguments.samples, seed=arguments.seed, note=note, progress=progress)
+    matrix = collision_matrix(robot, samples=arguments.samples, seed=arguments.seed, note=_note, progress=progress)
     if progress is _show:
         sys.stderr.write("\r\x1b[K")
     if old is not None:

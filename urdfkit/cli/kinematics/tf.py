@@ -90,7 +90,7 @@ def run(arguments: argparse.Namespace) -> int:
         print_repairs(robot, quiet=arguments.quiet)
         tree = TransformTree(robot)
     tree.kinematics.followed(positions)  # refuses unknown names
-    warn_of_limits(robot, positions, quiet=False)
+    warn_of_limits(robot, positions)
     if arguments.tree:
         if frames:
             raise UsageError("tf: PARENT and CHILD cannot be combined with --tree")

@@ -38,9 +38,9 @@ def joint_positions(words: Iterable[str], option: str) -> dict[str, float]:
     return values
 
 
-def warn_of_limits(robot: Robot, positions: Mapping[str, float], *, quiet: bool) -> None:
+def warn_of_limits(robot: Robot, positions: Mapping[str, float]) -> None:
     """Warn of positions outside the limits, of mimic joints of these joints included; the positions are used anyway."""
     from urdfkit.kinematics.joint_limits import limit_errors
 
-    for error in () if quiet else limit_errors(robot, positions):
+    for error in limit_errors(robot, positions):
         print(f"urdfkit: warning: {error}", file=sys.stderr)

@@ -50,7 +50,7 @@ def solve_poses(
     """
     chain = Chain(robot, arguments.base, tip, hold=hold, compiling=None if arguments.quiet else announce)
     from_ = chain.configuration(start)
-    warn_of_limits(robot, {**start, **hold}, quiet=arguments.quiet)
+    warn_of_limits(robot, {**start, **hold})
     solutions = _solved(chain, poses, from_, options, arguments)
     solver = SerialSolver(chain.serial)
     if arguments.output is not None:

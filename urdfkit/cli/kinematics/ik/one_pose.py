@@ -43,7 +43,7 @@ def solve_pose(
     chain = SerialChain(robot, arguments.base, tip, hold=hold)
     solver = SerialSolver(chain, None if arguments.quiet else announce)
     from_ = chain.start(start)
-    warn_of_limits(robot, {**start, **hold}, quiet=arguments.quiet)
+    warn_of_limits(robot, {**start, **hold})
     solutions = solver.solve(pose, from_, options, rows=MOST if arguments.all else 1)
     if arguments.collision_free:
         from urdfkit.kinematics.self_collision.collision_free_search import CollisionFreeSearch

@@ -56,7 +56,7 @@ def pose_of(arguments: argparse.Namespace) -> list[float] | None:
     xyz = numbers(arguments.xyz, 3, "--xyz")
     if arguments.rpy is not None:
         rpy = numbers(arguments.rpy, 3, "--rpy")
-        if (largest := max(rpy, key=abs)) and abs(largest) > TURN and not arguments.quiet:
+        if abs(largest := max(rpy, key=abs)) > TURN:
             print(
                 f"urdfkit: warning: --rpy {arguments.rpy}: {largest:g} rad is more than a turn; if it is in degrees, "
                 f"use {','.join(f'{math.radians(angle):.6g}' for angle in rpy)}",
