@@ -510,6 +510,7 @@ def test_walls_are_drawn_and_moved_by_the_keyboard_alone(page, keep, until) -> N
     page.locator("[data-object=walls] button").press("Enter")
     page.locator("#move-object").press("Enter")
     before = order(page, "get_pose", name="walls")["pose"]
+    page.evaluate("urdfkit.page.emit('select', urdfkit.page.selected)")  # as when the links arrive after an insertion
     for key in ("ArrowUp", "ArrowUp", "ArrowLeft", "Shift+ArrowUp", "Shift+ArrowLeft"):
         page.keyboard.press(key)
     step = (-0.05, 0.1, 0.05, 0.0, 0.0, math.radians(5))  # seen from -y
@@ -568,7 +569,9 @@ def test_a_push_of_a_given_force_and_time_by_the_keyboard_alone(page, keep, unti
     order(page, "spawn", model="crate", pose=[1.0, 1.0, 1.0])
     page.get_by_role("button", name="Pause").press("Enter")
     until(lambda: page.locator("#rtf").inner_text() == "paused")
-    mass = page.evaluate("Number(document.querySelector('tr[data-of=crate] input').value)")
+    page.locator("#open-physics").press("Enter")
+    page.locator("#parameter-filter").fill("crate")
+    mass = float(page.get_by_label("mass of crate").input_value())
     start = order(page, "get_pose", name="crate")
     page.locator("#open-push").press("Enter")
     until(lambda: page.locator("#push-link option", has_text="crate").count() == 1)

@@ -128,13 +128,14 @@ export class Objects {
 
   async #select(selected) {
     const name = this.page.mode === "sim" ? this.nameOf(selected?.link) : null;
+    if (name && name === this.picked && !this.detail.hidden) return; // emitted again after an insertion
     this.picked = name;
     for (const item of this.list.children) item.toggleAttribute("data-chosen", item.dataset.object === name);
     this.detail.hidden = true; // until the pose has arrived
     this.mover.drop();
     if (!name) return;
     const done = await this.#request("get_pose", { name });
-    if (done && this.picked === name) this.#show(name, done.pose);
+    if (done && this.picked === name && this.detail.hidden) this.#show(name, done.pose);
   }
 
   #show(name, pose) {
