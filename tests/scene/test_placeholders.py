@@ -104,9 +104,9 @@ def test_a_robot_without_defects_keeps_its_scene(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("content", "suffix", "code", "reason"),
     [
-        (b"", "stl", "G607", "truncated"),
+        (b"", "stl", "G607", "is empty"),
         (b"version https://git-lfs.github.com/spec/v1\n", "stl", "G607", "Git LFS pointer"),
-        (b"<html/>", "dae", "G607", "cannot be read"),
+        (b"<html/>", "dae", "G607", "is not a COLLADA file"),
         (b"solid", "step", "G606", "unsupported format"),
         (b"o nothing\n", "obj", "G607", "no triangles"),
         ((b"\0" * 80) + (5_100_000).to_bytes(4, "little"), "stl", "G607", "triangles; decimate it"),
