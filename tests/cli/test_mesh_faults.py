@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import shutil
 import struct
 from pathlib import Path
 
@@ -15,7 +16,11 @@ import trimesh
 
 from urdfkit.cli import main
 from urdfkit.lint import lint
+from urdfkit.lint.engine.run import run
+from urdfkit.lint.project.entry_files import Entry
+from urdfkit.lint.project.options import Options
 
+CRATE = Path(__file__).parents[1] / "lint/rules/texture-missing"
 BOX = trimesh.creation.box()
 STL, TEXT, OBJ, DAE, GLB = (BOX.export(file_type=kind) for kind in ("stl", "stl_ascii", "obj", "dae", "glb"))
 RUBBISH = bytes((37 * n * n + 11) % 251 for n in range(700))
@@ -80,3 +85,29 @@ def test_each_repair_has_a_finding_in_its_line_and_names_the_defect(tmp_path: Pa
     for line, name in expected.items():
         assert FILES[name][1] in shown[line]
         assert "Error" not in shown[line]
+
+
+def test_each_texture_that_is_not_shown_has_a_finding_in_its_line(tmp_path: Path, capfd) -> None:
+    shutil.copytree(CRATE, tmp_path / "crate")
+    robot = tmp_path / "crate/bad.urdf"
+    assert main(["view", str(robot), "--html", str(tmp_path / "page.html")]) == 0
+    shown = re.findall(r"warning: \S+?:(\d+):\d+: texture `(.*?)`.*(exist|picture|pull`);", capfd.readouterr().err)
+    assert sorted(int(line) for line, _, _ in shown) == [3, 6, 10]
+    assert [each.line for each in lint(robot, select=["G618"])] == [3, 6, 10]
+    assert main(["view", str(tmp_path / "crate/good.urdf"), "--html", str(tmp_path / "page.html")]) == 0
+    assert "texture `" not in capfd.readouterr().err
+
+
+def test_a_texture_that_returns_ends_its_finding(tmp_path: Path) -> None:
+    shutil.copytree(CRATE, tmp_path / "crate")
+    robot = tmp_path / "crate/bad.urdf"
+
+    def lines() -> list[int]:
+        return [each.line for each in run([Entry(robot)], Options(), cached=True).findings if each.code == "G618"]
+
+    found = [lines(), lines()]
+    for name in ("textures/gone.png", "meshes/gone.png", "meshes/pointer.png"):
+        (tmp_path / "crate" / name).parent.mkdir(exist_ok=True)
+        shutil.copy(CRATE / "materials/textures/wood.png", tmp_path / "crate" / name)
+        found.append(lines())
+    assert found == [[3, 6, 10], [3, 6, 10], [3, 6], [6], []]

@@ -124,6 +124,7 @@ ROBOT: tuple[Row, ...] = (
     ("mesh", "geometry.mesh_format_unsupported", "MeshFormatUnsupported"),
     ("mesh", "geometry.mesh_corrupt", "MeshCorrupt"),
     ("mesh", "geometry.collada_up_axis", "ColladaUpAxis"),
+    ("mesh texture", "geometry.texture_missing", "TextureMissing"),
     ("plugin", "semantics.wheel_separation", "WheelSeparation"),
     ("plugin", "semantics.wheel_diameter", "WheelDiameter"),
     ("plugin", "semantics.left_right_swapped", "LeftRightSwapped"),

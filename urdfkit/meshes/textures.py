@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from urdfkit.description.packages.existence import is_file
 from urdfkit.meshes.material_colors import factor_of, linear_of, srgb_bytes, to_bytes
+from urdfkit.meshes.picture_files import PICTURES, places
 
 MAX_EDGE = 4096
 """Largest edge length of a texture; larger ones are halved until they fit [px]."""
@@ -21,7 +22,6 @@ MAX_PIXELS = 2**27
 LONGEST_EDGE = 2**16
 """Largest width and height of an image that is read [px]."""
 
-PICTURES = (".png", ".jpg", ".jpeg", ".bmp", ".tga", ".gif", ".tif", ".tiff", ".webp")
 _OWN = (".mtl", ".bin")
 
 
@@ -108,10 +108,7 @@ def _pixels(picture: Any) -> NDArray[np.uint8]:
 
 
 class Beside(dict[str, bytes]):
-    """The files that a mesh may refer to: materials and buffers below its folder, images below its model's folder.
-
-    Gazebo finds images of ``meshes/`` by their name in the neighbouring folder ``materials/textures/`` (gazebo:
-    SystemPaths::FindFile in ColladaLoader).
+    """The files that a mesh may refer to: materials and buffers below its folder, images as `places` yields them.
 
     Args:
         path: the mesh file.
@@ -134,13 +131,9 @@ class Beside(dict[str, bytes]):
     def __missing__(self, name: str) -> bytes:
         if "\0" in name:
             raise KeyError(name)
-        wanted = name.replace("\\", "/").removeprefix("file://")
-        picture = Path(wanted).suffix.lower() in PICTURES
-        places = [(self._folder / wanted, self._folder.parent if picture else self._folder)]
-        if picture:
-            places.append((self._folder.parent / "materials" / "textures" / Path(wanted).name, self._folder.parent))
-            places.append((self._folder / Path(wanted).name, self._folder))
-        for place, within in places:
+        picture = name.lower().endswith(PICTURES)
+        own = self._folder / name.replace("\\", "/").removeprefix("file://")
+        for place, within in places(self._folder, name) if picture else ((own, self._folder),):
             path = place.resolve()
             allowed = picture or path.suffix.lower() in _OWN
             if allowed and path.is_relative_to(within) and is_file(path):

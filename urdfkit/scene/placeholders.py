@@ -35,7 +35,7 @@ _CLEAR = 0.5
 
 
 def with_placeholders(robot: Robot, scene: Scene) -> tuple[Scene, list[Repair]]:
-    """Return a scene with a placeholder for each link that lacks shapes, and a repair for each missing shape.
+    """Return a scene with a placeholder for each link that lacks shapes, and repairs of missing shapes and textures.
 
     A shape is missing if its mesh cannot be loaded, its geometry is unknown, or a size is negative. The placeholder of
     visual shapes has the bounding box of the collision shapes, and vice versa. A link with neither has a box around
@@ -49,6 +49,7 @@ def with_placeholders(robot: Robot, scene: Scene) -> tuple[Scene, list[Repair]]:
         Repair("mesh", each.code, with_effect(each.error.message, _EFFECT), each.error.position, each.body)
         for each in scene.problems
     ]
+    repairs += textures(scene)
     problems = shape_problems(robot)
     wanted = dict.fromkeys((each.body, each.role) for each in scene.problems)
     for link in robot.link_by_name_in_order():
@@ -69,6 +70,16 @@ def with_placeholders(robot: Robot, scene: Scene) -> tuple[Scene, list[Repair]]:
     order = scene.body_index
     found = sorted([*shapes, *placeholders], key=lambda shape: (order[shape.body], shape.role == "collision"))
     return replace(scene, shapes=tuple(found)), repairs
+
+
+def textures(scene: Scene) -> Iterator[Repair]:
+    """Yield a repair for each visual shape that is shown without an image of its textures."""
+    for shape in scene.with_role("visual"):
+        mesh = shape.mesh
+        for name in mesh.missing if mesh is not None and not shape.has_color else ():
+            fault = "is not a readable picture" if mesh is not None and name in mesh.broken else "does not exist"
+            message = with_effect(f"texture `{name}` of `{shape.name}` {fault}", "the shape is shown without it")
+            yield Repair("mesh", "G618", message, shape.position, shape.body, attribute="filename")
 
 
 def _placeholder(body: str, role: Role, bounds: Array, *, covers_shapes: bool) -> Shape:

@@ -13,6 +13,7 @@ from urdfkit.kinematics import Kinematics
 from urdfkit.linear_algebra import Array, inverse_placement, matmul
 from urdfkit.scene import MeshLoader, Role, Scene, Shape
 from urdfkit.scene.lights import lighting_of
+from urdfkit.scene.placeholders import textures
 from urdfkit.scene.pose_matrices import pose_matrices, pose_matrix
 from urdfkit.scene.rays import RayTable, announcement, warmup
 from urdfkit.scene.renderer import ImageRenderer, check, renderer_of
@@ -182,12 +183,8 @@ class View:
         """Return the renderer of the visuals, at their poses in a layout, with the lights of the world."""
         table = self.table("visual", layout)
         if self._image_renderer is None:
-            for shape in self.scene.with_role("visual"):
-                for name in shape.mesh.missing if shape.mesh is not None and not shape.has_color else ():
-                    place = f"{shape.position}: " if shape.position else ""
-                    broken = shape.mesh is not None and name in shape.mesh.broken
-                    why = "is not a readable picture" if broken else "does not exist"
-                    self._note(f"{place}`{shape.name}` is shown without its texture: `{name}` {why}")
+            for repair in textures(self.scene):
+                self._note(str(repair))
             self._image_renderer = renderer_of(table, self._lighting, self._renderer, self._note)
         return self._image_renderer
 

@@ -246,7 +246,7 @@ def test_a_texture_that_is_not_there_is_named_once(post, tmp_path, content, why:
     (picture,) = heard(simulator, "/cam/image_raw")
     heard(simulator, "/cam/image_raw")
     (note,) = [note for note in notes if "gone.png" in note]
-    reported = f"`world/walls/visual/v` is shown without its texture: `gone.png` {why}"
+    reported = f"texture `gone.png` of `world/walls/visual/v` {why}; the shape is shown without it"
     assert re.fullmatch(rf"\S+\.\w+:\d+:\d+: {re.escape(reported)}", note)
     assert len(np.unique(pixels(picture).reshape(-1, 3), axis=0)) == 2
 
