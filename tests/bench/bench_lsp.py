@@ -100,6 +100,7 @@ def write_meshes(folder: Path, count: int) -> None:
         box = box.subdivide()
     for index in range(count):
         box.export(folder / f"{index}.stl")
+    time.sleep(2.5 * bool(count))  # files that have just changed are read again at each key, old ones are not
 
 
 def spread(times: list[float]) -> str:

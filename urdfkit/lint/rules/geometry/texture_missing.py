@@ -3,6 +3,7 @@
 from collections.abc import Iterator
 from pathlib import Path
 
+from urdfkit.description.xml.element import Element
 from urdfkit.errors import ResourceError
 from urdfkit.lint.model.mesh_files import is_remote, path_of
 from urdfkit.lint.rule import Findings, Model, RobotRule
@@ -51,7 +52,7 @@ class TextureMissing(RobotRule):
     def check(self, model: Model) -> Findings:
         """Yield a finding for each image that is missing or invalid."""
         entry, packages = model.expanded.path, model.expanded.packages
-        for texture in (each for each in model.elements if each.tag == "texture"):
+        for texture in _textures(model):
             uri = (texture.get("filename") or "").strip()
             if not uri or "$" in uri or model.is_unresolved(texture, "filename"):
                 continue
@@ -68,6 +69,8 @@ class TextureMissing(RobotRule):
                 yield self.at(model, texture, f"texture `{uri}` {fault}", attribute="filename", cause=cause)
         faults: dict[Path, list[tuple[str, str]]] = {}
         for mesh, element, link in model.meshes:
+            if not mesh.uri.rstrip().lower().endswith((".obj", ".dae", ".gltf")):
+                continue
             path = path_of(mesh, model.expanded)
             if path is None or not any(visual.geometry is mesh for visual in link.visuals):
                 continue
@@ -77,6 +80,15 @@ class TextureMissing(RobotRule):
                 message = f"texture `{name}` of mesh `{mesh.uri.strip()}` {fault}"
                 cause = f"textures of {path.parent}" if fault == "does not exist" else ""
                 yield self.at(model, element, message, attribute="filename", link=link.name, cause=cause)
+
+
+def _textures(model: Model) -> Iterator[Element]:
+    """Yield the texture of each material of the robot and of its visual shapes."""
+    materials = [child for child in model.robot.element.children if child.tag == "material"]
+    materials += [
+        each for link in model.robot.links for visual in link.visuals if (each := visual.element.find("material"))
+    ]
+    yield from (texture for each in materials for texture in each.children if texture.tag == "texture")
 
 
 def _faults(model: Model, mesh: Path) -> Iterator[tuple[str, str]]:
