@@ -95,6 +95,16 @@ def test_the_limit_that_prevents_a_pose_is_named(capsys: pytest.CaptureFixture[s
     assert solution["positions"] == {"bend": 2.0}
 
 
+def test_a_slide_that_ends_before_the_pose_is_named(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
+    path = tmp_path / "slide.urdf"
+    joint = '<joint name="z" type="prismatic"><parent link="a"/><child link="b"/><axis xyz="0 0 1"/>{limit}</joint>'
+    limit = '<limit lower="0" upper="1" effort="1" velocity="1"/>'
+    path.write_text(f'<robot name="s"><link name="a"/><link name="b"/>{joint.format(limit=limit)}</robot>')
+    for z, reason in (("1.5", "limit of joint `z`"), ("9", "beyond reach by 8 m")):
+        code, out, _ = ran(capsys, str(path), "b", f"--xyz=0,0,{z}", "--json")
+        assert (code, json.loads(out)["solutions"][0]["reason"]) == (1, reason)
+
+
 def test_an_orientation_that_cannot_be_reached(capsys: pytest.CaptureFixture[str], arm_file: str) -> None:
     target = Chain(load(arm_file), None, "finger_a").forward(np.array([0.3, 0.1, 0.4, 0.02]))
     target[:3, :3] = target[:3, :3] @ np.diag([-1.0, -1.0, 1.0])

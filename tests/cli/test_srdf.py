@@ -101,3 +101,53 @@ def test_an_update_refuses_the_srdf_of_another_robot(tmp_path, capsys, name, lin
 def test_mistakes_are_reported_in_a_line(capsys, words, message):
     assert main(["srdf", "seven_dof_arm", *words]) == 2
     assert message in capsys.readouterr().err
+
+
+CHAIN = """<robot name="chain">
+  <link name="base">{box}</link>
+  <link name="upper">{mesh}</link>
+  <link name="fore">{box}</link>
+  <joint name="a" type="revolute"><parent link="base"/><child link="upper"/><origin xyz="0 0 0.2"/><axis xyz="0 1 0"/>
+    <limit lower="-1" upper="1" effort="1" velocity="1"/></joint>
+  <joint name="b" type="revolute"><parent link="upper"/><child link="fore"/><origin xyz="0 0 0.2"/><axis xyz="0 1 0"/>
+    <limit lower="-1" upper="1" effort="1" velocity="1"/></joint>
+</robot>
+"""
+BOX = '<collision><geometry><box size="0.05 0.05 0.1"/></geometry></collision>'
+GONE = '<collision><geometry><mesh filename="gone.stl"/></geometry></collision>'
+
+
+def test_links_whose_meshes_are_missing_disable_nothing(tmp_path, capsys):
+    """A missing shape makes no link a neighbour of another, and no pair of its link safe."""
+    path = tmp_path / "chain.urdf"
+    path.write_text(CHAIN.format(box=BOX, mesh=GONE))
+    assert main(["srdf", str(path), "--samples", "200", "--json"]) == 0
+    out, err = capsys.readouterr()
+    (pair,) = json.loads(out)["pairs"]
+    assert (pair["links"], pair["reason"]) == (["base", "fore"], "Never")
+    assert f"{path}:3:43: link `upper`: a collision shape is left out: no file " in err
+    path.write_text(CHAIN.format(box=BOX, mesh=BOX + GONE))
+    assert main(["srdf", str(path), "--samples", "200", "--json"]) == 0
+    reasons = {tuple(each["links"]): each["reason"] for each in json.loads(capsys.readouterr().out)["pairs"]}
+    assert reasons == {("base", "upper"): "Adjacent", ("base", "fore"): "Never", ("upper", "fore"): "Adjacent"}
+    path.write_text(CHAIN.format(box=BOX, mesh=BOX).replace(BOX, BOX + GONE, 1))
+    assert main(["srdf", str(path), "--samples", "200", "--json"]) == 0
+    reasons = {tuple(each["links"]): each["reason"] for each in json.loads(capsys.readouterr().out)["pairs"]}
+    assert reasons == {("base", "upper"): "Adjacent", ("base", "fore"): None, ("upper", "fore"): "Adjacent"}
+    path.write_text(CHAIN.format(box=BOX, mesh="").replace(BOX, BOX + GONE, 1))
+    assert main(["srdf", str(path), "--samples", "200", "--json"]) == 0
+    (pair,) = json.loads(capsys.readouterr().out)["pairs"]
+    assert (pair["links"], pair["reason"]) == (["base", "fore"], "Adjacent")  # through a link that has no shapes
+
+
+def test_an_update_keeps_the_pairs_of_links_whose_meshes_are_missing(tmp_path, capsys):
+    path, old = tmp_path / "chain.urdf", tmp_path / "old.srdf"
+    path.write_text(CHAIN.format(box=BOX, mesh=GONE))
+    kept = '  <disable_collisions link1="base" link2="upper" reason="Adjacent"/>\n'
+    gone = '  <disable_collisions link1="base" link2="fore" reason="Always"/>\n'
+    old.write_text(f'<robot name="chain">\n{kept}{gone}</robot>\n')
+    assert main(["srdf", str(path), "--samples", "200", "--update", str(old)]) == 0
+    text = old.read_text()
+    assert kept in text
+    assert 'link2="fore" reason="Never"' in text
+    assert "1 pair of links: 1 Never" in capsys.readouterr().err

@@ -122,8 +122,8 @@ def run(arguments: argparse.Namespace) -> int:
     if not arguments.quiet:
         counts = Counter(pair.reason or "to check" for pair in matrix.pairs)
         summary = ", ".join(f"{count} {reason}" for reason, count in sorted(counts.items()))
-        written = f"wrote {output}: " if output is not None else ""
-        print(f"{written}{len(matrix.pairs)} pairs of links: {summary}", file=sys.stderr)
+        written, count = f"wrote {output}: " if output is not None else "", len(matrix.pairs)
+        print(f"{written}{count} pair{'s' * (count != 1)} of links{summary and ': '}{summary}", file=sys.stderr)
     if shows:
         values = _values(matrix, groups, effectors)
         show_page(arguments, found, {"collisions": {name: values[name] for name in ("links", "pairs")}})

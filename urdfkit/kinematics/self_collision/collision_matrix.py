@@ -5,7 +5,7 @@ without any collision is called ``Never`` only after a search for its closest ap
 """
 
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from itertools import combinations
 from math import sqrt
 from pathlib import Path
@@ -16,7 +16,13 @@ from numpy.typing import NDArray
 from urdfkit.description import Robot, load
 from urdfkit.kinematics.self_collision.box_overlap import overlapping
 from urdfkit.kinematics.self_collision.closest_approach import chain_between, closest_approach
-from urdfkit.kinematics.self_collision.collision_shapes import CollisionShape, box_around, neighbours, shapes_by_link
+from urdfkit.kinematics.self_collision.collision_shapes import (
+    CollisionShape,
+    box_around,
+    incomplete_links,
+    neighbours,
+    shapes_by_link,
+)
 from urdfkit.kinematics.self_collision.pair_check import PairCheck
 from urdfkit.kinematics.self_collision.random_configurations import default, draw, link_poses, ranges
 from urdfkit.linear_algebra import Array
@@ -65,10 +71,12 @@ class CollisionMatrix:
     Attributes:
         links: names of the links, in document order.
         pairs: all pairs of links.
+        incomplete: links with shapes that cannot be read; their pairs are never called ``Never``.
     """
 
     links: tuple[str, ...]
     pairs: tuple[Pair, ...]
+    incomplete: frozenset[str] = frozenset()
 
     @property
     def disabled(self) -> tuple[Pair, ...]:
@@ -101,7 +109,7 @@ def collision_matrix(
     positions = draw(robot, samples, np.random.default_rng(seed))
     poses = link_poses(robot, {name: values.astype(float) for name, values in positions.items()})
     rest = link_poses(robot, default(robot))
-    adjacent = neighbours(robot, shapes)
+    adjacent, incomplete = neighbours(robot, shapes), incomplete_links(robot, shapes)
     boxes = {name: box_around(parts) for name, parts in shapes.items()}
     centres = {name: poses[name][0] @ centre + poses[name][1] for name, (centre, _) in boxes.items()}
     pairs = list(combinations(shapes, 2))
@@ -109,9 +117,12 @@ def collision_matrix(
     for k, (first, second) in enumerate(pairs):
         spheres = [(centres[name], float(np.linalg.norm(boxes[name][1]))) for name in (first, second)]
         pair = _PairSearch(robot, (first, second), shapes, poses, rest, positions, spheres, [seed, k])
-        found.append(pair.result(adjacent=(first, second) in adjacent))
+        result = pair.result(adjacent=(first, second) in adjacent)
+        if result.reason == "Never" and not {first, second}.isdisjoint(incomplete):
+            result = replace(result, reason=None)
+        found.append(result)
         progress(k + 1, len(pairs))
-    return CollisionMatrix(tuple(shapes), tuple(found))
+    return CollisionMatrix(tuple(shapes), tuple(found), frozenset(incomplete))
 
 
 class _PairSearch:

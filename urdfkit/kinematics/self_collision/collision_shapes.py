@@ -1,6 +1,6 @@
 """Collision shapes of links for coal: convex shapes to decide most pairs of links, and triangles where they overlap."""
 
-from collections.abc import Callable, Collection
+from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -64,9 +64,11 @@ def box_around(shapes: tuple[CollisionShape, ...]) -> tuple[Array, Array]:
 def neighbours(robot: Robot, shapes: Collection[str]) -> set[tuple[str, str]]:
     """Return the pairs of links that a joint connects, directly or through links without shapes; both orders.
 
+    A link whose shapes cannot be read does not count as one without shapes.
+
     Args:
         robot: the robot.
-        shapes: names of the links with shapes.
+        shapes: names of the links with shapes that can be read.
     """
     found = set()
     touching: dict[str, list[str]] = {}
@@ -83,9 +85,14 @@ def neighbours(robot: Robot, shapes: Collection[str]) -> set[tuple[str, str]]:
                 seen.add(other)
                 if other in shapes:
                     found.add((name, other))
-                else:
+                elif not robot.link_by_name[other].collisions:
                     waiting.append(other)
     return found
+
+
+def incomplete_links(robot: Robot, shapes: Mapping[str, tuple[CollisionShape, ...]]) -> tuple[str, ...]:
+    """Return the links that have collision shapes which cannot be read, in document order."""
+    return tuple(link.name for link in robot.links if len(shapes.get(link.name, ())) < len(link.collisions))
 
 
 def _shapes(robot: Robot, link: Link, loader: MeshLoader, note: Callable[[str], None] | None) -> list[CollisionShape]:
@@ -94,9 +101,11 @@ def _shapes(robot: Robot, link: Link, loader: MeshLoader, note: Callable[[str], 
         try:
             shape = _shape(robot, collision, loader)
         except ResourceError as error:
+            mesh = next((each for each in collision.element.walk() if each.tag == "mesh"), collision.element)
+            position = mesh.origin.position
             if note is None:
-                raise
-            note(f"link `{link.name}`: a collision shape is left out: {error}")
+                raise ResourceError(error.message, position=position, kind=error.kind) from error
+            note(f"{position}: link `{link.name}`: a collision shape is left out: {error.message}")
             continue
         if shape is not None:
             shapes.append(shape)

@@ -208,17 +208,20 @@ class SerialSolver:
         ]
 
     def wide_limits(self) -> array[float]:
-        """Return limits for `solve` in which turning joints have none."""
+        """Return limits for `solve` without those of turning joints; sliding joints move farther by their range."""
         limits = array("d", self.chain.limits)
         for k, variable in enumerate(self.chain.variables):
             if variable.is_periodic:
                 limits[LIMIT * k : LIMIT * (k + 1)] = array("d", (-math.inf, math.inf, -math.pi, math.pi, 1.0, 1.0))
+            else:
+                travel = variable.upper - variable.lower
+                limits[LIMIT * k : LIMIT * k + 2] = array("d", (variable.lower - travel, variable.upper + travel))
         return limits
 
     def reason(self, target: Sequence[float], solution: Solution, options: SolverOptions) -> str:
         """Return why a target is not reached, in words.
 
-        The target is solved again without limits of turning joints: if it is reached then, the limits are the reason.
+        The target is solved again with the limits of `wide_limits`: if it is reached then, the limits are the reason.
 
         Args:
             target: see `solve`.

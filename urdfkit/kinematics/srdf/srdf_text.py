@@ -88,6 +88,8 @@ def missing_links(old: str, robot: Robot, file: str) -> list[str]:
 def updated_srdf(old: str, matrix: CollisionMatrix, file: str) -> str:
     """Return an SRDF whose lines of disabled pairs with a reason of `REASONS` are replaced; the rest stays.
 
+    Lines of links whose shapes cannot be read stay, too.
+
     Args:
         old: text of the SRDF.
         matrix: collisions of the links.
@@ -97,7 +99,11 @@ def updated_srdf(old: str, matrix: CollisionMatrix, file: str) -> str:
         DescriptionError: the text has no ``</robot>``.
     """
     hidden = [match.span() for match in _COMMENT.finditer(old)]
-    found = [match for match in _OURS.finditer(old) if not any(a <= match.start() < b for a, b in hidden)]
+    found = [
+        match
+        for match in _OURS.finditer(old)
+        if not any(a <= match.start() < b for a, b in hidden) and matrix.incomplete.isdisjoint(_links(match[0]))
+    ]
     kept = old
     for match in reversed(found):
         kept = kept[: match.start()] + kept[match.end() :]
