@@ -16,7 +16,7 @@ from tests.kinematics.arms import FR3, PANDA, random_configurations, robot_or_sk
 from urdfkit import load
 from urdfkit.description.sdf import Cone, Ellipsoid, Plane
 from urdfkit.description.urdf.robot import Box, Capsule, Cylinder, Pose, Robot, Sphere
-from urdfkit.errors import KinematicsError, MissingDependencyError
+from urdfkit.errors import KinematicsError, MissingDependencyError, ResourceError
 from urdfkit.kinematics import Chain, Kinematics
 from urdfkit.meshes.textures import Texture
 from urdfkit.meshes.triangle_mesh import TriMesh
@@ -108,6 +108,18 @@ def test_yourdfpy_finds_meshes_of_packages(tmp_path: Path, caplog: pytest.LogCap
     with caplog.at_level(logging.WARNING):
         load(file).to_yourdfpy()
     assert caplog.messages == ["Can't find package://shapes/ball.stl"]
+
+
+def test_yourdfpy_names_the_robot_whose_mesh_it_cannot_read(tmp_path: Path) -> None:
+    (tmp_path / "a.dae").write_text("nothing")
+    shape = '<visual><geometry><mesh filename="a.dae"/></geometry></visual>'
+    (tmp_path / "r.urdf").write_text(f'<robot name="r"><link name="a">{shape}</link></robot>')
+    robot = load(tmp_path / "r.urdf")
+    with pytest.raises(ResourceError, match=r"robot `r`: yourdfpy cannot read a mesh .*load_meshes=False"):
+        robot.to_yourdfpy()
+    assert robot.to_yourdfpy(load_meshes=False).base_link == "a"
+    with pytest.raises(TypeError, match="load_mesh"):
+        robot.to_yourdfpy(load_mesh=False)
 
 
 def test_without_yourdfpy(arm: Robot, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -364,6 +364,7 @@ class Robot:
 
         Raises:
             MissingDependencyError: yourdfpy is not installed.
+            ResourceError: yourdfpy cannot read a mesh.
         """
         from urdfkit.description.urdf.yourdfpy_export import yourdfpy_of
 

@@ -34,7 +34,14 @@ def yourdfpy_of(robot: Any, **options: Any) -> Any:
         materials=[_material(material) for material in robot.materials],
     )
     handler = {} if robot.packages is None else {"filename_handler": resolve}
-    return yourdfpy.URDF(robot=exported, **{**handler, **options})
+    try:
+        return yourdfpy.URDF(robot=exported, **{**handler, **options})
+    except TypeError:  # an unknown option
+        raise
+    except Exception as error:  # any error of the reader of a mesh
+        reason = next(iter(str(error).strip().splitlines()), "") or type(error).__name__
+        without = "`to_yourdfpy(load_meshes=False)` exports the robot without its meshes"
+        raise ResourceError(f"robot `{robot.name}`: yourdfpy cannot read a mesh ({reason}); {without}") from error
 
 
 def _link(link: Any) -> Any:

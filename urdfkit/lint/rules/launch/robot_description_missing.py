@@ -61,7 +61,7 @@ class RobotDescriptionMissing(RobotRule):
             is_publisher = node.program == node.package == "robot_state_publisher"
             names = node.parameters
             if is_publisher and names is not None and not node.has_arguments and "robot_description" not in names:
-                message = "`robot_state_publisher` has no parameter `robot_description`"
+                message = "`robot_state_publisher` is started without the parameter `robot_description`"
                 yield Finding(self.code, self.name, self.severity, message, node.source.span(node.start, node.end))
         yield from self._in_ros1(model)
 
