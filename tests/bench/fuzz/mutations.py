@@ -31,9 +31,19 @@ def yaml(text: str, rng: random.Random) -> str:
             for _ in range(rng.choice((1, 2, 4))):
                 changed = tree(parsed, rng)
                 parsed = changed if isinstance(changed, dict | list) else parsed
-            if len(repr(parsed)) < 100_000:
+            if _is_small(parsed):
                 return str(dump(parsed, allow_unicode=True, sort_keys=False))
     return lines_of_yaml(text, rng)
+
+
+def _is_small(tree: Any) -> bool:
+    """Return whether a tree has few nodes; each use of a YAML anchor counts."""
+    pending = [tree]
+    for node in pending:  # The list grows during the iteration.
+        pending += node.values() if isinstance(node, dict) else node if isinstance(node, list | tuple | set) else ()
+        if len(pending) > 10_000:
+            return False
+    return True
 
 
 def lines_of_yaml(text: str, rng: random.Random) -> str:
