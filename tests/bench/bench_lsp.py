@@ -82,8 +82,9 @@ def main() -> int:
                 walls, cpus = [], []
                 for edit in range(edits):
                     mass = f"{1.0 + edit / 1000:.3f}" if edit % 5 else "-1.0"
+                    text = robot(links, mass, form=form, meshes=meshes)
                     before, start = cpu_of(client.process.pid), time.perf_counter()
-                    client.change(name, robot(links, mass, form=form, meshes=meshes))
+                    client.change(name, text)
                     diagnostics = client.published(name)
                     walls.append(time.perf_counter() - start)
                     cpus.append(cpu_of(client.process.pid) - before)

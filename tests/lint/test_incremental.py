@@ -138,3 +138,17 @@ def test_an_edit_that_moves_lines_is_read_as_a_whole(tmp_path: Path) -> None:
     assert [e.origin for e in memory.element(Source("a.urdf", moved)).walk()] == [
         e.origin for e in document_of(Source("a.urdf", moved)).walk()
     ]
+
+
+def test_a_moment_is_reported_once_its_mirrored_part_has_gone(tmp_path: Path) -> None:
+    link = (
+        '<link name="{}"><inertial><mass value="6"/><inertia ixx="0.1" ixy="{}0.001" ixz="0" iyy="0.01" iyz="0" '
+        'izz="0.1"/></inertial><visual><geometry><box size="0.3162 0.3162 0.3162"/></geometry></visual></link>'
+    )
+    rest = "".join(f'<link name="part_{n}"/>\n' for n in range(8))
+    path, project = tmp_path / "arm.urdf", Project(Options(select=("I506",)))
+    path.write_text(f'<robot name="arm">\n{link.format("left", "")}\n{link.format("right", "-")}\n{rest}</robot>\n')
+    assert [found for found in project.findings(path)[path] if found.code == "I506"] == []
+    project.set_text(path, path.read_text("utf-8").replace('"-0.001" ixz="0" iyy="0.01"', '"0" ixz="0" iyy="0.1"'))
+    found = [finding for finding in project.findings(path)[path] if finding.code == "I506"]
+    assert [finding.link for finding in found] == ["left"]

@@ -17,7 +17,7 @@ SOURCE: tuple[Row, ...] = (
         "UnprefixedDirective",
     ),
     ("macro", "xacro.unprefixed_macro_call", "UnprefixedMacroCall"),
-    ("rpy PI\" PI' Pi\" Pi' pi\" pi'", "xacro.rounded_pi", "RoundedPi"),
+    ("rpy property", "xacro.rounded_pi", "RoundedPi"),
     ("load_yaml", "xacro.deprecated_call", "DeprecatedCall"),
     ("xacro:include", "xacro.include_with_parameters", "IncludeWithParameters"),
     ("<inertia", "xacro.inertia_formula", "InertiaFormula"),

@@ -22,9 +22,11 @@ def meshes(robot: Robot) -> Iterator[tuple[Mesh, Element, Link]]:
 
     for link in robot.links:
         for item in shapes_of(link):
+            if not isinstance(item.geometry, Mesh) or not item.geometry.uri.strip():
+                continue
             geometry = item.element.find("geometry")
             element = geometry.find("mesh") if geometry is not None else None
-            if isinstance(item.geometry, Mesh) and element is not None and item.geometry.uri.strip():
+            if element is not None:
                 yield item.geometry, element, link
 
 

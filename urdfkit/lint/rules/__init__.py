@@ -37,10 +37,10 @@ def source_rules(sources: Mapping[str, Source] | None = None) -> tuple[type[Sour
     def has(words: str) -> bool:
         if words.startswith("*"):
             return any(file.endswith(words[1:]) for file in sources)
-        if " " not in words:
-            return any(words in source.text for source in sources.values())
-        pattern = "|".join(map(re.escape, words.split()))
-        return any(re.search(pattern, source.text) for source in sources.values())
+        if words.startswith("<"):
+            pattern = re.compile("|".join(words.split()))
+            return any(pattern.search(source.text) for source in sources.values())
+        return any(word in source.text for source in sources.values() for word in words.split())
 
     return tuple(_rules(row for row in SOURCE if not row[0] or has(row[0])))
 

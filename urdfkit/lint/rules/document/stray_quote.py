@@ -9,6 +9,8 @@ from urdfkit.lint.rule import Findings, Model, RobotRule
 _BACKTICKS = "`\u2018\u2019\u201c\u201d"
 _QUOTES = "\"'"
 _INVISIBLE = "[\u00a0\u200b-\u200f\u2060\ufeff]"
+_BLANKS = bytes(code for code in range(128) if chr(code).isspace())
+_ONE_QUOTE = bytes.maketrans(b"'", b'"')
 _STRAY = f"[{_BACKTICKS}]|{_INVISIBLE}"
 
 
@@ -93,15 +95,17 @@ def _written(model: Model, element: Element) -> str:
 
 def _is_suspect(text: str) -> bool:
     """Whether a text may contain a stray character; most texts need no regular expression."""
-    if "`" in text or "'\"" in text or "\"'" in text or _has_quotes_outside(text):
+    if "`" in text or ("'" in text and ("'\"" in text or "\"'" in text)) or _has_quotes_outside(text):
         return True
     return not text.isascii() and re.search(_STRAY, text) is not None
 
 
 def _has_quotes_outside(text: str) -> bool:
     """Whether a quote follows a tag or precedes an end tag, with or without white space between them."""
-    dense = "".join(text.split())  # a regular expression takes three times as long
-    return any(pair in dense for pair in ('"</', "'</", '>"', ">'"))
+    # A regular expression takes twenty times as long.
+    written = text if text.isascii() else "".join(text.split())
+    dense = written.encode(errors="replace").translate(_ONE_QUOTE, _BLANKS)
+    return b'"</' in dense or b'>"' in dense
 
 
 def _cleaned(value: str) -> str | None:

@@ -1,7 +1,7 @@
 """G604 mesh-scale-suspect."""
 
 from bisect import bisect_right
-from math import dist, sqrt
+from math import dist, hypot, sqrt
 
 from urdfkit.description.urdf.geometry import box_around
 from urdfkit.description.urdf.principal_moments import principal_moments
@@ -126,11 +126,13 @@ def _median(ordered: list[float]) -> float:
 
 def _reference_sizes(model: Model) -> list[float]:
     """Return the distances between joints and the sizes of shapes other than meshes [m]."""
-    sizes = [sum(part * part for part in joint.origin.xyz) ** 0.5 for joint in model.robot.joints]
+    sizes = [hypot(*joint.origin.xyz) for joint in model.robot.joints]
+    extents = model.extents
     for link in model.robot.links:
-        primitives = [shape for shape in shapes_of(link) if not isinstance(shape.geometry, Mesh)]
-        if link.name in model.extents and len(primitives) == len(shapes_of(link)):
-            sizes.append(model.extents[link.name].diagonal)
+        shapes = shapes_of(link)
+        primitives = [shape for shape in shapes if not isinstance(shape.geometry, Mesh)]
+        if link.name in extents and len(primitives) == len(shapes):
+            sizes.append(extents[link.name].diagonal)
         elif primitives:  # A shape next to a mesh has about the same size.
             corners = (box_around(shape.geometry, shape.origin) for shape in primitives if shape.geometry is not None)
             sizes += [dist(low, high) for low, high in corners]

@@ -84,6 +84,8 @@ class TextureMissing(RobotRule):
 
 def _textures(model: Model) -> Iterator[Element]:
     """Yield the texture of each material of the robot and of its visual shapes."""
+    if not any("texture" in source.text for source in model.expanded.sources.values()):
+        return
     materials = [child for child in model.robot.element.children if child.tag == "material"]
     materials += [
         each for link in model.robot.links for visual in link.visuals if (each := visual.element.find("material"))

@@ -1,10 +1,13 @@
 """I510 inertia-copy-paste."""
 
 from itertools import pairwise
+from operator import attrgetter
 
 from urdfkit.description.urdf.robot import Link
 from urdfkit.lint.facts.inertia.inertia_from_shapes import COMPONENTS
 from urdfkit.lint.rule import Findings, Model, RobotRule
+
+_values = attrgetter(*COMPONENTS)
 
 
 class InertiaCopyPaste(RobotRule):
@@ -77,13 +80,14 @@ class InertiaCopyPaste(RobotRule):
         for link in model.robot.links:
             inertia = link.inertial.inertia if link.inertial is not None else None
             if inertia is not None and link.inertial is not None:
-                values = tuple(getattr(inertia, name) for name in COMPONENTS)
+                values = _values(inertia)
                 if any(values):
                     groups.setdefault(values, []).append(link)
         for links in groups.values():
             if len(links) < 3:
                 continue
-            extents = {id(extent): extent for link in links if (extent := model.extents.get(link.name)) is not None}
+            every = model.extents
+            extents = {id(extent): extent for link in links if (extent := every.get(link.name)) is not None}
             sizes = sorted({round(extent.diagonal, 6) for extent in extents.values()})
             size_steps = [a for a, b in pairwise(sizes) if b > 1.1 * a]
             inertial = links[0].inertial

@@ -52,7 +52,7 @@ class InertiaFormula(SourceRule):
     def check(self, document: Document, model: Model) -> Findings:
         """Yield a finding for each wrong moment of inertia."""
         text = document.source.text
-        if not any("${" in piece.partition("<")[0] for piece in text.split("<inertia")[1:]):
+        if "${" not in text or not any("${" in piece.partition("<")[0] for piece in text.split("<inertia")[1:]):
             return
         from urdfkit.lint.facts.inertia.inertia_formulas import slip
 
