@@ -38,6 +38,13 @@ class UrdfkitError(Exception):
         message: the defect and the valid alternative, without the position.
         position: the position in the source file, if there is one.
         code: code of the lint rule that reports the same defect; None if unknown.
+
+    Examples:
+        >>> try:
+        ...     urdfkit.load("simpelton")
+        ... except urdfkit.UrdfkitError as error:
+        ...     print(error)
+        no robot, file or folder `simpelton`; did you mean `simpleton`?
     """
 
     def __init__(self, message: str, *, position: Position | None = None, code: str | None = None) -> None:

@@ -58,6 +58,11 @@ def load(
         XmlError: a file is not well-formed, declares entities, or exceeds a limit.
         XacroError: xacro could not expand it.
         ModelError: the file is not a robot, the links are not a single tree, or a value is invalid.
+
+    Examples:
+        >>> robot = urdfkit.load("gem_e2", arguments={"velodyne": "false"})
+        >>> robot.name, len(robot.links)
+        ('gem_e2', 11)
     """
     package_path = tuple(package_path)
     if isinstance(robot, Robot) and not arguments and not package_path and macro is None:
@@ -211,6 +216,10 @@ def expand(
         ResourceError: no such file, folder or bundled robot.
         XmlError: a file is not well-formed, declares entities, or exceeds a limit.
         XacroError: xacro could not expand it.
+
+    Examples:
+        >>> urdfkit.expand("simpleton").count("<link ")
+        7
     """
     model = model_argument(robot, arguments=arguments, package_path=package_path)
     packages = Packages(model.package_path, model.path)

@@ -56,6 +56,12 @@ class Chain:
             and ``joint/theta``.
         lower: lower limits [rad] or [m], minus infinity without one; shape (n,).
         upper: upper limits [rad] or [m], infinity without one; shape (n,).
+
+    Examples:
+        >>> arm = Chain("seven_dof_arm", None, "grasping_frame")
+        >>> found = arm.solve(arm.forward(np.full(len(arm.joint_names), 0.1)))
+        >>> bool(found.reached), found.q.shape
+        (True, (7,))
     """
 
     def __init__(

@@ -18,6 +18,12 @@ class JointLimitError(KinematicsError):
         value: the requested position [rad] or [m].
         lower: the lower limit [rad] or [m].
         upper: the upper limit [rad] or [m].
+
+    Examples:
+        >>> arm = urdfkit.Kinematics("seven_dof_arm")
+        >>> for error in arm.limit_errors({"elbow_pitch_joint": 9.0}):
+        ...     print(error.joint, error.value, error.upper)
+        elbow_pitch_joint 9.0 1.933
     """
 
     def __init__(self, joint: Joint, value: float, lower: float, upper: float) -> None:

@@ -19,6 +19,11 @@ class Coupling:
         master: the joint that moves on its own; None when the chain ends at a fixed joint.
         multiplier: factor; [1], [m/rad] or [rad/m] where the two joints are of different kinds.
         offset: [rad] or [m].
+
+    Examples:
+        >>> finger = Coupling("left_finger", "right_finger", multiplier=-1.0, offset=0.02)
+        >>> finger.multiplier * 0.01 + finger.offset  # position of the left finger [m]
+        0.01
     """
 
     joint: str

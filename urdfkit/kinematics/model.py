@@ -53,6 +53,12 @@ class Kinematics:
         several_names: planar and floating joints, in the order of q.
         variable_names: names for `configuration`: `joint_names` and the variables of planar and floating joints.
         link_names: all links in document order.
+
+    Examples:
+        >>> arm = urdfkit.Kinematics("seven_dof_arm")
+        >>> poses = arm.link_poses(arm.configuration({"elbow_pitch_joint": 0.5}))
+        >>> poses[arm.link_names.index("grasping_frame")].round(2)  # x y z [m] and quaternion x y z w
+        array([ 0.21,  0.  ,  0.79,  0.  , -0.51,  0.  ,  0.86])
     """
 
     def __init__(self, robot: Robot | str | Path, *, floating_base: bool = False) -> None:

@@ -65,6 +65,11 @@ class TransformTree:
         frames: all frames in document order.
         edges: one per joint, parents before children, in document order.
         parents: frame → the frame above it; None above the root.
+
+    Examples:
+        >>> tree = TransformTree(urdfkit.load("simpleton"))
+        >>> tree.placement("left_wheel", "base_footprint", {"left_wheel_joint": 0.3}).translation  # [m]
+        array([0.  , 0.21, 0.1 ])
     """
 
     def __init__(self, kinematics: Kinematics | Robot) -> None:

@@ -50,6 +50,12 @@ def lint(
     Raises:
         UsageError: a code or the target is unknown, or a loaded robot was not read from a file.
         ResourceError: a path does not exist or has no robot description.
+
+    Examples:
+        >>> urdfkit.lint("simpleton")
+        []
+        >>> [finding.code for finding in urdfkit.lint("arm.urdf", select=["I"])]
+        ['I503']
     """
     from collections.abc import Iterable
     from pathlib import Path

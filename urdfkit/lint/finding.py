@@ -66,6 +66,11 @@ class Finding:
         cause: words that findings of one rule share if they have one cause; empty if the message is the same.
         related: the findings of other places with the same cause, where findings are grouped.
         variant: the xacro arguments of a launch file, and the launch file, if the robot has the defect only with them.
+
+    Examples:
+        >>> for finding in urdfkit.lint("arm.urdf"):
+        ...     print(finding.file, finding.line, finding.code, finding.severity)
+        arm.urdf 6 I503 error
     """
 
     code: str

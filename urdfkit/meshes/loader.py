@@ -51,6 +51,13 @@ class MeshLoader:
     Args:
         is_for_screen: simplify meshes of more than a million triangles (`simplification`). Large STL files are never
             in the memory as a whole mesh then.
+
+    Examples:
+        >>> data = trimesh.creation.box((1, 2, 3)).export("box.stl")
+        >>> meshes = MeshLoader()
+        >>> meshes.load(Path("box.stl"), scale=(2, 1, 1)).bounds
+        array([[-1. , -1. , -1.5],
+               [ 1. ,  1. ,  1.5]])
     """
 
     def __init__(self, *, is_for_screen: bool = False) -> None:

@@ -29,6 +29,12 @@ class TriMesh:
             vertices.
         simplified_from: number of triangles in the file if the mesh was simplified for the screen, otherwise 0.
         hash: hexadecimal digest of all of the above: equal meshes have equal hashes.
+
+    Examples:
+        >>> mesh = TriMesh(np.float32([[0, 0, 0], [1, 0, 0], [0, 1, 0]]), np.int32([[0, 1, 2]]))
+        >>> mesh.bounds
+        array([[0., 0., 0.],
+               [1., 1., 0.]])
     """
 
     vertices: NDArray[np.float32] = field(repr=False)

@@ -26,6 +26,9 @@ def require_message_types() -> None:
 
     Raises:
         MissingDependencyError: it is not.
+
+    Examples:
+        >>> require_message_types()  # no error: rosbags is installed
     """
     from importlib.util import find_spec
 
@@ -94,6 +97,10 @@ def typestore() -> Any:
 
     Raises:
         MissingDependencyError: rosbags is not installed.
+
+    Examples:
+        >>> "control_msgs/msg/JointControllerState" in typestore().types
+        True
     """
     from urdfkit.errors import MissingDependencyError
 
@@ -111,6 +118,12 @@ def register_types(name: str, text: str) -> dict[str, Any]:
 
     Raises:
         UsageError: the text is no definition.
+
+    Examples:
+        >>> sorted(register_types("lab_msgs/msg/Grip", "float64 force"))
+        ['lab_msgs/msg/Grip']
+        >>> from_fields("lab_msgs/msg/Grip", {"force": 2.5}).force
+        2.5
     """
     from rosbags.typesys import TypesysError, get_types_from_msg
 
@@ -125,7 +138,14 @@ def register_types(name: str, text: str) -> dict[str, Any]:
 
 
 def register_in(store: Any, layouts: Mapping[str, Any]) -> None:
-    """Add types to a typestore; pickle still finds the earlier classes, whose module rosbags replaces."""
+    """Add types to a typestore; pickle still finds the earlier classes, whose module rosbags replaces.
+
+    Examples:
+        >>> store = rosbags.typesys.get_typestore(rosbags.typesys.Stores.EMPTY)
+        >>> register_in(store, {"lab_msgs/msg/Lamp": typestore().fielddefs["std_msgs/msg/Bool"]})
+        >>> "lab_msgs/msg/Lamp" in store.types
+        True
+    """
     import sys
 
     before = sys.modules.get(_MODULE)
@@ -137,7 +157,13 @@ def register_in(store: Any, layouts: Mapping[str, Any]) -> None:
 
 
 def register_layouts(layouts: Mapping[str, Any]) -> None:
-    """Add the unknown ones of types, by rosbags' descriptions of their fields."""
+    """Add the unknown ones of types, by rosbags' descriptions of their fields.
+
+    Examples:
+        >>> register_layouts({"lab_msgs/msg/Switch": typestore().fielddefs["std_msgs/msg/Bool"]})
+        >>> from_fields("lab_msgs/msg/Switch", {"data": True}).data
+        True
+    """
     store = typestore()
     if new := {name: layout for name, layout in layouts.items() if name not in store.fielddefs}:
         register_in(store, new)
@@ -146,34 +172,64 @@ def register_layouts(layouts: Mapping[str, Any]) -> None:
 
 
 def full_type_name(name: str, kind: str = "msg") -> str:
-    """Turn ``geometry_msgs/Twist`` into ``geometry_msgs/msg/Twist``; keep full names. Services have kind ``srv``."""
+    """Turn ``geometry_msgs/Twist`` into ``geometry_msgs/msg/Twist``; keep full names. Services have kind ``srv``.
+
+    Examples:
+        >>> full_type_name("geometry_msgs/Twist"), full_type_name("std_srvs/Empty", "srv")
+        ('geometry_msgs/msg/Twist', 'std_srvs/srv/Empty')
+    """
     parts = name.split("/")
     return f"{parts[0]}/{kind}/{parts[1]}" if len(parts) == 2 else name
 
 
 def stamp(t: float) -> Any:
-    """Return a ``builtin_interfaces/msg/Time`` of simulated time `t` [s], rounded to the nanosecond."""
+    """Return a ``builtin_interfaces/msg/Time`` of simulated time `t` [s], rounded to the nanosecond.
+
+    Examples:
+        >>> stamp(2.25).sec
+        2
+    """
     nanoseconds = round(t * 1e9)
     return message_type("builtin_interfaces/msg/Time")(nanoseconds // 1_000_000_000, nanoseconds % 1_000_000_000)
 
 
 def header(t: float, frame_id: str) -> Any:
-    """Return a ``std_msgs/msg/Header``."""
+    """Return a ``std_msgs/msg/Header``.
+
+    Examples:
+        >>> header(1.5, "odom").stamp.nanosec
+        500000000
+    """
     return message_type("std_msgs/msg/Header")(stamp(t), frame_id)
 
 
 def vector(xyz: Sequence[float]) -> Any:
-    """Return a ``geometry_msgs/msg/Vector3``."""
+    """Return a ``geometry_msgs/msg/Vector3``.
+
+    Examples:
+        >>> vector((1.0, 2.0, 3.0)).z
+        3.0
+    """
     return message_type("geometry_msgs/msg/Vector3")(float(xyz[0]), float(xyz[1]), float(xyz[2]))
 
 
 def twist(linear: Sequence[float], angular: Sequence[float]) -> Any:
-    """Return a ``geometry_msgs/msg/Twist`` [m/s, rad/s]."""
+    """Return a ``geometry_msgs/msg/Twist`` [m/s, rad/s].
+
+    Examples:
+        >>> twist((0.5, 0.0, 0.0), (0.0, 0.0, 1.0)).angular.z
+        1.0
+    """
     return message_type(TWIST)(vector(linear), vector(angular))
 
 
 def transform(t: float, frame: str, child: str, position: Sequence[float], quaternion: Sequence[float]) -> Any:
-    """Return a ``geometry_msgs/msg/TransformStamped``: where `child` is in `frame` [m; x y z w]."""
+    """Return a ``geometry_msgs/msg/TransformStamped``: where `child` is in `frame` [m; x y z w].
+
+    Examples:
+        >>> transform(0.0, "odom", "base_link", (1.0, 0.0, 0.0), (0.0, 0.0, 0.0, 1.0)).transform.translation.x
+        1.0
+    """
     rotation = message_type("geometry_msgs/msg/Quaternion")(*(float(part) for part in quaternion))
     placement = message_type("geometry_msgs/msg/Transform")(vector(position), rotation)
     return message_type("geometry_msgs/msg/TransformStamped")(header(t, frame), child, placement)
@@ -189,6 +245,10 @@ def from_fields(type: str, fields: Any) -> Any:
 
     Raises:
         UsageError: no such type or field, or a value of the wrong kind.
+
+    Examples:
+        >>> from_fields("geometry_msgs/msg/Twist", {"linear": {"x": 0.5}}).linear.x
+        0.5
     """
     from urdfkit.errors import UsageError, did_you_mean
 

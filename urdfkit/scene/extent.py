@@ -27,6 +27,12 @@ def bounds(
 
     Returns:
         None where there is no shape.
+
+    Examples:
+        >>> kinematics = urdfkit.Kinematics("simpleton")
+        >>> bounds(scene_of(kinematics.robot), kinematics.link_poses(kinematics.neutral())).round(2)
+        array([[-0.38, -0.26,  0.  ],
+               [ 0.13,  0.26,  0.26]])
     """
     matrices = pose_matrices(poses)
     found = [
@@ -47,6 +53,11 @@ def lowest_point(scene: Scene, poses: ArrayLike, *, of: Container[str] | None = 
         scene: the shapes.
         poses: of the bodies, shape (len(scene.bodies), 7).
         of: names of the bodies; all when None.
+
+    Examples:
+        >>> kinematics = urdfkit.Kinematics("simpleton")
+        >>> lowest_point(scene_of(kinematics.robot), kinematics.link_poses(kinematics.neutral()))
+        0.0
     """
     box = bounds(scene, poses, role="collision", of=of)
     return None if box is None else float(box[0, 2])

@@ -46,6 +46,11 @@ class Shape:
         gloss: specular colour, 0..1, and exponent; an exponent of zero means matt.
         position: source position of its texture, else of its mesh; None without either.
         is_placeholder: whether it stands for a shape that cannot be shown; see `with_placeholders`.
+
+    Examples:
+        >>> shape = scene_of(urdfkit.load("simpleton")).shapes[0]
+        >>> shape.name, shape.role, shape.geometry
+        ('chassis/visual/0', 'visual', Box(size=(0.5, 0.3, 0.1)))
     """
 
     name: str
@@ -103,6 +108,11 @@ class Scene:
         bodies: names of the bodies; poses come as arrays of shape (len(bodies), 7) in this order.
         shapes: all shapes, body by body.
         problems: the missing shapes, unless errors are raised.
+
+    Examples:
+        >>> scene = scene_of(urdfkit.load("simpleton"))
+        >>> scene.bodies[:2], len(scene.shapes)
+        (('base_footprint', 'chassis'), 10)
     """
 
     bodies: tuple[str, ...]
@@ -158,6 +168,11 @@ def scene_of(robot: Robot, *, strict: bool = True, meshes: MeshLoader | None = N
 
     Raises:
         ResourceError: a mesh is missing or broken (`strict`), with the place where it is named.
+
+    Examples:
+        >>> scene = scene_of(urdfkit.load("simpleton"))
+        >>> [shape.body for shape in scene.with_role("collision")]
+        ['chassis', 'left_wheel', 'right_wheel', 'caster', 'camera']
     """
     meshes = meshes or MeshLoader()
     palette, wrapper = Palette(robot), Wrapper(lambda name: _resolve(robot, name))

@@ -85,6 +85,13 @@ class Simulator:
         note: reports a warning to the user, each text once.
         paused: `run` does not move while set; `step` does.
         requests: topic of a service → function that executes a request and raises its error.
+
+    Examples:
+        >>> simulator = urdfkit.Simulator("simpleton")
+        >>> simulator.command(linear=(0.5, 0.0, 0.0))
+        >>> simulator.run(2.0)
+        >>> simulator.t
+        2.0
     """
 
     def __init__(
@@ -312,7 +319,7 @@ class Simulator:
         """Period at which the drives read commands [s]; the time step if they read every step or none exists."""
         return max((PeriodicSteps(drive.write_rate, self.dt).period for drive in self._drives), default=self.dt)
 
-    def command(self, linear: Sequence[float], angular: Sequence[float]) -> None:
+    def command(self, linear: Sequence[float] = (0.0,) * 3, angular: Sequence[float] = (0.0,) * 3) -> None:
         """Publish a velocity command [m/s, rad/s] to every drive of the robot.
 
         Raises:

@@ -151,6 +151,7 @@ def test_each_parameter_changes_the_simulation() -> None:
     ("vary", "metric", "message"),
     [
         ("body.mas=1,2", "x", "unknown parameter `body.mas`; did you mean"),
+        ("mu=1,2", "x", "unknown parameter `mu`; did you mean `LINK.mu`?"),
         ("bodi.mass=1,2", "x", "no link or model `bodi`; did you mean `body`?"),
         ("body.mass=1,two", "x", "`body.mass` has the value `two`, which is not a number"),
         ("body.mass=1,1", "x", "`body.mass` has the value 1.0 twice"),

@@ -65,6 +65,11 @@ def teleop(
         MissingDependencyError: the extra ``sim`` is not installed.
         UsageError: `robot` is not a robot, or the port is busy.
         UrdfkitError: the robot or the world cannot be loaded or simulated.
+
+    Examples:
+        >>> with urdfkit.teleop("simpleton") as page:
+        ...     print(page.url.partition(":")[0])  # open the complete address in a browser
+        http
     """
     require_page("teleop", "sim", modules=("numba", "rosbags"))
     folders = tuple(package_path)

@@ -41,8 +41,9 @@ def require_valid_names(names: Iterable[str]) -> None:
         fixed = name in ("gravity", "dt", WORLD) or (name.startswith(XACRO) and kind)
         scheduled = subject in ("spawn", "target") or (subject == "cmd" and kind in (*COMMAND, "ramp"))
         if not (fixed or scheduled or (subject and kind in (*RESISTANCE, *GAINS, *SURFACE))):
-            near = (*FORMS, *RESISTANCE, *GAINS, *SURFACE)
-            hint = did_you_mean(kind if subject else name, near)
+            form = next((form for form in FORMS if form.rpartition(".")[2] == name), None)  # `mu`: of which link?
+            near = (*RESISTANCE, *GAINS, *SURFACE) if subject else FORMS
+            hint = f"; did you mean `{form}`?" if form else did_you_mean(kind if subject else name, near)
             raise UsageError(f"unknown parameter `{name}`{hint} (parameters: {', '.join(FORMS)})")
 
 

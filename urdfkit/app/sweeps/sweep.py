@@ -77,6 +77,13 @@ def sweep(
         MissingDependencyError: the extra ``sweep`` is not installed.
         UsageError: a parameter, metric or option is invalid, or the folder has another sweep.
         UrdfkitError: the robot or the world cannot be loaded or simulated.
+
+    Examples:
+        >>> results = urdfkit.sweep(
+        ...     "simpleton", vary={"cmd.vx": "0.2,0.5"}, metrics=["x"], duration=0.5, output="results", workers=1
+        ... )
+        >>> [row["cmd.vx"] for row in results.rows]
+        [0.2, 0.5]
     """
     require_packages("sweep", "sweep", PACKAGES)
     from urdfkit.description.loading import load_repaired

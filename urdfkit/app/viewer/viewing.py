@@ -48,6 +48,11 @@ def view(
         MissingDependencyError: the extra ``view`` is not installed.
         UsageError: `robot` is not a robot, or the port is busy.
         UrdfkitError: the robot cannot be loaded.
+
+    Examples:
+        >>> with urdfkit.view("simpleton") as page:
+        ...     print(page.url.partition(":")[0])  # open the complete address in a browser
+        http
     """
     require_page("view", "view", modules=("rosbags",))
     from urdfkit.app.repair_findings import note_repairs

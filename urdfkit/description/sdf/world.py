@@ -96,6 +96,11 @@ class World(Written):
         files: all files that were read, the world first.
         unknown_plugins: positions of the plugins that a note reports as unknown.
         position: source position.
+
+    Examples:
+        >>> world = load_world("house")
+        >>> world.name, world.gravity
+        ('house', (0.0, 0.0, -9.81))
     """
 
     name: str

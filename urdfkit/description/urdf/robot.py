@@ -291,6 +291,11 @@ class Robot:
     `links` and `joints` keep document order and duplicates. `files` are all files that were read, the entry first;
     `packages` resolves the URIs of its meshes; `arguments` are the xacro arguments. `load` sets all three. `repairs`
     are the changes to a defective robot.
+
+    Examples:
+        >>> robot = urdfkit.load("simpleton")
+        >>> [joint.name for joint in robot.joints if joint.type == "continuous"]
+        ['left_wheel_joint', 'right_wheel_joint']
     """
 
     name: str | None

@@ -33,6 +33,11 @@ class ReachMap:
         manipulability: largest √det(J·Jᵀ) of the configurations in `q`, 0 without any; shape (nx, ny, nz).
         reached: whether each orientation is reached; shape (nx, ny, nz, N).
         q: a configuration for each pose that is reached, zeros elsewhere; shape (nx, ny, nz, N, n).
+
+    Examples:
+        >>> found = reach_map(Chain("seven_dof_arm", None, "grasping_frame"), resolution=0.3, orientations=4)
+        >>> found.score.shape == found.centres().shape[:3], float(found.score.max())
+        (True, 0.5)
     """
 
     base: str
@@ -83,6 +88,12 @@ def reach_map(
     Raises:
         KinematicsError: a resolution that is not above zero, invalid orientations, or a map that is too large.
         ResourceError: `collision_free` is set, and a mesh cannot be read.
+
+    Examples:
+        >>> arm = Chain("seven_dof_arm", None, "grasping_frame")
+        >>> found = reach_map(arm, resolution=0.3, position_only=True)
+        >>> float(found.score.max())
+        1.0
     """
     if not 0.0 < resolution < np.inf:
         raise KinematicsError(f"the resolution is {resolution:g} m; it must be above zero")

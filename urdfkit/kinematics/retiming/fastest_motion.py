@@ -79,6 +79,13 @@ def retime(waypoints: ArrayLike, limits: MotionLimits, *, rate: float = 100.0) -
     Raises:
         KinematicsError: fewer than two different waypoints, or a position beyond its limits, also between waypoints.
         MissingDependencyError: toppra or ruckig is not installed.
+
+    Examples:
+        >>> joints = ["shoulder_pan_joint", "elbow_pitch_joint"]
+        >>> limits = motion_limits(urdfkit.load("seven_dof_arm"), joints, acceleration={"": 3.0})
+        >>> motion = retime([[0.0, 0.0], [0.8, -0.5], [-0.6, 0.3]], limits)
+        >>> motion.position[-1].round(6)
+        array([-0.6,  0.3])
     """
     points = np.asarray(waypoints, float)
     _check_waypoints(points, limits)

@@ -103,6 +103,11 @@ def collision_matrix(
 
     Raises:
         UrdfkitError: the robot cannot be loaded.
+
+    Examples:
+        >>> found = collision_matrix("seven_dof_arm", samples=1000)
+        >>> found.pairs[0].first, found.pairs[0].second, found.pairs[0].reason
+        ('bottom_link', 'base_link', 'Adjacent')
     """
     robot = load(robot)
     shapes = shapes_by_link(robot, note)

@@ -23,6 +23,12 @@ class Solutions:
         rotation_error: angle from the tip to the target [rad]; shape (N,).
         restarts: number of random starts that were needed; shape (N,).
         collisions: pairs of links that collide, of each target in order; None if they were not checked.
+
+    Examples:
+        >>> arm = Chain("seven_dof_arm", None, "grasping_frame")
+        >>> far = arm.solve([9.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0])
+        >>> bool(far.reached), far.q.shape, float(far.position_error) > 8.0
+        (False, (7,), True)
     """
 
     q: Array

@@ -64,6 +64,12 @@ class Batch:
         parameters: name → value in each world, of the parameters that vary; arrays of shape (n,).
         actions: the last actions, within their ranges; shape (n, joints with actions).
         diverged: worlds whose state is no longer finite; they stay as they are until they are reset; shape (n,).
+
+    Examples:
+        >>> worlds = Batch("simpleton", 4, vary={"gravity": (9.7, 9.9)}, threads=1)
+        >>> worlds.step(np.ones((4, 2)))
+        >>> worlds.positions.shape
+        (4, 2)
     """
 
     def __init__(

@@ -26,6 +26,11 @@ class Servo:
     Attributes:
         stiffness: [N·m/rad] or [N/m].
         damping: [N·m·s/rad] or [N·s/m].
+
+    Examples:
+        >>> worlds = Batch("rrbot", 2, control={"joint1": Servo(stiffness=50.0, damping=5.0)}, threads=1)
+        >>> worlds.actions.shape
+        (2, 1)
     """
 
     stiffness: float

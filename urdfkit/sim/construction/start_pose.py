@@ -31,6 +31,12 @@ class Spawn:
         twist: linear [m/s] and angular velocity [rad/s] of the root link, in world axes.
         joints: joint → position [rad] or [m].
         velocities: joint → velocity [rad/s] or [m/s].
+
+    Examples:
+        >>> start = Spawn(x=1.0, yaw=1.57, joints={"left_wheel_joint": 0.3})
+        >>> simulator = urdfkit.Simulator("simpleton", spawn=start)
+        >>> simulator.state.base_pose[:2]
+        (1.0, 0.0)
     """
 
     x: float = 0.0

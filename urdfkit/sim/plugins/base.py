@@ -50,6 +50,17 @@ class Drive(Commanding):
         read_rate: rate of `read` [Hz]; zero means every step.
         resting: `write` has nothing to do until something changes; the simulator then skips it.
         commands: topics of type Twist that it subscribes to.
+
+    Examples:
+        >>> class Conveyor(Drive):
+        ...     kind = "conveyor"  # of a `PluginSpec` table, for example in `specs`
+        ...     published = ()  # no odometry
+        ...
+        ...     def configure(self, setup):
+        ...         self.joint = setup.joint("belt_joint", self.plugin.position)
+        ...
+        ...     def write(self, state, motors):
+        ...         motors.set_velocity(self.joint, 1.0, effort=5.0)
     """
 
     kind: ClassVar[str]
@@ -128,6 +139,18 @@ class Sensor(Publisher):
         specs: its own tables, for plugins that `urdfkit.description.plugins` does not support.
         rate: rate of `measure` [Hz]; zero means every step.
         name: its name in the description; may be empty.
+
+    Examples:
+        >>> class Tachometer(Sensor):
+        ...     kind = "tachometer"  # of a `PluginSpec` table, for example in `specs`
+        ...     rate = 50.0
+        ...
+        ...     def configure(self, setup):
+        ...         self.joint = setup.joint("wheel_joint", self.plugin.position)
+        ...         self.topics = (setup.bus.advertise("/speed", "std_msgs/msg/Float64"),)
+        ...
+        ...     def measure(self, state, count):
+        ...         self.topics[0].publish(from_fields("std_msgs/msg/Float64", [state.velocity(self.joint)]))
     """
 
     kind: ClassVar[str]
@@ -156,6 +179,16 @@ class Controller(Commanding):
         rate: rate of `write` [Hz]; zero means every step.
         loop: control loop of controllers that can be listed, started and stopped; None for a plugin without one.
         initial_positions: joint → initial position [rad] or [m], unless the user sets it.
+
+    Examples:
+        >>> class Lock(Controller):
+        ...     kind = "lock"  # of a `PluginSpec` table, for example in `specs`
+        ...
+        ...     def configure(self, setup):
+        ...         self.joint = setup.joint("door_joint", self.plugin.position)
+        ...
+        ...     def write(self, state, motors):
+        ...         motors.exert(self.joint, -100.0 * state.position(self.joint))
     """
 
     kind: ClassVar[str]

@@ -81,6 +81,11 @@ class State:
     Attributes:
         step: number of steps since the start.
         odometer: the wheel odometry that the engine integrates.
+
+    Examples:
+        >>> state = urdfkit.Simulator("simpleton").state
+        >>> state.position("left_wheel_joint"), len(state.base_pose)
+        (0.0, 7)
     """
 
     def __init__(
