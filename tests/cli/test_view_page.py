@@ -6,7 +6,6 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-import trimesh
 from PIL import Image
 
 pytest.importorskip("pinocchio")
@@ -295,32 +294,3 @@ def test_a_phone_has_room_for_every_panel(lab_served, visits, keep, scheme: str)
         keep(page, f"phone-{scheme}-{name}")
     assert page.evaluate("document.documentElement.scrollWidth <= innerWidth")
     assert visits.problems == []
-
-
-@pytest.mark.slow
-def test_a_million_triangles_are_simplified_and_moved_quickly(serve, visits, until, tmp_path: Path) -> None:
-    torus = trimesh.creation.torus(0.3, 0.1, 710, 710)
-    torus.export(tmp_path / "torus.stl")
-    link = '<link name="ring"><visual><geometry><mesh filename="torus.stl"/></geometry></visual></link>'
-    (tmp_path / "ring.urdf").write_text(f'<robot name="ring">{link}</robot>')
-    page = visits.open(serve("view", str(tmp_path / "ring.urdf")).url)
-    page.evaluate("urdfkit.scene.settled()")
-    until(lambda: "of 1,008,200 triangles" in (page.locator("#simplified").text_content() or ""))
-    shown = page.evaluate("urdfkit.scene.shapes('ring', 'visual')[0].children[0].children[0].geometry.index.count / 3")
-    assert 300_000 < shown < 700_000
-    # Half a million triangles take a processor longer than the budget of a frame.
-    middle = page.locator("#pane").bounding_box()
-    page.mouse.move(middle["x"] + 300, middle["y"] + 300)
-    page.mouse.down()
-    used = "[urdfkit.viewport.budget.used, urdfkit.viewport.sunShadow.sun.castShadow]"
-
-    def drag() -> bool:
-        page.mouse.move(middle["x"] + 300 + len(seen), middle["y"] + 300)
-        seen.append(page.evaluate(used))
-        return seen[-1][0] > 0
-
-    seen: list[list[object]] = []
-    until(drag)
-    assert seen[-1][1] is False
-    page.mouse.up()
-    until(lambda: page.evaluate(used) == [0, True])  # at rest, everything is drawn again

@@ -1,25 +1,39 @@
-// Keeps the view moving where the processor draws: while something moves, frames that take too long are drawn with fewer
-// pixels and without shadows. A moment after the motion, one full frame is drawn.
-/* global MeshCat */
+// Keeps the view moving where the processor draws: while something moves, frames that take too long are drawn without
+// shadows and reflections, then with fewer pixels and triangles. A moment after the motion, one full frame is drawn.
 
+import { coarsen } from "../appearance/coarse_geometry.js";
+import { quicken } from "../appearance/surfaces.js";
 import { soft } from "./graphics_device.js";
 
-const SLOW = 80; // ms per frame, above which a coarser level is used
-const QUICK = 25; // ms per frame, below which a finer level is used
+const SLOW = 60; // ms per frame, above which a coarser level is used
 const REST = 250; // ms, and twice the time of a frame: without motion for so long, the full frame is drawn
 const CHECKED = 3; // every third frame is measured
-const LEVELS = [null, 0.7, 0.5, 0.35]; // pixels per pixel of the page; null: full frames with shadows
+const TRUSTED = 6000; // ms for which a level that was too slow is not tried again
+const LEVELS = [
+  // `pixels` per pixel of the page; only full frames have shadows and reflections
+  { pixels: 1, isFull: true },
+  { pixels: 1 },
+  { pixels: 0.7 },
+  { pixels: 0.5 },
+  { pixels: 0.5, isCoarse: true }, // with fewer triangles
+  { pixels: 0.35, isCoarse: true },
+];
 
 export class DrawingBudget {
+  static LEVELS = LEVELS;
+
   constructor(viewport) {
     this.viewport = viewport;
     this.level = 0;
     this.used = 0; // level of the last frame
     this.count = 0;
     this.until = 0; // time until which something counts as moving
-    this.held = false; // whether the camera is being dragged
+    this.held = false; // whether the camera or a slider is being dragged
     this.cost = 0; // of the last measured frame [ms]
+    this.refused = LEVELS.map(() => -Infinity); // when each level was too slow
     this.on = soft;
+    addEventListener("pointerdown", ({ target }) => target.matches?.("input[type=range]") && this.hold(true));
+    for (const end of ["pointerup", "pointercancel"]) addEventListener(end, () => this.held && this.hold(false));
   }
 
   /** Something moves: the camera, or the robot. */
@@ -31,7 +45,7 @@ export class DrawingBudget {
     this.timer = setTimeout(() => this.used > 0 && !this.held && this.viewport.dirty(), rest + 10);
   }
 
-  /** The camera is being dragged, or no longer. */
+  /** The camera or a slider is being dragged, or no longer. */
   hold(held) {
     this.held = held;
     this.motion();
@@ -40,25 +54,35 @@ export class DrawingBudget {
   /** Draw a frame with `render`. */
   draw(render) {
     const moves = this.on && (this.held || performance.now() < this.until);
-    this.#use(moves ? this.level : 0);
+    const isNew = this.#use(moves ? this.level : 0); // its programs are compiled first: not measured
     const start = performance.now();
     render();
-    if (!this.on || (moves ? this.count++ % CHECKED : this.level)) return;
+    if (!moves || isNew || this.count++ % CHECKED) return;
     // Reading a pixel waits until the frame is drawn.
     const gl = this.viewport.viewer.renderer.getContext();
     gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4));
-    this.cost = Math.min(performance.now() - start, 500);
-    if (this.cost > SLOW) this.level = Math.min(this.level + (this.cost > 3 * SLOW ? 2 : 1), LEVELS.length - 1);
-    else if (this.cost < QUICK) this.level = Math.max(this.level - 1, 0);
+    const now = performance.now();
+    this.cost = Math.min(now - start, 500);
+    if (this.cost > SLOW) {
+      this.refused[this.level] = now;
+      this.level = Math.min(this.level + (this.cost > 3 * SLOW ? 2 : 1), LEVELS.length - 1);
+    } else if (this.level > 0 && now - this.refused[this.level - 1] > TRUSTED) {
+      this.level -= 1;
+    }
   }
 
+  // Return whether the level has changed.
   #use(level) {
-    if (level === this.used) return;
+    if (level === this.used) return false;
     const { viewport } = this;
-    const { renderer } = viewport.viewer;
+    const { renderer, scene } = viewport.viewer;
+    const { pixels, isFull = false, isCoarse = false } = LEVELS[level];
+    if (isCoarse !== (LEVELS[this.used].isCoarse ?? false)) coarsen(scene, isCoarse);
     this.used = level;
-    renderer.setPixelRatio(LEVELS[level] ?? 1);
-    viewport.shadows(level === 0);
-    if (level === 0) renderer.shadowMap.needsUpdate = true;
+    renderer.setPixelRatio(pixels);
+    viewport.shadows(isFull);
+    quicken(scene, !isFull);
+    if (isFull) renderer.shadowMap.needsUpdate = true;
+    return true;
   }
 }
