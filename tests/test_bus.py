@@ -74,3 +74,20 @@ def test_types_may_be_named_as_in_ros_1() -> None:
     assert heard == [1]
     assert bus.advertise("/new", "std_msgs/Bool").type == "std_msgs/msg/Bool"
     assert topic.type == "nav_msgs/msg/Odometry"
+
+
+def test_a_message_that_takes_long_is_built_once_by_whoever_needs_it() -> None:
+    bus, built, heard, builders = Bus(), [], [], []
+    topic = bus.advertise("a", "T")
+    waiting = bus.subscribe("a", "T", heard.append, defer=builders.append)
+    topic.offer_later(lambda: built.append("x") or "x", count=2)
+    assert (topic.count, built, heard) == (2, [], [])
+    assert (builders.pop()(), bus.latest("a"), built) == ("x", "x", ["x"])
+    bus.subscribe("a", "T", lambda message: heard.append(("now", message)))
+    topic.offer_later(lambda: built.append("y") or "y")
+    assert (heard, builders[0](), built, topic.count) == ([("now", "y")], "y", ["x", "y"], 3)
+    topic.publish("z")
+    assert heard[1:] == ["z", ("now", "z")]
+    waiting.close()
+    topic.offer_later(lambda: "w")
+    assert (heard[-1], len(builders)) == (("now", "w"), 1)

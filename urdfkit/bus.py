@@ -4,9 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
+from threading import Lock
 from typing import Any
 
 from urdfkit.errors import UsageError, nearest
+
+Build = Callable[[], Any]
+"""Makes a message."""
 
 
 @dataclass(slots=True)
@@ -26,7 +30,8 @@ class Topic:
     is_input: bool = False
     subscribers: list[Callable[[Any], None]] = field(default_factory=list, repr=False)
     _latest: Any = field(default=None, repr=False)
-    _build: Callable[[], Any] | None = field(default=None, repr=False)
+    _build: Build | None = field(default=None, repr=False)
+    _defer: dict[Callable[[Any], None], Callable[[Build], None]] = field(default_factory=dict, repr=False)
 
     @property
     def latest(self) -> Any:
@@ -47,7 +52,7 @@ class Topic:
         for callback in tuple(self.subscribers):
             callback(message)
 
-    def offer(self, build: Callable[[], Any], *, count: int = 1) -> None:
+    def offer(self, build: Build, *, count: int = 1) -> None:
         """Publish the message that `build` makes; build it only for a subscriber or a reader of `latest`.
 
         Args:
@@ -61,13 +66,49 @@ class Topic:
             self.count += count
             self._build = build
 
+    def offer_later(self, build: Build, *, count: int = 1) -> None:
+        """Publish a message that takes long to build, see `offer`; subscribers with `defer` build it themselves.
+
+        Args:
+            build: makes the message, once, in any thread; must keep the current values.
+            count: number of publications this call stands for.
+        """
+        if not self._defer:
+            self.offer(build, count=count)
+            return
+        build = _Once(build)
+        self.count += count
+        self._latest, self._build = None, build
+        for callback in tuple(self.subscribers):
+            if callback in self._defer:
+                self._defer[callback](build)
+            else:
+                callback(self.latest)
+
+
+class _Once:
+    """Makes a message once, for all threads that call it."""
+
+    def __init__(self, build: Build) -> None:
+        self._build: Build | None = build
+        self._lock, self._made = Lock(), None
+
+    def __call__(self) -> Any:
+        with self._lock:
+            if self._build is not None:
+                self._made, self._build = self._build(), None
+            return self._made
+
 
 class Subscription:
     """A running subscription; `close` ends it."""
 
-    def __init__(self, topic: Topic, callback: Callable[[Any], None]) -> None:
+    def __init__(self, topic: Topic, callback: Callable[[Any], None], defer: Callable[[Build], None] | None) -> None:
         self._topic = topic
         self._callback = callback
+        topic.subscribers.append(callback)
+        if defer is not None:
+            topic._defer[callback] = defer
 
     def __repr__(self) -> str:
         """Return topic and type, and whether the subscription is closed."""
@@ -78,6 +119,7 @@ class Subscription:
         """Stop receiving; closing twice is harmless."""
         if self._callback in self._topic.subscribers:
             self._topic.subscribers.remove(self._callback)
+            self._topic._defer.pop(self._callback, None)
 
 
 class Bus:
@@ -115,13 +157,21 @@ class Bus:
             raise UsageError(f"topic `{topic.name}` has type {topic.type}, not {kind}")
         topic.publish(message)
 
-    def subscribe(self, name: str, type: str, callback: Callable[[Any], None]) -> Subscription:
-        """Call `callback` with every message published from now on."""
+    def subscribe(
+        self, name: str, type: str, callback: Callable[[Any], None], *, defer: Callable[[Build], None] | None = None
+    ) -> Subscription:
+        """Call `callback` with every message published from now on.
+
+        Args:
+            name: of the topic.
+            type: of its messages.
+            callback: receives each message, in the publisher's thread.
+            defer: receives, instead of a message that takes long to build, the function that builds it, in any thread.
+        """
         is_new = absolute(name) not in self._topics
         topic = self.advertise(name, type)
         topic.is_input = topic.is_input or is_new
-        topic.subscribers.append(callback)
-        return Subscription(topic, callback)
+        return Subscription(topic, callback, defer)
 
     def latest(self, name: str) -> Any:
         """Return the last message of a topic; None before the first."""

@@ -2,7 +2,19 @@ import numpy as np
 import pytest
 
 from urdfkit.errors import UsageError
-from urdfkit.messages import JOINT_STATE, TF, TWIST, from_fields, full_type_name, message_type, stamp, transform, twist
+from urdfkit.messages import (
+    JOINT_STATE,
+    TF,
+    TWIST,
+    from_fields,
+    full_type_name,
+    message_type,
+    stamp,
+    transform,
+    twist,
+    typestore,
+)
+from urdfkit.messages.conversion import LONG, cdr_parts
 
 
 def test_type_names() -> None:
@@ -94,3 +106,16 @@ def test_wrong_fields(fields: object, reported: str) -> None:
 def test_transforms() -> None:
     link = transform(1.0, "odom", "base", (1, 2, 3), (0, 0, 0, 1))
     assert (link.header.frame_id, link.child_frame_id, link.transform.translation.y) == ("odom", "base", 2.0)
+
+
+@pytest.mark.parametrize("size", [0, 7, LONG, LONG + 1, LONG + 6, 3 * LONG + 7])
+@pytest.mark.parametrize("kind", ["Image", "CompressedImage", "PointCloud2"])
+def test_parts_of_cdr_are_the_whole_message(kind: str, size: int) -> None:
+    name = f"sensor_msgs/msg/{kind}"
+    message = from_fields(name, {"header": {"frame_id": "x" * (size % 5)}})
+    message.data = np.arange(size).astype(np.uint8)
+    if kind == "PointCloud2":
+        message.is_dense = True
+    parts = cdr_parts(message, name)
+    assert b"".join(parts) == bytes(typestore().serialize_cdr(message, name))
+    assert (len(parts) > 1) == (size >= LONG)

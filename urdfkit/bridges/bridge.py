@@ -11,6 +11,7 @@ from collections.abc import Callable, Iterator
 from threading import Event
 from typing import Any, Protocol
 
+from urdfkit.bridges.message_builder import MessageBuilder
 from urdfkit.bus import Bus, Topic
 from urdfkit.errors import UrdfkitError
 
@@ -67,10 +68,11 @@ class CallQueue:
 
 
 class Bridges:
-    """The open bridges of one simulation, and the queue that they share."""
+    """The open bridges of one simulation, and the queue and the builder of messages that they share."""
 
-    def __init__(self) -> None:
+    def __init__(self, report: Callable[[str], None] = lambda line: None) -> None:
         self.calls = CallQueue()
+        self.builder = MessageBuilder(report)
         self._open: list[Bridge] = []
 
     def __bool__(self) -> bool:
@@ -89,6 +91,7 @@ class Bridges:
 
     def close(self) -> None:
         """Close all bridges, the last one first."""
+        self.builder.close()
         while self._open:
             self._open.pop().close()
 

@@ -8,9 +8,10 @@ from threading import Lock
 from typing import Any
 
 from urdfkit.bridges.bridge import CAPACITY, CallQueue, is_latched, message_topics, publish_received
+from urdfkit.bridges.message_builder import MessageBuilder
 from urdfkit.bridges.published_message import PublishedMessage
 from urdfkit.bridges.service import Service, respond
-from urdfkit.bus import Bus, Subscription, absolute, nearest_topic
+from urdfkit.bus import Build, Bus, Subscription, absolute, nearest_topic
 from urdfkit.errors import UsageError, suggestion
 from urdfkit.messages import full_type_name
 
@@ -33,6 +34,7 @@ class Graph:
         clock: returns the simulated time [s].
         services: services that peers can call.
         parameters: parameter → value, for protocols that read parameters.
+        builder: builds messages that take long; None to build them in the thread of the simulation.
 
     Attributes:
         post: runs a function in the thread of the server; the server replaces it.
@@ -45,9 +47,10 @@ class Graph:
         clock: Callable[[], float],
         services: Mapping[str, Service],
         parameters: Mapping[str, Any] | None = None,
+        builder: MessageBuilder | None = None,
     ) -> None:
         self.bus, self.calls, self.clock, self.services = bus, calls, clock, services
-        self.parameters = dict(parameters or {})
+        self.parameters, self.builder = dict(parameters or {}), builder
         self.post: Post = lambda call: call()
         self._samples: deque[tuple[tuple[Receive, ...], PublishedMessage]] = deque()
         self._bytes, self._posted, self._lock = 0, False, Lock()
@@ -86,19 +89,31 @@ class Graph:
             raise UsageError(f"topic `{topic}` has type {actual}, not {full}")
         return actual
 
-    def subscribe(self, topic: str, type: str, receive: Receive) -> Callable[[], None]:
-        """Call `receive` with every message of a topic, in the thread of the server; return what ends it."""
+    def subscribe(
+        self, topic: str, type: str, receive: Receive, prepare: Callable[[PublishedMessage], object] | None = None
+    ) -> Callable[[], None]:
+        """Call `receive` with every message of a topic, in the thread of the server; return what ends it.
+
+        Args:
+            topic: name of the topic.
+            type: of its messages.
+            receive: receives each message.
+            prepare: encodes messages that take long to build, in the thread of the builder.
+        """
         name = absolute(topic)
         feed = self._feeds.get(name)
         if feed is None:
             feed = self._feeds[name] = _Feed(self, name, type)
             self.call(feed.open)
         feed.receivers = (*feed.receivers, receive)
+        if prepare is not None:
+            feed.prepare[receive] = prepare
         if is_latched(name):
             self.call(lambda: feed.latest(receive))
 
         def end() -> None:
             feed.receivers = tuple(each for each in feed.receivers if each is not receive)
+            feed.prepare.pop(receive, None)
             if not feed.receivers and self._feeds.get(name) is feed:
                 del self._feeds[name]
                 self.call(feed.close)
@@ -153,11 +168,13 @@ class _Feed:
         self._graph, self._topic, self._type = graph, topic, type
         self._subscription: Subscription | None = None
         self.receivers: tuple[Receive, ...] = ()
+        self.prepare: dict[Receive, Callable[[PublishedMessage], object]] = {}
 
     def open(self) -> None:
         """Subscribe; the type was checked before, and another program may have created the topic since."""
         try:
-            self._subscription = self._graph.bus.subscribe(self._topic, self._type, self._receive)
+            defer = None if self._graph.builder is None else self._build
+            self._subscription = self._graph.bus.subscribe(self._topic, self._type, self._receive, defer=defer)
         except UsageError:
             self._subscription = None
 
@@ -174,6 +191,18 @@ class _Feed:
 
     def _receive(self, message: Any) -> None:
         self._graph.deliver(self.receivers, self._sample(message))
+
+    def _build(self, build: Build) -> None:
+        t = self._graph.clock()
+
+        def receive(message: Any) -> None:
+            sample = PublishedMessage(self._topic, self._type, message, t)
+            for prepare in tuple(self.prepare.values()):
+                prepare(sample)
+            self._graph.deliver(self.receivers, sample)
+
+        assert self._graph.builder is not None
+        self._graph.builder.add(self, build, receive)
 
     def _sample(self, message: Any) -> PublishedMessage:
         return PublishedMessage(self._topic, self._type, message, self._graph.clock())

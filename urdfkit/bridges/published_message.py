@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
-from urdfkit.messages.conversion import encode_cdr
+from urdfkit.messages.conversion import cdr_parts
 
 
 class PublishedMessage:
@@ -32,6 +32,6 @@ class PublishedMessage:
             self._encoded[encoding] = encode(self)
         return self._encoded[encoding]
 
-    def cdr(self) -> bytes:
-        """Return the message in CDR, the encoding of ROS 2."""
-        return self.encoded("cdr", lambda it: encode_cdr(it.message, it.type))  # type: ignore[no-any-return]
+    def cdr(self) -> list[bytes | memoryview]:
+        """Return the parts of the message in CDR, the encoding of ROS 2."""
+        return self.encoded("cdr", lambda it: cdr_parts(it.message, it.type))  # type: ignore[no-any-return]

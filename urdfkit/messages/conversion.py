@@ -2,15 +2,27 @@
 
 from __future__ import annotations
 
-from dataclasses import fields, is_dataclass
+import struct
+from dataclasses import fields, is_dataclass, replace
 from functools import cache
 from typing import Any
+
+import numpy as np
 
 from urdfkit.messages import typestore
 
 ZERO: dict[str, Any] = {"string": "", "wstring": "", "bool": False, "float32": 0.0, "float64": 0.0}
 """Base type → value of a missing field; 0 for others."""
 
+
+LONG = 16_384
+"""Bytes of an array that is not copied."""
+AFTER_DATA = {
+    "sensor_msgs/msg/Image": 0,
+    "sensor_msgs/msg/CompressedImage": 0,
+    "sensor_msgs/msg/PointCloud2": 1,
+}
+"""Type with an array of bytes → number of the bytes after it."""
 
 UNUSED = "structure_needs_at_least_one_member"
 """The field of messages without fields."""
@@ -33,6 +45,17 @@ def encode_cdr(message: Any, type: str) -> bytes:
     """Return a message in CDR, the encoding of ROS 2, with its header of four bytes."""
     store = typestore()
     return bytes(store.serialize_cdr(converted(message, type, store), type))
+
+
+def cdr_parts(message: Any, type: str) -> list[bytes | memoryview]:
+    """Return the parts of a message in CDR; a long array at its end is not copied, which takes long for an image."""
+    if type not in AFTER_DATA or not isinstance(message.data, np.ndarray) or len(message.data) < LONG:
+        return [encode_cdr(message, type)]
+    data, start = message.data, len(message.data) % 8  # the remainder, so that the alignment of the fields is the same
+    short = encode_cdr(replace(message, data=data[:start]), type)
+    end = len(short) - AFTER_DATA[type]
+    length = struct.pack("<I", len(data))
+    return [short[: end - start - 4] + length, np.ascontiguousarray(data).data, short[end:]]
 
 
 def decode_cdr(data: bytes, type: str) -> Any:
@@ -74,8 +97,6 @@ def _value(value: Any, node: int, details: Any, store: Any) -> Any:
         entries = [None] * (length if node == 3 else 0) if value is None else value
         return [converted(each, inner[1], store) for each in entries]
     if value is None:
-        import numpy as np
-
         base = inner[1][0]
         return [] if base == "string" else np.zeros(length if node == 3 else 0, dtype=base)
     return value

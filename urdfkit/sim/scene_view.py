@@ -3,6 +3,7 @@
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
+from threading import Lock
 from typing import Any, Protocol
 
 import numpy as np
@@ -100,6 +101,12 @@ class Layout:
     def bodies(self) -> Mapping[str, Sequence[float]]:
         """Name → x y z [m] and quaternion x y z w of each body."""
         return self.kept()
+
+    def compute(self) -> None:
+        """Compute the poses now, in the thread of the simulation, so that other threads can use the layout."""
+        for _, _, moment in self.robots:
+            moment.link_poses()
+        _ = self.bodies
 
     def placement(self, robot: str, link: int) -> Array:
         """Return the pose of a link; shape (4, 4)."""
@@ -199,6 +206,9 @@ class Surroundings:
 
     Raises:
         SimulationError: the renderer is not available.
+
+    Attributes:
+        lock: held while a thread uses a view.
     """
 
     def __init__(self, world: SensedWorld, note: Callable[[str], None], renderer: str = "ray") -> None:
@@ -207,6 +217,7 @@ class Surroundings:
         self._world = world
         self._note = note
         self._view: tuple[int, View] | None = None
+        self.lock = Lock()
 
     @property
     def world(self) -> World:

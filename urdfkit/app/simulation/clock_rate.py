@@ -56,6 +56,11 @@ class ClockRate:
         self._late = behind > limit
         return max(0, steps)
 
+    def wait(self, t: float) -> float:
+        """Return the seconds until the next step is due, at simulated time `t` [s]; zero without a real-time limit."""
+        wall, begun = self._start
+        return 0.0 if self.factor == inf else (t - begun + 0.5 * self._dt) / self.factor - (self._clock() - wall)
+
     def took(self, steps: int, seconds: float, t: float) -> None:
         """Record the duration of steps; synchronize again where they took too long."""
         if steps > 0:

@@ -32,9 +32,9 @@ class ServiceRequest(NamedTuple):
     content: bytes
 
 
-def message_frame(subscription: int, nanoseconds: int, content: bytes) -> bytes:
+def message_frame(subscription: int, nanoseconds: int, content: list[bytes | memoryview]) -> list[bytes | memoryview]:
     """Return a message of a subscription."""
-    return struct.pack("<BIQ", MESSAGE, subscription, nanoseconds) + content
+    return [struct.pack("<BIQ", MESSAGE, subscription, nanoseconds), *content]
 
 
 def time_frame(nanoseconds: int) -> bytes:

@@ -121,7 +121,9 @@ class FoxglovePeer:
 
     def _listen(self, number: int, topic: str, type: str, queue: SubscriptionQueue) -> None:
         self._queue.add(queue)
-        end = self._graph.subscribe(topic, type, lambda published: self._queue.put(queue, published))
+        end = self._graph.subscribe(
+            topic, type, lambda published: self._queue.put(queue, published), PublishedMessage.cdr
+        )
         self._subscriptions[number] = queue, end
 
     def _unsubscribe(self, message: dict[str, Any]) -> None:

@@ -8,6 +8,7 @@ from types import MappingProxyType
 from typing import Any
 
 from urdfkit.bridges.bridge import CallQueue, message_topics, publish_received
+from urdfkit.bridges.message_builder import MessageBuilder
 from urdfkit.bridges.node.node import Done, Node, Quality, UnknownTypeError, publisher_quality
 from urdfkit.bridges.node.published_topics import OutputThread
 from urdfkit.bridges.service import Service, respond
@@ -42,6 +43,7 @@ class NodeBridge:
         node: on the graph.
         services: that nodes can call, if the node can serve them.
         namespace: before the names of the topics, from `check_namespace`.
+        builder: builds messages that take long; None to build them in the thread of the simulation.
         report: receives lines about topics and messages that cannot be used, each once.
 
     Attributes:
@@ -56,6 +58,7 @@ class NodeBridge:
         *,
         services: Mapping[str, Service] = MappingProxyType({}),
         namespace: str = "",
+        builder: MessageBuilder | None = None,
         report: Callable[[str], None],
     ) -> None:
         self._bus, self._calls, self._node, self._namespace = bus, calls, node, namespace
@@ -63,7 +66,7 @@ class NodeBridge:
         self._reported: set[str] = set()
         self._seen: set[str] = set()
         self._closed = False
-        self._outputs = OutputThread(calls, node, self._report)
+        self._outputs = OutputThread(calls, node, builder, self._report)
         self.served = sum(self._serve(service) for service in services.values())
         self.update()
 

@@ -8,6 +8,7 @@ from threading import Event, Thread
 from typing import Any
 
 from urdfkit.bridges.bridge import CallQueue
+from urdfkit.bridges.message_builder import MessageBuilder
 from urdfkit.bridges.node.node import Node, Quality, Writer
 from urdfkit.bus import Bus, Subscription, Topic
 
@@ -24,6 +25,7 @@ class PublishedTopic:
         node: encodes the messages.
         writer: its publisher.
         quality: of the publisher.
+        builder: builds messages that take long; None to build them in the thread of the simulation.
         ready: receives the output for each message.
     """
 
@@ -34,10 +36,12 @@ class PublishedTopic:
         node: Node,
         writer: Writer,
         quality: Quality,
+        builder: MessageBuilder | None,
         ready: Callable[[PublishedTopic], None],
     ) -> None:
         self.writer, self.is_latched, self.was_matched = writer, quality.latched, False
         self._bus, self._topic, self._node, self._ready = bus, topic, node, ready
+        self._builder = builder
         self._pending: deque[Any] = deque(maxlen=quality.depth)
         self._subscription: Subscription | None = None
         if quality.latched:
@@ -48,7 +52,13 @@ class PublishedTopic:
     def open(self) -> None:
         """Subscribe to the bus, in the thread of the simulation."""
         if self._subscription is None:
-            self._subscription = self._bus.subscribe(self._topic.name, self._topic.type, self._receive)
+            builder, receive = self._builder, self._receive
+            self._subscription = self._bus.subscribe(
+                self._topic.name,
+                self._topic.type,
+                receive,
+                defer=None if builder is None else lambda build: builder.add(self, build, receive),
+            )
 
     def close(self) -> None:
         """End the subscription, in the thread of the simulation."""
@@ -73,11 +83,14 @@ class OutputThread:
     Args:
         calls: of the simulation.
         node: on the graph.
+        builder: builds messages that take long, see `PublishedTopic`.
         report: receives a line if a message cannot be sent.
     """
 
-    def __init__(self, calls: CallQueue, node: Node, report: Callable[[str], None]) -> None:
-        self._calls, self._node, self._report = calls, node, report
+    def __init__(
+        self, calls: CallQueue, node: Node, builder: MessageBuilder | None, report: Callable[[str], None]
+    ) -> None:
+        self._calls, self._node, self._builder, self._report = calls, node, builder, report
         self._outputs: tuple[PublishedTopic, ...] = ()
         self._ready: deque[PublishedTopic] = deque()
         self._wake, self._stopped = Event(), False
@@ -86,7 +99,8 @@ class OutputThread:
 
     def add(self, bus: Bus, topic: Topic, writer: Writer, quality: Quality) -> None:
         """Publish a topic."""
-        self._outputs = (*self._outputs, PublishedTopic(bus, topic, self._node, writer, quality, self._notify))
+        output = PublishedTopic(bus, topic, self._node, writer, quality, self._builder, self._notify)
+        self._outputs = (*self._outputs, output)
 
     def close(self) -> None:
         """End the subscriptions and the thread."""

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from urdfkit.messages.conversion import fields_of
+from urdfkit.messages.conversion import LONG, fields_of
 
 TYPED_ARRAYS = {
     "u2": 69, "u4": 70, "u8": 71, "i1": 72, "i2": 77, "i4": 78, "i8": 79, "f4": 85, "f8": 86,
@@ -16,11 +16,19 @@ TYPED_ARRAYS = {
 UNSIGNED, NEGATIVE, BYTES, TEXT, ARRAY, MAP, TAG = range(7)
 
 
+Parts = list[bytes | memoryview]
+
+
 def encode(value: Any) -> bytes:
     """Return a message, a dict, or the value of a field, as CBOR."""
-    parts: list[bytes] = []
+    return b"".join(encode_parts(value))
+
+
+def encode_parts(value: Any) -> Parts:
+    """Return the parts of the CBOR; long arrays of bytes are not copied."""
+    parts: Parts = []
     _write(parts, value)
-    return b"".join(parts)
+    return parts
 
 
 def _head(major: int, number: int) -> bytes:
@@ -33,7 +41,7 @@ def _head(major: int, number: int) -> bytes:
     return struct.pack(">BQ", first | 27, number)
 
 
-def _write(parts: list[bytes], value: Any) -> None:
+def _write(parts: Parts, value: Any) -> None:
     if isinstance(value, np.ndarray):
         _array(parts, value)
     elif isinstance(value, str):
@@ -62,9 +70,10 @@ def _write(parts: list[bytes], value: Any) -> None:
             _write(parts, each)
 
 
-def _array(parts: list[bytes], values: Any) -> None:
+def _array(parts: Parts, values: Any) -> None:
     if values.dtype == np.uint8:
-        parts += (_head(BYTES, values.nbytes), values.tobytes())
+        content = values.tobytes() if values.nbytes < LONG else np.ascontiguousarray(values).reshape(-1).data
+        parts += (_head(BYTES, values.nbytes), content)
         return
     tag = TYPED_ARRAYS.get(f"{values.dtype.kind}{values.dtype.itemsize}")
     if tag is None:

@@ -122,7 +122,7 @@ class RosbridgePeer:
             self._queue.put(queue, sample)
 
         self._queue.add(queue)
-        self._subscriptions[key] = queue, self._graph.subscribe(topic, type, receive)
+        self._subscriptions[key] = queue, self._graph.subscribe(topic, type, receive, queue.encode)
 
     def _unsubscribe(self, message: dict[str, Any]) -> None:
         topic, number = _text(message, "topic"), message.get("id")

@@ -30,7 +30,7 @@ def encoder(compression: str, fragment_size: int | None = None) -> Encode:
 
     def encode(sample: PublishedMessage) -> list[Frame]:
         frame: Frame = sample.encoded(compression, ENCODERS[compression])
-        if fragment_size is None or isinstance(frame, bytes) or len(frame) <= fragment_size:
+        if fragment_size is None or not isinstance(frame, str) or len(frame) <= fragment_size:
             return [frame]
         return fragments(frame, fragment_size)
 
@@ -46,13 +46,13 @@ def _as_png(sample: PublishedMessage) -> str:
     return png.compress(sample.encoded("none", as_json))
 
 
-def _as_cbor(sample: PublishedMessage) -> bytes:
-    return cbor.encode({"op": "publish", "topic": sample.topic, "msg": sample.message})
+def _as_cbor(sample: PublishedMessage) -> cbor.Parts:
+    return cbor.encode_parts({"op": "publish", "topic": sample.topic, "msg": sample.message})
 
 
 def _as_raw_cbor(sample: PublishedMessage) -> bytes:
     seconds, nanoseconds = divmod(round(sample.t * 1e9), 10**9)
-    content = {"secs": seconds, "nsecs": nanoseconds, "bytes": sample.cdr()}
+    content = {"secs": seconds, "nsecs": nanoseconds, "bytes": b"".join(sample.cdr())}
     return cbor.encode({"op": "publish", "topic": sample.topic, "msg": content})
 
 

@@ -8,20 +8,21 @@ import logging
 import threading
 from collections.abc import Callable, Sequence
 from concurrent.futures import Future
-from typing import Any, Protocol
+from typing import Any, Protocol, cast
 from urllib.parse import urlsplit
 
 from tornado.iostream import StreamClosedError
 from tornado.web import Application
-from tornado.websocket import WebSocketClosedError, WebSocketHandler
+from tornado.websocket import WebSocketClosedError, WebSocketHandler, WebSocketProtocol13
 
 from urdfkit.bridges.graph import Graph
 from urdfkit.bridges.websocket.address import Address
-from urdfkit.bridges.websocket.send_queue import SendQueue
+from urdfkit.bridges.websocket.send_queue import Frame, SendQueue
 from urdfkit.network.access_control import LOOPBACK_NAMES, AccessControl, is_ip_literal
 from urdfkit.network.connection_limit import REQUEST_TIMEOUT, LimitedHTTPServer
 from urdfkit.network.listen_address import bind, urls
 from urdfkit.network.rejection_log import RejectionLog
+from urdfkit.network.websocket_frame import framed, framed_parts
 
 MAX_INBOUND = 32 * 1024 * 1024
 """Length of the longest frame of a peer that is accepted [bytes]."""
@@ -201,8 +202,14 @@ class PeerSocket(WebSocketHandler):
             await self._queue.run(self._write)
             self.close(1013, "too slow")
 
-    async def _write(self, frame: str | bytes) -> None:
-        await self.write_message(frame, binary=isinstance(frame, bytes))
+    async def _write(self, frame: Frame) -> None:
+        line = self.ws_connection
+        if line is None or line.is_closing():
+            raise WebSocketClosedError
+        stream = cast("WebSocketProtocol13", line).stream  # `write_message` creates a task and copies
+        for part in framed_parts(frame) if isinstance(frame, list) else [framed(frame)]:
+            written = stream.write(part)
+        await written
 
     def on_message(self, message: str | bytes) -> None:
         """Process a frame of the peer."""

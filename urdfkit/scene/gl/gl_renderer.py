@@ -16,6 +16,7 @@ from urdfkit.scene.camera_model import Lens
 from urdfkit.scene.gl.draw_calls import Drawing, Shot
 from urdfkit.scene.gl.driver_probe import create, on_processor
 from urdfkit.scene.gl.moving_shadow_rectangles import LARGE, Rectangle, shaded, union
+from urdfkit.scene.gl.pixel_reading import read_pixels
 from urdfkit.scene.gl.shaders import ALL, BOTH, COLOR, DEEP, STILL
 from urdfkit.scene.gl.shadow_maps import EDGES, FINER, Rest, Shadows
 from urdfkit.scene.lights import Lighting
@@ -129,7 +130,7 @@ class GlRenderer:
             drawing.blend(shot)
         if target["color"] is not target["plain"]:
             self._ctx.copy_framebuffer(target["plain"], target["color"])
-        target["plain"].read_into(rgb, components=3, alignment=1)
+        read_pixels(target["plain"], rgb)
         if samples > 1 and self._on_processor:
             self._rays.smooth(rgb, lens, frame, near=near, far=far, samples=samples)
         if not deep:
@@ -142,8 +143,8 @@ class GlRenderer:
         if drawing.has_clear:
             drawing.draw(shot, DEEP, clear=True)
         depth = np.empty((lens.height, lens.width), dtype=np.float32)
-        target["depth"].read_into(depth, components=1, dtype="f4")
-        target["shape"].read_into(target["numbers"], components=1, dtype="f4")
+        read_pixels(target["depth"], depth)
+        read_pixels(target["shape"], target["numbers"])
         return Picture(rgb, depth, target["numbers"].astype(np.int64))
 
     def _reach(self, origin: Array) -> tuple[Array, Array]:

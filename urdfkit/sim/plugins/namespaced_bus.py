@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
-from urdfkit.bus import Bus, Subscription
+from urdfkit.bus import Build, Bus, Subscription
 
 
 class OwnBus(Bus):
@@ -21,14 +21,16 @@ class OwnBus(Bus):
         self._subscriptions: list[Subscription] = []
         self._invalidate = invalidate
 
-    def subscribe(self, name: str, type: str, callback: Callable[[Any], None]) -> Subscription:
+    def subscribe(
+        self, name: str, type: str, callback: Callable[[Any], None], *, defer: Callable[[Build], None] | None = None
+    ) -> Subscription:
         """Call `callback` with every message published from now on."""
 
         def receive(message: Any) -> None:
             self._invalidate()
             callback(message)
 
-        found = super().subscribe(name, type, receive)
+        found = super().subscribe(name, type, receive, defer=defer)
         self._subscriptions.append(found)
         return found
 

@@ -6,7 +6,6 @@ import asyncio
 import contextlib
 import itertools
 import logging
-import struct
 from collections.abc import Awaitable
 from typing import cast
 
@@ -14,6 +13,7 @@ from tornado.iostream import StreamClosedError
 from tornado.websocket import WebSocketClosedError, WebSocketHandler, WebSocketProtocol, WebSocketProtocol13
 
 from urdfkit.network.connection_limit import limits
+from urdfkit.network.websocket_frame import framed
 from urdfkit.view.protocol import websocket_messages as protocol
 from urdfkit.view.server.authenticated_handler import AuthenticatedHandler
 from urdfkit.view.server.broadcast import CLEAR
@@ -22,8 +22,6 @@ from urdfkit.view.server.server_interface import PageServer
 
 MAX_LOGGED = 10
 """Number of dropped messages that are logged per page."""
-TEXT, BINARY = 0x81, 0x82
-"""First byte of a message in a single frame; RFC 6455, section 5.2."""
 
 log = logging.getLogger("urdfkit.view")
 
@@ -116,14 +114,3 @@ class PageSocket(AuthenticatedHandler, WebSocketHandler):
         self.server.hub.leave(self.channel)
         if self._sender is not None:
             self._sender.cancel()
-
-
-def framed(frame: Frame) -> bytes:
-    """Return a message as one unmasked frame of a server; RFC 6455, section 5.2."""
-    first, content = (BINARY, frame) if isinstance(frame, bytes) else (TEXT, frame.encode())
-    size = len(content)
-    if size < 126:
-        return struct.pack("!BB", first, size) + content
-    if size < 1 << 16:
-        return struct.pack("!BBH", first, 126, size) + content
-    return struct.pack("!BBQ", first, 127, size) + content

@@ -68,7 +68,7 @@ def bridged(
         UsageError: a port is in use.
         ResourceError: a graph of ROS cannot be joined.
     """
-    bridges = Bridges()
+    bridges = Bridges(report)
     if not options:
         yield bridges
         return
@@ -116,7 +116,7 @@ def open_bridges(
     parameters = {DESCRIPTION: description, "/use_sim_time": True}
 
     def graph() -> Graph:
-        return Graph(bus, bridges.calls, clock, services, parameters)
+        return Graph(bus, bridges.calls, clock, services, parameters, bridges.builder)
 
     if options.rosbridge is not None:
         server = serve_rosbridge(graph(), options.rosbridge, origins=options.origins, report=report)

@@ -60,4 +60,4 @@ def advance_in_real_time(
             simulator.step()
         pace.took(steps, clock() - begun, simulator.t)
         last = simulator.t
-        bridges.calls.wait(WAIT)
+        bridges.calls.wait(WAIT if simulator.paused else min(WAIT, pace.wait(simulator.t)))

@@ -61,7 +61,15 @@ def connect_to_ros(
     from urdfkit.bridges.node.node_bridge import NodeBridge
 
     def add(node: Node, name: str) -> None:
-        bridge = NodeBridge(bus, bridges.calls, node, services=services, namespace=options.namespace, report=report)
+        bridge = NodeBridge(
+            bus,
+            bridges.calls,
+            node,
+            services=services,
+            namespace=options.namespace,
+            builder=bridges.builder,
+            report=report,
+        )
         bridges.add(bridge)
         served = f"{bridge.served} services" if bridge.served else "services are not available"
         note(f"{name}: topics are published by {node.description}; {served}")

@@ -89,8 +89,9 @@ class SceneSensor(Sensor):
         """
         layout = self._surroundings.layout()
         frame = self.viewpoint = matmul(layout.placement(self._robot, self._link), self._pose)
-        seen = self._look(t, layout, frame, np.random.Generator(np.random.Philox(key=[self._key, 0])))
-        return tuple(partial(message, seen) for message in self.messages())
+        with self._surroundings.lock:
+            seen = self._look(t, layout, frame, np.random.Generator(np.random.Philox(key=[self._key, 0])))
+        return tuple(partial(self._build, message, lambda: seen) for message in self.messages())
 
     def measure(self, state: State, count: int) -> None:
         """Publish the observation of the current scene; computed only for a subscriber or a reader of `latest`.
@@ -98,6 +99,8 @@ class SceneSensor(Sensor):
         The noise depends only on the seed and the number of the publication.
         """
         t, turn, layout = state.t, self.done, self._surroundings.layout()
+        if any(topic.subscribers for topic in self.topics):
+            layout.compute()  # the observation may be made later, in another thread
 
         @cache
         def seen() -> Any:
@@ -105,10 +108,15 @@ class SceneSensor(Sensor):
             return self._look(t, layout, frame, np.random.Generator(np.random.Philox(key=[self._key, turn])))
 
         def offer(topic: Any, message: Callable[[Any], Any]) -> None:
-            topic.offer(lambda: message(seen()), count=count)
+            topic.offer_later(partial(self._build, message, seen), count=count)
 
         messages, others = self.messages(), self.other_messages()
         for topic, message in zip(self.topics, messages, strict=not others):
             offer(topic, message)
         for topic, other in zip(self.topics[len(messages) :], others, strict=True):
-            topic.offer(partial(other, t), count=count)
+            topic.offer_later(partial(other, t), count=count)
+
+    def _build(self, message: Callable[[Any], Any], seen: Callable[[], Any]) -> Any:
+        """Return the message of an observation; one thread at a time uses the scene."""
+        with self._surroundings.lock:
+            return message(seen())

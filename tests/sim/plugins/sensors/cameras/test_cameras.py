@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from concurrent.futures import ThreadPoolExecutor
 
 import cv2
 import numpy as np
@@ -328,3 +329,26 @@ def test_a_mesh_that_is_not_there_is_missed_by_eyes_alone(tmp_path, role: str) -
     (note,) = [each for each in notes if "gone.stl" in each]
     assert note.endswith("it is invisible") == (role == "visual")
     assert "r.urdf:1:" in note
+
+
+@pytest.mark.slow
+def test_images_that_are_built_later_are_those_of_their_time(post) -> None:
+    """Noise and poses are those of the step at which an image is due, although a crate has fallen on."""
+    box = "<geometry><box><size>0.5 0.5 0.5</size></box></geometry>"
+    crate = (
+        '</model><model name="crate"><pose>2 0 0.6 0 0 0</pose><link name="box"><inertial><mass>1</mass></inertial>'
+        f'<visual name="v">{box}</visual></link>'
+    )
+    text, images, builders = eye(ros1(), inside=camera(more=noise(0.02))), [], []
+    now, later = (post(text, room=ROOM + crate, seed=3) for _ in range(2))
+    now.subscribe("/cam/image_raw", "sensor_msgs/msg/Image", images.append)
+    later.bus.subscribe("/cam/image_raw", "sensor_msgs/msg/Image", print, defer=builders.append)
+    for simulator in (now, later):
+        simulator.run(0.3)
+    with ThreadPoolExecutor(1) as pool:
+        built = list(pool.map(lambda build: build(), builders))
+    assert len(built) == len(images) == 3
+    for one, other in zip(built, images, strict=True):
+        assert one.header == other.header
+        assert one.data.tobytes() == other.data.tobytes()
+    assert len({one.data.tobytes() for one in built}) == 3
