@@ -115,3 +115,26 @@ def test_an_empty_folder_of_a_package_has_nothing_to_lint(package, capsys):
     (package / "src").mkdir()
     assert main(["lint", "arm_bringup/src"]) == 2
     assert "no robot description" in capsys.readouterr().err
+
+
+def test_packages_of_no_robot_in_a_workspace_with_a_robot_are_linted_too(package, capsys):
+    for name in ("cart_description", "deep/joy_bringup"):
+        (package.parent / name).mkdir(parents=True)
+        (package.parent / name / "package.xml").write_text(MANIFEST.format(name=Path(name).name, needed="joy"))
+    (package.parent / "cart_description/cart.urdf").write_text('<robot name="cart"><link name="base"/></robot>\n')
+    joy = package.parent / "deep/joy_bringup/joy.launch.xml"
+    joy.write_text(LAUNCH.replace("$(var world)", "$(var wrld)").replace("arm_bringup", "joy_bringup"))
+    path = package / "launch/arm.launch.xml"
+    path.write_text(path.read_text().replace("$(var world)", "$(var wrld)"))
+    for _ in range(2):
+        status, found, err = lint_json(capsys, ".")
+        assert (status, sorted(each for each in found if each[0] == "L101")) == (
+            1,
+            [("L101", "arm.launch.xml"), ("L101", "joy.launch.xml")],
+        )
+        assert "2 packages have no robot: only their other files are linted (arm_bringup, joy_bringup)" in err
+    path.write_text(path.read_text().replace("$(var wrld)", "$(var world)"))
+    joy.unlink()
+    (package / "package.xml").write_text(MANIFEST.format(name="arm_bringup", needed="cart_description"))
+    assert "joy_bringup has no robot" in (err := lint_json(capsys, ".")[2])
+    assert "arm_bringup has no robot" not in err

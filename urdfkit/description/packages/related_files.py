@@ -110,9 +110,21 @@ def around(package: Path) -> list[Path]:
     """
     if not (package / "package.xml").is_file():
         return sorted(file for end in SRDF for file in package.glob(f"*{end}") if file.is_file())[:_MAX_FILES]
-    name = name_in(manifest(package), package.name)
     near = neighbours(package)
-    needed = {other: dependencies_in(manifest(folder)) for other, folder in near.items()}
+    own = packages_around(package, near, {other: dependencies_in(manifest(folder)) for other, folder in near.items()})
+    files = [file for folder in own for file in list(_files(folder, 0))[:_MAX_FILES]]
+    return [*files, *(file for folder in own for name in BUILD if (file := folder / name).is_file())]
+
+
+def packages_around(package: Path, near: dict[str, Path], needed: dict[str, set[str]]) -> list[Path]:
+    """Return a package and its neighbours that depend on it, or that belong to the same robot.
+
+    Args:
+        package: the package.
+        near: its `neighbours`.
+        needed: name of each neighbour → the packages that it depends on.
+    """
+    name = name_in(manifest(package), package.name)
     users = {name, *(other for other, names in needed.items() if name in names or _misspelt(name, names - {*near}))}
     # Packages of the same robot that use these, such as bringup; their dependency on the description may be missing.
     stem = f"{name.partition('_')[0]}_"
@@ -122,9 +134,7 @@ def around(package: Path) -> list[Path]:
     used_by = {part: {other for other, names in needed.items() if names & folders[part]} - {part} for part in near}
     parts = {part for part, others in used_by.items() if others and others <= users and others != {name}}
     parts -= needed.get(name, set())
-    own = [folder for other, folder in near.items() if folder == package or other in users | parts]
-    files = [file for folder in own for file in list(_files(folder, 0))[:_MAX_FILES]]
-    return [*files, *(file for folder in own for name in BUILD if (file := folder / name).is_file())]
+    return [folder for other, folder in near.items() if folder == package or other in users | parts]
 
 
 def _misspelt(name: str, others: set[str]) -> bool:

@@ -18,6 +18,7 @@ from urdfkit.lint.project.entry_files import Entry, is_nearly_robot
 from urdfkit.lint.project.options import Options
 from urdfkit.lint.project.rule_selection import selection
 from urdfkit.lint.project.target_platform import family_of, release_of
+from urdfkit.lint.project.unrelated_packages import WITHOUT_ROBOT
 from urdfkit.lint.rule import FaultRule, RobotRule, Rule, SourceRule
 from urdfkit.lint.rules import fault_rules, related_file_rules, robot_rules, source_rules
 
@@ -218,7 +219,7 @@ class Checker:
         findings = [finding for rule in rules for finding in self._run_robot_rule(rule, entry.path, model)]
         files = {name: os.path.join(str(Path.cwd()), name) for name in model.related_files}  # noqa: PTH118
         self.sources.update(model.related_files)
-        without = f"{entry.path.absolute().parent.name} has no robot: only its other files are linted"
+        without = f"{entry.path.absolute().parent.name}{WITHOUT_ROBOT}"
         note = f"{note}; {without}" if note else without
         result = EntryResult(tuple(_only(entry, findings, files)), files, note, refused="; ".join(self._failures))
         return result, model

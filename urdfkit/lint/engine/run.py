@@ -8,6 +8,7 @@ from urdfkit.errors import ResourceError
 from urdfkit.lint.engine.cache import cache_for
 from urdfkit.lint.finding import SEVERITIES, Finding
 from urdfkit.lint.project.options import Options
+from urdfkit.lint.project.unrelated_packages import WITHOUT_ROBOT
 from urdfkit.record import record
 
 TYPE_CHECKING = False
@@ -98,7 +99,18 @@ def run(
     findings = merged(finding for one in every for finding in one.findings if not _is_in_use(finding, one.unused, used))
     notes = dict.fromkeys(one.note for one in every if one.note)
     refused = tuple(dict.fromkeys(one.refused for one in every if one.refused))
-    return Outcome(tuple(findings), Sources(sources, files), files, tuple(notes), hits, refused)
+    return Outcome(tuple(findings), Sources(sources, files), files, _counted(list(notes)), hits, refused)
+
+
+def _counted(notes: list[str]) -> tuple[str, ...]:
+    """Return the notes, those on packages without a robot as one."""
+    without = [note for note in notes if note.endswith(WITHOUT_ROBOT)]
+    if len(without) < 2:
+        return tuple(notes)
+    names = [note.removesuffix(WITHOUT_ROBOT).rpartition(" ")[2] for note in without]
+    shown = ", ".join(names[:3]) + (" …" if len(names) > 3 else "")
+    one = f"{len(names)} packages have no robot: only their other files are linted ({shown})"
+    return (*(note for note in notes if note not in without), one)
 
 
 def _is_in_use(finding: Finding, unused: tuple[tuple[str, tuple[str, ...]], ...], used: set[tuple[str, str]]) -> bool:

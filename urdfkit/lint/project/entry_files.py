@@ -19,6 +19,7 @@ from urdfkit.description.packages.related_files import (
 )
 from urdfkit.errors import ResourceError
 from urdfkit.lint.project.inclusion import INCLUDE, above, included_files, includers, matches
+from urdfkit.lint.project.unrelated_packages import unrelated_packages
 from urdfkit.record import record
 
 SUFFIXES = (".urdf", ".xacro")
@@ -115,11 +116,13 @@ def _of_name(name: str) -> list[Entry]:
 
 def _of_folder(folder: Path) -> list[Entry]:
     found = _robots_in(folder)
-    if not found and (package := package_of(folder / "package.xml")) is not None and _has_related_files(folder):
+    if found:
+        robots = (entry.path for entry in found if not entry.is_library)
+        return [*found, *(Entry(path / "package.xml", (path,)) for path in unrelated_packages(folder, robots))]
+    if (package := package_of(folder / "package.xml")) is not None and _has_related_files(folder):
         return _robots_of(package / "package.xml", folder)
-    if not found:
-        manifests = sorted((*folder.glob("*/package.xml"), *folder.glob("*/*/package.xml")))
-        found = [entry for file in manifests for entry in _robots_of(file, file.parent)]
+    manifests = sorted((*folder.glob("*/package.xml"), *folder.glob("*/*/package.xml")))
+    found = [entry for file in manifests for entry in _robots_of(file, file.parent)]
     if not found:
         raise ResourceError(f"no robot description (.urdf or .xacro with a <robot> in it) in {folder}")
     return found
