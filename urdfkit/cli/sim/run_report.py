@@ -97,12 +97,13 @@ def as_text(simulator: Simulator, spent: Effort) -> str:
     joints = (*simulator.kinematics.joint_names, *simulator.kinematics.mimic_names)
     for name in joints[:MAX_JOINTS]:
         unit = "m" if simulator.robot.joint_by_name[name].type == "prismatic" else "rad"
-        lines.append(f"joint {name}: {state.position(name):.4f} {unit}, {state.velocity(name):.4f} {unit}/s")
+        at, speed = _fixed(state.position(name)), _fixed(state.velocity(name))
+        lines.append(f"joint {name}: {at} {unit}, {speed} {unit}/s")
     if len(joints) > MAX_JOINTS:
         lines.append(f"and {len(joints) - MAX_JOINTS} more joints (--json shows all)")
     for name in simulator.kinematics.several_names:
         pose, twist = state.several(name)
-        speed, turning = (" ".join(f"{number + 0.0:.4f}" for number in part) for part in (twist[:3], twist[3:]))
+        speed, turning = (" ".join(map(_fixed, part)) for part in (twist[:3], twist[3:]))
         lines.append(_line(f"joint {name}", pose[:3], pose[3:]) + f", moving at {speed} m/s, {turning} rad/s")
     touching = {contact.a for contact in state.contacts}
     lines.append(f"on the ground: {', '.join(sorted(touching)) or 'nothing'}")
@@ -120,6 +121,9 @@ def _several(simulator: Simulator, joint: str) -> dict[str, Any]:
 
 
 def _line(label: str, position: tuple[float, ...], quaternion: tuple[float, ...]) -> str:
-    # Adding zero turns -0.0000 into 0.0000.
-    x, y, z, roll, pitch, yaw = (round(number, 4) + 0.0 for number in (*position, *to_rpy(quaternion)))
-    return f"{label}: x {x:.4f} y {y:.4f} z {z:.4f} m, roll {roll:.4f} pitch {pitch:.4f} yaw {yaw:.4f} rad"
+    x, y, z, roll, pitch, yaw = map(_fixed, (*position, *to_rpy(quaternion)))
+    return f"{label}: x {x} y {y} z {z} m, roll {roll} pitch {pitch} yaw {yaw} rad"
+
+
+def _fixed(number: float) -> str:
+    return f"{round(number, 4) + 0.0:.4f}"  # the sum turns -0.0000 into 0.0000

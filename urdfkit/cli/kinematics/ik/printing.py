@@ -41,7 +41,8 @@ def table(
     limits = [set(solver.at_limits(solution.q)) for solution in shown]
     for k, variable in enumerate(chain.variables):
         cells = [
-            f"{s.q[k] + 0.0:>10.6f}{'*' if variable.name in at else ' '}" for s, at in zip(shown, limits, strict=True)
+            f"{round(s.q[k], 6) + 0.0:>10.6f}{'*' if variable.name in at else ' '}"
+            for s, at in zip(shown, limits, strict=True)
         ]
         lines.append(f"{variable.name:<{width}} {' '.join(cells)}".rstrip())
     if any(limits):
