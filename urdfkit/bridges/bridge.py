@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections import deque
 from collections.abc import Callable, Iterator
-from threading import Event
+from threading import Event, Lock
 from typing import Any, Protocol
 
 from urdfkit.bridges.message_builder import MessageBuilder
@@ -19,6 +19,8 @@ LATCHED = ("tf_static", "robot_description")
 """Last parts of the names of topics whose last message a new subscriber receives."""
 CAPACITY = 10_000
 """Calls that may wait for the simulation; further ones are dropped."""
+MOST_BYTES = 64 * 1024 * 1024
+"""Bytes of messages that may wait in calls; a call that exceeds them is dropped unless it is the only one."""
 
 
 class Bridge(Protocol):
@@ -43,16 +45,18 @@ class CallQueue:
     """
 
     def __init__(self) -> None:
-        self._calls: deque[Callable[[], None]] = deque()
-        self._arrived = Event()
-        self.dropped = 0
+        self._calls: deque[tuple[Callable[[], None], int]] = deque()
+        self._arrived, self._lock = Event(), Lock()
+        self._bytes = self.dropped = 0
 
-    def add(self, call: Callable[[], None]) -> bool:
-        """Add a call, from any thread; return whether there was room for it."""
-        if len(self._calls) >= CAPACITY:
-            self.dropped += 1
-            return False
-        self._calls.append(call)
+    def add(self, call: Callable[[], None], size: int = 0) -> bool:
+        """Add a call, from any thread; return whether there was room for it and the bytes of its message."""
+        with self._lock:
+            if len(self._calls) >= CAPACITY or (self._calls and self._bytes + size > MOST_BYTES):
+                self.dropped += 1
+                return False
+            self._bytes += size
+            self._calls.append((call, size))
         self._arrived.set()
         return True
 
@@ -64,7 +68,10 @@ class CallQueue:
         """Run the calls that have arrived, in the thread of the simulation."""
         self._arrived.clear()
         for _ in range(len(self._calls)):
-            self._calls.popleft()()
+            with self._lock:
+                call, size = self._calls.popleft()
+                self._bytes -= size
+            call()
 
 
 class Bridges:

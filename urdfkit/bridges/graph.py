@@ -7,16 +7,13 @@ from collections.abc import Callable, Mapping
 from threading import Lock
 from typing import Any
 
-from urdfkit.bridges.bridge import CAPACITY, CallQueue, is_latched, message_topics, publish_received
+from urdfkit.bridges.bridge import CAPACITY, MOST_BYTES, CallQueue, is_latched, message_topics, publish_received
 from urdfkit.bridges.message_builder import MessageBuilder
-from urdfkit.bridges.published_message import PublishedMessage
+from urdfkit.bridges.published_message import PublishedMessage, approximate_size
 from urdfkit.bridges.service import Service, respond
 from urdfkit.bus import Build, Bus, Subscription, absolute, nearest_topic
 from urdfkit.errors import UsageError, suggestion
 from urdfkit.messages import full_type_name
-
-MOST_BYTES = 64 * 1024 * 1024
-"""Bytes of messages that may wait for the thread of the server; beyond this the oldest are dropped."""
 
 Receive = Callable[[PublishedMessage], None]
 Post = Callable[[Callable[[], None]], None]
@@ -120,18 +117,24 @@ class Graph:
 
         return end
 
-    def call(self, function: Callable[[], None]) -> None:
-        """Run a function in the thread of the simulation, before its next step.
+    def call(self, function: Callable[[], None], size: int = 0) -> None:
+        """Run a function in the thread of the simulation, before its next step; `size` is that of its message [bytes].
 
         Raises:
             UsageError: too many calls wait.
         """
-        if not self.calls.add(function):
-            raise UsageError(f"{CAPACITY} calls wait for the simulation; this one is dropped")
+        if not self.calls.add(function, size):
+            raise UsageError(
+                f"{CAPACITY} calls or {MOST_BYTES >> 20} MB of messages wait for the simulation; this one is dropped"
+            )
 
     def publish(self, topic: str, message: Any, failed: Callable[[str], None]) -> None:
         """Publish a message; `failed` receives the reason if a subscriber cannot use it."""
-        self.call(lambda: publish_received(self.bus, topic, message, lambda reason: self.post(lambda: failed(reason))))
+
+        def publish() -> None:
+            publish_received(self.bus, topic, message, lambda reason: self.post(lambda: failed(reason)))
+
+        self.call(publish, approximate_size(message))
 
     def request(self, service: Service, message: Any, done: Callable[[Any, str | None], None]) -> None:
         """Call a service; `done` receives its response, or None and the reason, in the thread of the server."""

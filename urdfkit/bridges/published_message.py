@@ -8,6 +8,11 @@ from typing import Any
 from urdfkit.messages.conversion import cdr_parts
 
 
+def approximate_size(message: Any) -> int:
+    """Return the approximate number of bytes of a message, the length of its long arrays."""
+    return 200 + sum(getattr(getattr(message, name), "nbytes", 0) for name in message.__dataclass_fields__)
+
+
 class PublishedMessage:
     """One message of a topic.
 
@@ -23,7 +28,7 @@ class PublishedMessage:
 
     def __init__(self, topic: str, type: str, message: Any, t: float) -> None:
         self.topic, self.type, self.message, self.t = topic, type, message, t
-        self.size = 200 + sum(getattr(getattr(message, name), "nbytes", 0) for name in message.__dataclass_fields__)
+        self.size = approximate_size(message)
         self._encoded: dict[str, Any] = {}
 
     def encoded(self, encoding: str, encode: Callable[[PublishedMessage], Any]) -> Any:

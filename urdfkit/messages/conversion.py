@@ -43,14 +43,14 @@ def _field_names(kind: Any) -> tuple[str, ...]:
 
 def encode_cdr(message: Any, type: str) -> bytes:
     """Return a message in CDR, the encoding of ROS 2, with its header of four bytes."""
-    store = typestore()
-    return bytes(store.serialize_cdr(converted(message, type, store), type))
+    return b"".join(cdr_parts(message, type))
 
 
 def cdr_parts(message: Any, type: str) -> list[bytes | memoryview]:
     """Return the parts of a message in CDR; a long array at its end is not copied, which takes long for an image."""
     if type not in AFTER_DATA or not isinstance(message.data, np.ndarray) or len(message.data) < LONG:
-        return [encode_cdr(message, type)]
+        store = typestore()
+        return [bytes(store.serialize_cdr(converted(message, type, store), type))]
     data, start = message.data, len(message.data) % 8  # the remainder, so that the alignment of the fields is the same
     short = encode_cdr(replace(message, data=data[:start]), type)
     end = len(short) - AFTER_DATA[type]

@@ -263,13 +263,29 @@ def test_a_client_that_never_reads_costs_a_fixed_amount_of_memory(server, simula
     subscribed(simulated, "/image")
     image = message_type("sensor_msgs/msg/Image")
     before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
-    for _ in range(500):
+    for _ in range(1000):
         pixels = np.ones(1_000_000, np.uint8)
         message = image(header(0.0, "camera"), 1000, 1000, "mono8", 0, 1000, pixels)
         simulated.bus.publish("/image", "sensor_msgs/msg/Image", message)
     other = Client(server, simulated)
     assert other.call("/rosapi/nodes") == {"nodes": ["/urdfkit"]}
-    assert resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before < 150_000  # of 500,000 kB published
+    assert resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before < 150_000  # of 1,000,000 kB published
     other.line.close()
     line.close()
     simulated.until(lambda: not simulated.bus.has_subscribers("/image"))
+
+
+@pytest.mark.slow
+def test_messages_that_wait_for_a_busy_simulation_are_bounded(server, simulated, reported) -> None:
+    """A client publishes while the simulation takes nothing; the oldest wait, the others are dropped."""
+    simulated.bus.subscribe("/image", "sensor_msgs/msg/Image", lambda message: None)
+    client = Client(server, simulated)
+    content = json.dumps({"op": "publish", "topic": "/image", "msg": {"data": "AAAA" * 1_000_000}})
+    before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+    for _ in range(80):
+        client.line.send(content)
+    reason = json.loads(client.line.recv())["msg"]
+    client.line.close()
+    assert reason == "10000 calls or 64 MB of messages wait for the simulation; this one is dropped"
+    assert reported[0] == reason
+    assert resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before < 200_000  # of 320,000 kB sent

@@ -125,7 +125,7 @@ class NodeBridge:
             except Exception as error:  # of a malformed message, by several classes
                 self._report(f"`{name}`: dropped a message that is not a {type} ({error})")
                 return
-            self._calls.add(lambda: publish_received(bus, name, message, self._report))
+            self._calls.add(lambda: publish_received(bus, name, message, self._report), len(data))
 
         return receive
 

@@ -4,6 +4,8 @@ from dataclasses import dataclass
 from math import cos, sin
 from typing import Any
 
+import numpy as np
+
 from urdfkit.bus import Bus, Topic
 from urdfkit.messages import ODOMETRY, TF, header, message_type, transform, twist
 from urdfkit.sim.plugins.wheel_odometry import Twist
@@ -93,7 +95,7 @@ class OdometryTopics:
         self.tf: Topic | None = bus.advertise(tf_topic, TF) if tf_topic else None
         self.frame = frame
         self.child = child
-        self._covariances = (covariance, twist_covariance)
+        self._covariances = tuple(np.diag(each or (0.0,) * 6).ravel() for each in (covariance, twist_covariance))
         self._flat = flat
 
     @property
@@ -110,14 +112,12 @@ class OdometryTopics:
 
     def message(self, t: float, estimate: Estimate) -> Any:
         """Return the Odometry message."""
-        import numpy as np
-
         x, y, z = estimate.position
         pose = message_type("geometry_msgs/msg/Pose")(
             message_type("geometry_msgs/msg/Point")(x, y, 0.0 if self._flat else z),
             message_type("geometry_msgs/msg/Quaternion")(*estimate.quaternion),
         )
-        of_pose, of_twist = (np.diag(variances or (0.0,) * 6).ravel() for variances in self._covariances)
+        of_pose, of_twist = (covariance.copy() for covariance in self._covariances)
         return message_type(ODOMETRY)(
             header(t, self.frame),
             self.child,
