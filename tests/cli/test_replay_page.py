@@ -32,11 +32,13 @@ def test_a_live_robot_is_driven_and_has_no_controls_of_a_simulation(
         page = visits.open(serve("view", "simpleton", "--live", url).url)
         until(lambda: page.locator("#open-displays").is_visible())
         names = set(page.locator(".rail-button:visible").all_inner_texts())
-        assert names >= {"Drive", "Topics", "Plots", "Displays"}
+        assert names >= {"Drive", "Joints", "Topics", "Plots", "Displays"}
         assert names.isdisjoint({"World", "Physics", "Push", "Record", "Replay"})
         assert TOOLS_OF_SIMULATIONS.isdisjoint(tools(page))
         assert {"tool-goal", "tool-estimate", "tool-point"} <= tools(page)
-        for control in ("pause", "reset", "factor", "step"):
+        page.locator("#keys summary").click()
+        assert page.get_by_text("both speeds ±10 %").is_visible()
+        for control in ("pause", "reset", "factor", "step", "key-pause"):
             assert not page.locator(f"#{control}").is_visible(), control
         keep(page, "live")
         page.locator("#pane").focus()
@@ -44,6 +46,56 @@ def test_a_live_robot_is_driven_and_has_no_controls_of_a_simulation(
         until(lambda: simulator.state.base_pose[0] > 0.05)
         page.keyboard.up("w")
         until(lambda: abs(simulator.state.v[0]) < 1e-3)
+        page.locator("#open-joints").click()
+        assert page.get_by_text("The joints move with the robot.").is_visible()
+        assert not page.get_by_role("button", name="Zero all").is_visible()
+        row = page.locator("#joints li").nth(0)
+        name = str(row.get_attribute("data-joint"))
+        turned = simulator.kinematics.positions(simulator.state.q)[name]
+        assert abs(turned) > 0.1
+        until(lambda: abs(float(row.locator(".joint-value input").input_value()) - turned) < 2e-3)
+        assert row.locator("input[type=range]").is_disabled()
+        keep(page, "live-joints")
+    assert visits.problems == []
+
+
+IMAGE = """async () => {
+  const canvas = new OffscreenCanvas(4, 3);
+  canvas.getContext("2d").fillRect(0, 0, 4, 3);
+  const image = new Uint8Array(await (await canvas.convertToBlob()).arrayBuffer());
+  const frame = new Uint8Array(16 + image.length);
+  frame[1] = urdfkit.sensors.shown[0].kinds[0];
+  frame.set(image, 16);
+  urdfkit.sensors.frame(frame.buffer);
+}"""
+"""Receive an image of the first sensor."""
+
+
+@pytest.mark.browser
+def test_a_sensor_without_an_image_says_so_until_the_first_one(
+    serve: Any, visits: Any, until: Any, keep: Any, tmp_path: Path
+) -> None:
+    (tmp_path / "box.urdf").write_text(
+        '<robot name="box"><link name="base"><visual><geometry><box size="1 1 1"/></geometry></visual></link></robot>'
+    )
+    page = visits.open(serve("sim", "teleop", "box.urdf").url)
+    page.evaluate(
+        """() => {
+          urdfkit.sensors.use([{ topic: "/eye", picture: true }, { topic: "/scan", picture: false }]);
+          urdfkit.page.panels.available("sensors", true);
+          urdfkit.page.panels.open("sensors");
+        }"""
+    )
+    waiting = page.locator("#sensors p:visible")
+    assert waiting.all_inner_texts() == ["Waiting for the first image", "Waiting for the first points"]
+    assert page.locator("#sensors :is(img, canvas):visible").count() == 0
+    keep(page, "waiting")
+    page.evaluate(IMAGE)
+    until(lambda: page.locator("#sensors img:visible").count() == 1)
+    assert waiting.all_inner_texts() == ["Waiting for the first points"]
+    page.locator("#sensors input").nth(0).click()
+    page.locator("#sensors input").nth(1).click()
+    assert page.locator("#sensors :is(img, p, canvas):visible").count() == 0
     assert visits.problems == []
 
 

@@ -19,6 +19,7 @@ from urdfkit.app.simulation.clock_rate import FRAME
 from urdfkit.app.simulation.displays.displays import Displays
 from urdfkit.app.simulation.features.feature import Done, Feature
 from urdfkit.app.simulation.features.plots import Plots
+from urdfkit.app.simulation.features.robot_panels import RobotPanels
 from urdfkit.app.simulation.features.topic_panel import TopicPanel
 from urdfkit.app.simulation.features.topic_stream import TopicStreams
 from urdfkit.app.viewer.shown_robot import ShownRobot
@@ -29,7 +30,7 @@ from urdfkit.errors import UrdfkitError
 from urdfkit.linear_algebra import Array
 from urdfkit.messages import from_fields
 from urdfkit.sim.state.quaternion import yaw_of
-from urdfkit.view.content.inspector import inspection
+from urdfkit.view.content.joint_panel import joint_rows
 from urdfkit.view.content.meshcat_objects import draw, link_path
 from urdfkit.view.protocol.page_requests import Request, Schema
 from urdfkit.view.server.server import Server
@@ -48,7 +49,17 @@ class ObservedDisplays(Displays):
         return found
 
 
-FEATURES: tuple[type[Feature], ...] = (TopicPanel, TopicStreams, Plots, ObservedDisplays)
+class ObservedPanels(RobotPanels):
+    """Properties and joint positions of an observed robot."""
+
+    def positions(self) -> Mapping[str, float]:
+        """Return joint → position on the page [rad or m]."""
+        session: Any = self.simulator
+        found: Mapping[str, float] = session.joint_positions()
+        return found
+
+
+FEATURES: tuple[type[Feature], ...] = (ObservedPanels, TopicPanel, TopicStreams, Plots, ObservedDisplays)
 
 
 class ObservedSession:
@@ -111,6 +122,11 @@ class ObservedSession:
         """Return x y z [m] and quaternion x y z w of every link; shape (links, 7)."""
         return self._robot.link_poses(self.time_of_poses())
 
+    def joint_positions(self) -> dict[str, float]:
+        """Return the positions of all joints on the page [rad or m]; zero where none is known."""
+        configuration = self.kinematics.configuration(self._robot.positions(self.time_of_poses()))
+        return self.kinematics.positions(configuration)
+
     def frame_pose(self, frame: str) -> Array | None:
         """Return the pose of a frame on the page, shape (4, 4); None for an unknown frame."""
         return self._robot.frame_pose(frame, self.time_of_poses())
@@ -126,12 +142,12 @@ class ObservedSession:
             name=kinematics.robot.name or "robot",
             nodes=[link_path(name) for name in kinematics.link_names],
             root=kinematics.link_names.index(kinematics.root),
+            joints=joint_rows(kinematics, self.joint_positions()),
             draw=lambda server: draw(scene, server, server.geometries),
         )
         self.server.publish_latched("accepts", requests=sorted(self._takes))
         self.server.publish_latched("teleop", **self.drive_controls())
         self.server.publish_latched("findings", findings=[], rules={}, fault=None)
-        self.server.publish_latched("inspect", **inspection(kinematics))
         self.sensors.show()
         for feature in self._features:
             feature.show()

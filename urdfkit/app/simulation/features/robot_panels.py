@@ -26,8 +26,11 @@ class RobotPanels(Feature):
     def tick(self) -> None:
         """Send the positions of the joints."""
         if KEY in self.server.hub.subscribed_keys and self.is_due(PERIOD):
-            positions = self.simulator.kinematics.positions(self.simulator.state.q)
-            self.server.send_to_subscribers(KEY, KEY, positions=positions)
+            self.server.send_to_subscribers(KEY, KEY, positions=self.positions())
+
+    def positions(self) -> Mapping[str, float]:
+        """Return joint → position [rad or m]."""
+        return self.simulator.kinematics.positions(self.simulator.state.q)
 
     def move(self, positions: Mapping[str, float]) -> None:
         """Set joint positions [rad or m] of the paused robot; invalid ones are reported on the page."""

@@ -4,7 +4,7 @@
 const NEEDS = {
   panels: { world: "spawn", physics: "gravity", push: "push", recorder: "replay" },
   tools: { push: "push", place: "spawn", walls: "walls", goal: "publish_pose", estimate: "publish_pose", point: "publish" },
-  controls: { pause: "speed", reset: "speed", factor: "speed", "publish-pose": "publish_pose", "publish-point": "publish", "publish-new": "publish" },
+  controls: { pause: "speed", "key-pause": "speed", reset: "speed", factor: "speed", "publish-pose": "publish_pose", "publish-point": "publish", "publish-new": "publish" },
 };
 const CONTROLS = [".transport", "#pad", "#drive-section"];
 const RESPONSE = 1500; // ms without a status message after which the simulation counts as not responding

@@ -17,7 +17,8 @@ export function joints(page) {
   page.on("joints", (message) => made.update(message.positions));
   // The joints of a simulation move by themselves; while it is paused, the sliders pose the robot.
   page.on("hello", ({ mode }) => mode === "sim" && page.whileOpen(panel, "joints"));
-  page.on("status", ({ paused }) => made.allow(paused));
+  page.on("status", ({ paused }) => made.allow(paused && page.accepts("joints")));
+  page.on("accepts", () => page.accepts("joints") || made.observe());
   page.on("select", (selected) => made.mark(selected));
   page.setJoints = (values) => made.set(values);
   page.shortcut({ key: "0", does: "all joints to zero", group: "Joints", run: () => made.zero() });
@@ -77,6 +78,14 @@ export class Joints {
     this.paused.hidden = allowed;
     for (const button of this.all) button.disabled = !allowed;
     for (const row of this.rows.values()) this.#enable(row);
+  }
+
+  /** Show the joints of a robot that is moved elsewhere. */
+  observe() {
+    this.paused.textContent = "The joints move with the robot. This page only shows them.";
+    this.allow(false);
+    for (const button of this.all) button.hidden = true;
+    document.getElementById("ignore-limits").closest("label").hidden = true;
   }
 
   #enable({ number, slider, joint }) {

@@ -36,6 +36,7 @@ export class Sensors {
     const shown = this.shown[view.getUint16(2, true)];
     if (!shown?.kinds.includes(kind)) return;
     const sequence = view.getUint32(4, true);
+    shown.arrived();
     shown.take(buffer, kind, () => this.page.send("seen", { key: shown.key, sequence }));
   }
 }
@@ -46,10 +47,11 @@ class Sight {
     this.page = page;
     this.topic = topic;
     this.key = `sensor:${topic}`;
-    this.on = false;
+    this.on = this.received = false;
     const { box, label } = check(topic, { checked: on, changed: (ticked) => this.tick(ticked) });
     this.box = box;
-    this.item = h("li.sight", {}, label);
+    this.waiting = h("p.quiet", { hidden: true }, this.awaited);
+    this.item = h("li.sight", {}, label, this.waiting);
     list.append(this.item);
   }
 
@@ -57,7 +59,15 @@ class Sight {
     if (on === this.on) return;
     this.on = on;
     this.page.connection.subscribe(this.key, on);
+    this.waiting.hidden = !on || this.received;
     this.show(on);
+  }
+
+  /** The first message hides the text that stands for it. */
+  arrived() {
+    if (this.received) return;
+    this.received = this.waiting.hidden = true;
+    this.show(this.on);
   }
 
   remove() {
@@ -68,6 +78,10 @@ class Sight {
 
 class Points extends Sight {
   kinds = [POINTS, COLORED];
+  get awaited() {
+    return "Waiting for the first points";
+  }
+
   constructor(page, list, topic, options) {
     super(page, list, topic, options);
     this.cloud = new Cloud(page.viewport, options.colour);
@@ -88,7 +102,7 @@ class Points extends Sight {
 
   show(on) {
     this.cloud.points.visible = on;
-    this.above.hidden = !on;
+    this.above.hidden = !on || !this.received;
     this.page.viewport.dirty();
   }
 
@@ -108,6 +122,10 @@ class Points extends Sight {
 
 class Picture extends Sight {
   kinds = [PICTURE];
+  get awaited() {
+    return "Waiting for the first image";
+  }
+
   constructor(page, list, topic, options) {
     super(page, list, topic, options);
     this.image = h("img", { alt: `image of ${topic}` });
@@ -118,7 +136,7 @@ class Picture extends Sight {
   }
 
   show(on) {
-    this.image.hidden = !on;
+    this.image.hidden = !on || !this.received;
   }
 
   take(buffer, kind, shown) {
