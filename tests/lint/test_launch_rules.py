@@ -309,3 +309,25 @@ def test_misspelt_arguments_of_the_default_description_are_found(source, file, l
     write(source / f"cart_description/launch/{file}", launch)
     found = [one.message for one in lint(source / "cart_description") if one.code == "L102"]
     assert found == ["cart.urdf.xacro has no argument `use_camra`; did you mean `use_camera`?"]
+
+
+NODE = 'Node(package="rviz2", executable="rviz2", name={})'
+
+
+@pytest.mark.parametrize(
+    ("second", "is_reported"),
+    [
+        (NODE.format('"view"'), True),
+        (NODE.format('"view", namespace=""'), True),
+        (NODE.format('"view", condition=UnlessCondition(gui)'), False),
+        (NODE.format('"view", namespace="arm"'), False),
+        (NODE.format('"rear_view"'), False),
+        (f"GroupAction([{NODE.format(chr(34) + 'view' + chr(34))}])", False),
+    ],
+)
+def test_two_nodes_of_one_name_in_python(source, second, is_reported):
+    package = ros2_package(source, "<exec_depend>rviz2</exec_depend>")
+    first = NODE.format('"view", condition=IfCondition(gui)')
+    text = f"def generate_launch_description():\n    return LaunchDescription([{first}, {second}])\n"
+    write(package / "launch/two.launch.py", text)
+    assert any("has the name `view` too" in each for each in findings(source)) is is_reported

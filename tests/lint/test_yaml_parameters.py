@@ -420,3 +420,10 @@ def test_one_finding_for_joints_instead_of_joint(ros1):
     assert found(ros1) == [
         "grip.yaml:3: unknown parameter `joints` of controller `grip_controller`; did you mean `joint`?"
     ]
+
+
+@pytest.mark.parametrize(("tool", "severity"), [("ament_cmake", "error"), ("catkin", "warning")])
+def test_a_value_that_is_no_boolean_stops_moveit_2(ros2, tool, severity):
+    write(ros2, {"package.xml": MANIFEST.format("arm_description", tool, "")})
+    change(ros2, "config/moveit.yaml", "has_position_limits: true", "has_velocity_limits: maybe")
+    assert [one.severity for one in lint(ros2) if "`has_velocity_limits` of" in one.message] == [severity]

@@ -208,7 +208,7 @@ RELATED_FILES: tuple[Row, ...] = (
     (_PYTHON, "launch.launch_words_joined", "LaunchWordsJoined"),
     (_XML, "launch.launch_element_invalid", "LaunchElementInvalid"),
     (_XML, "launch.launch_value_invalid", "LaunchValueInvalid"),
-    (_XML, "launch.node_name_duplicate", "NodeNameDuplicate"),
+    (_LAUNCH, "launch.node_name_duplicate", "NodeNameDuplicate"),
     (_LAUNCH, "launch.controller_parameters_missing", "ControllerParametersMissing"),
     (_LAUNCH, "launch.robot_description_missing", "RobotDescriptionMissing"),
     (_SRDF, "moveit.srdf_not_well_formed", "SrdfNotWellFormed"),

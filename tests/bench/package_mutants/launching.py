@@ -361,12 +361,12 @@ def value_and_default(ws: Workspace, lot: random.Random) -> Mutants:
 
 @_LAUNCH
 def two_nodes_of_one_name(ws: Workspace, lot: random.Random) -> Mutants:
-    """Of two nodes of one name the first is shut down."""
+    """Of two nodes of one name in one namespace the first is shut down."""
     for file, tag in ws.tags(_XML, "node"):
         names = [
             literal(o, "name")
             for _, o in ws.tags(re.escape(file), "node")
-            if o is not tag and not o.attributes.get("if")
+            if o is not tag and not o.attributes.get("if") and literal(o, "ns") == literal(tag, "ns")
         ]
         mine = literal(tag, "name")
         names = [name for name in names if name and name != mine]

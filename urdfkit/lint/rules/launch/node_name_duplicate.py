@@ -11,11 +11,12 @@ if TYPE_CHECKING:
 
 
 class NodeNameDuplicate(RobotRule):
-    """A launch file in XML starts two nodes with the same name in the same namespace.
+    """A launch file in XML or Python starts two nodes with the same name in the same namespace.
 
     ## What it does
     Compares the names of all nodes in a launch file. Names with substitutions are left out, and so are two nodes that
-    both have conditions.
+    both have conditions. In Python, files that push namespaces or react to events are left out, and so are nodes in
+    branches, loops, groups and different functions.
 
     ## Why is this bad?
     roslaunch stops with "multiple nodes named". In ROS 2, both nodes run, and parameters and services reach either one.
@@ -42,6 +43,8 @@ class NodeNameDuplicate(RobotRule):
 
     def check(self, model: Model) -> Findings:
         """Yield a finding for each node whose name another node has."""
+        from urdfkit.lint.facts.launch.named_nodes import duplicates
+        from urdfkit.lint.facts.launch.python_names import python_files
         from urdfkit.lint.facts.launch.ros_version import reads_ros1
         from urdfkit.lint.model.tags import Document
 
@@ -59,6 +62,10 @@ class NodeNameDuplicate(RobotRule):
                     severity = self.severity if reads_ros1(source) else "warning"
                     span = source.span(written.value_start, written.value_end)
                     yield Finding(self.code, self.name, severity, message, span)
+        for source, tree in python_files(model):
+            for name, span, line in duplicates(source, tree):
+                message = f"the node in line {line} has the name `{name}` too"
+                yield Finding(self.code, self.name, "warning", message, span)
 
 
 def _full_name(tag: Tag) -> str | None:

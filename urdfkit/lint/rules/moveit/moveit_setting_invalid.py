@@ -25,7 +25,8 @@ class MoveitSettingInvalid(RobotRule):
 
     ## Why is this bad?
     MoveIt ignores misspelt parameters. With a limit of zero, time parameterisation of trajectories fails. A trajectory
-    for a joint without a controller is not executed.
+    for a joint without a controller is not executed. In ROS 2, move_group stops if ``has_velocity_limits``,
+    ``has_acceleration_limits`` or ``has_jerk_limits`` is not a boolean; in ROS 1, it ignores the value.
 
     ## Example
     ```yaml
@@ -52,6 +53,7 @@ class MoveitSettingInvalid(RobotRule):
         """Yield a finding for each invalid parameter."""
         from urdfkit.lint.facts.control.ros2_controllers import PARAMETERS
         from urdfkit.lint.facts.control.yaml_tree import span_of
+        from urdfkit.lint.facts.launch.ros_version import ros_version
         from urdfkit.lint.facts.moveit.planning import incomplete_entries, planning_defects, uncontrolled_joints
         from urdfkit.lint.facts.moveit.settings import entries, moveit_yamls
         from urdfkit.lint.facts.moveit.srdf import groups
@@ -70,6 +72,10 @@ class MoveitSettingInvalid(RobotRule):
             ]
             for node, message in defects:
                 yield Finding(self.code, self.name, self.severity, message, span_of(source, node))
+            stops = ros_version(source) == 2
+            for key, node, message in (flag for entry in entries(source) for flag in _not_boolean(entry)):
+                severity = "error" if stops and key in _READ_BY_MOVEIT2 else self.severity
+                yield Finding(self.code, self.name, severity, message, span_of(source, node))
 
 
 def _defects(entry: MoveitEntry, model: Model) -> Iterator[tuple[Node, str]]:
@@ -129,6 +135,17 @@ def _group(entry: MoveitEntry) -> Iterator[tuple[Node, str]]:
 _TRUTHS = ("true", "false", "yes", "no", "on", "off", "y", "n")
 """What yaml-cpp reads as a boolean."""
 
+_READ_BY_MOVEIT2 = ("has_velocity_limits", "has_acceleration_limits", "has_jerk_limits")
+"""Parameters of the robot model loader, which does not catch the exception of rclcpp for a wrong type."""
+
+
+def _not_boolean(entry: MoveitEntry) -> Iterator[tuple[str, Node, str]]:
+    """Yield name, value and message of each ``has_…_limits`` that is neither true nor false."""
+    for key, node in entry.settings.entries if entry.kind == "joint" else ():
+        is_flag = key.text.startswith("has_") and key.text.endswith("_limits")
+        if is_flag and node.kind == "text" and node.text and node.text.lower() not in _TRUTHS and "$" not in node.text:
+            yield key.text, node, f"`{key.text}` of joint `{entry.name.text}` is `{node.text}`; write true or false"
+
 
 def _joint(entry: MoveitEntry) -> Iterator[tuple[Node, str]]:
     from urdfkit.lint.facts.moveit.settings import LIMIT_KEYS
@@ -138,9 +155,7 @@ def _joint(entry: MoveitEntry) -> Iterator[tuple[Node, str]]:
     for key, node in settings.entries:
         quantity, _, kind = key.text.removeprefix("has_").rpartition("_")
         is_flag = key.text.startswith("has_") and kind == "limits"
-        if is_flag and node.kind == "text" and node.text and node.text.lower() not in _TRUTHS and "$" not in node.text:
-            yield node, f"`{key.text}` of joint `{joint}` is `{node.text}`; write true or false"
-        elif is_flag and node.text.lower() in ("true", "yes", "on"):
+        if is_flag and node.text.lower() in ("true", "yes", "on"):
             limit = settings.find(f"max_{quantity}")
             value = _number(limit)
             if limit is None and key.text in LIMIT_KEYS:
