@@ -205,7 +205,7 @@ class _Feed:
             self._graph.deliver(self.receivers, sample)
 
         assert self._graph.builder is not None
-        self._graph.builder.add(self, build, receive)
+        self._graph.builder.add(self._topic, build, receive)
 
     def _sample(self, message: Any) -> PublishedMessage:
         return PublishedMessage(self._topic, self._type, message, self._graph.clock())

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import sys
-from collections import Counter, deque
-from collections.abc import Callable, Hashable
+from collections import OrderedDict
+from collections.abc import Callable
 from contextlib import suppress
 from threading import Condition, Thread
 from typing import Any
@@ -12,13 +12,16 @@ from typing import Any
 from urdfkit.bus import Build
 
 WAITING = 2
-"""Messages of one subscription that may wait; a renderer that is slower than its sensor omits the oldest."""
+"""Messages of one topic that may wait; a renderer that is slower than its sensor omits the oldest."""
 SWITCH = 0.0005
 """Seconds after which a thread gives the lock of Python to a waiting thread; Python's 5 ms would delay commands."""
 
 
+Receive = Callable[[Any], None]
+
+
 class MessageBuilder:
-    """Thread that builds messages, in the order of their publication.
+    """Thread that builds messages: those of one topic in order, the topics in turns.
 
     Args:
         report: receives a line if a message cannot be built, each once.
@@ -27,14 +30,13 @@ class MessageBuilder:
     def __init__(self, report: Callable[[str], None]) -> None:
         self._report = report
         self._reported: set[str] = set()
-        self._jobs: deque[tuple[Hashable, Build, Callable[[Any], None]]] = deque()
-        self._waiting: Counter[Hashable] = Counter()
+        self._topics: OrderedDict[str, dict[Build, list[Receive]]] = OrderedDict()
         self._changed, self._closed = Condition(), False
         self._interval = sys.getswitchinterval()
         self._thread: Thread | None = None
 
-    def add(self, subscription: Hashable, build: Build, receive: Callable[[Any], None]) -> None:
-        """Build a message and hand it to `receive`, both in the thread of the builder."""
+    def add(self, topic: str, build: Build, receive: Receive) -> None:
+        """Build a message and hand it to `receive`, both in the thread of the builder; all bridges share a message."""
         with self._changed:
             if self._closed:
                 return
@@ -42,11 +44,10 @@ class MessageBuilder:
                 sys.setswitchinterval(SWITCH)
                 self._thread = Thread(target=self._run, name="urdfkit-messages", daemon=True)
                 self._thread.start()
-            self._waiting[subscription] += 1
-            if self._waiting[subscription] > WAITING:
-                self._waiting[subscription] -= 1
-                self._jobs.remove(next(job for job in self._jobs if job[0] == subscription))
-            self._jobs.append((subscription, build, receive))
+            jobs = self._topics.setdefault(topic, {})
+            jobs.setdefault(build, []).append(receive)
+            if len(jobs) > WAITING:
+                del jobs[next(iter(jobs))]
             self._changed.notify()
 
     def close(self) -> None:
@@ -62,13 +63,18 @@ class MessageBuilder:
     def _run(self) -> None:
         while True:
             with self._changed:
-                self._changed.wait_for(lambda: self._jobs or self._closed)
+                self._changed.wait_for(lambda: self._topics or self._closed)
                 if self._closed:
                     return
-                subscription, build, receive = self._jobs.popleft()
-                self._waiting[subscription] -= 1
+                topic, jobs = self._topics.popitem(last=False)
+                build = next(iter(jobs))
+                receivers = jobs.pop(build)
+                if jobs:
+                    self._topics[topic] = jobs  # behind the other topics
             try:
-                receive(build())
+                message = build()
+                for receive in receivers:
+                    receive(message)
             except Exception as error:  # of a driver or a middleware; the simulation continues
                 with suppress(IndexError):
                     self._fail(str(error).splitlines()[0])

@@ -57,7 +57,7 @@ class PublishedTopic:
                 self._topic.name,
                 self._topic.type,
                 receive,
-                defer=None if builder is None else lambda build: builder.add(self, build, receive),
+                defer=None if builder is None else lambda build: builder.add(self._topic.name, build, receive),
             )
 
     def close(self) -> None:
