@@ -8,6 +8,7 @@ from urdfkit.description.plugins.lookup import values
 from urdfkit.description.plugins.spec import PluginSpec
 from urdfkit.description.urdf.robot import Plugin
 from urdfkit.description.xml.element import Element
+from urdfkit.errors import did_you_mean
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -19,6 +20,9 @@ if TYPE_CHECKING:
 ORDERED = (("min_depth", "max_depth"), ("min_range", "max_range"))
 """Pairs of parameters of which the first must be the smaller."""
 
+
+NOISES = ("none", "gaussian", "gaussian_quantized")
+"""Types of noise (sdformat, noise.sdf)."""
 
 NUMBERS = frozenset(
     (
@@ -36,10 +40,12 @@ WIDE = ("wideanglecamera", "wide_angle_camera")
 
 
 def senseless_numbers(sensor: Element) -> Senseless:
-    """Yield values that are not numbers, negative rates, and angles above a full turn."""
+    """Yield values that are not numbers, negative rates, angles above a full turn, and unknown types of noise."""
     for child in sensor.children:
         if child.tag == "plugin":
             continue
+        if child.tag == "noise" and (unknown := _unknown_noise(child)) is not None:
+            yield unknown
         if child.tag not in NUMBERS or child.children:
             yield from senseless_numbers(child)
             continue
@@ -50,6 +56,14 @@ def senseless_numbers(sensor: Element) -> Senseless:
             yield child, f"<update_rate> is {value:g} Hz; it must not be negative; zero updates at every step"
         elif child.tag in ("min_angle", "max_angle") and abs(value) > _MAX_ANGLE:
             yield child, f"<{child.tag}> is {value:g} rad, more than a full turn: angles are in radians"
+
+
+def _unknown_noise(noise: Element) -> tuple[Element, str] | None:
+    written = noise.find("type")
+    kind = (written.text if written is not None else noise.get("type")) or "none"
+    if kind in NOISES:
+        return None
+    return written or noise, f"the type of the noise is `{kind}`, not {', '.join(NOISES)}{did_you_mean(kind, NOISES)}"
 
 
 def senseless_scan(lidar: Element) -> Senseless:

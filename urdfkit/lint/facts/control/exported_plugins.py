@@ -34,6 +34,23 @@ def is_exported_plugin(model: Model, kind: str) -> bool:
     return any(export.search(text) for folder in folders for text in _sources(folder))
 
 
+def is_built_library(model: Model, name: str) -> bool:
+    """Return whether a package next to the robot's package builds a library, by its name without ``lib``, ``.so``."""
+    from urdfkit.description.packages.related_files import neighbours
+
+    if model.package is None:
+        return False
+    built = re.compile(rf"(?<![\w-]){re.escape(name)}(?![\w-])")
+    for package, folder in neighbours(model.package).items():
+        file = folder / "CMakeLists.txt"
+        model.expanded.packages.watch(folder, file.name)
+        if file.is_file() and file.stat().st_size <= _MAX_BYTES:
+            text = file.read_text("utf-8", "replace").replace("${PROJECT_NAME}", package)
+            if built.search(text):
+                return True
+    return False
+
+
 def _sources(folder: Path) -> list[str]:
     """Return the texts of the C++ files and plugin descriptions in a folder."""
     texts: list[str] = []

@@ -1,16 +1,19 @@
 """Z801 gazebo-reference-undefined."""
 
+from urdfkit.description.urdf.robot import GazeboBlock
 from urdfkit.lint.fix_builders import meant, new_value
 from urdfkit.lint.model.masked_names import is_typo, unless_masked
 from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
 
 
 class GazeboReferenceUndefined(RobotRule):
-    """A ``<gazebo reference="…">`` block refers to an undefined link or joint.
+    """A ``<gazebo reference="…">`` block refers to an undefined link or joint, or holds a sensor without a link.
 
     ## What it does
     Compares the reference of each ``<gazebo>`` block with the links and joints of the robot. This is an error if the
     name is misspelt or if the block contains a sensor or a plugin, and a warning otherwise: a leftover block.
+    Sensors in a block without reference are errors; sensors other than ``force_torque`` in the block of a joint are
+    warnings.
 
     ## Why is this bad?
     Gazebo silently drops the block with its friction, colours and sensors.
@@ -45,7 +48,23 @@ class GazeboReferenceUndefined(RobotRule):
     not_for = NOT_GAZEBO
 
     def check(self, model: Model) -> Findings:
-        """Yield a finding for each block with an undefined reference."""
+        """Yield a finding for each block with an undefined reference, and for each sensor without a link."""
+        for block in model.robot.gazebo:
+            is_outside = not block.reference or block.reference in model.robot.joint_by_name
+            if is_outside and block.reference not in model.robot.link_by_name:
+                yield from self._sensors(model, block)
+        yield from self._references(model)
+
+    def _sensors(self, model: Model, block: GazeboBlock) -> Findings:
+        for sensor in block.sensors:
+            if block.reference and (sensor.type or "").strip() in ("force_torque", "forcetorque"):
+                continue
+            place = f"the block of joint `{block.reference}`" if block.reference else "a <gazebo> without reference"
+            message = f"sensor `{sensor.name or 'sensor'}` is in {place}"
+            help = "write it in the <gazebo reference=…> of a link"
+            yield self.at(model, sensor.element, message, help=help, severity="warning" if block.reference else None)
+
+    def _references(self, model: Model) -> Findings:
         robot = model.robot
         for block in robot.gazebo:
             name = block.reference

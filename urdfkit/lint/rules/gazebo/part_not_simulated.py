@@ -51,10 +51,10 @@ class PartNotSimulated(RobotRule):
         yield from self._controllers(model)
 
     def _plugins(self, model: Model) -> Findings:
+        from urdfkit.description.plugins.gazebo_libraries import meant_library
         from urdfkit.description.plugins.lookup import match, stem
         from urdfkit.description.plugins.unknown_plugins import unknown
         from urdfkit.description.sdf.reader.world_plugins import NEEDLESS
-        from urdfkit.lint.facts.gazebo.gazebo_libraries import meant_library
 
         for plugin, _, sensor in plugins(model.robot):
             file = plugin.filename

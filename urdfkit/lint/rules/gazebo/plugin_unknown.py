@@ -1,6 +1,7 @@
 """Z825 plugin-unknown."""
 
 from urdfkit.description.urdf.robot import Plugin
+from urdfkit.lint.facts.control.exported_plugins import is_built_library
 from urdfkit.lint.facts.gazebo.plugins import plugins
 from urdfkit.lint.finding import Finding
 from urdfkit.lint.fix_builders import new_value
@@ -12,8 +13,8 @@ class PluginUnknown(RobotRule):
 
     ## What it does
     Checks for file names that nearly match a library of gazebo_ros_pkgs, Gazebo Sim or another widely used package. For
-    libraries of Gazebo Sim, also checks that ``name`` is a class of the library. Names that resemble no known library
-    are accepted, because they may be custom libraries.
+    libraries of Gazebo Sim, also checks that ``name`` is a class of the library. Names that resemble no known library,
+    that a package of the workspace builds, or of which an installed Python package has a table, are accepted.
 
     ## Why is this bad?
     Gazebo reports "Failed to load plugin", and the robot has no drive or sensor. Gazebo Sim looks up a plugin by the
@@ -50,8 +51,8 @@ class PluginUnknown(RobotRule):
 
     def check(self, model: Model) -> Findings:
         """Yield a finding for each misspelt library and each misspelt class."""
+        from urdfkit.description.plugins.gazebo_libraries import classes, meant_class, meant_library
         from urdfkit.description.plugins.lookup import stem
-        from urdfkit.lint.facts.gazebo.gazebo_libraries import classes, meant_class, meant_library
 
         for plugin, _, _ in plugins(model.robot):
             file = plugin.filename
@@ -59,6 +60,8 @@ class PluginUnknown(RobotRule):
                 continue
             library = stem("".join(file.split()))
             suggestion = meant_library(library)
+            if suggestion is not None and is_built_library(model, library):
+                suggestion = None
             if suggestion is not None:
                 yield self._finding(
                     model, plugin, "filename", f"unknown library `{library}`", _file_name(file, suggestion)
@@ -90,7 +93,7 @@ class PluginUnknown(RobotRule):
 
 
 def _all_classes() -> list[str]:
-    from urdfkit.lint.facts.gazebo.gazebo_libraries import classes
+    from urdfkit.description.plugins.gazebo_libraries import classes
 
     return [name for names in classes().values() for name in names]
 

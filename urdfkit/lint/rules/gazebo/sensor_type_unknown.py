@@ -25,7 +25,7 @@ _MISNOMERS = {
 
 
 class SensorTypeUnknown(RobotRule):
-    """A sensor has an unknown type.
+    """A sensor has an unknown type or none.
 
     ## What it does
     Checks for a ``type`` of a ``<sensor>`` that nearly matches an SDF type or is a common misnomer, and, for Gazebo
@@ -64,14 +64,18 @@ class SensorTypeUnknown(RobotRule):
     not_for = NOT_GAZEBO
 
     def check(self, model: Model) -> Findings:
-        """Yield a finding for each sensor of an unknown type."""
+        """Yield a finding for each sensor of an unknown type or without a type."""
         from urdfkit.description.plugins.sensors.table import SENSOR_TYPES
 
         is_classic = model.target in ("classic", "ros1")
         for block in model.robot.gazebo:
             for sensor in block.sensors:
                 kind = sensor.type or ""
-                if not kind or "$" in kind or model.is_unresolved(sensor.element, "type"):
+                if not kind.strip():
+                    message = f"sensor `{sensor.name or 'sensor'}` has no type"
+                    yield self.at(model, sensor.element, message, help="write type, such as camera, imu or gpu_lidar")
+                    continue
+                if "$" in kind or model.is_unresolved(sensor.element, "type"):
                     continue
                 expected = None
                 if kind in SENSOR_TYPES or kind in ("openni_kinect", "gpu_ray"):

@@ -4,12 +4,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from urdfkit.description.plugins.invalid_sensor_values import NOISES
 from urdfkit.description.xml.element import Element
 from urdfkit.errors import SimulationError, did_you_mean
 from urdfkit.linear_algebra import Array
 from urdfkit.sim.plugins.sensors.sensor_values import number
-
-TYPES = ("none", "gaussian", "gaussian_quantized")
 
 
 @dataclass(frozen=True)
@@ -54,10 +53,11 @@ def noise_of(parent: Element | None, random: np.random.Generator) -> Noise:
         return Noise()
     written = element.find("type")
     kind = (written.text if written is not None else element.get("type")) or "none"
-    if kind not in TYPES:
+    if kind not in NOISES:
         raise SimulationError(
-            f"the type of the noise is `{kind}`; it must be {', '.join(TYPES)}{did_you_mean(kind, TYPES)}",
+            f"the type of the noise is `{kind}`; it must be {', '.join(NOISES)}{did_you_mean(kind, NOISES)}",
             position=(written or element).origin.position,
+            code="Z823",
         )
     if kind == "none":
         return Noise()

@@ -1,11 +1,14 @@
 """Names of existing Gazebo libraries, and suggestions for misspelt names.
 
-`urdfkit.description.plugins` lists the libraries with a specification; this module adds other common libraries.
+`ALL_SPECS` lists the libraries with a specification; this module adds other common libraries.
 """
 
 import re
 from collections.abc import Iterable
 from functools import cache
+
+from urdfkit.description.plugins.lookup import ALL_SPECS, tables_of
+from urdfkit.errors import nearest
 
 _CLASSIC = """
 gazebo_ros_api_plugin gazebo_ros_paths_plugin gazebo_ros_init gazebo_ros_factory gazebo_ros_state
@@ -24,6 +27,17 @@ roboticsgroup_upatras_gazebo_mimic_joint_plugin roboticsgroup_upatras_gazebo_dis
 gazebo_mimic_joint_plugin gazebo_grasp_fix gazebo_ros_link_attacher
 """
 """Stems of libraries of gazebo_ros, gazebo_plugins (Hydro to Noetic, Humble), PR2, Hector and other packages."""
+
+_OWN = """
+Actor Actuator AmbientOcclusionVisual ArduCopter AttachLight BlinkVisual BreakableJoint Buoyancy Camera CartDemo Cessna
+Contact Contain DepthCamera DiffDrive Elevator FiducialCamera FlashLight Flocking Follower ForceTorque GimbalSmall2d
+GpuRay GravityCompensation Harness HeightmapLOD Hydra HydraDemo ImuSensor InitialVelocity JointControl JointTrajectory
+Joy KeysToCmdVel KeysToJoints Led LensFlareSensor LiftDrag LinearBattery LinearBatteryConsumer LinkPlot3D LookAtDemo
+Misalignment Mud MultiCamera PlaneDemo Pressure RandomVelocity Ray RaySensorNoise Reflectance Rubble ShaderParam
+SimEvents SimpleTrackedVehicle SkidSteerDrive Sonar SphereAtlasDemo StaticMap StopWorld Touch TrackedVehicle
+Transporter Treads VariableGearbox Vehicle WheelSlip WheelTrackedVehicle Wind
+"""
+"""Libraries of Gazebo Classic (gazebo 11, folder plugins), without the last word ``Plugin``."""
 
 _SYSTEMS = """
 acoustic-comms=AcousticComms advanced-lift-drag=AdvancedLiftDrag air-pressure=AirPressure air-speed=AirSpeed
@@ -48,9 +62,8 @@ user-commands=UserCommands velocity-control=VelocityControl wheel-slip=WheelSlip
 @cache
 def classes() -> dict[str, tuple[str, ...]]:
     """Return library stem → valid plugin class names; empty if any name is valid."""
-    from urdfkit.description.plugins import ALL_SPECS
-
     found: dict[str, tuple[str, ...]] = dict.fromkeys(_CLASSIC.split(), ())
+    found.update(dict.fromkeys([f"{name}Plugin" for name in _OWN.split()], ()))
     for word in _SYSTEMS.split():
         name, _, kind = word.partition("=")
         names = (f"gz::sim::systems::{kind}", f"ignition::gazebo::systems::{kind}") if kind else ()
@@ -64,11 +77,12 @@ def meant_library(stem: str) -> str | None:
     """Return the library stem that a misspelt name stands for; None if the name may be a different library.
 
     A name is a misspelling of a library if each word equals, resembles or abbreviates a word of the library's name, if
-    the names differ in dashes, underscores and at most one letter, or if the name has an additional generic word.
+    the names differ in dashes, underscores and at most one letter, if their words have another order, or if the name
+    has an additional generic word. Libraries of installed packages with a table are no misspellings.
     """
-    if not stem or stem in classes():
+    if not stem or stem in classes() or tables_of(stem):
         return None
-    whole = _with_ending(stem) if _SYSTEM.match(stem) else stem
+    whole = _with_ending(stem.replace("_", "-")) if _SYSTEM.match(stem) else stem
     if whole in classes():
         return whole
     near = [(similarity, candidate) for candidate in classes() if (similarity := _similarity(whole, candidate))]
@@ -80,8 +94,6 @@ def meant_library(stem: str) -> str | None:
 
 def meant_class(name: str, candidates: Iterable[str]) -> str | None:
     """Return the class that a misspelt name stands for; None if the name may be a different class."""
-    from urdfkit.lint.fix_builders import nearest
-
     return nearest(name, candidates, cutoff=0.9) if "::" in name else None
 
 
@@ -121,10 +133,28 @@ _WORDS = re.compile("[-_]")
 _DIGITS = re.compile("[0-9]")
 
 
+_LONG = 12
+"""Least number of letters of a name that is not meant to differ from another name by one letter."""
+
+
+def _is_one_slip(name: str, other: str) -> bool:
+    """Return whether two names differ by one letter that is added, missing or different, or by two in reverse order."""
+    if abs(len(name) - len(other)) > 1:
+        return False
+    start = next((n for n, (a, b) in enumerate(zip(name, other, strict=False)) if a != b), min(len(name), len(other)))
+    ours, theirs = name[start:], other[start:]
+    swapped = ours[1:2] + ours[:1] + ours[2:]
+    return theirs in (ours[1:], swapped) or ours == theirs[1:] or (ours[1:] == theirs[1:])
+
+
 def _similarity(name: str, candidate: str) -> float:
     """Return the similarity of two names; 0 if they are different names."""
     ours, theirs = (_WORDS.split(one.lower()) for one in (name, candidate))
     if _DIGITS.findall(name) != _DIGITS.findall(candidate):
+        return 0.0
+    if sorted(ours) == sorted(theirs) or (len(name) >= _LONG and _is_one_slip(name.lower(), candidate.lower())):
+        return 0.99
+    if len(theirs) == 1:  # `LinkPlot3DPlugin` has no words, and names such as `SolarPlugin` are of other packages.
         return 0.0
     if len(ours) != len(theirs):
         similarity = _ratio("".join(ours), "".join(theirs), 0.95)
