@@ -44,6 +44,21 @@ def test_warnings_that_differ_in_names_only_share_a_line() -> None:
     ]
 
 
+@pytest.mark.parametrize("quiet", [False, True])
+def test_a_part_that_is_not_simulated_names_the_target_of_lint(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], quiet: bool
+) -> None:
+    path = tmp_path / "r.urdf"
+    plugin = '<gazebo><plugin name="p" filename="libown.so"/></gazebo>'
+    path.write_text(f'<robot name="r"><link name="base">{INERTIAL}</link>{plugin}</robot>')
+    assert main(["sim", "run", str(path), "--for", "0.001", *["-q"] * quiet]) == 0
+    err = capsys.readouterr().err
+    assert "libown.so" in err
+    assert ("`urdfkit lint --target urdfkit` reports" in err) is not quiet
+    assert main(["lint", str(path), "--target", "urdfkit"]) == 0
+    assert "libown.so" in capsys.readouterr().out
+
+
 def test_fewer_warnings_are_separate_lines() -> None:
     texts = [f"r.urdf:{n}:1: unknown plugin `p{n}`" for n in range(3)]
     assert grouped(texts) == texts

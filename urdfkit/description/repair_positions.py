@@ -20,6 +20,7 @@ _ATTRIBUTES = {
     "J402": "type",
     "J411": "xyz",
     "J416": "joint",
+    "Z801": "reference",
 }
 """Code → attribute at which the rule reports a defect, for repairs without an attribute."""
 

@@ -37,6 +37,16 @@ def test_the_shape_is_left_out_by_name_and_the_rest_stands_on_the_ground(
     assert note.endswith("shape `base/collision/hull` is left out: it has no contacts")
 
 
+def test_a_visual_mesh_is_a_repair_at_the_line_of_its_file_name(tmp_path: Path) -> None:
+    mesh = MESH.replace("collision", "visual").replace("<mesh ", "<mesh\n").format("gone.stl")
+    simulator = Simulator(written(tmp_path, BOX + mesh), note=lambda _: None)
+    (repair,) = simulator.repairs
+    assert (repair.kind, repair.code, repair.link) == ("mesh", "G601", "base")
+    assert repair.message == "no file gone.stl; shape `base/visual/hull` is left out: it is invisible"
+    assert repair.position is not None
+    assert repair.position.line == 2
+
+
 @pytest.mark.parametrize("collisions", [MESH.format("gone.stl"), BOX + MESH.format("gone.stl")])
 def test_a_strict_simulation_refuses_the_robot(tmp_path: Path, collisions: str) -> None:
     with pytest.raises(ResourceError, match=r"gone\.stl"):

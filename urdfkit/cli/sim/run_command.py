@@ -22,7 +22,7 @@ from urdfkit.cli.sim.run_options import (
     load_robot_of_run,
     run_options_of,
 )
-from urdfkit.cli.sim.warnings import GroupedWarnings
+from urdfkit.cli.sim.warnings import GroupedWarnings, note_lint_target
 
 if TYPE_CHECKING:
     from urdfkit.app.simulation.runs.run_options import RunOptions
@@ -125,6 +125,7 @@ def load(arguments: argparse.Namespace, options: RunOptions) -> Simulator:
     warnings = GroupedWarnings(quiet=arguments.quiet)
     with limit, warnings:
         simulator = options.build(robot, world, warnings)
+    note_lint_target(simulator.repairs, quiet=arguments.quiet)
     warn_of_file_names(robot, quiet=arguments.quiet)
     return simulator
 

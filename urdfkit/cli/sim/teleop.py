@@ -17,7 +17,7 @@ from urdfkit.cli.sim.record_option import add_record, check_record, recording
 from urdfkit.cli.sim.renderer_option import add_renderer
 from urdfkit.cli.sim.repair_options import add_repair_options
 from urdfkit.cli.sim.terminal_option import add_terminal, check_terminal, terminal_driving
-from urdfkit.cli.sim.warnings import GroupedWarnings
+from urdfkit.cli.sim.warnings import GroupedWarnings, note_lint_target
 
 KEYS = """\
 Drive with W A S D, the arrow keys, i j k l u o m , . or the pad; the robot stops when you release them.
@@ -86,7 +86,7 @@ def run(arguments: argparse.Namespace) -> int:
             watchers_may=arguments.watchers_may,
             layout=layout,
         )
-        warnings = GroupedWarnings()
+        warnings = GroupedWarnings(quiet=arguments.quiet)
         with ExitStack() as stack:
             with warnings:
                 loop = stack.enter_context(
@@ -102,6 +102,7 @@ def run(arguments: argparse.Namespace) -> int:
                         note=warnings,
                     )
                 )
+            note_lint_target(loop.simulator.repairs, quiet=arguments.quiet)
             loop.bridges = stack.enter_context(
                 bridged(loop.simulator, bridges, loop, warnings, services=loop.services if bridges else {})
             )

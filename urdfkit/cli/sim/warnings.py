@@ -3,8 +3,14 @@
 from __future__ import annotations
 
 import re
+from typing import TYPE_CHECKING
 
 from urdfkit.cli.sim.repair_options import print_warning
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    from urdfkit.description.urdf.repair_record import Repair
 
 SMALLEST = 4
 """Number of alike warnings from which on they share a line; warnings about one missing package always do."""
@@ -46,6 +52,12 @@ class GroupedWarnings:
         waiting, self._waiting = self._waiting or [], None
         for text in grouped(waiting):
             print_warning(text)
+
+
+def note_lint_target(repairs: Iterable[Repair], *, quiet: bool) -> None:
+    """Print how to find the parts that are not simulated without a simulation: other targets simulate them."""
+    if not quiet and any(repair.code == "Z833" for repair in repairs):
+        print_warning("note: `urdfkit lint --target urdfkit` reports the parts of a robot that are not simulated")
 
 
 def grouped(texts: list[str]) -> list[str]:

@@ -7,13 +7,20 @@ from dataclasses import replace
 from pathlib import Path
 
 from urdfkit.description.sdf import WorldLink, WorldModel, WorldShape
+from urdfkit.description.urdf.repair_record import Repair
 from urdfkit.description.urdf.robot import Mesh
 from urdfkit.errors import ResourceError, SimulationError, with_effect
 from urdfkit.scene import MeshLoader, Scene
+from urdfkit.sim.construction.repairs.collector import Repairs
 
 
-def warn_of_omitted_shapes(scene: Scene, note: Callable[[str], None]) -> None:
-    """Report every omitted shape of a robot by name.
+def report_omitted_shapes(scene: Scene, repairs: Repairs, note: Callable[[str], None]) -> None:
+    """Report every omitted shape of a robot by name; robots with such shapes are never refused.
+
+    Args:
+        scene: the shapes of the robot.
+        repairs: collects the repairs, unless it is strict.
+        note: reports a warning to the user.
 
     Raises:
         ResourceError: a mesh of a collision shape cannot be read.
@@ -22,7 +29,12 @@ def warn_of_omitted_shapes(scene: Scene, note: Callable[[str], None]) -> None:
         if each.role == "collision":
             raise each.error
     for each in scene.problems:
-        note(with_effect(str(each.error), f"shape `{each.name}` is left out: it is invisible"))
+        message = with_effect(each.error.message, f"shape `{each.name}` is left out: it is invisible")
+        repair = Repair("mesh", each.code, message, each.error.position, each.body)
+        if repairs.strict:
+            note(str(repair))
+        else:
+            repairs.add(repair)
 
 
 def without_broken(model: WorldModel, meshes: MeshLoader, note: Callable[[str], None]) -> WorldModel:

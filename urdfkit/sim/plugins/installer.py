@@ -10,13 +10,14 @@ import numpy as np
 
 from urdfkit import entry_points
 from urdfkit.description.plugins import PluginSpec, match
+from urdfkit.description.plugins.gazebo_libraries import meant_library
 from urdfkit.description.plugins.lookup import stem
-from urdfkit.description.plugins.sensors.table import BARE
+from urdfkit.description.plugins.sensors.table import BARE, INSTEAD, SENSOR_TYPES
 from urdfkit.description.plugins.unknown_plugins import unknown, unsupported
 from urdfkit.description.sdf.reader.world_plugins import NEEDLESS
 from urdfkit.description.urdf.repair_record import Repair
 from urdfkit.description.urdf.robot import Plugin, Robot, SensorTag
-from urdfkit.errors import DescriptionError, SimulationError, UrdfkitError, UsageError, with_effect
+from urdfkit.errors import DescriptionError, SimulationError, UrdfkitError, UsageError, nearest, with_effect
 from urdfkit.sim.plugins.base import Controller, Drive, Sensor
 from urdfkit.sim.plugins.builtin_publishers import JointStates, all_joint_states, joint_states
 from urdfkit.sim.plugins.controllers import CONTROLLERS
@@ -53,7 +54,7 @@ class LeftOut:
     Attributes:
         message: reason, without the position.
         position: source position of the plugin or sensor.
-        code: code of the lint rule that reports the same defect; None for an invalid parameter.
+        code: code of the lint rule that reports the same defect; None if it depends on the parameter.
         attribute: attribute that has the defect; None for the whole element.
     """
 
@@ -165,7 +166,10 @@ def _choose(plugin: Plugin, setup: Setup, classes: tuple[type[Drive | Sensor | C
     bare = sensor is not None and plugin.element is sensor.element
     spec = BARE.get((sensor.type or "").strip()) if bare and sensor is not None else match(plugin)
     if sensor is not None and (reason := unsupported(sensor, simulated=spec is not None or not bare)):
-        return LeftOut(reason, sensor.element.origin.position, _NOT_SIMULATED, "type")
+        kind = (sensor.type or "").strip()
+        is_known = kind in (*SENSOR_TYPES, *INSTEAD)
+        is_defect = not kind or (not is_known and nearest(kind, SENSOR_TYPES, cutoff=0.8) is not None)
+        return LeftOut(reason, sensor.element.origin.position, "Z827" if is_defect else _NOT_SIMULATED, "type")
     for warning in not_read(plugin, spec) if spec is not None and not bare else ():
         setup.note(warning)
     if spec is not None and spec.kind == "joint_state_publisher":
@@ -184,7 +188,8 @@ def _choose(plugin: Plugin, setup: Setup, classes: tuple[type[Drive | Sensor | C
         return Needless()
     brought = [name for each in classes for table in each.specs for name in table.filenames]
     reason = unknown(plugin, None if sensor is None else sensor.name or "", [*NEEDLESS, *brought])
-    return LeftOut(reason, plugin.element.origin.position, _NOT_SIMULATED, "filename")
+    code = _NOT_SIMULATED if meant_library(name) is None else "Z825"
+    return LeftOut(reason, plugin.element.origin.position, code, "filename")
 
 
 def _configure(made: Drive | Sensor | Controller | JointStates, setup: Setup) -> Decision:
@@ -204,13 +209,13 @@ def _configure(made: Drive | Sensor | Controller | JointStates, setup: Setup) ->
             raise
         name = setup.sensor.name if setup.sensor is not None else made.plugin.name
         message = with_effect(error.message, f"sensor `{name}` is left out")
-        return LeftOut(message, error.position or made.plugin.element.origin.position)
+        return LeftOut(message, error.position or made.plugin.element.origin.position, error.code)
     return Simulated(made)
 
 
 def _report(part: LeftOut, kind: RepairKind, setup: Setup) -> None:
     """Report a part that is not simulated; robots with such a part are never refused."""
-    if part.code is None or setup.repairs.strict:
+    if setup.repairs.strict:
         setup.note(f"{part.position}: {part.message}")
     else:
         setup.repairs.add(Repair(kind, part.code, part.message, part.position, attribute=part.attribute))

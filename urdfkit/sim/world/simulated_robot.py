@@ -10,7 +10,7 @@ from urdfkit.linear_algebra import Array
 from urdfkit.scene import Scene
 from urdfkit.sim.construction.link_options import self_colliding, weightless_links
 from urdfkit.sim.construction.loading import require_masses
-from urdfkit.sim.construction.missing_meshes import warn_of_omitted_shapes
+from urdfkit.sim.construction.missing_meshes import report_omitted_shapes
 from urdfkit.sim.construction.repairs.collector import Repairs
 from urdfkit.sim.construction.repairs.robot_repairs import repaired
 from urdfkit.sim.construction.start_pose import Spawn, raised_joints
@@ -100,7 +100,7 @@ class SimulatedRobot:
         floating = not (fixed_base or on_world)
         robot, self.scene = repaired(robot, scene, repairs, floating=floating)
         self.kinematics = Kinematics(robot, floating_base=floating)
-        warn_of_omitted_shapes(self.scene, note)
+        report_omitted_shapes(self.scene, repairs, note)
         self.spawn = spawn or Spawn(z=0.0 if on_world else None)
         self.base = self.spawn.place(self.kinematics, self.scene, ground)
         self._raised = raised_joints(self.kinematics, self.scene, self.base, ground) if spawn is None else {}

@@ -121,6 +121,15 @@ def test_a_mass_without_shapes_has_the_inertia_of_a_sphere(arm: Repaired) -> Non
     assert repair.code == "I504"
 
 
+def test_a_mass_from_the_shape_of_a_fixed_link_names_that_link(arm: Repaired) -> None:
+    fixed = '</link><joint name="f" type="fixed"><parent link="l0"/><child link="tip"/></joint><link name="tip">'
+    visual = shape("visual", '<mesh filename="gone.stl"/>')
+    _, (mass,) = arm(visual + fixed + shape("collision", '<box size="0.1 0.1 0.1"/>'))
+    assert mass.link == "l0"
+    assert mass.message.startswith("link `l0` has no <inertial>, but joint `j0` moves it; simulated with 1 kg and ")
+    assert mass.message.endswith("(from the shapes of `tip` at 1000 kg/m³)")
+
+
 def test_links_fixed_to_a_link_with_mass_are_not_repaired(arm: Repaired) -> None:
     robot, found = arm(INERTIAL.format(x=0.1, m=1, i=0.01))
     assert found == []

@@ -13,6 +13,7 @@ from tests.sim.plugins.sensors.conftest import LASER, heard, scan, sensor
 from tests.suggestions import contains
 from urdfkit.cli import main
 from urdfkit.description import load
+from urdfkit.lint import lint
 from urdfkit.sim import Simulator
 
 GOOD = sensor(LASER)
@@ -108,8 +109,15 @@ WRONG = [
 @pytest.mark.parametrize(("blocks", "reported"), WRONG)
 def test_a_line_says_what_is_wrong_and_where_and_the_rest_runs(robot, blocks: str, reported: str) -> None:
     notes: list[str] = []
-    simulator = Simulator(load(robot(blocks)), world="void", note=notes.append)
+    file = robot(blocks)
+    simulator = Simulator(load(file), world="void", note=notes.append)
     (note,) = notes
+    (repair,) = simulator.repairs
+    assert str(repair) == note
+    found = [(each.code, each.span.start.line) for each in lint(file, target="urdfkit")]
+    assert repair.position is not None
+    assert repair.position.line in [line for _, line in found]
+    assert repair.code is None or (repair.code, repair.position.line) in found
     assert contains(note, reported)
     assert "\n" not in note
     assert re.search(r"/post\.urdf:[4-9]:\d+: ", note)  # the good one ends on line 3

@@ -36,21 +36,30 @@ def with_estimates(robot: Robot, scene: Scene, *, floating: bool, density: float
         heavy = [link for link in links if has_mass(link)]
         if (heavy and any(map(has_inertia, links))) or any(map(_is_negative, links)):
             continue
-        inertials: list[Inertial] = []
-        basis = "the inertia from its shapes" if heavy else f"from its shapes at {density:g} kg/m³"
+        estimated: dict[str, Inertial] = {}
+        is_sphere = False
         for link in heavy or links:
             volume = _volume(scene, link.name)
-            if not heavy and volume.volume <= 0.0:
-                continue
-            inertials.append(_estimated(link, volume, density))
-            changed[link.name] = replace(link, inertial=inertials[-1])
-            if volume.volume <= 0.0:
+            if heavy or volume.volume > 0.0:
+                estimated[link.name] = _estimated(link, volume, density)
+                changed[link.name] = replace(link, inertial=estimated[link.name])
+                is_sphere |= volume.volume <= 0.0
+        if estimated and (first := first_of(links)) is not None:
+            shapes = _shapes_of(list(estimated), first.name)
+            basis = f"the inertia from {shapes}" if heavy else f"from {shapes} at {density:g} kg/m³"
+            if is_sphere:
                 basis = f"the inertia of a sphere of {density:g} kg/m³"
-        if inertials and (first := first_of(links)) is not None:
-            repairs.append(mass_repair(first, inertials, joint, basis))
+            repairs.append(mass_repair(first, list(estimated.values()), joint, basis))
     if not changed:
         return robot, repairs
     return replace(robot, links=tuple([changed.get(link.name, link) for link in robot.links])), repairs
+
+
+def _shapes_of(names: list[str], reported: str) -> str:
+    """Return the words for the shapes of links, in a message about one link of their body."""
+    if len(names) > 1:
+        return "their shapes"
+    return "its shapes" if names == [reported] else f"the shapes of `{names[0]}`"
 
 
 def _is_negative(link: Link) -> bool:

@@ -149,10 +149,16 @@ def carrier(setup: Setup) -> str:
     place = setup.sensor.element.origin.position
     if not setup.link:
         raise SimulationError(
-            "a sensor must be in the <gazebo reference=…> of a link; this <gazebo> has no reference", position=place
+            "a sensor must be in the <gazebo reference=…> of a link; this <gazebo> has no reference",
+            position=place,
+            code="Z801",
         )
+    if setup.link not in setup.kinematics.robot.joint_by_name:
+        blocks = setup.kinematics.robot.gazebo
+        place = next((each.element.origin.position for each in blocks if setup.sensor in each.sensors), place)
     raise SimulationError(
         "a sensor must be in the <gazebo reference=…> of a link; "
         f"`{setup.link}` is not a link{did_you_mean(setup.link, links)}",
         position=place,
+        code="Z801",
     )

@@ -38,7 +38,9 @@ def number(
     if isnan(value) or not (infinite or isfinite(value)) or (least is not None and value < least):
         wanted = "a number" if infinite else "a finite number"
         wanted += "" if least is None else f", {least:g} or greater"
-        raise SimulationError(f"<{tag}> is `{child.text}`; it must be {wanted}", position=child.origin.position)
+        raise SimulationError(
+            f"<{tag}> is `{child.text}`; it must be {wanted}", position=child.origin.position, code="Z823"
+        )
     return value
 
 
@@ -49,7 +51,7 @@ def refuse(found: Iterable[tuple[Element, str]]) -> None:
         SimulationError: the list contains an invalid element, with its position.
     """
     for element, message in found:
-        raise SimulationError(message, position=element.origin.position)
+        raise SimulationError(message, position=element.origin.position, code="Z823")
 
 
 def pose_of(sensor: Element) -> NDArray[np.float64]:
