@@ -103,6 +103,7 @@ def test_pipes_and_devices_are_not_read(name: str, tmp_path: Path) -> None:
 def test_meshes_that_have_not_changed_are_searched_for_faults_once(tmp_path: Path, monkeypatch) -> None:
     import trimesh
 
+    from urdfkit.description.meshes import unchanged_files
     from urdfkit.lint.rules.geometry import mesh_corrupt
 
     read: list[int] = []
@@ -117,7 +118,7 @@ def test_meshes_that_have_not_changed_are_searched_for_faults_once(tmp_path: Pat
     old = mesh.stat().st_mtime_ns
     assert [lint(path, select=["G607"]) for _ in range(2)] == [[], []]
     assert len(read) == 2, "a file that has just changed is read again"
-    monkeypatch.setattr(mesh_corrupt, "_JUST_CHANGED", -(10**12))
+    monkeypatch.setattr(unchanged_files, "_JUST_CHANGED", -(10**12))
     assert [lint(path, select=["G607"]) for _ in range(3)] == [[], [], []]
     assert len(read) == 3
     content = bytearray(mesh.read_bytes())

@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from urdfkit.description.lfs_pointer import LFS, POINTER
 from urdfkit.description.meshes.format_faults import (
     glb_fault,
     obj_fault,
@@ -39,8 +40,6 @@ FORMATS = (".stl", ".obj", ".dae", ".glb", ".gltf", ".ply")
 
 _PULLS = re.compile(rb"<init_from>|\"uri\"")
 """Matches references to image files next to the mesh file."""
-
-_LFS = b"version https://git-lfs.github.com/spec/"
 
 
 class MeshLoader:
@@ -114,8 +113,8 @@ def _read(path: Path) -> bytes:
         raise ResourceError(f"cannot read mesh {path}: {error.strerror or error}") from error
     if not content:
         raise ResourceError(f"mesh {path.name} is empty")
-    if content.startswith(_LFS):
-        raise ResourceError(f"mesh {path.name} is a Git LFS pointer; run `git lfs pull`")
+    if content.startswith(LFS):
+        raise ResourceError(f"mesh {path.name} {POINTER}")
     if fault := _fault(path.suffix.lower(), content):
         raise ResourceError(f"mesh {path.name} {fault}")
     if path.suffix.lower() == ".dae" and (reason := rejection_reason(content)) is not None:

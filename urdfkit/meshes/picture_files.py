@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
-from functools import lru_cache
 from pathlib import Path
 
+from urdfkit.description.lfs_pointer import LFS, POINTER
 from urdfkit.description.meshes.limits import MAX_BYTES
+from urdfkit.description.meshes.unchanged_files import remembered
 from urdfkit.description.packages.existence import is_file
 
 PICTURES = (".png", ".jpg", ".jpeg", ".bmp", ".tga", ".gif", ".tif", ".tiff", ".webp")
@@ -52,15 +53,12 @@ def picture_names(path: Path) -> tuple[str, ...]:
 
 
 def _references(path: Path) -> tuple[str, ...]:
-    if path.suffix.lower() not in _NAMES or not is_file(path):
-        return ()
-    status = path.stat()
-    return _references_in(path, status.st_size, status.st_mtime_ns, status.st_ctime_ns)
+    return _references_in(path) if path.suffix.lower() in _NAMES and is_file(path) else ()
 
 
-@lru_cache(maxsize=2_000)  # an editor needs the names of unchanged files at each key
-def _references_in(path: Path, size: int, *_version: int) -> tuple[str, ...]:
-    found = _NAMES[path.suffix.lower()].findall(path.read_bytes()) if size <= MAX_BYTES else []
+@remembered
+def _references_in(path: Path) -> tuple[str, ...]:
+    found = _NAMES[path.suffix.lower()].findall(path.read_bytes()) if path.stat().st_size <= MAX_BYTES else []
     return tuple(name.decode(errors="replace") for name in found)
 
 
@@ -75,9 +73,12 @@ def picture_fault(path: Path) -> str:
     """
     with path.open("rb") as file:
         head = file.read(64)
+    is_unmarked = path.suffix.lower() == ".tga"  # the format has no fixed beginning
+    return "" if is_unmarked or head.startswith(_BEGINNINGS) else unreadable(head)
+
+
+def unreadable(head: bytes) -> str:
+    """Return the fault of an image that cannot be read, from its first bytes."""
     if not head:
         return "is empty"
-    if head.startswith(b"version https://git-lfs.github.com/spec/"):
-        return "is a Git LFS pointer: run `git lfs pull`"
-    is_unmarked = path.suffix.lower() == ".tga"  # the format has no fixed beginning
-    return "" if is_unmarked or head.startswith(_BEGINNINGS) else "is not a readable picture"
+    return POINTER if head.startswith(LFS) else "is not a readable picture"

@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 from urdfkit.description.urdf.robot import Box, Capsule, Cylinder, Geometry, Sphere
 from urdfkit.errors import ResourceError
 from urdfkit.linear_algebra import Array
+from urdfkit.meshes.picture_files import picture_fault, unreadable
 from urdfkit.meshes.textures import Texture, read_texture
 from urdfkit.meshes.triangle_mesh import TriMesh
 
@@ -33,7 +34,7 @@ class Wrapper:
     def __init__(self, resolve: Callable[[str], Path]) -> None:
         self._resolve = resolve
         self._textures: dict[str, Texture | None] = {}
-        self._broken: set[str] = set()
+        self._broken: dict[str, str] = {}
 
     def wrapped(self, geometry: Geometry, mesh: TriMesh | None, name: str) -> TriMesh | None:
         """Return a shape with a texture.
@@ -49,16 +50,17 @@ class Wrapper:
         """
         if name not in self._textures:
             try:
-                self._textures[name] = read_texture(self._resolve(name))
+                path = self._resolve(name)
+                self._textures[name] = read_texture(path)
             except (ResourceError, FileNotFoundError):
                 self._textures[name] = None
             except (OSError, ValueError):
                 self._textures[name] = None
-                self._broken.add(name)
+                self._broken[name] = _fault(path)
         texture = self._textures[name]
         found = mesh if mesh is not None else solid(geometry)
         if texture is None or found is None:
-            broken = (*found.broken, name) if found and name in self._broken else ()
+            broken = (*found.broken, (name, self._broken[name])) if found and name in self._broken else ()
             return found and replace(found, missing=(*found.missing, name), broken=broken)
         if found.uv is None:
             return None
@@ -66,6 +68,14 @@ class Wrapper:
             return _filled(found, texture)
         wrapped = np.zeros(len(found.faces), dtype=np.int32)
         return replace(found, textures=(texture,), face_textures=wrapped, missing=(), broken=())
+
+
+def _fault(path: Path) -> str:
+    """Return why the image of a file cannot be read."""
+    try:
+        return picture_fault(path) or unreadable(b"?")
+    except OSError as error:
+        return f"cannot be read: {error.strerror}"
 
 
 def _filled(mesh: TriMesh, texture: Texture) -> TriMesh:

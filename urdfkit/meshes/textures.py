@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from urdfkit.description.packages.existence import is_file
 from urdfkit.meshes.material_colors import factor_of, linear_of, srgb_bytes, to_bytes
-from urdfkit.meshes.picture_files import PICTURES, places
+from urdfkit.meshes.picture_files import PICTURES, places, unreadable
 
 MAX_EDGE = 4096
 """Largest edge length of a texture; larger ones are halved until they fit [px]."""
@@ -117,7 +117,7 @@ class Beside(dict[str, bytes]):
     Attributes:
         read: the files that have been read, with modification time and size.
         missing: names of images that are missing or invalid.
-        broken: names of images that exist and are invalid.
+        broken: names of images that exist and are invalid, each with its fault.
     """
 
     def __init__(self, path: Path, limit: int) -> None:
@@ -126,7 +126,7 @@ class Beside(dict[str, bytes]):
         self._limit = limit
         self.read: dict[Path, tuple[int, int]] = {}
         self.missing: list[str] = []
-        self.broken: list[str] = []
+        self.broken: list[tuple[str, str]] = []
 
     def __missing__(self, name: str) -> bytes:
         if "\0" in name:
@@ -143,7 +143,7 @@ class Beside(dict[str, bytes]):
                     content = path.read_bytes()
                     if picture and not _opens(content):
                         self.missing.append(name)
-                        self.broken.append(name)
+                        self.broken.append((name, unreadable(content)))
                     return content
         if picture:
             self.missing.append(name)

@@ -24,7 +24,7 @@ class TriMesh:
         face_textures: index of the texture of each triangle, -1 for none; shape (m,), int32, or None.
         face_gloss: specular colour, 0..1, and exponent of each triangle; shape (m, 4), float32, or None.
         missing: names of referenced image files that are missing or invalid.
-        broken: names of referenced image files that exist but are not valid images.
+        broken: names of referenced image files that exist but are not valid images, each with its fault.
         open_vertices: whether the file names no material for the vertex; shape (n,), or None if so for all or no
             vertices.
         simplified_from: number of triangles in the file if the mesh was simplified for the screen, otherwise 0.
@@ -47,7 +47,7 @@ class TriMesh:
     face_textures: NDArray[np.int32] | None = field(default=None, repr=False)
     missing: tuple[str, ...] = ()
     face_gloss: NDArray[np.float32] | None = field(default=None, repr=False)
-    broken: tuple[str, ...] = ()
+    broken: tuple[tuple[str, str], ...] = ()
     open_vertices: NDArray[np.bool_] | None = field(default=None, repr=False)
     simplified_from: int = 0
 

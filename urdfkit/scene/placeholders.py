@@ -76,8 +76,11 @@ def textures(scene: Scene) -> Iterator[Repair]:
     """Yield a repair for each visual shape that is shown without an image of its textures."""
     for shape in scene.with_role("visual"):
         mesh = shape.mesh
-        for name in mesh.missing if mesh is not None and not shape.has_color else ():
-            fault = "is not a readable picture" if mesh is not None and name in mesh.broken else "does not exist"
+        if mesh is None or shape.has_color:
+            continue
+        faults = dict(mesh.broken)
+        for name in mesh.missing:
+            fault = faults.get(name, "does not exist")
             message = with_effect(f"texture `{name}` of `{shape.name}` {fault}", "the shape is shown without it")
             yield Repair("mesh", "G618", message, shape.position, shape.body, attribute="filename")
 

@@ -12,6 +12,7 @@ from collections.abc import Callable, Collection, Mapping
 from pathlib import Path
 from xml.parsers import expat
 
+from urdfkit.description.lfs_pointer import LFS
 from urdfkit.description.xml.element import MAX_DEPTH, Element
 from urdfkit.description.xml.source import Origin, Position, Source, absolute, content_of
 from urdfkit.errors import ResourceError, XmlError
@@ -136,7 +137,7 @@ def _explain(text: str, source: Source, position: Position, opened: list[tuple[s
     if text == "mismatched tag" and tag:
         found = re.match(_TAG_NAME, source.text[max(source.text.rfind("<", 0, offset + 1), 0) :])
         return f"mismatched tag: {unclosed} before `</{found[1] if found else ''}>`"
-    if source.text.startswith("version https://git-lfs"):
+    if source.text.startswith(LFS.decode()):
         return "this is a pointer of Git LFS, not the file itself: run `git lfs pull`"
     if text == "no element found":
         return f"the file ends too early: {unclosed}" if tag else "this is not XML: there is no element"

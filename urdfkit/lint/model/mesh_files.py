@@ -11,9 +11,6 @@ if TYPE_CHECKING:
     from urdfkit.description.xacro.expanded import Expanded
     from urdfkit.description.xml.element import Element
 
-LFS = b"version https://git-lfs.github.com/spec/"
-"""First bytes of a Git LFS pointer."""
-
 
 def meshes(robot: Robot) -> Iterator[tuple[Mesh, Element, Link]]:
     """Yield every mesh that has a file name, with its ``<mesh>`` element and link."""

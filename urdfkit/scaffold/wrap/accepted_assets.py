@@ -8,6 +8,7 @@ import re
 from collections.abc import Iterable
 from pathlib import Path
 
+from urdfkit.description.lfs_pointer import LFS, POINTER
 from urdfkit.description.packages.resolver import Packages
 from urdfkit.errors import ResourceError
 
@@ -17,7 +18,6 @@ _HOMES = frozenset({"urdf", "xacro", "robot", "robots", "model", "models", "desc
 """Names of folders for descriptions; their parent folder belongs to the robot, too."""
 _ABOVE = 4
 """Maximum number of folders from the description up to its package."""
-_LFS = b"version https://git-lfs"
 
 _BEGINS = {
     ".glb": (b"glTF",),
@@ -72,8 +72,8 @@ def rejection(path: Path) -> str:
         content = path.read_bytes()
     except OSError as error:
         return f"cannot be read: {error.strerror}"
-    if content.startswith(_LFS):
-        return "is a Git LFS pointer: run `git lfs pull`"
+    if content.startswith(LFS):
+        return POINTER
     if not content:
         return "is empty"
     if suffix in _STEREOLITHOGRAPHY:

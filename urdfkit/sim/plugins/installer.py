@@ -167,8 +167,8 @@ def _choose(plugin: Plugin, setup: Setup, classes: tuple[type[Drive | Sensor | C
     spec = BARE.get((sensor.type or "").strip()) if bare and sensor is not None else match(plugin)
     if sensor is not None and (reason := unsupported(sensor, simulated=spec is not None or not bare)):
         kind = (sensor.type or "").strip()
-        is_known = kind in (*SENSOR_TYPES, *INSTEAD)
-        is_defect = not kind or (not is_known and nearest(kind, SENSOR_TYPES, cutoff=0.8) is not None)
+        is_valid = kind in (*SENSOR_TYPES, *INSTEAD)
+        is_defect = not kind or (not is_valid and nearest(kind, SENSOR_TYPES, cutoff=0.8) is not None)
         return LeftOut(reason, sensor.element.origin.position, "Z827" if is_defect else _NOT_SIMULATED, "type")
     for warning in not_read(plugin, spec) if spec is not None and not bare else ():
         setup.note(warning)

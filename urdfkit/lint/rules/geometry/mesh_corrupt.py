@@ -1,10 +1,9 @@
 """G607 mesh-corrupt-or-lfs-pointer."""
 
 import re
-import time
-from functools import lru_cache
 from pathlib import Path
 
+from urdfkit.description.lfs_pointer import LFS, POINTER
 from urdfkit.description.meshes.bounds import bounds
 from urdfkit.description.meshes.format_faults import (
     NOT_FINITE,
@@ -17,15 +16,13 @@ from urdfkit.description.meshes.format_faults import (
     wrong_format,
 )
 from urdfkit.description.meshes.limits import MAX_BYTES, MAX_TRIANGLES
+from urdfkit.description.meshes.unchanged_files import remembered
 from urdfkit.description.packages.existence import exists, is_file, is_folder
-from urdfkit.lint.model.mesh_files import LFS, path_of
+from urdfkit.lint.model.mesh_files import path_of
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
 _LARGE = 64 * 2**20
 """Size in bytes above which files are not searched for triangles."""
-
-_JUST_CHANGED = 2_000_000_000
-"""[ns]"""
 
 _MOST = 3.4e38
 """Size in metres above which coordinates are not finite as 32-bit numbers, as which they are stored."""
@@ -103,25 +100,22 @@ def _fault(path: Path) -> str:
     if not is_file(path):
         return "is a folder" if is_folder(path) else "is not a regular file"
     try:
-        status = path.stat()
-        version = (status.st_ino, status.st_mtime_ns, status.st_ctime_ns)
-        # Of two changes within the resolution of the file system's clock, the second one would not be seen.
-        is_old = time.time_ns() - max(version[1:]) > _JUST_CHANGED
-        return (_fault_of_version if is_old else _fault_in)(path, status.st_size, *version)
+        return _fault_in(path)
     except OSError as error:
         return f"cannot be read: {error.strerror}"
 
 
-def _fault_in(path: Path, size: int, *_version: int) -> str:
+@remembered
+def _fault_in(path: Path) -> str:
     with path.open("rb") as file:
         head = file.read(1024)
-    suffix = path.suffix.lower()
+    size, suffix = path.stat().st_size, path.suffix.lower()
     if not size:
         return "is empty"
     if size > MAX_BYTES:
         return f"has {size / 2**20:.0f} MiB; at most {MAX_BYTES // 2**20} are supported: decimate it"
     if head.startswith(LFS):
-        return "is a Git LFS pointer: run `git lfs pull`"
+        return POINTER
     if suffix == ".stl":
         return _stl_fault(path, head, size)
     if suffix == ".glb":
@@ -136,10 +130,6 @@ def _fault_in(path: Path, size: int, *_version: int) -> str:
     if size <= _LARGE and not head.startswith(_UTF16) and not faces.search(path.read_bytes()):
         return "contains no triangles"
     return ""
-
-
-_fault_of_version = lru_cache(maxsize=2_000)(_fault_in)
-"""The fault of a mesh file that has not changed; an editor reads it at each key."""
 
 
 def _stl_fault(path: Path, head: bytes, size: int) -> str:

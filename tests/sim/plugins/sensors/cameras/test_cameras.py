@@ -13,6 +13,7 @@ from tests.sim.plugins.sensors.conftest import ROBOTS, heard, noise, sensor, wal
 from tests.sim.plugins.sensors.test_cloud_messages import layout, rows
 from tests.suggestions import contains
 from urdfkit.description import load
+from urdfkit.description.lfs_pointer import LFS, POINTER
 from urdfkit.errors import ResourceError
 from urdfkit.sim import Simulator
 
@@ -232,7 +233,9 @@ def test_edges_are_smooth_where_that_is_asked_for(post) -> None:
     assert (np.isnan(edge) | (np.abs(edge - 3.0) < 0.2)).all()
 
 
-@pytest.mark.parametrize(("content", "why"), [(None, "does not exist"), (b"?", "is not a readable picture")])
+@pytest.mark.parametrize(
+    ("content", "why"), [(None, "does not exist"), (b"?", "is not a readable picture"), (LFS, POINTER)]
+)
 def test_a_texture_that_is_not_there_is_named_once(post, tmp_path, content, why: str) -> None:
     if content is not None:
         (tmp_path / "gone.png").write_bytes(content)
