@@ -12,7 +12,7 @@ from urdfkit.lint.facts.control.launch_package_paths import place
 _NODES = ("Node", "LifecycleNode", "ComposableNodeContainer")
 _MOVING = ("PushRosNamespace", "PushROSNamespace", "RegisterEventHandler")
 """Actions after which nodes are in another namespace, or do not run at the same time."""
-_APART = (
+_CONDITIONAL = (
     *(ast.If, ast.IfExp, ast.For, ast.While, ast.Try, ast.ListComp, ast.GeneratorExp, ast.Lambda),
     *(ast.FunctionDef, ast.AsyncFunctionDef, ast.ClassDef),
 )
@@ -47,7 +47,7 @@ def _calls(statement: ast.AST) -> Iterator[ast.Call]:
     pending = [statement]
     for part in pending:  # The list grows during the iteration.
         called = name_of(part.func) if isinstance(part, ast.Call) else ""
-        if isinstance(part, _APART) or called == "GroupAction":
+        if isinstance(part, _CONDITIONAL) or called == "GroupAction":
             continue
         if isinstance(part, ast.Call) and called in _NODES:
             yield part
