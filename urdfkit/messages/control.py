@@ -1,6 +1,6 @@
 """Definitions of control_msgs and controller_manager_msgs as of Humble, which rosbags lacks.
 
-Actions are the messages that actionlib and ROS 2 make of them, services their requests by the names of ROS 2.
+Actions are the messages that actionlib and ROS 2 make of them, services their requests and responses as in ROS 2.
 """
 
 GOAL_STATUSES = "actionlib_msgs/msg/GoalStatusArray"
@@ -9,6 +9,7 @@ LOAD = "controller_manager_msgs/srv/LoadController_Request"
 CONFIGURE = "controller_manager_msgs/srv/ConfigureController_Request"
 UNLOAD = "controller_manager_msgs/srv/UnloadController_Request"
 SWITCH = "controller_manager_msgs/srv/SwitchController_Request"
+LIST = "controller_manager_msgs/srv/ListControllers"
 
 _POINT = "trajectory_msgs/JointTrajectoryPoint"
 _MANY = "trajectory_msgs/MultiDOFJointTrajectoryPoint"
@@ -80,9 +81,23 @@ CONTROL_MESSAGES = {
         """,
     ),
     "action_msgs/srv/CancelGoal_Request": "action_msgs/GoalInfo goal_info",
-    LOAD: "string name",
-    CONFIGURE: "string name",
-    UNLOAD: "string name",
+    **dict.fromkeys((LOAD, CONFIGURE, UNLOAD), "string name"),
+    **{each.replace("_Request", "_Response"): "bool ok" for each in (LOAD, CONFIGURE, UNLOAD, SWITCH)},
+    f"{LIST}_Request": "uint8 structure_needs_at_least_one_member",
+    f"{LIST}_Response": "controller_manager_msgs/ControllerState[] controller",
+    "controller_manager_msgs/msg/ControllerState": """
+        string name
+        string state
+        string type
+        string[] claimed_interfaces
+        string[] required_command_interfaces
+        string[] required_state_interfaces
+        bool is_chainable
+        bool is_chained
+        string[] reference_interfaces
+        controller_manager_msgs/ChainConnection[] chain_connections
+    """,
+    "controller_manager_msgs/msg/ChainConnection": "string name\nstring[] reference_interfaces",
     SWITCH: """
         string[] activate_controllers
         string[] deactivate_controllers

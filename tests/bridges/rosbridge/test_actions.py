@@ -6,6 +6,7 @@ import json
 import subprocess
 import sys
 from pathlib import Path
+from typing import Any
 from urllib.parse import urlsplit
 
 import pytest
@@ -14,7 +15,10 @@ from tests.served_simulation import rosbridge
 from tests.sim import arm_package
 from tests.sim.plugins.controllers.test_ros2_control import BLOCK, GZ, TRAJECTORIES, command
 from tests.time_limit import PATIENCE
+from urdfkit.app.simulation.bridging.real_time import RunControls
+from urdfkit.app.simulation.bridging.services import simulation_services
 from urdfkit.bridges.actions import ActionServer, SentGoal, actions, find_action
+from urdfkit.bridges.json_messages import from_json, json_values
 from urdfkit.errors import UsageError
 from urdfkit.sim import Simulator
 
@@ -64,3 +68,35 @@ def test_unknown_actions_and_fields_are_refused() -> None:
     (action,) = actions(bus).values()
     with pytest.raises(UsageError, match="did you mean `trajectory`"):
         SentGoal(bus, action, {"trajektory": {}}, feedback=print, ended=print)
+
+
+def test_the_controller_manager_of_ros2_control_has_its_services(tmp_path: Path) -> None:
+    simulator = ros2_arm(tmp_path)
+    services = simulation_services(simulator, RunControls(simulator))
+
+    def call(service_name: str, **fields: object) -> Any:
+        service = services[f"/controller_manager/{service_name}"]
+        assert service.type.startswith("controller_manager_msgs/srv/")
+        return json_values(service.call(from_json(service.request, fields)))
+
+    def states() -> dict[str, str]:
+        return {row["name"]: row["state"] for row in call("list_controllers")["controller"]}
+
+    (trajectories,) = [row for row in call("list_controllers")["controller"] if row["name"] == "arm_controller"]
+    assert trajectories["type"] == "joint_trajectory_controller/JointTrajectoryController"
+    assert trajectories["claimed_interfaces"] == ["shoulder/position", "elbow/position"]
+    assert call("switch_controller", deactivate_controllers=["arm_controller"], strictness=2) == {"ok": True}
+    assert states() == {"joint_state_broadcaster": "active", "arm_controller": "inactive"}
+    assert call("unload_controller", name="arm_controller") == {"ok": True}
+    assert states() == {"joint_state_broadcaster": "active"}
+    assert call("switch_controller", activate_controllers=["arm_contoller"], strictness=2) == {"ok": False}
+    assert call("load_controller", name="arm_controller") == {"ok": True}
+    assert call("configure_controller", name="nobody") == {"ok": False}
+    assert call("switch_controller", activate_controllers=["arm_controller"], strictness=2) == {"ok": True}
+    assert set(states().values()) == {"active"}
+    assert not [name for name in simulation_services(*of("heterogeneous")) if "controller_manager" in name]
+
+
+def of(robot: str) -> tuple[Simulator, RunControls]:
+    simulator = Simulator(robot, note=lambda _: None)
+    return simulator, RunControls(simulator)

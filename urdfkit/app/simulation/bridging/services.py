@@ -1,4 +1,4 @@
-"""Services of a simulation for the peers of bridges, by the names and types of Gazebo Classic, gz and the standard."""
+"""Services of a simulation for the peers of bridges: those of Gazebo Classic, gz, ros2_control and the standard."""
 
 from __future__ import annotations
 
@@ -46,6 +46,8 @@ def simulation_services(simulator: Simulator, controls: Controls) -> dict[str, S
     ):
         add(name, type, _part(requests[name], part))
     add(f"{world}/control", "ros_gz_interfaces/srv/ControlWorld", lambda it: _control(simulator, controls, it))
+    for robot in simulator.world.robots.values():
+        found |= {name: Service(name, type, act) for name, (type, act) in robot.controllers.services.items()}
     found |= {service.name: service for service in standard_services(simulator, controls)}
     return found
 

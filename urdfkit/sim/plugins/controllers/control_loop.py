@@ -3,6 +3,7 @@
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from math import ceil, inf
+from typing import Any
 
 from urdfkit.description.control import Settings
 from urdfkit.description.control.controller_parameters import unknown_parameters
@@ -52,6 +53,7 @@ class ControlLoop:
 
     Attributes:
         changed: called with each controller that was loaded or unloaded.
+        services: name of each service of the controller manager → type, and function from the request to the response.
     """
 
     def __init__(
@@ -62,6 +64,7 @@ class ControlLoop:
         self.hardware = hardware
         self.controllers: dict[str, RosController] = {}
         self.publications: list[Publication] = []
+        self.services: dict[str, tuple[str, Callable[[Any], Any]]] = {}
         self.halted = False
         self.changed: Callable[[RosController], None] = lambda controller: None
         self._hold = hold

@@ -1,6 +1,8 @@
 """Controllers: lists, loads, starts, stops and switches the controllers of all plugins."""
 
 from collections.abc import Callable, Sequence
+from functools import partial
+from typing import Any
 
 from urdfkit.errors import SimulationError, did_you_mean
 from urdfkit.sim.plugins.builtin_publishers import Publication
@@ -39,6 +41,17 @@ class Controllers:
             controller for loop in self._loops for controller in loop.controllers.values() if controller.running
         ]
         return {topic: kind for controller in controllers for topic, kind in controller.commands.items()}
+
+    @property
+    def services(self) -> dict[str, tuple[str, Callable[[Any], Any]]]:
+        """Name of each service of the controller managers → type, and function from the request to the response."""
+
+        def called(act: Callable[[Any], Any], request: Any) -> Any:
+            self._invalidate()
+            return act(request)
+
+        services = {name: service for loop in self._loops for name, service in loop.services.items()}
+        return {name: (type, partial(called, act)) for name, (type, act) in services.items()}
 
     def odometry(self, state: State) -> dict[str, Pose]:
         """Return odometry frame → pose, as estimated by the running controllers."""
