@@ -6,17 +6,20 @@ import base64
 import binascii
 import json
 import math
+from functools import cache
 from typing import Any
 
 import numpy as np
 
 from urdfkit.errors import UsageError
 from urdfkit.messages import from_fields, full_type_name, typestore
-from urdfkit.messages.conversion import fields_of
+from urdfkit.messages.conversion import field_names
 
 
 def to_json(value: Any) -> str:
     """Return a message, or the value of a field, as JSON."""
+    if type(value) is float:  # most fields
+        return repr(value) if math.isfinite(value) else "null"
     if isinstance(value, np.ndarray):
         return _array(value)
     if isinstance(value, str):
@@ -29,7 +32,13 @@ def to_json(value: Any) -> str:
         return repr(float(value)) if math.isfinite(value) else "null"
     if isinstance(value, list | tuple):
         return "[" + ",".join(map(to_json, value)) + "]"
-    return "{" + ",".join(f'"{name}":{to_json(getattr(value, name))}' for name in fields_of(value)) + "}"
+    return "{" + ",".join([f"{label}{to_json(getattr(value, name))}" for label, name in _labels(value.__class__)]) + "}"
+
+
+@cache
+def _labels(kind: Any) -> tuple[tuple[str, str], ...]:
+    """Return the beginning of each field in JSON, and its name."""
+    return tuple((f'"{name}":', name) for name in field_names(kind))
 
 
 def json_values(message: Any) -> Any:
@@ -41,7 +50,7 @@ def _array(values: Any) -> str:
     if values.dtype == np.uint8:
         return f'"{base64.b64encode(values.tobytes()).decode("ascii")}"'  # needs no escapes
     items = values.tolist()
-    if values.dtype.kind == "f" and not np.isfinite(values).all():
+    if values.dtype.kind == "f" and not all(map(math.isfinite, items)):
         items = [item if math.isfinite(item) else None for item in items]
     return json.dumps(items, separators=(",", ":"))
 

@@ -30,11 +30,12 @@ UNUSED = "structure_needs_at_least_one_member"
 
 def fields_of(message: Any) -> tuple[str, ...]:
     """Return the names of the fields of a message, without its constants; none for a value that is no message."""
-    return _field_names(message.__class__)
+    return field_names(message.__class__)
 
 
 @cache
-def _field_names(kind: Any) -> tuple[str, ...]:
+def field_names(kind: Any) -> tuple[str, ...]:
+    """Return the names of the fields of a class of messages, without its constants; none for other classes."""
     if not is_dataclass(kind):
         return ()
     constant = "ClassVar"  # as a text, in classes that rosbags makes of registered types
