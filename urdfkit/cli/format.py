@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     import argparse
     from collections.abc import Iterator
 
-    from urdfkit.lint.fixes.apply import FileChange
+    from urdfkit.lint.fixes.file_changes import FileChange
 
 _EPILOG = """examples:
   urdfkit format urdf/robot.urdf.xacro
@@ -118,7 +118,7 @@ def _change(path: Path, arguments: argparse.Namespace) -> FileChange | None:
     """Return the change of a file; None if the file is formatted already."""
     from urdfkit.description.xml.reader import shown_path
     from urdfkit.description.xml.source import content_of
-    from urdfkit.lint.fixes.apply import FileChange
+    from urdfkit.lint.fixes.file_changes import FileChange
 
     shown = shown_path(path)
     try:

@@ -222,7 +222,7 @@ def _write(
 ) -> None:
     """Write the computed values: verified in memory first, then each file replaced atomically."""
     from urdfkit.lint.engine.checker import model_of
-    from urdfkit.lint.fixes.apply import changes, editable_folders
+    from urdfkit.lint.fixes.file_changes import changes, editable_folders
     from urdfkit.lint.fixes.inertia_edits import compute_inertial, edits
     from urdfkit.lint.project.options import Options
 

@@ -269,7 +269,8 @@ class _Run:
         )
 
     def _fix(self, entries: Sequence[Entry]) -> tuple[int, Outcome]:
-        from urdfkit.lint.fixes.apply import editable_folders, fix
+        from urdfkit.lint.fixes.apply import fix
+        from urdfkit.lint.fixes.file_changes import editable_folders
 
         arguments = self.arguments
         within = editable_folders(Path(path) for path in self.paths)

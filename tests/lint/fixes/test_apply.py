@@ -12,7 +12,8 @@ from hypothesis import strategies as st
 
 from urdfkit.errors import ResourceError
 from urdfkit.lint import lint
-from urdfkit.lint.fixes.apply import FileChange, editable_folders, fix
+from urdfkit.lint.fixes.apply import fix
+from urdfkit.lint.fixes.file_changes import FileChange, editable_folders
 from urdfkit.lint.project.entry_files import Entry
 from urdfkit.lint.project.options import Options
 

@@ -83,7 +83,8 @@ class FindingsPanel:
             UsageError: the finding is outdated or has no safe fix, or writing is not allowed.
             ResourceError: the fix does not remove the finding, or a file cannot be written.
         """
-        from urdfkit.lint.fixes.apply import editable_folders, fix
+        from urdfkit.lint.fixes.apply import fix
+        from urdfkit.lint.fixes.file_changes import editable_folders
 
         wanted = self._findings.get(number)
         if wanted is None:

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
 
-from urdfkit.description.packages.existence import exists, is_file, is_folder
+from urdfkit.description.packages.existence import exists, is_folder
+from urdfkit.description.packages.package_search import PackageSearch
 from urdfkit.description.packages.related_files import CODE, around, state_of
 from urdfkit.description.packages.similar_names import near_package, near_path
 from urdfkit.description.xml.source import absolute
@@ -16,12 +17,7 @@ TYPE_CHECKING = False
 if TYPE_CHECKING:
     from urdfkit.position import Position
 
-_PREFIX_VARIABLES = ("AMENT_PREFIX_PATH", "CMAKE_PREFIX_PATH", "COLCON_PREFIX_PATH")
-_BUNDLED_MODELS = Path(__file__).resolve().parents[1] / "library" / "models"
-_MODEL_VARIABLES = ("GZ_SIM_RESOURCE_PATH", "IGN_GAZEBO_RESOURCE_PATH", "GAZEBO_MODEL_PATH", "SDF_PATH")
 OUTSIDE = "outside of the package, its workspace and the package path"
-VARIABLES = ("ROS_PACKAGE_PATH", *_PREFIX_VARIABLES, *_MODEL_VARIABLES)
-"""Environment variables that list folders of packages."""
 
 _LONGEST_NAME = 255
 """Length of the longest file name that Linux and macOS accept [bytes]."""
@@ -51,13 +47,12 @@ class Packages:
     ) -> None:
         self.search = tuple(absolute(folder) for folder in search)
         self.near = None if near is None else absolute(near)
-        self._environment = os.environ if environment is None else environment
-        self._permits = permits
         self.variables: Mapping[str, str] = os.environ if permits is None else {}
         """The environment variables that ``$(env …)`` finds."""
         self._found: dict[str, Path] = {}
-        self._seen: dict[str, Path] = {}
-        self._scanned: dict[Path, dict[str, Path]] = {}
+        self._package_search = PackageSearch(
+            self.search, self.near, os.environ if environment is None else environment, permits, {}
+        )
         self._states: dict[tuple[str, ...], str] = {}
         self._hints: dict[Path, str] = {}
         self.notes: dict[str, str] = {}
@@ -67,12 +62,11 @@ class Packages:
 
     def __getstate__(self) -> dict[str, object]:
         """Return the attributes, without the environment of this process: a copy uses that of its own process."""
-        return {name: None if each is os.environ else each for name, each in vars(self).items()}
+        return vars(self) | {"variables": None if self.variables is os.environ else self.variables}
 
     def __setstate__(self, state: dict[str, object]) -> None:
         """Set the attributes."""
-        environment = {name: os.environ for name in ("_environment", "variables") if state[name] is None}
-        vars(self).update({**state, **environment})
+        vars(self).update(state | ({"variables": os.environ} if state["variables"] is None else {}))
 
     def answer(self, question: tuple[str, ...]) -> str:
         """Return the current result of a query in `answers`: a path, or the error message after ``!``."""
@@ -108,8 +102,9 @@ class Packages:
 
     def near_file(self, near: str | Path) -> Packages:
         """Return a resolver that searches near another file and shares the cache of folders."""
-        other = Packages(self.search, near, environment=self._environment, permits=self._permits)
-        other._scanned, other._states, other._hints = self._scanned, self._states, self._hints
+        search = self._package_search
+        other = Packages(self.search, near, environment=search.environment, permits=search.permitted)
+        other._package_search.scanned, other._states, other._hints = search.scanned, self._states, self._hints
         return other
 
     def find(self, name: str) -> Path:
@@ -122,13 +117,13 @@ class Packages:
             ResourceError: unknown package; lists the searched folders and the most similar name.
         """
         if name not in self._found:
-            found = self._look_up(name) if _is_plain(name) else None
+            found = self._package_search.look_up(name) if _is_plain(name) else None
             if found is None:
                 is_long = len(name) > _LONGEST_NAME
-                hint = "" if is_long else near_package(name, self._seen)
+                hint = "" if is_long else near_package(name, self._package_search.seen)
                 shown = f"{name[:60]}…" if is_long else name
                 advice = "" if hint else "; add folders with --package-path"
-                message = f"no package `{shown}` (searched: {self._looked_in()}{advice}){hint}"
+                message = f"no package `{shown}` (searched: {self._package_search.places_searched()}{advice}){hint}"
                 self.answers[("find", name)] = f"!{message}"
                 raise ResourceError(message, kind="package")
             self._found[name] = found
@@ -275,112 +270,9 @@ class Packages:
         message = f"{uri}: files are read from this machine only; use package://, model:// or a path"
         raise ResourceError(message, kind="file")
 
-    def _look_up(self, name: str) -> Path | None:
-        for folder in self._places():
-            if folder is not None and self.permits(folder) and (found := self._below(folder, name)) is not None:
-                return found
-        if (newest := next(self._fuel_models(name), None)) is not None:
-            return newest
-        for bundled in (_shipped_robots(), _BUNDLED_MODELS):
-            if bundled is not None and (found := self._below(bundled, name)) is not None:
-                return found
-        if self.near is not None:
-            for around in (self.near, *self.near.parents):
-                if not self.permits(around):
-                    break
-                if around.name == name and is_folder(around):
-                    return around
-                if len(around.parts) > 2 and is_folder(around / name) and around != self.near:
-                    return around / name
-        return None
-
     def permits(self, path: str | Path) -> bool:
         """Return whether a path may be read."""
-        return (
-            self._permits is None
-            or self._permits(Path(path))
-            or any(bundled in (Path(path), *Path(path).parents) for bundled in (_shipped_robots(), _BUNDLED_MODELS))
-        )
-
-    def _below(self, folder: Path, name: str) -> Path | None:
-        """Return the package or model of a name in or below a folder."""
-        from urdfkit.description.packages.discovery import package_name
-
-        direct = folder / name
-        if package_name(direct) == name or is_file(direct / "model.config"):
-            return direct
-        return self._scan(folder).get(name)
-
-    def _places(self) -> Iterator[Path | None]:
-        """Yield the folders to search, best first; each is scanned only after the previous ones had no result."""
-        from urdfkit.description.packages.discovery import package_name, share_folders, workspace
-
-        for folder in self.search:
-            yield from (folder, *share_folders(folder))
-        if (package := self._enclosing_package()) is not None:
-            self._seen[package_name(package) or package.name] = package
-            yield package
-            yield package.parent
-            yield workspace(package)
-            for level in filter(self.permits, (package, *package.parents[:4])):
-                yield from (*share_folders(level / "install"), *share_folders(level / "devel"))
-        yield from self._listed("ROS_PACKAGE_PATH")
-        for variable in _PREFIX_VARIABLES:
-            for prefix in self._listed(variable):
-                yield from share_folders(prefix)
-        for variable in _MODEL_VARIABLES:
-            yield from self._listed(variable)
-        yield self._home / ".gazebo" / "models"
-
-    @property
-    def _home(self) -> Path:
-        return Path(self._environment.get("HOME") or Path.home())
-
-    def _fuel_models(self, name: str) -> Iterator[Path]:
-        """Yield the folders of a model in the caches of Gazebo Fuel, the newest version first."""
-        from urdfkit.description.packages.discovery import fuel_models
-
-        listed = self._listed("GZ_FUEL_CACHE_PATH") + self._listed("IGN_FUEL_CACHE_PATH")
-        for cache in (*listed, self._home / ".gz" / "fuel", self._home / ".ignition" / "fuel"):
-            yield from fuel_models(cache, name) if self.permits(cache) else ()
-
-    def _listed(self, variable: str) -> list[Path]:
-        return [Path(word) for word in self._environment.get(variable, "").split(os.pathsep) if word]
-
-    def _looked_in(self) -> str:
-        from urdfkit.description.packages.discovery import workspace
-
-        places = ["--package-path"] if self.search else []
-        package = self._enclosing_package()
-        if package is not None:
-            places.append(f"the workspace {workspace(package) or package.parent}")
-        elif self.near is not None:
-            places.append(f"the folders around {self.near}")
-        places += [v for v in ("ROS_PACKAGE_PATH", *_PREFIX_VARIABLES, *_MODEL_VARIABLES) if self._listed(v)]
-        return ", ".join([*places, "the bundled robots and models"])
-
-    def _enclosing_package(self) -> Path | None:
-        if self.near is None:
-            return None
-        return next((f for f in (self.near, *self.near.parents) if (f / "package.xml").is_file()), None)
-
-    def _scan(self, top: Path) -> dict[str, Path]:
-        from urdfkit.description.packages.discovery import packages_below
-
-        if top not in self._scanned:
-            self._scanned[top] = found = packages_below(top)
-            for name, folder in found.items():
-                self._seen.setdefault(name, folder)
-        return self._scanned[top]
-
-
-def _shipped_robots() -> Path | None:
-    from urdfkit.resources import robots_dir
-
-    try:
-        return robots_dir()
-    except ResourceError:
-        return None
+        return self._package_search.permits(path)
 
 
 def _is_plain(name: str) -> bool:

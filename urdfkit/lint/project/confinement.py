@@ -72,8 +72,8 @@ def confinement_of(paths: Iterable[str], package_path: Iterable[Path]) -> Confin
         package_path: folders of packages.
     """
     from urdfkit.description.packages.discovery import workspace
+    from urdfkit.description.packages.package_search import VARIABLES
     from urdfkit.description.packages.related_files import package_of
-    from urdfkit.description.packages.resolver import VARIABLES
 
     folders = list(package_path)
     for variable in VARIABLES:
