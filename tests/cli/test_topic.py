@@ -25,6 +25,7 @@ from urdfkit.cli import main
 from urdfkit.cli.topic.echo import as_yaml, part
 from urdfkit.cli.topic.pub import message_of
 from urdfkit.cli.topic.rates import Window, report
+from urdfkit.cli.topic.service import succeeded
 from urdfkit.errors import UsageError
 from urdfkit.sim import Simulator
 from urdfkit.view.server.running_simulations import registered
@@ -304,3 +305,18 @@ def test_messages_on_the_command_line() -> None:
     assert message_of(["[1, 2]", "[3]"]) == [[1, 2], [3]]
     with pytest.raises(UsageError, match="holds a value that no message supports"):
         message_of(["2024-01-01"])
+
+
+@pytest.mark.parametrize(
+    ("response", "good"),
+    [
+        ({}, True),
+        ({"success": False}, False),
+        ({"ok": False}, False),  # of controller_manager
+        ({"ok": True}, True),
+        ({"result": {"result": 1, "error_message": ""}}, True),
+        ({"result": {"result": 2, "error_message": "no"}}, False),
+    ],
+)
+def test_a_response_may_report_a_failure(response: dict, good: bool) -> None:
+    assert succeeded(response) == good

@@ -94,10 +94,10 @@ async def _type(client: Client, service: str) -> str:
 
 
 def succeeded(response: Any) -> bool:
-    """Return whether a response reports no failure: by ``success``, or by the result of simulation_interfaces."""
+    """Return whether a response reports no failure: by ``success``, ``ok``, or the result of simulation_interfaces."""
     if not isinstance(response, dict):
         return True
     result = response.get("result")
     if isinstance(result, dict) and {"result", "error_message"} <= result.keys():
         return bool(result["result"] == OK)
-    return bool(response.get("success", True))
+    return bool(response.get("success", response.get("ok", True)))
