@@ -118,6 +118,33 @@ def _managers(source: Source) -> Iterator[tuple[Node, Node]]:
                 yield key, group
 
 
+def sections_without_parameters(source: Source) -> list[Node]:
+    """Return the names of the sections of ROS 2 nodes that lack ``ros__parameters``; rcl refuses such a file.
+
+    Of a file without any ``ros__parameters``, only the section of the controller manager.
+    """
+    from urdfkit.description.control.controller_types import TYPES
+    from urdfkit.lint.facts.launch.ros_version import ros_version
+
+    if "controller" not in source.text:
+        return []
+    roots = documents(source)[0]
+    entries = [entry for root in roots for entry in root.entries]
+    if PARAMETERS not in source.text:
+        managers = [(key, section) for key, section in entries if key.text == "controller_manager"]
+        kinds = [value.find("type") for _, section in managers for _, value in section.entries]
+        is_ros2 = any(kind is not None and kind.text in TYPES for kind in kinds) and ros_version(source) == 2
+        return [key for key, _ in managers] if is_ros2 else []
+    names, found = {one.name for one in declared(source)}, []
+    for key, section in entries:
+        inner = {name.text for node in walk(section) for name, _ in node.entries}
+        is_manager = key.text == "controller_manager" and section.find("update_rate") is not None
+        has_level = any(re.match(r"ros_" if is_manager else r"ros_|type$", name) for name in inner)
+        if inner and (is_manager or key.text in names) and not has_level:
+            found.append(key)
+    return found
+
+
 def _items(node: Node | None) -> tuple[Node, ...]:
     """Return the scalars of a list, or the scalar."""
     return () if node is None else node.items if node.kind == "list" else (node,) if node.kind == "text" else ()

@@ -141,10 +141,9 @@ class ControllerSettingsMisspelt(RobotRule):
     def _sections(self, source: Source) -> Findings:
         """Yield a finding for each type without package, and each ROS 2 section without ``ros__parameters``."""
         from urdfkit.description.control.controller_types import TYPES
-        from urdfkit.lint.facts.control.ros2_controllers import declared
-        from urdfkit.lint.facts.control.yaml_tree import documents, groups, span_of, walk
+        from urdfkit.lint.facts.control.controller_settings import sections_without_parameters
+        from urdfkit.lint.facts.control.yaml_tree import documents, groups, span_of
 
-        names = [one.name for one in declared(source)]
         for root in documents(source)[0]:
             for _, group in groups(root):
                 kind = group.find("type")
@@ -155,14 +154,10 @@ class ControllerSettingsMisspelt(RobotRule):
                 if matches:
                     message = f"unknown controller type `{kind.text}`; did you mean `{matches[0]}`?"
                     yield Finding(self.code, self.name, "error", message, span_of(source, kind))
-            for key, section in root.entries if _PARAMETERS in source.text else ():
-                inner = {name.text for node in walk(section) for name, _ in node.entries}
-                is_manager = key.text == "controller_manager" and section.find("update_rate") is not None
-                has_level = any(re.match(r"ros_" if is_manager else r"ros_|type$", name) for name in inner)
-                if inner and (is_manager or key.text in names) and not has_level:
-                    message = f"section `{key.text}` has no `{_PARAMETERS}`; its parameters are not read"
-                    help = f"write the parameters below `{_PARAMETERS}:`"
-                    yield Finding(self.code, self.name, self.severity, message, span_of(source, key), help=help)
+        for key in sections_without_parameters(source):
+            message = f"section `{key.text}` has no `{_PARAMETERS}`; ROS 2 refuses the file"
+            help = f"write `{_PARAMETERS}:` in the line below and indent the parameters"
+            yield Finding(self.code, self.name, "error", message, span_of(source, key), help=help)
 
     def _parameters(self, source: Source, model: Model) -> Findings:
         from urdfkit.lint.facts.control.controller_settings import INTERFACES, misspelt, misspelt_names

@@ -55,19 +55,22 @@ class ParameterValueInvalid(RobotRule):
     def check(self, model: Model) -> Findings:
         """Yield a finding for each impossible value and each repeated key."""
         from urdfkit.description.control.parameter_defects import invalid_parameters
+        from urdfkit.lint.facts.control.controller_settings import sections_without_parameters
         from urdfkit.lint.facts.control.loaded_controllers import loaded_controllers
+        from urdfkit.lint.facts.control.yaml_tree import yamls
 
+        unread = {source.file for source in yamls(model) if sections_without_parameters(source)}
         places = set()
-        for finding in self._in_yaml(model):
+        for finding in self._in_yaml(model, unread):
             places.add((finding.span.file, finding.span.line))
             yield finding
         for _, settings, ros in loaded_controllers(model):
             for error in invalid_parameters(settings, ros):
                 place = error.position
-                if place is not None and (place.file, place.line) not in places:
+                if place is not None and (place.file, place.line) not in places and place.file not in unread:
                     yield self.at(model, place, error.message)
 
-    def _in_yaml(self, model: Model) -> Findings:
+    def _in_yaml(self, model: Model, unread: set[str]) -> Findings:
         from urdfkit.lint.facts.control.controller_joints import controllers
         from urdfkit.lint.facts.control.parameter_values import contradictions, incomplete_controllers, value_defects
         from urdfkit.lint.facts.control.ros2_controllers import PARAMETERS
@@ -85,7 +88,7 @@ class ParameterValueInvalid(RobotRule):
                 for place, message in (*_in_any(node), *in_controllers):
                     yield Finding(self.code, self.name, self.severity, message, span_of(source, place))
             if is_of_controllers:
-                incomplete = incomplete_controllers(source, is_typed_at_start)
+                incomplete = () if source.file in unread else incomplete_controllers(source, is_typed_at_start)
                 for place, message in (*incomplete, *contradictions(source, model.robot)):
                     yield Finding(self.code, self.name, self.severity, message, span_of(source, place))
 
