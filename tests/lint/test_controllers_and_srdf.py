@@ -90,3 +90,49 @@ def test_the_broken_srdf_of_another_robot_is_reported_with_that_robot(tmp_path, 
     (tmp_path / "any.srdf").write_text(f'<robot name="{name}">\n  <group name="all">\n</robot>\n')
     assert ("M101" in {one.code for one in lint(tmp_path / "arm.urdf")}) is is_reported
     assert "M101" in {one.code for one in lint(tmp_path)}
+
+
+LIMB = """<robot name="limb">
+  {links}
+  {joints}
+</robot>
+"""
+SEMANTICS = """<robot name="{robot}">
+  <group name="limb"><chain base_link="{base}" tip_link="c"/></group>
+  <group_state name="home" group="{group}"><joint name="a_b" value="0"/><joint name="b_c" value="0"/></group_state>
+  <end_effector name="tip" parent_link="c" group="limb"/>
+  <disable_collisions link1="a" link2="{link}" reason="{reason}"/>
+</robot>
+"""
+SHAPE = '<collision><geometry><sphere radius="0.1"/></geometry></collision>'
+
+
+@pytest.mark.parametrize(
+    ("changes", "expected"),
+    [
+        ({}, []),
+        ({"reason": "Adjcent"}, ["M102 unknown reason `Adjcent`; did you mean `Adjacent`?"]),
+        ({"link": "c"}, ["M102 the reason is `Adjacent`, but several joints separate links `a` and `c`"]),
+        ({"link": "c", "reason": "Never"}, []),
+        ({"group": "limp"}, ["M104 group `limp` of <group_state> does not exist in this SRDF; did you mean `limb`?"]),
+        (
+            {"robot": "lmb", "base": "c"},
+            [
+                "M103 the SRDF is for robot `lmb`, but the URDF is robot `limb`",
+                "M105 the chain from `c` to `c` has no joint",
+            ],
+        ),
+    ],
+)
+def test_mistakes_in_an_srdf(changes: dict[str, str], expected: list[str], tmp_path: Path) -> None:
+    words = {"robot": "limb", "base": "a", "group": "limb", "link": "b", "reason": "Adjacent", **changes}
+    links = "".join(f'<link name="{name}">{SHAPE}</link>' for name in "abc")
+    joints = "".join(
+        f'<joint name="{a}_{b}" type="revolute"><parent link="{a}"/><child link="{b}"/><axis xyz="0 0 1"/>'
+        '<limit lower="-1" upper="1" effort="1" velocity="1"/></joint>'
+        for a, b in ("ab", "bc")
+    )
+    (tmp_path / "limb.urdf").write_text(LIMB.format(links=links, joints=joints))
+    (tmp_path / "limb.srdf").write_text(SEMANTICS.format(**words))
+    found = [f"{one.code} {one.message}" for one in lint(tmp_path / "limb.urdf") if one.code.startswith("M")]
+    assert sorted(found) == sorted(expected)

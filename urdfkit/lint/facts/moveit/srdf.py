@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
+from functools import lru_cache
 
 from urdfkit.lint.model.model import Model
 from urdfkit.record import record
@@ -44,6 +45,8 @@ NAME = r"<robot\b[^>]*?(?<![\w:])name\s*=\s*[\"']([^\"']*)"
 
 OPTIONAL = frozenset(("parent_group", "reason"))
 
+_SHARE_OF_OWN = 0.8
+"""Smallest proportion of existing links and joints in an SRDF with another name that is for the robot."""
 _LOWEST_SHARE = 0.5
 """Smallest proportion of existing links and joints in the references of a robot's SRDF."""
 
@@ -81,10 +84,20 @@ def references(root: Element) -> Iterator[NameUse]:
 
 
 def semantics_of(model: Model) -> Iterator[Element]:
-    """Yield the root elements of the SRDF files that describe this robot."""
+    """Yield the root elements of the SRDF files that describe this robot, also under the name of no robot."""
     robot = model.robot
     if robot.links:
-        yield from (root for root in model.semantic_roots.values() if root.get("name") == robot.name)
+        for root in model.semantic_roots.values():
+            if root.get("name") == robot.name or is_misnamed(root, model):
+                yield root
+
+
+def is_misnamed(root: Element, model: Model) -> bool:
+    """Return whether an SRDF describes this robot but has a name that no robot of these packages has."""
+    robot, name = model.robot, root.get("name")
+    if name == robot.name or not robot.name or not fits(root, robot, _SHARE_OF_OWN):
+        return False
+    return name is None or not any(re.fullmatch(pattern, name) for pattern in robot_names(model))
 
 
 def severity_for(root: Element, model: Model, severity: Severity | None = None) -> Severity | None:
@@ -161,6 +174,7 @@ def joints_of(group: str, root: Element, robot: Robot) -> set[str] | None:
     return found
 
 
+@lru_cache(maxsize=1)
 def robot_names(model: Model) -> list[str]:
     """Return patterns of the names of all robots in the packages of the related files, or in the robot's folder."""
     from pathlib import Path

@@ -1,16 +1,25 @@
 """M102 srdf-element-unknown."""
 
+from __future__ import annotations
+
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from urdfkit.description.xml.element import Element
+
 _TYPES = ("fixed", "floating", "planar")
+_REASONS = ("Never", "Default", "Adjacent", "Always", "User")
+"""Reasons of the MoveIt Setup Assistant; it takes other ones for ``User``."""
 
 
 class SrdfElementUnknown(RobotRule):
-    """An SRDF has a misspelt element, a misspelt or missing attribute, or an empty group.
+    """An SRDF has a misspelt element, a misspelt or missing attribute, an empty group, or a wrong reason.
 
     ## What it does
     Compares elements and attributes with the elements and attributes of srdfdom. Elements of other programs are
-    accepted unless their name differs slightly from one of srdfdom.
+    accepted unless their name differs slightly from one of srdfdom. A misspelt ``reason`` of a disabled pair, and the
+    reason ``Adjacent`` of links that several moving joints separate, are notes.
 
     ## Why is this bad?
     srdfdom ignores the element: the group does not exist, or the links collide.
@@ -65,9 +74,47 @@ class SrdfElementUnknown(RobotRule):
                     yield self.at(model, element, f"<{element.tag}> has no attribute `{name}`", severity=severity)
                 if key == "group" and not element.children:
                     yield self.at(model, element, f"group `{element.get('name')}` is empty", severity=weaker)
+                if key == "disable_collisions":
+                    yield from self._reason(element, model)
                 if key == "virtual_joint" and (kind := element.get("type")) not in (None, *_TYPES):
                     suggestion = nearest(kind or "", _TYPES)
                     hint = f"; did you mean `{suggestion}`?" if suggestion else ""
                     message = f"unknown type `{kind}` of virtual joint `{element.get('name')}`{hint}"
                     help = f"use one of {', '.join(_TYPES)}"
                     yield self.at(model, element, message, attribute="type", help=help, severity=severity)
+
+    def _reason(self, pair: Element, model: Model) -> Findings:
+        """Yield a finding for a disabled pair with a misspelt or wrong reason."""
+        from urdfkit.lint.fix_builders import nearest
+
+        reason = pair.get("reason") or ""
+        one, other = pair.get("link1") or "", pair.get("link2") or ""
+        links = model.robot.link_by_name
+        near = nearest(reason, _REASONS, cutoff=0.7) if reason not in _REASONS else None
+        if near is not None and near.lower() != reason.lower():
+            message = f"unknown reason `{reason}`; did you mean `{near}`?"
+            yield self.at(model, pair, message, attribute="reason", severity="note")
+        elif reason != "Adjacent" or one not in links or other not in links or model.is_incomplete:
+            return
+        elif other not in _adjacent(one, model):
+            message = f"the reason is `Adjacent`, but several joints separate links `{one}` and `{other}`"
+            yield self.at(model, pair, message, attribute="reason", severity="note")
+
+
+def _adjacent(link: str, model: Model) -> set[str]:
+    """Return the links that at most one moving joint separates from a link; links without shapes do not count."""
+    robot = model.robot
+    near: dict[str, list[tuple[str, bool]]] = {}
+    for joint in robot.joints:
+        if joint.parent is not None and joint.child is not None:
+            near.setdefault(joint.parent, []).append((joint.child, joint.type == "fixed"))
+            near.setdefault(joint.child, []).append((joint.parent, joint.type == "fixed"))
+    distances, pending = {link: 0}, [link]
+    for each in pending:  # The list grows during the iteration.
+        for name, is_fixed in near.get(each, ()):
+            part = robot.link_by_name.get(name)
+            further = distances[each] + (not is_fixed and part is not None and bool(part.collisions))
+            if further < distances.get(name, 2):
+                distances[name] = further
+                pending.append(name)
+    return set(distances)

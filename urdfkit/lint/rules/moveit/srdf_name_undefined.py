@@ -49,6 +49,7 @@ class SrdfNameUndefined(RobotRule):
     def check(self, model: Model) -> Findings:
         """Yield a finding for each undefined name."""
         from urdfkit.lint.facts.moveit.srdf import fits, groups, references, semantics_of, severity_for, virtual_joints
+        from urdfkit.lint.facts.ros_packages import is_slip
         from urdfkit.lint.fix_builders import meant
 
         robot = model.robot
@@ -64,6 +65,9 @@ class SrdfNameUndefined(RobotRule):
                 if name in existing[kind]:
                     continue
                 suggestion, hint = meant(name, existing[kind])
+                if kind == "group" and suggestion is None:  # short names such as `arm`
+                    slip = next((each for each in existing[kind] if is_slip(name, each)), None)
+                    hint = f"; did you mean `{slip}`?" if slip else ""
                 if kind == "group" and suggestion is not None and len(places) > 1 and (kind, suggestion) not in uses:
                     message = f"group `{suggestion}` is not used; did you mean `{name}`, which is used but undefined?"
                     group, severity = groups(root)[suggestion], severity_for(root, model)

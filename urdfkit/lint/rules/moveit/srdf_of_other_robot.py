@@ -1,11 +1,6 @@
 """M103 srdf-of-other-robot."""
 
-import re
-
 from urdfkit.lint.rule import Findings, Model, RobotRule
-
-_SHARE = 0.8
-"""Smallest proportion of existing links and joints in the references of an SRDF for the robot."""
 
 
 class SrdfOfOtherRobot(RobotRule):
@@ -42,17 +37,11 @@ class SrdfOfOtherRobot(RobotRule):
 
     def check(self, model: Model) -> Findings:
         """Yield a finding for each SRDF of this robot that names another robot."""
-        from urdfkit.lint.facts.moveit.srdf import fits, robot_names, severity_for
+        from urdfkit.lint.facts.moveit.srdf import is_misnamed, severity_for
 
         robot = model.robot
-        others = [root for root in model.semantic_roots.values() if root.get("name") != robot.name]
-        names: list[str] | None = None
-        for root in others if robot.links and robot.name else ():
-            if not fits(root, robot, _SHARE):
-                continue
-            names = robot_names(model) if names is None else names
-            name = root.get("name")
-            if name is None or not any(re.fullmatch(pattern, name) for pattern in names):
-                message = f"the SRDF is for robot `{name or ''}`, but the URDF is robot `{robot.name}`"
+        for root in model.semantic_roots.values() if robot.links else ():
+            if is_misnamed(root, model):
+                message = f"the SRDF is for robot `{root.get('name') or ''}`, but the URDF is robot `{robot.name}`"
                 severity, help = severity_for(root, model), f'write name="{robot.name}"'
                 yield self.at(model, root, message, attribute="name", help=help, severity=severity)
