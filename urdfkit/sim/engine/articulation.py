@@ -67,6 +67,7 @@ class Articulation:
         self.feedforward, self.integral = a["feedforward"], a["integral"]
         self.approach_rate, self.fastest = a["approach_rate"], a["fastest"]
         self.acceleration, self.deceleration = a["acceleration"], a["deceleration"]
+        self._targets_at_sleep = arrays["targets_at_sleep"][first:beyond]
         self._own_v, self._own_effort, self._own_tau = a["v"], a["effort"], a["tau"]
         self._v, self._effort, self._tau = _read_only(a["v"]), _read_only(a["effort"]), _read_only(a["tau"])
         self.set_twist: tuple[int, Array] | None = None
@@ -167,6 +168,7 @@ class Articulation:
         self._own_v[:] = v
         self._own_effort[:] = self._own_tau[:] = self.integral[:] = 0.0
         self.arrays["still"][self.tree] = 0.0
+        self._targets_at_sleep[:] = np.nan  # wakes it, even where it was
 
 
 _PER_DOF = (

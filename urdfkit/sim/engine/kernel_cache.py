@@ -49,6 +49,9 @@ KERNEL_MODULES = (
     "solver/row_states",
     "solver/sliding_contacts",
     "solver/tree_matrix",
+    "sleep/robot_sleep",
+    "sleep/sleep_criteria",
+    "sleep/tree_rest",
     "stepping/ballistic",
     "stepping/robot_step",
 )

@@ -66,7 +66,7 @@ FLOATS = _sizes(
     "slope_v:d sum_s:d sum_v:d block_v:d block_f:d contact_origin:t,3 contact_point:c,3 contact_frame:c,9",
     "contact_gap:c contact_mu:c contact_impulse:c,3 pair_before:c,3 last_point:c,3 shape_middle:k,3",
     f"shape_half:k,3 shape_at:k,3 shape_reach:k,3 tree_low:t,3 tree_high:t,3 still:t,{OBSERVED} strayed:d",
-    f"displaced:t,6 targets_at_sleep:d,8 gravity_last_step:3 pair_numbers:n pair_work:{memory.WORK} found_point:24",
+    f"displaced:t,6 targets_at_sleep:d,10 gravity_last_step:3 pair_numbers:n pair_work:{memory.WORK} found_point:24",
     "found_normal:24 found_gap:8 Y:y columns:y row_bias:r g:r low:r high:r mu:r before:r slip:r x:r y:r A:q B:q",
     "row_stiffness:r near_x:r ahead:r velocity:r shape_mu2:k floor_mu2:k shape_along:k,3 ki:d i_min:d i_max:d",
     "antiwindup:d feedforward:d integral:d i_part:d rigid_kd:d turn:b,2",

@@ -74,3 +74,11 @@ def update_odometry(w: KernelWorld, tree: int, step: int) -> None:
     w.odometry[found + HEADING] += turn
     w.odometry[found + FORWARD], w.odometry[found + LEFT], w.odometry[found + TURNED] = forward, left, turn
     w.odometry[found + DISTANCE] = math.sqrt(dx * dx + dy * dy)
+
+
+@compiled
+def update_odometry_at_rest(w: KernelWorld, tree: int, step: int) -> None:
+    """Update the pose of a robot at rest whenever it is due up to a step, so that its velocities become zero."""
+    at = ODOMETER * tree
+    while w.odometer[at] != 0 and w.odometer[at + NEXT_UPDATE] <= step:
+        update_odometry(w, tree, w.odometer[at + NEXT_UPDATE])

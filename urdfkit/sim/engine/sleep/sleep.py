@@ -8,19 +8,11 @@ stored from the end of their array on, so that they can be reported and found ag
 from urdfkit.sim.engine.compilation import compiled, inlined
 from urdfkit.sim.engine.contacts.broadphase import update_bounds
 from urdfkit.sim.engine.contacts.warm_start import copy_contact
-from urdfkit.sim.engine.dynamics.mass_matrix import place
 from urdfkit.sim.engine.kernel_world import KernelWorld
-from urdfkit.sim.engine.math.spatial_algebra import ZERO, store_spatial, store_vector
 from urdfkit.sim.engine.simulation_memory import CONTACTS, DIED_DOWN, DT, LAST_PAIRS, OBSERVED, SLEEPING, TREES
-from urdfkit.sim.engine.sleep.sleep_criteria import (
-    PATIENCE,
-    TARGETS,
-    is_free_body,
-    is_left_alone,
-    is_quiet,
-    target_of,
-)
+from urdfkit.sim.engine.sleep.sleep_criteria import PATIENCE, is_free_body, is_left_alone, is_quiet
 from urdfkit.sim.engine.sleep.slow_motion import observe
+from urdfkit.sim.engine.sleep.tree_rest import stop
 
 
 @compiled
@@ -83,22 +75,5 @@ def lie_down(w: KernelWorld, root: int, contacts: int) -> None:
     while tree >= 0:
         w.asleep[tree] = root + 1
         stop(w, tree)
+        update_bounds(w, tree, w.numbers[DT])
         tree = w.island_next[tree]
-
-
-@inlined
-def stop(w: KernelWorld, tree: int) -> None:
-    """Set a tree's velocity to zero and store its positions and targets."""
-    first = w.tree_s[tree]
-    for k in range(first, w.tree_s[tree + 1]):
-        w.s_ahead[k] = w.s[k]
-    for d in range(w.tree_dof[tree], w.tree_dof[tree + 1]):
-        w.v[d] = 0.0
-        for k in range(TARGETS):
-            w.targets_at_sleep[TARGETS * d + k] = target_of(w, d, k)
-    if w.tree_floats[tree] != 0:
-        store_vector(w.P, tree, (w.s[first], w.s[first + 1], w.s[first + 2]))
-    place(w, tree, w.s, False)
-    for b in range(w.tree_body[tree], w.tree_body[tree + 1]):
-        store_spatial(w.twist, b, (ZERO, ZERO))
-    update_bounds(w, tree, w.numbers[DT])

@@ -6,6 +6,7 @@ contacts open and close.
 """
 
 from urdfkit.sim.engine.compilation import inlined
+from urdfkit.sim.engine.constraints.joint_servos import is_servo
 from urdfkit.sim.engine.kernel_world import KernelWorld
 from urdfkit.sim.engine.simulation_memory import DT, OBSERVED
 
@@ -22,7 +23,7 @@ LOUD_TURNING = 5e-2
 """The same for the turning of a free body [rad/s]: a corner of a brick goes at a tenth of that [m/s]."""
 PATIENCE = 0.5
 """How long an island is at rest before it sleeps [s]."""
-TARGETS = 8
+TARGETS = 10
 """Targets of each dof that are remembered."""
 
 
@@ -43,6 +44,10 @@ def target_of(w: KernelWorld, d: int, k: int) -> float:
         return float(w.kp[d])
     if k == 6:
         return float(w.kd[d])
+    if k == 7:
+        return float(w.ki[d])
+    if k == 8:
+        return float(w.approach_rate[d])
     return float(w.servo_effort[d])
 
 
@@ -57,8 +62,9 @@ def is_left_alone(w: KernelWorld, tree: int) -> bool:
     """Return whether a tree may sleep, and no target or force acts on it that could move it."""
     if w.sleeps[tree] == 0:
         return False
-    for d in range(w.tree_dof[tree], w.tree_dof[tree + 1]):
-        if w.applied[d] != 0.0 or w.motor_velocity[d] != 0.0 or w.kp[d] != 0.0 or w.kd[d] != 0.0:
+    # The last dofs first: the motors of a robot come after the dofs of its base.
+    for d in range(w.tree_dof[tree + 1] - 1, w.tree_dof[tree] - 1, -1):
+        if w.applied[d] != 0.0 or w.motor_velocity[d] != 0.0 or is_servo(w, d):
             return False
     return True
 

@@ -4,36 +4,18 @@ It wakes when an awake body comes within reach of a contact, or when the targets
 or gravity, changes.
 """
 
-from urdfkit.sim.engine.compilation import compiled, inlined
+from urdfkit.sim.engine.compilation import compiled
 from urdfkit.sim.engine.contacts.warm_start import copy_contact, insert_pair, store_impulses
 from urdfkit.sim.engine.dynamics.tree_motion import begin_step
 from urdfkit.sim.engine.kernel_world import KernelWorld
 from urdfkit.sim.engine.simulation_memory import CONTACTS, OBSERVED, SLEEPING, TREES
-from urdfkit.sim.engine.sleep.sleep_criteria import TARGETS, target_of
-
-
-@inlined
-def is_disturbed(w: KernelWorld, tree: int) -> bool:
-    """Return whether a sleeping tree was moved from outside or has new targets."""
-    for k in range(w.tree_s[tree], w.tree_s[tree + 1]):
-        if w.s[k] != w.s_ahead[k]:
-            return True
-    for d in range(w.tree_dof[tree], w.tree_dof[tree + 1]):
-        if w.v[d] != 0.0:
-            return True
-        for k in range(TARGETS):
-            if w.targets_at_sleep[TARGETS * d + k] != target_of(w, d, k):
-                return True
-    return False
+from urdfkit.sim.engine.sleep.tree_rest import gravity_changed, is_disturbed
 
 
 @compiled
 def wake_disturbed(w: KernelWorld) -> None:
     """Wake the islands disturbed since the last call, or all of them if gravity has changed."""
-    turned = False
-    for k in range(3):
-        turned = turned or w.gravity[k] != w.gravity_last_step[k]
-        w.gravity_last_step[k] = w.gravity[k]
+    turned = gravity_changed(w)
     for tree in range(w.sizes[TREES]):
         if w.asleep[tree] != 0 and (turned or is_disturbed(w, tree)):
             wake(w, w.asleep[tree])

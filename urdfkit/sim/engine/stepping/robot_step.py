@@ -57,6 +57,7 @@ from urdfkit.sim.engine.solver.augmented_newton import (
     solve_single_tree,
 )
 from urdfkit.sim.engine.solver.delassus import apply_impulses, build_delassus
+from urdfkit.sim.engine.sleep.robot_sleep import let_robot_sleep, pass_time, wake_if_disturbed
 from urdfkit.sim.engine.stepping.ballistic import is_ballistic, rk4_step
 
 ALONE = True
@@ -88,7 +89,12 @@ def advance(floats: Any, integers: Any, steps: int, action: int) -> int:
     floating = w.tree_floats[0] != 0
     dt, floor = w.numbers[DT], w.numbers[FLOOR]
     first_contact_slot = 2 * dofs + mimics
+    if not only_terms:
+        wake_if_disturbed(w)
     for done in range(steps):
+        if not only_terms and w.asleep[0] != 0:
+            pass_time(w, steps - done)
+            return steps
         move(w, 0, bodies, w.s, w.v, 0.0 if only_terms else 0.5 * dt)
         for d in range(dofs):
             w.v_start[d] = w.v[d]
@@ -177,4 +183,5 @@ def advance(floats: Any, integers: Any, steps: int, action: int) -> int:
         w.counts[STEPS] += 1
         if w.odometer[0] != 0 and w.counts[STEPS] >= w.odometer[NEXT_UPDATE]:
             update_odometry(w, 0, w.counts[STEPS])
+        let_robot_sleep(w, contacts)
     return steps

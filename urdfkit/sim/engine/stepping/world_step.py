@@ -8,7 +8,7 @@ from urdfkit.sim.engine.constraints.position_goals import approach_goals
 from urdfkit.sim.engine.contacts.contact_search import find_candidate_pairs, find_contacts
 from urdfkit.sim.engine.contacts.warm_start import store_impulses, store_pair_impulses
 from urdfkit.sim.engine.dynamics.link_poses import place_links
-from urdfkit.sim.engine.dynamics.odometry import update_odometry
+from urdfkit.sim.engine.dynamics.odometry import update_odometry, update_odometry_at_rest
 from urdfkit.sim.engine.dynamics.tree_motion import begin_step, evaluate, integrate_tree, predict_poses
 from urdfkit.sim.engine.kernel_world import world
 from urdfkit.sim.engine.simulation_memory import (
@@ -72,6 +72,8 @@ def advance(floats: Any, integers: Any, steps: int, action: int) -> int:
             # Nothing will happen before the next call.
             counts[FOUND_CONTACTS] = counts[FOUND_ROWS] = counts[FOUND_PAIRS] = 0
             counts[STEPS] += steps - done
+            for tree in range(trees):
+                update_odometry_at_rest(w, tree, counts[STEPS])
             return steps
         while True:
             pairs = find_candidate_pairs(w)
@@ -104,6 +106,7 @@ def advance(floats: Any, integers: Any, steps: int, action: int) -> int:
         total = 0.0
         for tree in range(trees):
             if w.asleep[tree] != 0:
+                update_odometry_at_rest(w, tree, counts[STEPS] + 1)
                 continue
             first, beyond = w.tree_dof[tree], w.tree_dof[tree + 1]
             account(w, first, beyond, dt)
