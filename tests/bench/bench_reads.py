@@ -44,7 +44,7 @@ def arm() -> str:
 
 def ours(path: Path) -> dict[str, Callable[[], None]]:
     """Return the two measured calls of urdfkit."""
-    simulator = Simulator(path, world="void", fixed_base=True)
+    simulator = Simulator(path, world="void", fixed_base=True, sleep=False)
     state = simulator.state
 
     def poses() -> None:

@@ -59,7 +59,7 @@ class Simulator:
         name: name of the robot in the world and in its topics; the name in the description when None.
         gravity: [m/s²]; the world's when None.
         fixed_base: fix the root link to the world. A root link named ``world`` is always fixed.
-        sleep: let bodies at rest sleep until an external event, such as a contact or push, wakes them.
+        sleep: let bodies and robots at rest sleep until an external event, such as a contact or push, wakes them.
         ros_distro: the ROS distribution that plugins behave like, such as ``kinetic``; the newest when None.
         controllers: parameter files of controllers, replacing the files that the robot's packages load.
         package_path: folders to search for packages, when `robot` is a file or a name.

@@ -156,6 +156,8 @@ class InSimRun(Running):
             options = run_options_of(arguments)
             self.simulator = run_command.load(arguments, options)
             options.schedule(self.simulator)
+        # Both engines stay awake, also where the arm rests at its goal.
+        self.simulator.world.builder.engine.arrays["sleeps"][:] = 0
 
     def many(self, steps: int) -> None:
         """Advance by `steps` in one call."""
@@ -181,7 +183,7 @@ class InSimRun(Running):
         """Knock nothing: only boxes are knocked."""
 
     def asleep(self) -> int | None:
-        """Return None: a robot alone never sleeps."""
+        """Return None: the robot is kept awake."""
         return None
 
 

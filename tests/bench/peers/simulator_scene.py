@@ -69,5 +69,5 @@ class InSimulator(Running):
         raise NotImplementedError("scenes that knock are of boxes")
 
     def asleep(self) -> int | None:
-        """Return None: a robot alone never sleeps."""
+        """Return None: a robot under commands never sleeps."""
         return None

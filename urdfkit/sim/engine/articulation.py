@@ -167,7 +167,7 @@ class Articulation:
         set_configuration(model, self.arrays, q, self.tree)
         self._own_v[:] = v
         self._own_effort[:] = self._own_tau[:] = self.integral[:] = 0.0
-        self.arrays["still"][self.tree] = 0.0
+        self.arrays["still"][self.tree] = self.arrays["attempt"][self.tree] = 0
         self._targets_at_sleep[:] = np.nan  # wakes it, even where it was
 
 

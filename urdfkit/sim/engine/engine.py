@@ -45,8 +45,7 @@ class Engine(Articulation):
         weightless: the robot's links that gravity does not pull.
         others: more robots.
         bodies: free and static bodies.
-        sleep: whether trees at rest may sleep, see `sleep.sleep`; sleeping trees cost no time. A single robot never
-            sleeps.
+        sleep: whether trees at rest may sleep, see `sleep.sleep`; sleeping trees cost no time.
 
     Raises:
         SimulationError: the robot or a body cannot be simulated, e.g. a link that must move has no mass.
@@ -143,7 +142,7 @@ class Engine(Articulation):
             body.put_back()
         a = self.arrays
         a["memory"][:] = a["effort"][:] = a["tau"][:] = 0.0
-        a["counts"][:] = a["asleep"][:] = 0
+        a["counts"][:] = a["asleep"][:] = a["attempt"][:] = 0
         a["still"][:] = 0.0
         self.evaluate()
 

@@ -38,6 +38,10 @@ FOLLOWS_ARC, LAST_UPDATE, BEFORE, NEXT_UPDATE, FIRST_COORDINATE = range(1, 6)
 """Places in ``odometer`` of a tree after the number of its encoders, zero for none: whether displacements follow an
 arc, the steps of the last updates and of the next, and the coordinates of its encoders, relative to its first one."""
 ODOMETER = FIRST_COORDINATE + ENCODERS
+ATTEMPT = 3
+LAST_ATTEMPT, TURNS, SKIPPED = range(ATTEMPT)
+"""Places in ``attempt`` of a tree, see `augmented_newton`: which attempt solved the last step, how often in turn it was
+found by failures of the ones before, and in how many of the next steps those are skipped."""
 
 
 def _sizes(*rows: str) -> dict[str, Size]:
@@ -86,7 +90,7 @@ INTEGERS = _sizes(
     "shape_owner:k shape_meets:k shape_data:k contact_body:c contact_other:c contact_shape:c contact_against:c",
     "contact_next:c contact_feature:c contact_row:c slot:r row_a:r row_b:r at_a:r at_b:r of_a:r of_b:r state:r",
     "index:r redundant:r extreme_vertex:9 saturated:d pressed:d motor_row:d counts:12 along_body:k",
-    f"odometer:t,{ODOMETER} tree_link:t+1 link_body:l",
+    f"odometer:t,{ODOMETER} tree_link:t+1 link_body:l attempt:t,{ATTEMPT}",
 )
 
 # Where in the head of the block of integers the kernel finds sizes and the start of each field.

@@ -20,6 +20,7 @@ from typing import Any
 from urdfkit.sim.engine.compilation import compiled, inlined
 from urdfkit.sim.engine.dynamics.mass_matrix import solve_forward
 from urdfkit.sim.engine.kernel_world import KernelWorld
+from urdfkit.sim.engine.simulation_memory import ATTEMPT, LAST_ATTEMPT, SKIPPED, TURNS
 from urdfkit.sim.engine.solver.penalty_rows import imbalance, joint_row_count, linearise, prepare, row_velocities
 from urdfkit.sim.engine.solver.tree_matrix import damped_inertia, factor_tree, multiply_inertia, solve_tree
 
@@ -29,8 +30,13 @@ HARDER, SOFTER = 5.0, 0.3
 """Factors of the penalty after a round that converged, and after a round that did not."""
 STEPS = 3
 """Most steps of Newton's method in a round."""
-RESTING, LEAVING, MOVING = range(3)
-"""Tries: with a hard penalty, the same without corrections of penetrations, and with a soft penalty that grows."""
+RESTING, LEAVING, RELAXED, MOVING = range(4)
+"""Attempts: with a hard penalty, the same without corrections of penetrations, also without slow returns of joints
+beyond their limits, and this with a soft penalty that grows."""
+LONGEST = 16
+"""Most steps in which attempts that failed are skipped."""
+SLOW = 0.5
+"""Velocity [rad/s or m/s] of a dof below which `RELAXED` is tried; a robot that falls needs `MOVING` anyway."""
 FIRST_TRY = 4
 """Steps from which on the first try is given up."""
 TOTAL = 45
@@ -182,6 +188,54 @@ def leave_violations(w: KernelWorld, first: int, beyond: int, fastest: float) ->
 
 
 @inlined
+def first_attempt(w: KernelWorld, tree: int, joint_rows: int, rows: int) -> int:
+    """Return the attempt that a step begins with: that of the last step if the ones before failed several times."""
+    at = ATTEMPT * tree
+    attempt = int(w.attempt[at + LAST_ATTEMPT]) if w.attempt[at + SKIPPED] > 0 else RESTING
+    if attempt >= LEAVING:
+        leave_violations(w, joint_rows, rows, math.inf)
+    if attempt == RELAXED:
+        leave_violations(w, 0, joint_rows, RETURN)
+    return attempt
+
+
+@inlined
+def next_attempt(w: KernelWorld, tree: int, attempt: int, joint_rows: int, rows: int) -> int:
+    """Return the attempt that follows a failure, and leave out the corrections that it does not make."""
+    if attempt == RESTING and leave_violations(w, joint_rows, rows, math.inf):
+        return LEAVING
+    if not leave_violations(w, 0, joint_rows, RETURN):
+        return MOVING
+    for d in range(w.tree_dof[tree], w.tree_dof[tree + 1]):
+        if not abs(w.v_start[d]) < SLOW:
+            return MOVING
+    return RELAXED
+
+
+@inlined
+def remember_attempt(w: KernelWorld, tree: int, first: int, last: int) -> None:
+    """Choose for how many steps attempts are skipped that failed in this step, more the more often they failed.
+
+    So a robot at rest does not attempt in vain, in each step, what failed in many steps before.
+
+    Args:
+        w: the world's arrays.
+        tree: which.
+        first: first attempt of this step.
+        last: last one.
+    """
+    at = ATTEMPT * tree
+    if last != w.attempt[at + LAST_ATTEMPT]:
+        w.attempt[at + LAST_ATTEMPT] = last
+        w.attempt[at + TURNS] = w.attempt[at + SKIPPED] = 0
+    elif first == last:
+        w.attempt[at + SKIPPED] = max(0, w.attempt[at + SKIPPED] - 1)
+    else:
+        w.attempt[at + TURNS] += 1
+        w.attempt[at + SKIPPED] = min(w.attempt[at + TURNS], LONGEST) if last != MOVING else 0
+
+
+@inlined
 def limit_energy(w: KernelWorld, tree: int, rows: int, brought: float) -> None:
     """Make all impulses smaller that would bring energy: x·g + x·A·x/2, of which the second part is `brought`."""
     found = 0.0
@@ -218,9 +272,9 @@ def solve_single_tree(w: KernelWorld, tree: int, stride: int, rows: int, contact
         w.sum_v[d] = w.v_start[d] + w.u[d]
     damped_inertia(w, tree, inertia)
     prepare(w, tree, stride, joint_rows, contacts, inertia)
+    attempt = first_try = first_attempt(w, tree, joint_rows, rows)
     begin(w, tree, stride, rows, joint_rows, contacts, inertia)
     hardness, balance = HARD, BALANCE
-    attempt = RESTING
     total = 0
     before = math.inf
     met = False
@@ -232,11 +286,8 @@ def solve_single_tree(w: KernelWorld, tree: int, stride: int, rows: int, contact
             met = balance == EXACT
             balance = EXACT
         elif attempt != MOVING and (taken < 0 or (attempt == RESTING and total >= FIRST_TRY)):
-            if attempt == RESTING and leave_violations(w, joint_rows, rows, math.inf):
-                attempt, hardness = LEAVING, HARD
-            else:
-                attempt, hardness = MOVING, SOFT
-                leave_violations(w, 0, joint_rows, RETURN)
+            attempt = next_attempt(w, tree, attempt, joint_rows, rows)
+            hardness = SOFT if attempt == MOVING else HARD
             begin(w, tree, stride, rows, joint_rows, contacts, inertia)
             off = math.inf
         elif taken < 0:
@@ -244,6 +295,7 @@ def solve_single_tree(w: KernelWorld, tree: int, stride: int, rows: int, contact
         elif attempt != RESTING:
             hardness = min(HARDEST, HARDER * hardness)
         before = off
+    remember_attempt(w, tree, first_try, attempt)
     # Of the impulses found, so that momentum is kept whatever the accuracy.
     row_velocities(w, tree, stride, joint_rows, contacts, w.sum_v, 1.0, w.y)
     for d in range(first, beyond):

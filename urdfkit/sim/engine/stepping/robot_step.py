@@ -47,6 +47,7 @@ from urdfkit.sim.engine.simulation_memory import (
     STEPS,
     TERMS,
 )
+from urdfkit.sim.engine.sleep.robot_sleep import let_robot_sleep, pass_time, wake_if_disturbed
 from urdfkit.sim.engine.solver.active_set_newton import MOST_GUESSES, fastest_row, guess, iterate
 from urdfkit.sim.engine.solver.augmented_newton import (
     ATTEMPTS,
@@ -57,7 +58,6 @@ from urdfkit.sim.engine.solver.augmented_newton import (
     solve_single_tree,
 )
 from urdfkit.sim.engine.solver.delassus import apply_impulses, build_delassus
-from urdfkit.sim.engine.sleep.robot_sleep import let_robot_sleep, pass_time, wake_if_disturbed
 from urdfkit.sim.engine.stepping.ballistic import is_ballistic, rk4_step
 
 ALONE = True
