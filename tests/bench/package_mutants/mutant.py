@@ -103,7 +103,7 @@ class Workspace:
     @cached_property
     def models(self) -> list[object]:
         """The robots of the workspace."""
-        return [model_of(entry.path, Options()) for entry in find_entries([self.folder])]
+        return [model_of(entry.path, Options()) for entry in find_entries([self.folder]) if entry.has_robot]
 
     @cached_property
     def joints(self) -> dict[str, str]:
