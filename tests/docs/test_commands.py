@@ -55,6 +55,7 @@ def shown_commands(page: Path) -> list[str]:
 
 
 def run(command: str, folder: Path) -> None:
+    command = command.partition(" | ")[0]  # what follows is no command of urdfkit
     words = [sys.executable, "-m", "urdfkit", *shlex.split(command)[1:]]
     is_file = {"--image", "--video"} & set(words)
     if command.startswith(tuple(f"urdfkit {name}" for name in SERVES)) and not is_file:
