@@ -166,7 +166,7 @@ def _parse(path: Path, content: bytes, scale: Vector, beside: Beside, places: bo
         raise
     except Exception as error:  # any error of the reader of the format, which evaluates properties when they are used
         raise ResourceError(f"mesh {path.name} cannot be read: {reading_fault(suffix, content)}") from error
-    missing, broken = (tuple(dict.fromkeys(names)) for names in (beside.missing, beside.broken))
+    missing, broken = tuple(dict.fromkeys(beside.missing)), tuple(dict.fromkeys(beside.broken))
     return replace(mesh, missing=missing, broken=broken) if missing else mesh
 
 
