@@ -77,6 +77,28 @@ def test_a_mimic_joint_names_its_master_and_cannot_be_moved(page) -> None:
     assert row.locator("input").first.is_disabled()
 
 
+def test_joints_are_grouped_by_chain(page, keep) -> None:
+    shown = "rows => rows.map((row) => row.dataset.joint ?? row.innerText.trim())"
+    rows = page.locator("#joints li:visible")
+    arm, grip, base = (
+        ["to hand (3)", "turn", "bend", "tip"],
+        ["at hand (2)", "open", "follow"],
+        ["at base (1)", "glass"],
+    )
+    assert rows.evaluate_all(shown) == [*arm, *grip, *base]
+    keep(page, "groups")
+    head = page.get_by_role("button", name="to hand (3)")
+    head.focus()
+    page.keyboard.press("Enter")
+    assert head.get_attribute("aria-expanded") == "false"
+    assert rows.evaluate_all(shown) == [arm[0], *grip, *base]
+    page.locator("#filter").fill("bend")  # a search finds folded rows too
+    assert rows.evaluate_all(shown) == ["bend"]
+    page.locator("#filter").fill("")
+    head.click()
+    assert rows.evaluate_all(shown) == [*arm, *grip, *base]
+
+
 def test_the_filter_leaves_what_fits(page) -> None:
     page.get_by_label("Filter joints").fill("TI")
     assert page.locator("#joints li:visible").evaluate_all("rows => rows.map((r) => r.dataset.joint)") == ["tip"]

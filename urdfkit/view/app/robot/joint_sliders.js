@@ -1,6 +1,7 @@
 // The joint panel: a slider and a number for every joint, in radians or degrees, with or without limits.
 
 import { check, h, short } from "../page/dom.js";
+import { jointGroups } from "./robot_model.js";
 import { numberField } from "../page/number_field.js";
 
 const SLIDERS = "M4 7h9M17 7h3M15 5v4M4 17h3M11 17h9M9 15v4";
@@ -20,6 +21,7 @@ export function joints(page) {
   page.on("status", ({ paused }) => made.allow(paused && page.accepts("joints")));
   page.on("accepts", () => page.accepts("joints") || made.observe());
   page.on("select", (selected) => made.mark(selected));
+  page.on("robot", () => made.group());
   page.setJoints = (values) => made.set(values);
   page.shortcut({ key: "0", does: "all joints to zero", group: "Joints", run: () => made.zero() });
   page.shortcut({ key: "5", does: "all joints to the middle of their range", group: "Joints", run: () => made.centre() });
@@ -34,6 +36,8 @@ export class Joints {
     this.degrees = false;
     this.allowed = true;
     this.rows = new Map();
+    this.headings = new Map(); // title of a group → its row
+    this.collapsed = new Set(); // titles
     this.moved = {};
     this.before = null; // positions before the first move that is not sent yet
     this.list = h("ul#joints");
@@ -57,10 +61,34 @@ export class Joints {
   /** Create the rows of a robot; the filter is kept. */
   show(joints) {
     this.rows.clear();
-    this.list.replaceChildren(...joints.map((joint) => this.#row(joint)));
+    for (const joint of joints) this.#row(joint);
     this.filter.hidden = joints.length < 6;
-    this.#filter();
+    this.group();
     this.mark(this.page.selected);
+  }
+
+  /** Show the rows in groups. */
+  group() {
+    this.headings.clear();
+    this.list.replaceChildren();
+    for (const { title, names } of jointGroups([...this.rows.keys()], this.page.robot?.kinematics)) {
+      for (const name of names) this.rows.get(name).group = title;
+      if (title) this.list.append(this.#heading(title, names.length));
+      this.list.append(...names.map((name) => this.rows.get(name).item));
+    }
+    this.#filter();
+  }
+
+  #heading(title, count) {
+    const fold = h("button.bare", { type: "button", onclick: () => this.#fold(title) }, `${title} (${count})`);
+    const item = h("li.joint-group", {}, fold);
+    this.headings.set(title, { item, fold });
+    return item;
+  }
+
+  #fold(title) {
+    if (!this.collapsed.delete(title)) this.collapsed.add(title);
+    this.#filter();
   }
 
   /** Show positions from the server, except for a slider that the user is moving. */
@@ -243,10 +271,14 @@ export class Joints {
 
   #filter() {
     const wanted = this.filter.value.trim().toLowerCase();
+    for (const [title, { item, fold }] of this.headings) {
+      item.hidden = wanted !== "";
+      fold.setAttribute("aria-expanded", !this.collapsed.has(title));
+    }
     let found = 0;
     for (const [name, row] of this.rows) {
       const fits = name.toLowerCase().includes(wanted);
-      row.item.hidden = !fits;
+      row.item.hidden = !fits || (wanted === "" && this.collapsed.has(row.group));
       found += fits;
     }
     this.none.hidden = found > 0 || this.rows.size === 0;
