@@ -333,9 +333,11 @@ def test_soft_limits_slow_a_velocity_down(make: Make) -> None:
     assert simulator.state.position("shoulder") == pytest.approx(0.5, abs=1e-4)
 
 
-def test_soft_limits_hold_an_effort_back(make: Make) -> None:
+@pytest.mark.parametrize("k_velocity", [20, 20_000])  # the inertia of the joint allows about 2000 in explicit steps
+def test_soft_limits_hold_an_effort_back(make: Make, k_velocity: int) -> None:
     yaml = law("effort_controllers/JointEffortController")
-    simulator = make(yaml, ("Effort", "Position"), arm={"safety": SAFETY}, gravity=(0, 0, 0))
+    safety = SAFETY.replace('k_velocity="20"', f'k_velocity="{k_velocity}"')
+    simulator = make(yaml, ("Effort", "Position"), arm={"safety": safety}, gravity=(0, 0, 0))
     send(simulator, "/arm/a/command", 3.0)
     furthest = 0.0
     for _ in range(600):

@@ -81,7 +81,19 @@ class EffortOutput(Output):
             self.handle.exert(motors, command)
             return inf
         speed = state.velocity(name)
-        self.handle.exert(motors, limits.exerting(command, state.position(name), speed))
+        position = state.position(name)
+        granted = limits.exerting(command, position, speed)
+        if limits.soft is None or granted == command:
+            self.handle.exert(motors, granted)
+        else:  # k_velocity is a damping: as a servo of the engine it is stable for any inertia and period
+            slowest, fastest = limits.velocities(position)
+            self.handle.servo(
+                motors,
+                Gains(0.0, d=limits.soft.k_velocity),
+                position=position,
+                velocity=fastest if granted < command else slowest,
+                limit=limits.effort,
+            )
         if limits.soft is None and limits.velocity == inf:
             return inf
         return LOOK if limits.soft is None and abs(speed) < BRISK * limits.velocity else 0.0

@@ -55,20 +55,20 @@ class JointLimits:
 
     def position(self, wanted: float, before: float, period: float) -> float:
         """Return the limited position command, for the command `before` of the last control period."""
-        least, most = self._velocities(before)
+        least, most = self.velocities(before)
         low, high = max(before + least * period, self.lower), min(before + most * period, self.upper)
         return min(high, max(low, wanted)) if low <= high else min(self.upper, max(self.lower, wanted))
 
     def turning(self, wanted: float, position: float) -> float:
         """Return the limited velocity command at a position."""
-        least, most = self._velocities(position)
+        least, most = self.velocities(position)
         return min(most, max(least, wanted))
 
     def exerting(self, wanted: float, position: float, velocity: float) -> float:
         """Return the limited effort command: zero if it accelerates a joint above its velocity limit."""
         least, most = -self.effort, self.effort
         if self.soft is not None:
-            slowest, fastest = self._velocities(position)
+            slowest, fastest = self.velocities(position)
             k = self.soft.k_velocity
             least = min(most, max(least, -k * (velocity - slowest)))
             most = min(self.effort, max(-self.effort, -k * (velocity - fastest)))
@@ -77,7 +77,8 @@ class JointLimits:
             most = 0.0 if velocity > self.velocity else most
         return min(most, max(least, wanted))
 
-    def _velocities(self, position: float) -> tuple[float, float]:
+    def velocities(self, position: float) -> tuple[float, float]:
+        """Return the lower and the upper velocity limit at a position [rad/s] or [m/s]."""
         if self.soft is None:
             return -self.velocity, self.velocity
         soft, v = self.soft, self.velocity
