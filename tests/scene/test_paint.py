@@ -145,7 +145,7 @@ def test_a_picture_that_is_not_there_is_named(tmp_path: Path, suffix: str, broke
     mesh = MeshLoader().load(file)
     (name,) = mesh.missing
     assert name.endswith("quarters.png")
-    assert mesh.broken == ((name,) if broken else ())
+    assert mesh.broken == (((name, "is not a readable picture"),) if broken else ())
     assert mesh.textures == ()
     assert (seen(mesh_of(mesh)).shapes == 0).any()
 

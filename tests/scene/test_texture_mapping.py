@@ -103,7 +103,7 @@ def test_a_picture_that_is_not_there_is_missed_by_name(robot_of, quarters: Path,
     (shape,) = table.shapes
     assert shape.mesh is not None
     assert shape.mesh.missing == (name,)
-    assert shape.mesh.broken == ((name,) if "broken" in name else ())
+    assert shape.mesh.broken == (((name, "is not a readable picture"),) if "broken" in name else ())
     assert look(table, 0, 0.0)[50, 50].tolist() == [0, 255, 0]
 
 

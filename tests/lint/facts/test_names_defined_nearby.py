@@ -69,9 +69,9 @@ def test_the_nearest_names_are_given(workspace):
     assert any("did you mean `arm.urdf`?" in message for message in messages)
 
 
-def test_a_package_that_does_not_depend_on_it_is_left_alone(workspace):
+def test_of_a_package_that_does_not_depend_on_it_only_the_files_it_names_are_checked(workspace):
     (workspace / "arm_start" / "package.xml").write_text("<package><name>arm_start</name></package>")
-    assert found(workspace) == []
+    assert found(workspace) == [("K958", "arm.launch.py", 7, 13)]
 
 
 def test_what_the_build_makes_or_takes_from_elsewhere_is_there(workspace):
