@@ -5,6 +5,8 @@ import re
 from collections.abc import Iterator
 from pathlib import Path
 
+from urdfkit.description.packages.existence import is_file
+
 _NAME = re.compile(r"<name>\s*([^<\s]+)\s*</name>")
 _SKIPPED = {"build", "install", "devel", "log", "node_modules", "__pycache__", "site-packages"}
 _IGNORE_MARKS = {"CATKIN_IGNORE", "COLCON_IGNORE", "AMENT_IGNORE", "NO_SUBMODULES"}
@@ -66,9 +68,12 @@ def _enter(folder: Path, found: dict[str, Path]) -> list[Path]:
 
 def package_name(folder: Path) -> str | None:
     """Return the name in a folder's package.xml, the folder's name if it has none; None without a package.xml."""
+    file = folder / "package.xml"
     try:
-        manifest = (folder / "package.xml").read_text(encoding="utf-8", errors="replace")
+        manifest = file.read_text(encoding="utf-8", errors="replace") if is_file(file) else None
     except OSError:
+        return None
+    if manifest is None:
         return None
     written = _NAME.search(manifest)
     return written[1] if written else folder.name

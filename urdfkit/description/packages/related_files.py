@@ -38,11 +38,11 @@ def package_of(path: Path) -> Path | None:
 
 def manifest(package: Path) -> str:
     """Return the package.xml of a package, without comments; empty if it cannot be read."""
+    file = package / "package.xml"
     try:
-        text = (package / "package.xml").read_text("utf-8", "replace")
+        return uncommented(file.read_text("utf-8", "replace")) if is_file(file) else ""
     except OSError:
         return ""
-    return uncommented(text)
 
 
 def uncommented(text: str) -> str:
@@ -156,8 +156,7 @@ def _files(folder: Path, depth: int) -> Iterator[Path]:
             inner = child.name in _SKIPPED or child.name.startswith(".")
             if depth < _MAX_DEPTH and not inner and not os.path.isfile(f"{child.path}/package.xml"):  # noqa: PTH113
                 yield from _files(folder / child.name, depth + 1)
-        elif child.name.endswith((*LAUNCH, *YAML)):
-            if child.stat().st_size <= _MAX_BYTES:
+        elif child.name.endswith((*LAUNCH, *YAML, *SRDF)) and child.is_file():
+            most = _MAX_SRDF_BYTES if child.name.endswith(SRDF) else _MAX_BYTES
+            if child.stat().st_size <= most:
                 yield folder / child.name
-        elif child.name.endswith(SRDF) and child.stat().st_size <= _MAX_SRDF_BYTES:
-            yield folder / child.name

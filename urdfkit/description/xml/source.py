@@ -16,15 +16,17 @@ def absolute(path: str | Path) -> Path:
 
 
 def content_of(path: Path, most: int = -1) -> bytes:
-    """Return the bytes of a file, without waiting for files such as /proc/kmsg that have no data yet.
+    """Return the bytes of a file, without waiting for files such as /proc/kmsg or named pipes that have no data yet.
 
     Args:
-        path: a file, or a pipe, whose data is awaited.
+        path: a file, or a pipe of the shell such as /dev/stdin, whose data is awaited.
         most: maximum number of bytes; no limit when negative.
 
     Raises:
         OSError: the file cannot be read.
     """
+    if path.is_fifo() and path.parts[1:2] not in (("dev",), ("proc",)):
+        raise BlockingIOError(11, "not a regular file", str(path))
     without_waiting = getattr(os, "O_NONBLOCK", 0) if path.is_file() else 0
     with open(path, "rb", opener=lambda name, flags: os.open(name, flags | without_waiting)) as file:
         content: bytes | None = file.read(most)

@@ -170,7 +170,9 @@ def _defined(files: BuildFiles, module: str) -> list[str] | None:
 
     path = files.folder / module
     try:
-        text = files.texts.get(str(path)) or path.read_text("utf-8", "replace")
+        text = files.texts.get(str(path)) or (path.read_text("utf-8", "replace") if path.is_file() else None)
+        if text is None:
+            return None
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
             tree = ast.parse(text)

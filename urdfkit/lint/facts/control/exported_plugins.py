@@ -60,7 +60,7 @@ def _sources(folder: Path) -> list[str]:
             path = Path(place, name)
             if not name.endswith(_SUFFIXES) or name == "package.xml" or path.is_symlink():
                 continue
-            if path.stat().st_size <= _MAX_BYTES:
+            if path.is_file() and path.stat().st_size <= _MAX_BYTES:
                 texts.append(path.read_text("utf-8", "replace"))
                 if len(texts) >= _MAX_FILES:
                     return texts

@@ -78,9 +78,9 @@ def released() -> Mapping[str, Executables]:
 def executables_of(package: Path, name: str) -> Executables | None:
     """Return the executables of a package in source form; None if it has no build files."""
     texts = []
-    for file in ("CMakeLists.txt", "setup.py", "setup.cfg"):
+    for file in filter(Path.is_file, (package / part for part in ("CMakeLists.txt", "setup.py", "setup.cfg"))):
         try:
-            texts.append(re.sub(r"#.*", "", (package / file).read_text("utf-8", "replace")))
+            texts.append(re.sub(r"#.*", "", file.read_text("utf-8", "replace")))
         except OSError:
             continue
     if not texts:

@@ -122,7 +122,8 @@ def is_mentioned_elsewhere(name: str, model: Model) -> bool:
         model.expanded.packages.watch(folder, ".launch", ".xml")
         for file in [*folder.glob("launch/**/*.launch"), *folder.glob("launch/**/*.xml")][:_MAX_FILES]:
             try:
-                if str(file.absolute()) not in related and name in file.read_text("utf-8", "replace"):
+                is_other = str(file.absolute()) not in related and file.is_file()
+                if is_other and name in file.read_text("utf-8", "replace"):
                     return True
             except OSError:
                 continue
