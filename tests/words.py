@@ -89,7 +89,7 @@ MEANT = {
 """Name or text in which such a word is right → the reason."""
 
 
-DATA = frozenset((".png", ".stl", ".dae", ".obj", ".svg", ".json", ".pyc"))
+DATA = frozenset((".png", ".webp", ".stl", ".dae", ".obj", ".svg", ".json", ".pyc"))
 """Suffixes of files without sentences."""
 
 
