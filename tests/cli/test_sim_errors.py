@@ -345,9 +345,8 @@ def test_sigint_ends_it_without_a_word(tmp_path: Path, ignored: list[signal.Sign
     words = command(str(brick), "--world", "void", "--for", "1e6")
     with running(words, ignored=ignored, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as process:
         assert process.stderr is not None
-        assert (
-            "`libgazebo_ros_vacuum_gripper.so` is not simulated yet" in process.stderr.readline()
-        )  # it is about to begin
+        assert "`libgazebo_ros_vacuum_gripper.so` is not simulated yet" in process.stderr.readline()
+        assert "--target urdfkit" in process.stderr.readline()  # the last line before it begins
         process.send_signal(signal.SIGINT)
         out, err = process.communicate(timeout=PATIENCE)
     assert (process.returncode, out, err) == (130, "", "")
