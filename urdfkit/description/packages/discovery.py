@@ -70,10 +70,10 @@ def package_name(folder: Path) -> str | None:
     """Return the name in a folder's package.xml, the folder's name if it has none; None without a package.xml."""
     file = folder / "package.xml"
     try:
-        manifest = file.read_text(encoding="utf-8", errors="replace") if is_file(file) else None
+        if not is_file(file):
+            return None
+        manifest = file.read_text(encoding="utf-8", errors="replace")
     except OSError:
-        return None
-    if manifest is None:
         return None
     written = _NAME.search(manifest)
     return written[1] if written else folder.name
