@@ -87,12 +87,12 @@ def test_a_name_with_a_dash_follows_two_dashes(folder, capsys) -> None:
 
 
 def test_files_around_a_fragment_are_read_in_part(folder, monkeypatch) -> None:
-    from urdfkit.lint.project import entry_files
+    from urdfkit.lint.project import description_files, entry_files
 
     read = []
     decode = Source.decode
     monkeypatch.setattr(Source, "decode", lambda file, content: read.append(len(content)) or decode(file, content))
-    monkeypatch.setattr(entry_files, "_MAX_BYTES", 300)
+    monkeypatch.setattr(description_files, "_MAX_BYTES", 300)
     (folder / "large.urdf").write_text(ROBOT + " " * 10_000)
     (folder / "m.xacro").write_text(
         '<robot xmlns:xacro="http://www.ros.org/wiki/xacro"><xacro:macro name="m" params=""/></robot>'

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from urdfkit.lint.facts import malformed_expressions
 from urdfkit.lint.model.xacro_prefix import signatures
-from urdfkit.lint.project import entry_files
+from urdfkit.lint.project import robot_text
 from urdfkit.lint.rules.document import stray_quote, unbound_namespace_prefix
 from urdfkit.lint.rules.xacro import inertia_arguments, unprefixed_macro_call
 
@@ -70,8 +70,8 @@ def test_masses_that_are_given_are_not_overlooked(text: str) -> None:
 @given(st.sampled_from(["<robot ", "<?xml ?><robot ", " <robot ", "<!-- -->"]), TEXTS)
 @example("<robot ", 'a="x> name="b" c="">')
 def test_what_begins_with_a_robot_is_found_to_be_one(begin: str, text: str) -> None:
-    if entry_files._begins_with_robot(begin + text):
-        root = re.search(entry_files._ROOT, begin + text)
+    if robot_text.begins_with_robot(begin + text):
+        root = re.search(robot_text.ROOT, begin + text)
         assert root is not None
         assert root[1] == "robot"
-        assert re.search(entry_files._NAMED, root[2])
+        assert re.search(robot_text.NAMED, root[2])

@@ -95,7 +95,7 @@ def _files(words: list[str], *, quiet: bool) -> Iterator[Path]:
         ResourceError: a path does not exist.
     """
     from urdfkit.lint.fixes.generated_files import reason_if_generated
-    from urdfkit.lint.project.entry_files import walk
+    from urdfkit.lint.project.description_files import walk
 
     for word in words:
         path = Path(word)

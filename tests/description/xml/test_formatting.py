@@ -17,7 +17,7 @@ from urdfkit.description.xml.element import Element
 from urdfkit.description.xml.formatting import formatted
 from urdfkit.description.xml.source import Source
 from urdfkit.errors import UrdfkitError
-from urdfkit.lint.project.entry_files import walk
+from urdfkit.lint.project.description_files import walk
 
 ROOT = Path(__file__).parents[3]
 CORPUS = ROOT.parent / "shared" / "corpus"

@@ -58,7 +58,7 @@ class DocumentFeatures:
         """Return the links, joints, macros and properties of all descriptions in the workspace that match a query."""
         from urdfkit.lint.editor.outline import matches, outline
         from urdfkit.lint.model.tags import Document
-        from urdfkit.lint.project.entry_files import walk
+        from urdfkit.lint.project.description_files import walk
 
         found: list[types.WorkspaceSymbol] = []
         workspace = self.session.server.workspace

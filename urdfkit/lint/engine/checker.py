@@ -14,8 +14,9 @@ from urdfkit.lint.engine.cache import packages_of
 from urdfkit.lint.engine.package_without_robot import empty_root, package_model, package_rules
 from urdfkit.lint.finding import EntryResult, Finding
 from urdfkit.lint.model.model import Model
-from urdfkit.lint.project.entry_files import Entry, is_nearly_robot
+from urdfkit.lint.project.entry_files import Entry
 from urdfkit.lint.project.options import Options
+from urdfkit.lint.project.robot_text import is_nearly_robot
 from urdfkit.lint.project.rule_selection import selection
 from urdfkit.lint.project.target_platform import family_of, release_of
 from urdfkit.lint.project.unrelated_packages import WITHOUT_ROBOT
@@ -344,7 +345,7 @@ def _is_part(model: Model) -> bool:
     root = model.expanded.root
     if not lacking or root is None or "name" in root.attributes or model.package is None:
         return False
-    from urdfkit.lint.project.entry_files import SUFFIXES, near_descriptions
+    from urdfkit.lint.project.description_files import SUFFIXES, near_descriptions
 
     model.watch(*SUFFIXES)
     texts = [text for _, text in near_descriptions(model.package, model.expanded.path)]

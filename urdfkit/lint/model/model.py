@@ -196,7 +196,7 @@ class Model:
         """Macro → files of the package, or of the entry's folder, that define it but are not included."""
         from pathlib import Path
 
-        from urdfkit.lint.project.entry_files import SUFFIXES, near_descriptions
+        from urdfkit.lint.project.description_files import SUFFIXES, near_descriptions
 
         self.watch(*SUFFIXES)
         read = {str(Path(file).absolute()) for file in self.expanded.sources}

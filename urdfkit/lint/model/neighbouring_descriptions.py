@@ -60,7 +60,7 @@ class NeighbouringDescriptions:
     @cached_property
     def _texts(self) -> dict[str, str]:
         from urdfkit.description.packages.related_files import dependencies_in, manifest, neighbours, package_of
-        from urdfkit.lint.project.entry_files import SUFFIXES, descriptions
+        from urdfkit.lint.project.description_files import SUFFIXES, descriptions
 
         near = neighbours(self._package) if self._package is not None else {}
         folders: set[Path] = set()

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable
 from pathlib import Path
 
 from urdfkit.description.packages.related_files import (
@@ -18,28 +18,24 @@ from urdfkit.description.packages.related_files import (
     package_of,
 )
 from urdfkit.errors import ResourceError
+from urdfkit.lint.project.description_files import MAX_FILES, SUFFIXES, text_of, walk, written_text
 from urdfkit.lint.project.inclusion import INCLUDE, above, included_files, includers, matches
+from urdfkit.lint.project.robot_text import (
+    NAMED,
+    ROOT,
+    begins_with_robot,
+    is_broken,
+    is_fragment,
+    is_library_text,
+    is_robot,
+    is_well_formed,
+    may_be_library,
+)
 from urdfkit.lint.project.unrelated_packages import unrelated_packages
 from urdfkit.record import record
 
-SUFFIXES = (".urdf", ".xacro")
 _TO_MERGE = (".urdf.new", ".xacro.new")
 """Suffixes of merge candidates that `urdfkit new --update` writes next to an edited robot."""
-_SKIPPED = frozenset(("build", "install", "devel", "log", "node_modules", "__pycache__"))
-_IGNORE_MARKS = frozenset(("CATKIN_IGNORE", "COLCON_IGNORE", "AMENT_IGNORE"))
-_MAX_DEPTH = 12
-_MAX_FILES = 200
-"""Maximum number of files to search outside of a package."""
-_MAX_BYTES = 10**7
-"""Number of bytes in which the root element and the includes of a file are searched."""
-
-# Compiled on first use; linting one named file needs none of the last four.
-_COMMENT = r"(?s)<!--.*?(?:-->|\Z)"  # an unclosed comment is scanned once
-_FIRST = r"<([A-Za-z_][\w:.-]*)"
-_ROOT = r"<(robot)\b((?:\"[^\"]*\"|'[^']*'|[^>\"'])*)>|<[A-Za-z_]"
-_NAMED = r"(?<![\w:])name\s*="
-_MACRO = r"(?s)<(?:xacro:)?macro\b.*?</(?:xacro:)?macro\s*>"
-_CONTENT = r"<(?:link|joint|xacro:(?!macro|property|arg)\w)"
 
 
 @record(order=True)
@@ -134,42 +130,18 @@ def _has_related_files(folder: Path) -> bool:
     return (folder / "package.xml").is_file() or any(file.name.endswith(endings) for file in folder.rglob("*"))
 
 
-def descriptions(folder: Path) -> Iterator[tuple[Path, str]]:
-    """Yield every description and fragment in a folder with its text, without comments."""
-    yield from ((path, _text(path)) for path in walk(folder))
-
-
-def near_descriptions(
-    package: Path | None, path: Path, endings: tuple[str, ...] = (".xacro",)
-) -> Iterator[tuple[Path, str]]:
-    """Yield the descriptions of a package; without a package, those in the file's folder and its subfolders.
-
-    Args:
-        package: the package folder.
-        path: a file, for descriptions without a package.
-        endings: the file names without a package end like this.
-    """
-    if package is not None:
-        yield from descriptions(package)
-        return
-    folder = path.absolute().parent
-    patterns = (f"{place}*{end}" for end in endings for place in ("", "*/"))
-    files = sorted(file for pattern in patterns for file in folder.glob(pattern) if file.is_file())
-    yield from ((file, _text(file)) for file in files[:_MAX_FILES])
-
-
 def _robots_in(folder: Path) -> list[Entry]:
-    texts = {path: _text(path) for path in walk(folder)}
-    robots = {path: text for path, text in texts.items() if _is_robot(text) or _is_broken(text)}
+    texts = {path: text_of(path) for path in walk(folder)}
+    robots = {path: text for path, text in texts.items() if is_robot(text) or is_broken(text)}
     included = included_files(robots)
     alone = [path for path in robots if path not in included]
     if candidates := _to_merge(alone):
         alone = [path for path in alone if not any(matches(text, path) for text in candidates.values())] or alone
     alone = _without_misnamed(alone, texts)
-    unused = {path for path in alone if _is_fragment(robots[path])}
-    unused &= included_files({path: _written(path) for path in robots}) if unused else unused
+    unused = {path for path in alone if is_fragment(robots[path])}
+    unused &= included_files({path: written_text(path) for path in robots}) if unused else unused
     found = [
-        Entry(path, (), path in unused or (_is_robot(text := robots[path]) and _is_library(text))) for path in alone
+        Entry(path, (), path in unused or (is_robot(text := robots[path]) and is_library_text(text))) for path in alone
     ]
     return [*found, *(Entry(path, (), is_library=True) for path in _unreached(included, robots))]
 
@@ -181,8 +153,8 @@ def _without_misnamed(paths: list[Path], texts: dict[Path, str]) -> list[Path]:
     """
     from difflib import get_close_matches
 
-    roots = {path: re.search(_ROOT, texts[path]) for path in paths}
-    unnamed = [path for path, root in roots.items() if root is not None and not re.search(_NAMED, root[2] or "")]
+    roots = {path: re.search(ROOT, texts[path]) for path in paths}
+    unnamed = [path for path, root in roots.items() if root is not None and not re.search(NAMED, root[2] or "")]
     if not unnamed or len(unnamed) == len(paths):
         return paths
     includes = {double or single for text in texts.values() for double, single in re.findall(INCLUDE, text)}
@@ -190,7 +162,7 @@ def _without_misnamed(paths: list[Path], texts: dict[Path, str]) -> list[Path]:
     missing = {each for each in includes if each.endswith(SUFFIXES) and each.rpartition("/")[2] not in names}
     folders = {folder.name for path in texts for folder in path.absolute().parents}
     if any(_is_below(include, folders) for include in missing):
-        return [path for path in paths if path not in unnamed or _is_library(texts[path])]
+        return [path for path in paths if path not in unnamed or is_library_text(texts[path])]
     written = {include.rpartition("/")[2] for include in missing}
     return [path for path in paths if path not in unnamed or not get_close_matches(path.name, written, 1, 0.85)]
 
@@ -203,7 +175,7 @@ def _is_below(include: str, folders: set[str]) -> bool:
 
 def _unreached(included: set[Path], robots: dict[Path, str]) -> list[Path]:
     """Return malformed files that other malformed files include; the expansion may not reach them."""
-    broken = {path for path, text in robots.items() if not _is_well_formed(text)} if included else set()
+    broken = {path for path, text in robots.items() if not is_well_formed(text)} if included else set()
     if len(broken) < 2:
         return []
     return [path for path in robots if path in included & broken and (above(path, robots) - {path}) & broken]
@@ -213,7 +185,7 @@ def _to_merge(paths: Iterable[Path]) -> dict[Path, str]:
     """Return the merge candidates in the folders of the files and their parent folders, with their texts."""
     folders = dict.fromkeys(folder for path in paths for folder in (path.parent, path.parent.parent))
     candidates = (file for folder in folders for ending in _TO_MERGE for file in sorted(folder.glob(f"*{ending}*")))
-    return {file: text for file in candidates if file.is_file() and _is_robot(text := _text(file))}
+    return {file: text for file in candidates if file.is_file() and is_robot(text := text_of(file))}
 
 
 def _of_file(path: Path) -> list[Entry]:
@@ -221,18 +193,18 @@ def _of_file(path: Path) -> list[Entry]:
     if path.name.endswith((*LAUNCH, *YAML, *SRDF)) or path.name in BUILD:
         own = [Entry(path)] if path.suffix == ".xacro" else []
         return [*own, *_related_robots(path)]
-    text = _text(path)
-    if _begins_with_robot(text) and not _may_be_library(text):
+    text = text_of(path)
+    if begins_with_robot(text) and not may_be_library(text):
         return [Entry(path)]
-    root = re.search(_ROOT, text)
-    is_robot = root is not None and root[1] is not None
-    is_named = root is not None and is_robot and re.search(_NAMED, root[2]) is not None
-    if not is_robot or (is_named and not _is_library(text)):
+    root = re.search(ROOT, text)
+    has_robot = root is not None and root[1] is not None
+    is_named = root is not None and has_robot and re.search(NAMED, root[2]) is not None
+    if not has_robot or (is_named and not is_library_text(text)):
         return [Entry(path)]
     package = next((folder for folder in path.absolute().parents if (folder / "package.xml").is_file()), None)
     if package is not None:
         place = path.resolve()
-        robots = {other: text for other in walk(package) if _is_robot(text := _text(other))}
+        robots = {other: text for other in walk(package) if is_robot(text := text_of(other))}
     else:
         place = Path(os.path.abspath(path))  # noqa: PTH100 - keep symbolic links
         robots = _nearby(place.parent)
@@ -240,30 +212,14 @@ def _of_file(path: Path) -> list[Entry]:
     above = includers(place, robots | candidates)
     if above := [model for model in above if model not in candidates] or above:
         return [Entry(_relative(model), (path,)) for model in above]
-    return [Entry(path, (), not is_named and _is_library(text))]
-
-
-def _may_be_library(text: str) -> bool:
-    """Return whether a text may define only macros; a quick test before the patterns."""
-    _, end, rest = text.rpartition("macro>")
-    return bool(end) and not any(tag in rest for tag in ("<link", "<joint", "<xacro:"))
+    return [Entry(path, (), not is_named and is_library_text(text))]
 
 
 def _nearby(folder: Path) -> dict[Path, str]:
     """Return the robots and fragments of a folder, its subfolders and its parent, with their texts."""
     files = (file for place in ("", "*/", "../") for end in SUFFIXES for file in sorted(folder.glob(f"{place}*{end}")))
     near = dict.fromkeys(Path(os.path.normpath(file)) for file in files if file.is_file())
-    return {file: text for file in list(near)[:_MAX_FILES] if _is_robot(text := _text(file))}
-
-
-def _begins_with_robot(text: str) -> bool:
-    """Return whether a text begins with a named <robot>; a quick test before the patterns."""
-    start = text.lstrip("\ufeff \t\r\n")
-    if start.startswith("<?xml"):
-        start = start.partition("?>")[2].lstrip()
-    tag, end, _ = start.partition(">")
-    is_closed = bool(end) and tag.count('"') % 2 == 0 and tag.count("'") % 2 == 0
-    return is_closed and tag.startswith("<robot ") and ' name="' in tag
+    return {file: text for file in list(near)[:MAX_FILES] if is_robot(text := text_of(file))}
 
 
 def _related_robots(path: Path) -> list[Entry]:
@@ -303,86 +259,3 @@ def _robots_of(manifest_file: Path, only: Path) -> list[Entry]:
 def _relative(path: Path) -> Path:
     here = Path.cwd()
     return path.relative_to(here) if path.is_relative_to(here) else path
-
-
-def _is_robot(text: str) -> bool:
-    root = re.search(_ROOT, text)
-    return root is not None and root[1] is not None
-
-
-def _is_broken(text: str) -> bool:
-    """Return whether a file is a broken robot: empty, truncated, or with a misspelt or missing root element."""
-    first = re.search(_FIRST, text)
-    if first is None or is_nearly_robot(first[1]):
-        return True
-    return not _is_robot(text) if first[1] == "robot" else "</robot>" in text and "<robot" not in text
-
-
-def _is_well_formed(text: str) -> bool:
-    """Return whether a text is well-formed XML."""
-    from xml.parsers import expat
-
-    try:
-        expat.ParserCreate().Parse(text, True)
-    except (expat.ExpatError, UnicodeEncodeError):
-        return False
-    return True
-
-
-def is_nearly_robot(tag: str) -> bool:
-    """Return whether the name of a root element is a misspelt ``robot``."""
-    from difflib import SequenceMatcher
-
-    return tag != "robot" and SequenceMatcher(None, tag.lower(), "robot").ratio() >= 0.75
-
-
-def _is_library(text: str) -> bool:
-    return not re.search(_CONTENT, re.sub(_MACRO, "", text))
-
-
-def _is_fragment(text: str) -> bool:
-    """Return whether the text uses links or materials outside of macros that it does not define."""
-    content = re.sub(_MACRO, "", text)
-    links = set(re.findall(r"<(?:parent|child)\s+link\s*=\s*[\"']([^\"'$]*)[\"']", content))
-    materials = re.findall(r"<material\s+name\s*=\s*[\"']([^\"'$]*)[\"']\s*(/?)", content)
-    colours = {name for name, is_empty in materials if not is_empty}
-    return not links <= set(re.findall(r"<link\s+name\s*=\s*[\"']([^\"']*)", content)) or any(
-        is_empty and name not in colours for name, is_empty in materials
-    )
-
-
-def walk(folder: Path, depth: int = 0) -> Iterator[Path]:
-    """Yield the descriptions and fragments in a folder, sorted, without hidden, built and ignored folders."""
-    try:
-        with os.scandir(folder) as scan:
-            children = sorted(scan, key=lambda child: child.name)
-    except OSError:
-        return
-    if any(child.name in _IGNORE_MARKS for child in children):
-        return
-    for child in children:
-        if child.is_dir(follow_symlinks=False):
-            if depth < _MAX_DEPTH and child.name not in _SKIPPED and not child.name.startswith("."):
-                yield from walk(folder / child.name, depth + 1)
-        # A dangling symbolic link, such as an editor's lock file, is not a file.
-        elif child.name.lower().endswith(SUFFIXES) and child.is_file():
-            yield folder / child.name
-
-
-def _text(path: Path) -> str:
-    """Return the text of a file without comments."""
-    text = _written(path)
-    return re.sub(_COMMENT, "", text) if "<!--" in text else text
-
-
-def _written(path: Path) -> str:
-    from urdfkit.description.xml.source import Source
-
-    try:
-        return Source.read(path, most=_MAX_BYTES).text
-    except ResourceError as error:
-        from urdfkit.description.packages.resolver import OUTSIDE
-
-        if getattr(error.__cause__, "strerror", None) != OUTSIDE:
-            raise
-        return ""  # a link that leads out, which `Confinement` reports

@@ -137,7 +137,7 @@ def offered(model: Model) -> dict[str, dict[bool, list[str]]] | None:
     """
     from urdfkit.description.packages.related_files import package_of
     from urdfkit.lint.facts.conditions import is_conditional
-    from urdfkit.lint.project.entry_files import descriptions
+    from urdfkit.lint.project.description_files import descriptions
 
     robot = model.robot
     if not robot.ros2_control or model.is_incomplete or model.package is None:

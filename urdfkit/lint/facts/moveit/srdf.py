@@ -180,7 +180,7 @@ def robot_names(model: Model) -> list[str]:
     from pathlib import Path
 
     from urdfkit.description.packages.related_files import package_of
-    from urdfkit.lint.project.entry_files import SUFFIXES, descriptions, near_descriptions
+    from urdfkit.lint.project.description_files import SUFFIXES, descriptions, near_descriptions
 
     folders = {package_of(Path(file)) for file in (*model.related_files, *model.expanded.sources)}
     found = [re.escape(model.robot.name or "")]

@@ -82,7 +82,7 @@ def _is_loaded_elsewhere(model: Model) -> bool:
     import re
 
     from urdfkit.lint.facts.conditions import is_conditional
-    from urdfkit.lint.project.entry_files import descriptions
+    from urdfkit.lint.project.description_files import descriptions
 
     if any(is_conditional(source.text, _PLUGIN_OR_HARDWARE) for source in model.expanded.sources.values()):
         return True

@@ -159,7 +159,7 @@ def _has_other_wheels(model: Model) -> bool:
     from pathlib import Path
 
     from urdfkit.description.packages.related_files import package_of
-    from urdfkit.lint.project.entry_files import descriptions
+    from urdfkit.lint.project.description_files import descriptions
 
     included = {str(Path(name).absolute()) for name in model.expanded.sources}
     packages = {model.package, *(package_of(Path(file)) for file in model.related_files)}

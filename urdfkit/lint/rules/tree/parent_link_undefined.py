@@ -68,7 +68,7 @@ class ParentLinkUndefined(RobotRule):
 
 def _is_defined_nearby(model: Model, name: str) -> bool:
     """Return whether another description of the package defines a link, for a xacro file."""
-    from urdfkit.lint.project.entry_files import SUFFIXES, near_descriptions
+    from urdfkit.lint.project.description_files import SUFFIXES, near_descriptions
 
     if model.expanded.path.suffix != ".xacro":
         return False
