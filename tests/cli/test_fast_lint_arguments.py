@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from urdfkit.cli import lint
-from urdfkit.cli.fast_lint_arguments import parse_simple
+from urdfkit.cli.lint.fast_arguments import parse_simple
 from urdfkit.cli.parser import Parser, add_common
 
 

@@ -13,7 +13,7 @@ import pytest
 from tests.processes import running
 from tests.time_limit import PATIENCE, limit
 from urdfkit.cli import main
-from urdfkit.cli.lint_watch import watch
+from urdfkit.cli.lint.watch import watch
 
 BAD = '<robot name="r">\n<link name="a" kind="x"/>\n<link name="b"/>\n</robot>\n'
 

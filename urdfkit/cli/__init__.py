@@ -149,7 +149,7 @@ def _run(arguments: list[str]) -> int:
         files = [f"./{word}" if word.startswith("-") and os.path.lexists(word) else word for word in arguments[start:]]
         arguments = [*arguments[:start], *files]
     if arguments[:1] == ["lint"]:
-        from urdfkit.cli.fast_lint_arguments import parse_simple
+        from urdfkit.cli.lint.fast_arguments import parse_simple
 
         if (parsed := parse_simple(arguments[1:])) is not None:
             return int(_module("lint").run(parsed))
