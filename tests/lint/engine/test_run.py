@@ -156,6 +156,20 @@ def test_selection(write):
 
 
 @pytest.mark.parametrize(
+    ("target", "note"),
+    [
+        ("gz", "C702 is not checked for gz; Z833 is checked only with --target urdfkit"),
+        ("urdfkit", ""),
+        (None, "Z833 is checked only with --target urdfkit"),
+    ],
+)
+def test_selected_rules_that_do_not_apply_to_the_target_are_named(write, target, note):
+    path = write("r.xacro", '<link name="a"/>')
+    options = Options(select=("Z833", "C702", "J"), target=target)
+    assert "; ".join(run(find_entries([path]), options).notes) == note
+
+
+@pytest.mark.parametrize(
     ("option", "hint"), [({"select": ["I5033"]}, "did you mean `I503`"), ({"ignore": ["Q"]}, "urdf")]
 )
 def test_unknown_codes_are_refused(write, option, hint):

@@ -1,4 +1,4 @@
-"""One run of ``urdfkit lint``: lint, apply fixes, print what is left."""
+"""One run of ``urdfkit lint``: lint, apply fixes, print the remaining findings."""
 
 from __future__ import annotations
 

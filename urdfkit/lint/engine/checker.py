@@ -181,6 +181,10 @@ class Checker:
             if guessed.target is not None and guessed.manifest is not None:
                 options = Options(**{**options.__dict__, "target": guessed.target})
                 note = f"linted for {guessed.target}: {guessed.manifest.parent.name} {guessed.why}"
+        if options.select:
+            from urdfkit.lint.engine.inapplicable import inapplicable
+
+            note = "; ".join(filter(None, (note, inapplicable(options.select, family_of(options.target)))))
         packages, extents = self.packages.near_file(entry.path), self.clean.extents if self.clean is not None else None
         if not entry.has_robot:
             return self._check_package(entry, options, packages, note)
