@@ -60,7 +60,7 @@ def lint(
     from collections.abc import Iterable
     from pathlib import Path
 
-    from urdfkit.lint.engine.checker import every_code
+    from urdfkit.lint.engine.rule_runner import every_code
     from urdfkit.lint.engine.run import merged, run
     from urdfkit.lint.finding import Findings
     from urdfkit.lint.project.entry_files import find_entries

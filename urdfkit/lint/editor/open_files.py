@@ -147,7 +147,7 @@ class Project:
                     self._checker = Checker(options, keep_going=True)
                 checker = self._checker
                 checker.options, checker.packages = options, self._packages
-                checker.memory, checker.clean = self._memories.setdefault(entry, (Memory(), CleanElements()))
+                checker.memory, checker.runner.clean = self._memories.setdefault(entry, (Memory(), CleanElements()))
                 checker.sources.clear()
                 found, model = checker.examine(entry)
                 files = {name: Path(path) for name, path in found.files.items()}

@@ -137,7 +137,7 @@ def _check_words(settings: LintSettings) -> None:
     Raises:
         UsageError: a code or target is unknown; the message names the settings file.
     """
-    from urdfkit.lint.engine.checker import every_code
+    from urdfkit.lint.engine.rule_runner import every_code
     from urdfkit.lint.project.rule_selection import checked
     from urdfkit.lint.project.target_platform import parse_target
 
