@@ -144,6 +144,24 @@ def test_speed_and_angle_are_limited(make: Make) -> None:
     assert state.position("right_steering_joint") == pytest.approx(math.atan2(BASE, radius + TRACK / 2), abs=5e-3)
 
 
+def test_an_undamped_steering_keeps_its_velocity_limit(make: Make) -> None:
+    """Gazebo Classic exerts no effort in the direction of a motion that is faster than ``<limit velocity>``.
+
+    One step can exceed the limit by the effort times the step over the inertia.
+    """
+    gains = GAINS.replace("35 0 1.75", "35 0 0")
+    limit, step = 0.5, 0.001
+    simulator = make(gains, replaced=('velocity="10"', f'velocity="{limit}"'))
+    simulator.command((0, 0, 0), (0, 0, 0.4))
+    speeds = []
+    for _ in range(400):
+        simulator.step()
+        speeds.append(abs(simulator.state.velocity("left_steering_joint")))
+    inertia = 0.002 + 0.0015  # knuckle and wheel about the hinge
+    assert limit < max(speeds) < limit + 35 * 0.6 * step / inertia
+    assert simulator.state.position("left_steering_joint") > 0.1
+
+
 def test_backwards_it_steers_the_other_way(make: Make) -> None:
     simulator = make()
     settle(simulator, -0.5, 0.3)

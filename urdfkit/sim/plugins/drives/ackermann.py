@@ -1,17 +1,20 @@
 """Ackermann drive: gazebo_ros_ackermann_drive (ROS 2). The command's angular.z is the steering angle, not a rate.
 
-Source: gazebo_ros_pkgs ros2, gazebo_plugins/src/gazebo_ros_ackermann_drive.cpp. Gazebo applies an effort for one step
-after each update; urdfkit distributes the same impulse over the steps until the next update.
+Sources: gazebo_ros_pkgs ros2, gazebo_plugins/src/gazebo_ros_ackermann_drive.cpp; gazebo-classic, Joint.cc,
+CheckAndTruncateForce. Gazebo applies an effort for one step after each update; urdfkit distributes the same impulse over
+the steps until the next update.
 """
 
 from __future__ import annotations
 
-from math import copysign, dist, hypot, tan
+from math import copysign, dist, hypot, inf, tan
 from typing import Any
 
 from urdfkit.bus import Topic
+from urdfkit.description.urdf.robot import Joint
 from urdfkit.errors import SimulationError
 from urdfkit.messages import message_type
+from urdfkit.sim.plugins.controllers.joint_limits import JointLimits
 from urdfkit.sim.plugins.drives.odometry_parameters import odometry_topics
 from urdfkit.sim.plugins.drives.set_joint_position import put
 from urdfkit.sim.plugins.drives.velocity_drive import VelocityDrive
@@ -112,7 +115,7 @@ class Ackermann(VelocityDrive):
         self._steepest = read.number("max_steer")
         self._ratio = self._steepest / read.number("max_steering_angle")
         written = setup.kinematics.robot.joint_by_name
-        self._strengths = {meaning: effort_limit(written[joint]) for meaning, joint in self._joints.items()}
+        self._limits = {meaning: _limits(written[joint]) for meaning, joint in self._joints.items()}
 
     def _read_gains(self, setup: Setup, read: Parameters) -> None:
         def pid(meaning: str) -> GazeboPid:
@@ -131,19 +134,20 @@ class Ackermann(VelocityDrive):
         """Apply efforts to the steering joints and the rear wheels."""
         joints, pids, period = self._joints, self._pids, self._ticks.period
         drive = pids["speed"].update(state.velocity(joints["rear_right_joint"]) - self._turning, period)
-        self._exert("rear_right_joint", drive, motors)
-        self._exert("rear_left_joint", drive, motors)
+        self._exert("rear_right_joint", drive, state, motors)
+        self._exert("rear_left_joint", drive, state, motors)
         off = state.position(joints["right_steering_joint"]) - self._right
-        self._exert("right_steering_joint", pids["right_steering"].update(off, period), motors)
+        self._exert("right_steering_joint", pids["right_steering"].update(off, period), state, motors)
         off = state.position(joints["left_steering_joint"]) - self._left
-        self._exert("left_steering_joint", pids["left_steering"].update(off, period), motors)
+        self._exert("left_steering_joint", pids["left_steering"].update(off, period), state, motors)
         if self._steering_wheel:
             angle = self._mean_angle(state) / self._ratio
             put(self._steering_wheel, angle, period, setup=self._setup, state=state, motors=motors)
 
-    def _exert(self, meaning: str, effort: float, motors: Motors) -> None:
-        most = self._strengths[meaning]
-        motors.exert(self._joints[meaning], max(-most, min(most, effort)) / self._ticks.steps)
+    def _exert(self, meaning: str, effort: float, state: State, motors: Motors) -> None:
+        joint = self._joints[meaning]
+        granted = self._limits[meaning].exerting(effort, state.position(joint), state.velocity(joint))
+        motors.exert(joint, granted / self._ticks.steps)
 
     def wake(self) -> None:
         """Compute the targets of a command: wheel speed [rad/s] and steering angles [rad]."""
@@ -190,3 +194,8 @@ class Ackermann(VelocityDrive):
             pid.reset()
         self._distance = 0.0
         self._last = None
+
+
+def _limits(joint: Joint) -> JointLimits:
+    """Return the limits of an effort in Gazebo Classic, which are those of `<limit>`."""
+    return JointLimits(velocity=(joint.limit.velocity if joint.limit else None) or inf, effort=effort_limit(joint))
