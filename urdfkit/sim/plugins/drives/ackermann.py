@@ -1,8 +1,8 @@
 """Ackermann drive: gazebo_ros_ackermann_drive (ROS 2). The command's angular.z is the steering angle, not a rate.
 
 Sources: gazebo_ros_pkgs ros2, gazebo_plugins/src/gazebo_ros_ackermann_drive.cpp; gazebo-classic, Joint.cc,
-CheckAndTruncateForce. Gazebo applies an effort for one step after each update; urdfkit distributes the same impulse over
-the steps until the next update.
+CheckAndTruncateForce. Gazebo applies an effort for one step after each update; urdfkit distributes the same impulse
+over the steps until the next update.
 """
 
 from __future__ import annotations
