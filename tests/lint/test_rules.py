@@ -175,11 +175,11 @@ def test_codes_and_names_are_unique_and_well_formed():
 @pytest.mark.parametrize("path", files("bad"))
 def test_rules_left_out_by_the_table_would_find_nothing(path, monkeypatch):
     from urdfkit.lint import rules
-    from urdfkit.lint.engine import checker
+    from urdfkit.lint.engine import rule_runner
 
     few = lint(path, target=target(BY_NAME[path.parent.name]))
-    monkeypatch.setattr(checker, "source_rules", lambda _: rules.source_rules())
-    monkeypatch.setattr(checker, "robot_rules", lambda *_: rules.robot_rules())
+    monkeypatch.setattr(rule_runner, "source_rules", lambda _: rules.source_rules())
+    monkeypatch.setattr(rule_runner, "robot_rules", lambda *_: rules.robot_rules())
     assert lint(path, target=target(BY_NAME[path.parent.name])) == few
 
 

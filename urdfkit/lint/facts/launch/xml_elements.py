@@ -116,6 +116,18 @@ OTHER_SUBSTITUTIONS: Mapping[int, Mapping[str, str]] = {
 }
 """ROS version → substitution of the other version → substitution of this version."""
 
+SUBSTITUTIONS: Mapping[int, tuple[str, ...]] = {
+    1: ("anon", "arg", "dirname", "env", "eval", "find", "optenv"),
+    2: (
+        *("and", "anon", "any", "all", "command", "dirname", "env", "equals", "eval", "exec-in-pkg", "find-exec"),
+        *("file-content", "find-pkg-prefix", "find-pkg-share", "if", "not", "not-equals", "or", "var"),
+    ),
+}
+"""ROS version → substitutions; in ROS 2, packages may register others.
+
+Sources: http://wiki.ros.org/roslaunch/XML and https://design.ros2.org/articles/roslaunch_xml.html, launch 3.8.
+"""
+
 OTHER_ELEMENTS: Mapping[int, Mapping[str, str]] = {
     1: {"let": "arg", "executable": "node", "set_env": "env", "push-ros-namespace": "group ns"},
     2: {

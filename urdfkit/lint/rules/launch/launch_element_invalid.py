@@ -66,13 +66,19 @@ class LaunchElementInvalid(RobotRule):
         import re
 
         from urdfkit.lint.facts.control.launch_package_paths import uncommented
-        from urdfkit.lint.facts.launch.xml_elements import OTHER_SUBSTITUTIONS
+        from urdfkit.lint.facts.launch.xml_elements import OTHER_SUBSTITUTIONS, SUBSTITUTIONS
+        from urdfkit.lint.fix_builders import nearest
 
-        others = OTHER_SUBSTITUTIONS[version]
-        for use in re.finditer(r"\$\(([\w-]+)\s", uncommented(source)):
+        others, defined = OTHER_SUBSTITUTIONS[version], SUBSTITUTIONS[version]
+        for use in re.finditer(r"\$\(([\w-]+)(?=[\s)])", uncommented(source)):
             if use[1] in others:
                 message = f"unknown substitution `{use[1]}` in ROS {version}; did you mean `{others[use[1]]}`?"
                 yield self._at(source, use.span(1), message)
+            elif use[1] not in defined and (near := nearest(use[1], defined, cutoff=0.6)) is not None:
+                yield self._at(source, use.span(1), f"unknown substitution `{use[1]}`; did you mean `{near}`?")
+        # launch reports an unclosed substitution of ROS 2 itself; roslaunch takes it as text.
+        for use in re.finditer(r"\$\((?:find|arg|env|optenv|anon)\s[^()\"'<>$]*(?=[\"'<>])", uncommented(source)):
+            yield self._at(source, use.span(), f"`{use[0]}` has no closing parenthesis")
 
     def _tag(self, source: Source, tag: Tag, version: int) -> Findings:
         from urdfkit.lint.facts.launch.xml_elements import ELEMENTS

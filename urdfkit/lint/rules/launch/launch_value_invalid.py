@@ -15,6 +15,8 @@ _BOOLEANS = {
     1: ("respawn", "required", "clear_params", "pass_all_args", "subst_value"),
     2: ("respawn", "shell", "scoped", "forwarding", "emulate_tty", "allow_substs"),
 }
+_WHEN = ("if", "unless")
+_TRUTH = ("true", "false", "1", "0")
 _XACRO = r"\s*(?:\$\(find xacro\)/)?xacro(?:\.py)?\s"
 _FILE = r"\s*'?\$\(find [^()]*\)/[^\s']*\.(?:urdf|srdf|xacro|yaml|xml)'?\s*"
 
@@ -23,8 +25,9 @@ class LaunchValueInvalid(RobotRule):
     """An attribute of a launch file in XML has a value that the launch cannot use.
 
     ## What it does
-    Checks conditions and other truth values without substitutions, the command of ``<rosparam>``, and whether the
-    description is a file (``textfile``), a command (``command``) or a value (``value``).
+    Checks conditions and other truth values without substitutions, the defaults of arguments that are conditions, the
+    command of ``<rosparam>``, and whether the description is a file without xacro (``textfile``), a command
+    (``command``) or a value (``value``).
 
     ## Why is this bad?
     The launch stops with "invalid bool value" or a similar error, or the nodes read a wrong description. A dump
@@ -58,27 +61,44 @@ class LaunchValueInvalid(RobotRule):
                 continue
             roots = [tag for tag in Document(source).roots if tag.name == "launch"]
             version = ros_version(source) or (1 if reads_ros1(source) else 2)
-            for tag in (tag for root in roots for tag in root.walk()):
-                for attribute, message in _invalid(tag, version, model):
-                    span = source.span(attribute.value_start, attribute.value_end)
-                    yield Finding(self.code, self.name, self.severity, message, span)
+            tags = [tag for root in roots for tag in root.walk()]
+            found = (each for tag in tags for each in _invalid(tag, version, model))
+            for attribute, message in (*found, *_conditions(tags)):
+                span = source.span(attribute.value_start, attribute.value_end)
+                yield Finding(self.code, self.name, self.severity, message, span)
 
 
 def _invalid(tag: Tag, version: int, model: Model) -> Iterator[tuple[Attribute, str]]:
     attributes = tag.attributes
-    for name in ("if", "unless", *_BOOLEANS[version]):
+    for name in (*_WHEN, *_BOOLEANS[version]):
         attribute = attributes.get(name)
         if attribute is None or "$(" in attribute.value:
             continue
-        is_condition = name in ("if", "unless")
-        words = ("true", "false", "1", "0") if is_condition or version == 2 else ("true", "false")
+        is_condition = name in _WHEN
+        words = _TRUTH if is_condition or version == 2 else ("true", "false")
         if attribute.value.strip().lower() not in words:
             what = "condition" if is_condition else f"`{name}`"
             yield attribute, f"{what} `{attribute.value}` is neither true nor false"
     if version == 1 and tag.name == "rosparam" and "command" in attributes:
         yield from _parameter_command(attributes, model)
     elif version == 1 and tag.name == "param":
-        yield from _parameter(attributes)
+        yield from _parameter(attributes, model)
+
+
+def _conditions(tags: list[Tag]) -> Iterator[tuple[Attribute, str]]:
+    """Yield the defaults of arguments that are conditions and neither true nor false."""
+    import re
+
+    used = {attribute.value.strip() for tag in tags for name, attribute in tag.attributes.items() if name in _WHEN}
+    conditions = {match[1] for value in used if (match := re.fullmatch(r"\$\((?:arg|var)\s+([\w-]+)\s*\)", value))}
+    for tag in tags:
+        if tag.name != "arg" or "name" not in tag.attributes or tag.attributes["name"].value not in conditions:
+            continue
+        for name in ("default", "value"):
+            value = tag.attributes.get(name)
+            if value is not None and "$" not in value.value and value.value.strip().lower() not in _TRUTH:
+                argument = tag.attributes["name"].value
+                yield value, f"`{value.value}` is neither true nor false, but `{argument}` is a condition in this file"
 
 
 def _parameter_command(attributes: dict[str, Attribute], model: Model) -> Iterator[tuple[Attribute, str]]:
@@ -98,7 +118,7 @@ def _parameter_command(attributes: dict[str, Attribute], model: Model) -> Iterat
             yield command, f"`dump` overwrites `{path}` of package `{package}`; use `load` to read it"
 
 
-def _parameter(attributes: dict[str, Attribute]) -> Iterator[tuple[Attribute, str]]:
+def _parameter(attributes: dict[str, Attribute], model: Model) -> Iterator[tuple[Attribute, str]]:
     import re
 
     for name in ("value", "textfile", "command"):
@@ -111,6 +131,21 @@ def _parameter(attributes: dict[str, Attribute]) -> Iterator[tuple[Attribute, st
             yield attribute, "`command` is a file and not a program; use the attribute `textfile`, or run xacro"
         elif name == "value" and re.fullmatch(_FILE, attribute.value) and _is_description(attributes):
             yield attribute, "`value` is the path and not the text of the file; use the attribute `textfile`"
+        elif name == "textfile" and _is_xacro(attribute.value, model):
+            yield attribute, '`textfile` reads xacro as it is written; run it: `command="xacro …"`'
+
+
+def _is_xacro(text: str, model: Model) -> bool:
+    """Return whether a path names a file of this workspace that uses xacro."""
+    from urdfkit.description.packages.existence import is_file
+    from urdfkit.description.packages.related_files import neighbours
+    from urdfkit.lint.facts.launch.actions import share_of
+    from urdfkit.lint.project.description_files import SUFFIXES, text_of
+
+    model.watch(*SUFFIXES)
+    package, path = share_of(text)
+    folder = neighbours(model.package).get(package) if model.package is not None else None
+    return folder is not None and is_file(folder / path) and "<xacro:" in text_of(folder / path)
 
 
 def _is_description(attributes: dict[str, Attribute]) -> bool:

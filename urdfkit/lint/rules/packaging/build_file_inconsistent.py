@@ -22,6 +22,14 @@ _COMMANDS = (
     *("ament_target_dependencies", "catkin_install_python", "ament_export_dependencies", "add_message_files"),
     *("generate_messages", "add_dependencies", "ament_python_install_package", "catkin_python_setup"),
 )
+_TESTED = {
+    "roslaunch_add_file_check": 0,
+    "add_rostest": 0,
+    "catkin_add_nosetests": 0,
+    "add_launch_test": 0,
+    "ament_add_pytest_test": 1,
+}
+"""Command of a test → which of its arguments is a file or folder of the package."""
 _FIND = r"\$\(find\s+([\w-]+)\)/([\w-]+/[^\s\"'<>$(){}]+)"
 _DESTINATIONS = ("share", "lib", "bin", "include", "etc", "libexec", "python", "launch", "config", "meshes")
 
@@ -31,9 +39,10 @@ class BuildFileInconsistent(RobotRule):
 
     ## What it does
     Checks the syntax, the name of the project, misspelt commands, variables and packages, the call of
-    ``ament_package()`` or ``catkin_package()``, files and folders that ``install`` names but that do not exist, and
-    folders and scripts that launch files use but that are not installed, or not to the share folder of the package. In
-    setup.py it checks the name, ``data_files`` and the modules of console scripts, in setup.cfg their folder.
+    ``ament_package()`` or ``catkin_package()``, files and folders that ``install`` and tests name but that do not
+    exist, and folders and scripts that launch files use but that are not installed, or not to the share folder of the
+    package. In setup.py it checks the name, ``data_files`` and the modules of console scripts, in setup.cfg their
+    folder.
 
     ## Why is this bad?
     The build fails, or the installed package lacks files: "file 'cart.launch.py' was not found in the share directory".
@@ -107,6 +116,8 @@ class BuildFileInconsistent(RobotRule):
                         yield self._at(source, start, word, f"unknown package `{word}`; did you mean `{suggestion}`?")
             if command.name == "install":
                 yield from self._install(files, source, command)
+            elif len(command.words) > (at := _TESTED.get(command.name, len(command.words))):
+                yield from self._existing(files, source, *command.words[at])
         if project is not None and project.words and "$" not in project.words[0][0]:
             word, start = project.words[0]
             if word != files.name and word == files.folder.name:
@@ -124,7 +135,6 @@ class BuildFileInconsistent(RobotRule):
 
     def _install(self, files: BuildFiles, source: Source, command: CMakeCommand) -> Findings:
         """Yield a finding for each literal file or folder that does not exist."""
-        from urdfkit.description.packages.similar_names import near_path
         from urdfkit.lint.facts.build_files import OPTIONS
         from urdfkit.lint.fix_builders import nearest
 
@@ -140,9 +150,14 @@ class BuildFileInconsistent(RobotRule):
         for word, start in command.words[1:]:
             if word in OPTIONS:
                 return
-            path = files.folder / word
-            if "$" not in word and not files.has(word):
-                yield self._at(source, start, word, f"`{word}` does not exist in this package{near_path(path)}")
+            yield from self._existing(files, source, word, start)
+
+    def _existing(self, files: BuildFiles, source: Source, word: str, start: int) -> Findings:
+        from urdfkit.description.packages.similar_names import near_path
+
+        if "$" not in word and not files.has(word):
+            hint = near_path(files.folder / word)
+            yield self._at(source, start, word, f"`{word}` does not exist in this package{hint}")
 
     def _setup(self, files: BuildFiles, source: Source) -> Findings:
         name = re.search(r"(?m)^\s*(?:package_name\s*=|name\s*=)\s*[\"']([^\"']+)[\"']", source.text)
