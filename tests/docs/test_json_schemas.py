@@ -34,16 +34,24 @@ NO_MESH = """<robot name="part">
 </robot>
 """
 
+TWO_ROOTS = """<robot name="roots">
+  <link name="base"/>
+  <link name="tip"/>
+  <link name="lost"/>
+  <joint name="turn" type="continuous"><parent link="base"/><child link="tip"/><axis xyz="0 0 1"/></joint>
+</robot>
+"""
+
 COMMANDS_OF: dict[str, list[tuple[str, ...]]] = {
     "info": [("info", "gem_e2"), ("info", "part.urdf")],
     "inertia": [("inertia", "simpleton"), ("inertia", "part.urdf", "base", "--mass", "2")],
     "tf": [("tf", "simpleton"), ("tf", "simpleton", "base_footprint", "camera"), ("tf", "part.urdf", "--tree")],
     "ik": [(*("ik", *ARM, "--xyz", "0.4,0.2,0.4"), *more) for more in ((), ("--collision-free", "--all"))]
-    + [("ik", *ARM, "--xyz", "9,0,0")],
-    "jacobian": [("jacobian", *ARM)],
+    + [("ik", *ARM, "--xyz", "9,0,0"), ("ik", "roots.urdf", "tip", "--xyz", "0,0,0", "--position-only")],
+    "jacobian": [("jacobian", *ARM), ("jacobian", "roots.urdf", "tip")],
     "reach": [("reach", *ARM, "--resolution", "0.3", "--orientations", "4", "--base-for", "poses.csv")],
     "retime": [("retime", "seven_dof_arm", "path.csv", "--acceleration", "3")],
-    "srdf": [("srdf", "seven_dof_arm", "--samples", "500")],
+    "srdf": [("srdf", "seven_dof_arm", "--samples", "500"), ("srdf", "roots.urdf", "--samples", "500")],
     "sim-run": [
         ("sim", "run", "simpleton", "--world", "cylinders", "--for", "0.1"),
         ("sim", "run", "part.urdf", "--for", "0.1"),
@@ -121,6 +129,7 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Path]:
 
     path = tmp_path_factory.mktemp("json")
     (path / "part.urdf").write_text(NO_MESH)
+    (path / "roots.urdf").write_text(TWO_ROOTS)
     (path / "poses.csv").write_text("x,y,z,qx,qy,qz,qw\n2,1,0.5,0,0,0,1\n")
     (path / "path.csv").write_text("shoulder_pan_joint,elbow_pitch_joint\n0,0\n0.8,-0.5\n")
     assert main(["sim", "run", "simpleton", "--for", "0.1", "--quiet", "--record", str(path / "run.mcap")]) == 0
@@ -135,4 +144,7 @@ def test_output_follows_the_schema(name: str, folder: Path, capsys: Any, monkeyp
     for words in COMMANDS_OF[name]:
         capsys.readouterr()
         assert main([*words, "json" if words[0] == "lint" else "--json"]) in (0, 1)
-        jsonschema.validate(json.loads(capsys.readouterr().out), strict(schema(name)))
+        value = json.loads(capsys.readouterr().out)
+        jsonschema.validate(value, strict(schema(name)))
+        if "roots.urdf" in words:
+            assert [(repair["code"], repair["line"]) for repair in value["repairs"]] == [("T203", 4)]

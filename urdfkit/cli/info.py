@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from urdfkit.cli.parser import add_model
 from urdfkit.cli.robot_arguments.macro_option import add_macro, with_macro
-from urdfkit.cli.robot_arguments.robot_loading import add_strict, load_robot, print_repairs
+from urdfkit.cli.robot_arguments.robot_loading import add_strict, load_robot, print_repairs, repairs_as_json
 from urdfkit.cli.robot_arguments.unused_arguments import note_unused
 from urdfkit.description.urdf.version import RATES
 from urdfkit.errors import MissingDependencyError, UrdfkitError
@@ -74,7 +74,7 @@ def facts_of(robot: Robot) -> dict[str, Any]:
         "bounding_box": None,
         "drives": _drives(robot),
         "sensors": _sensors(robot),
-        "repairs": [repair.as_json() for repair in robot.repairs],
+        **repairs_as_json(robot),
         "note": None,
     }
     try:

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 from urdfkit.app.page import require_packages
 from urdfkit.cli.robot_arguments.joint_positions import joint_positions, warn_of_limits
+from urdfkit.cli.robot_arguments.robot_loading import repairs_as_json
 from urdfkit.cli.robot_arguments.tip_link import add_tip, announce, robot_and_tip
 
 if TYPE_CHECKING:
@@ -71,7 +72,7 @@ def run(arguments: argparse.Namespace) -> int:
                 for direction, words in zip(analysis.lost, lost, strict=True)
             ],
         }
-        print(json.dumps(values))
+        print(json.dumps(values | repairs_as_json(robot)))
     else:
         print(_text(chain.joint_names, jacobian, analysis, lost, f"{tip} in {chain.base}"))
     return 0

@@ -14,6 +14,7 @@ from urdfkit.app.page import note, require_packages, require_page
 from urdfkit.cli.kinematics.ik.targets import poses_of_file
 from urdfkit.cli.kinematics.robot_page import show_page
 from urdfkit.cli.page_options import add_page_options
+from urdfkit.cli.robot_arguments.robot_loading import repairs_as_json
 from urdfkit.cli.robot_arguments.tip_link import add_tip, announce, model_of_tip, robot_and_tip
 from urdfkit.cli.sim.option_values import positive, seed
 from urdfkit.errors import UsageError
@@ -140,7 +141,8 @@ def run(arguments: argparse.Namespace) -> int:
         if not arguments.quiet:
             print(f"wrote {arguments.output}", file=sys.stderr)
     if arguments.json:
-        print(json.dumps(_values(found) | ({} if base is None else {"base_for": _place(base, chain)})), flush=True)
+        values = _values(found) | ({} if base is None else {"base_for": _place(base, chain)})
+        print(json.dumps(values | repairs_as_json(robot)), flush=True)
     elif not arguments.view:
         print(_text(found, base), flush=True)
     elif not arguments.quiet:

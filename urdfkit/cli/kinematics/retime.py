@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from urdfkit.cli.parser import add_package_path
 from urdfkit.cli.robot_arguments.macro_option import add_macro, with_macro
-from urdfkit.cli.robot_arguments.robot_loading import add_strict, load_robot, print_repairs
+from urdfkit.cli.robot_arguments.robot_loading import add_strict, load_robot, print_repairs, repairs_as_json
 from urdfkit.cli.robot_arguments.unused_arguments import note_unused
 from urdfkit.cli.sim.option_values import positive
 from urdfkit.errors import UsageError, did_you_mean
@@ -102,7 +102,7 @@ def run(arguments: argparse.Namespace) -> int:
     if output is not None:
         _write(output, motion, limits)
     if arguments.json:
-        print(json.dumps(_values(motion, limits)))
+        print(json.dumps(_values(motion, limits) | repairs_as_json(robot)))
     elif output is None:
         print(_csv(motion), end="")
     if output is not None and not arguments.quiet:

@@ -14,7 +14,7 @@ from urdfkit.cli.kinematics.robot_page import show_page
 from urdfkit.cli.page_options import add_page_options
 from urdfkit.cli.parser import add_package_path
 from urdfkit.cli.robot_arguments.macro_option import add_macro, with_macro
-from urdfkit.cli.robot_arguments.robot_loading import add_strict, load_robot, print_repairs
+from urdfkit.cli.robot_arguments.robot_loading import add_strict, load_robot, print_repairs, repairs_as_json
 from urdfkit.cli.robot_arguments.unused_arguments import note_unused
 from urdfkit.cli.sim.option_values import seed
 from urdfkit.errors import ResourceError, UsageError
@@ -116,7 +116,7 @@ def run(arguments: argparse.Namespace) -> int:
 
         write_bytes(output, text.encode())
     if arguments.json:
-        print(json.dumps(_values(matrix, groups, effectors)), flush=True)
+        print(json.dumps(_values(matrix, groups, effectors) | repairs_as_json(robot)), flush=True)
     elif output is None and not shows:
         print(text, end="")
     if not arguments.quiet:

@@ -9,12 +9,12 @@ import subprocess
 import sys
 from dataclasses import asdict
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from urdfkit.cli.parser import add_package_path
 from urdfkit.cli.robot_arguments.joint_positions import joint_positions, warn_of_limits
 from urdfkit.cli.robot_arguments.macro_option import add_macro, with_macro
-from urdfkit.cli.robot_arguments.robot_loading import add_strict, load_robot, print_repairs
+from urdfkit.cli.robot_arguments.robot_loading import add_strict, load_robot, print_repairs, repairs_as_json
 from urdfkit.cli.robot_arguments.unused_arguments import note_unused
 from urdfkit.errors import MissingDependencyError, ResourceError, UsageError, did_you_mean
 
@@ -99,7 +99,7 @@ def run(arguments: argparse.Namespace) -> int:
             print(f"wrote {arguments.output}", file=sys.stderr)
     elif frames:
         transform = tree.transform(frames[0], frames[1], positions)
-        values = asdict(transform) | _repairs(tree)
+        values = asdict(transform) | repairs_as_json(tree.kinematics.robot)
         _write(json.dumps(values) + "\n" if arguments.json else _echo(transform))
     else:
         transforms = tree.transforms(tree.kinematics.configuration(positions))
@@ -112,10 +112,6 @@ def _split(words: list[str]) -> tuple[list[str], list[str]]:
     """Split the words into the model with its arguments and the frames."""
     plain = [word for word in words if ":=" not in word]
     return [*plain[:1], *(word for word in words if ":=" in word)], plain[1:]
-
-
-def _repairs(tree: TransformTree) -> dict[str, Any]:
-    return {"repairs": [repair.as_json() for repair in tree.kinematics.robot.repairs]}
 
 
 def _echo(transform: Transform) -> str:
@@ -165,7 +161,7 @@ def _show_tree(tree: TransformTree, *, output: Path | None, as_json: bool) -> No
     if as_json:
         edges = [asdict(edge) for edge in tree.edges]
         values = {"root": tree.root, "frames": list(tree.frames), "edges": edges}
-        _write(json.dumps(values | _repairs(tree)) + "\n")
+        _write(json.dumps(values | repairs_as_json(tree.kinematics.robot)) + "\n")
     if output is not None:
         match output.suffix.lower():
             case ".svg":

@@ -11,6 +11,7 @@ from urdfkit.cli.robot_arguments.required_arguments import listing_required_argu
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     from collections.abc import Iterable
+    from typing import Any
 
     from urdfkit.description import Robot
     from urdfkit.description.urdf.repair_record import Repair
@@ -61,6 +62,11 @@ def print_repairs(robot: Robot, *, quiet: bool) -> None:
     warn_of_file_names(robot, quiet=quiet)
     for repair in grouped(shown_repairs(robot.repairs, quiet=quiet)):
         print(f"urdfkit: {repair.severity}: {repair}", file=sys.stderr)
+
+
+def repairs_as_json(robot: Robot) -> dict[str, Any]:
+    """Return the key ``repairs`` of a command's JSON value."""
+    return {"repairs": [repair.as_json() for repair in robot.repairs]}
 
 
 def shown_repairs(repairs: Iterable[Repair], *, quiet: bool) -> list[Repair]:

@@ -15,6 +15,7 @@ import numpy as np
 from urdfkit.atomic import write_bytes
 from urdfkit.cli.kinematics.ik.printing import solution_as_json
 from urdfkit.cli.robot_arguments.joint_positions import warn_of_limits
+from urdfkit.cli.robot_arguments.robot_loading import repairs_as_json
 from urdfkit.cli.robot_arguments.tip_link import announce
 from urdfkit.description import Robot
 from urdfkit.kinematics.chain import Chain
@@ -70,7 +71,7 @@ def solve_poses(
             for row, solution in zip(rows, solutions, strict=True)
         ]
         values = {"base": chain.base, "tip": tip, "joints": list(chain.joint_names), "targets": len(poses)}
-        print(json.dumps(values | {"reached": reached, "solutions": listed}))
+        print(json.dumps(values | {"reached": reached, "solutions": listed} | repairs_as_json(robot)))
     else:
         print(f"{tip} in {chain.base}: {reached} of {len(poses)} poses reached")
         missed = [k for k, solution in enumerate(solutions) if not solution.reached]

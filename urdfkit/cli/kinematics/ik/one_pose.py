@@ -8,6 +8,7 @@ from collections.abc import Mapping, Sequence
 
 from urdfkit.cli.kinematics.ik.printing import solution_as_json, table
 from urdfkit.cli.robot_arguments.joint_positions import warn_of_limits
+from urdfkit.cli.robot_arguments.robot_loading import repairs_as_json
 from urdfkit.cli.robot_arguments.tip_link import announce
 from urdfkit.kinematics.serial.serial_chain import SerialChain
 from urdfkit.kinematics.serial.serial_solver import SerialSolver, SolverOptions
@@ -63,7 +64,7 @@ def solve_pose(
         listed = [solution_as_json(chain, solver.at_limits(each.q), each, reason) for each in solutions]
         names = [variable.name for variable in chain.variables]
         values = {"base": chain.base, "tip": tip, "joints": names, "targets": 1, "reached": int(best.reached)}
-        print(json.dumps(values | {"solutions": listed}))
+        print(json.dumps(values | {"solutions": listed} | repairs_as_json(robot)))
     else:
         print(table(chain, solver, solutions, reason, position_only=options.position_only), end="")
     return 0 if best.reached else 1
