@@ -28,7 +28,7 @@ ROBOT = f"""<robot name="bad">
 </robot>
 """
 WARNINGS = [
-    ("T201", 4, "its parent link `bse` does not exist; an empty link `bse` is added; did you mean `base`?"),
+    ("T201", 4, "its parent link `bse` does not exist; an empty link `bse` is added, fixed to the origin of `base`; did you mean `base`?"),
     ("T203", 5, "is missing; `stray` is fixed to the origin of `base`"),
     ("J416", 8, "mimic joints form a cycle: `wrist` → `wrist`; joint `wrist` moves by itself"),
 ]
@@ -96,7 +96,10 @@ def test_many_undefined_parents_are_one_warning_in_every_command(capsys: pytest.
     joint = '<joint name="j{0}" type="fixed"><parent link="gone{0}"/><child link="l{0}"/></joint>\n'
     parts = "".join(f'<link name="l{i}"/>\n{joint.format(i)}' for i in range(30))
     Path("bad.urdf").write_text(f'<robot name="bad"><link name="base">{BODY}</link>\n{parts}</robot>')
-    expected = "`j0`: its parent link `gone0` does not exist; an empty link `gone0` is added (and 29 more of this kind)"
+    expected = (
+        "`j0`: its parent link `gone0` does not exist; an empty link `gone0` is added, fixed to the origin of `base` "
+        "(and 29 more of this kind)"
+    )
     for words in (*COMMANDS.values(), ["view", "bad.urdf", "--html", "page.html"]):
         if "hand" in words:
             continue

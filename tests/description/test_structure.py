@@ -29,7 +29,7 @@ CASES = {
         "T203",
         "`c` is fixed to the origin of `a`",
     ),
-    "undefined parent": (links("a", "b") + "\n" + joint("j", "aa", "b"), "T201", "an empty link `aa` is added"),
+    "undefined parent": (links("a", "b") + "\n" + joint("j", "aa", "b"), "T201", "an empty link `aa` is added, fixed to the origin of `a`"),
     "undefined child": (
         links("a", "b") + joint("k", "a", "b") + "\n" + joint("j", "a", "bb"),
         "T202",
@@ -39,6 +39,21 @@ CASES = {
         links("a", "b", "c") + joint("k", "a", "b") + joint("m", "a", "c") + "\n" + joint("j", "b", "c"),
         "T205",
         "joint `j` is left out",
+    ),
+    "joint of a link with itself": (
+        links("a", "b") + joint("k", "a", "b") + "\n" + joint("j", "b", "b"),
+        "T204",
+        "joint `j` connects link `b` with itself; the joint is left out",
+    ),
+    "link behind a joint without a parent": (
+        links("a", "b") + "\n" + joint("j", "a", "b").replace('<parent link="a"/>', "<parent/>"),
+        "E014",
+        "the joint is left out; `b` is fixed to the origin of `a`",
+    ),
+    "misspelt child": (
+        links("a", "tip ") + "\n" + joint("j", "a", "tip"),
+        "T202",
+        "an empty link `tip` is added; `tip ` is fixed to the origin of `a`",
     ),
     "loop": (
         links("a", "b", "c") + joint("k", "b", "c") + "\n" + joint("j", "c", "b"),
@@ -101,11 +116,13 @@ def test_the_rest_is_one_tree_and_the_fault_is_named_at_the_line_of_the_finding(
     repair = next(repair for repair in robot.repairs if effect in repair.message)
     assert (repair.code, repair.position.line) == (code, 2)
     assert any(f.code == code and f.line == 2 for f in lint(path))
+    findings = {(f.code, f.line) for f in lint(path)}
+    assert all((r.code, r.position.line) in findings for r in robot.repairs)
     names = [link.name for link in robot.links]
     assert len(robot.roots()) == 1
     assert len(set(names)) == len(names)
     assert len({joint.name for joint in robot.joints}) == len(robot.joints) == len(names) - 1
-    assert {"a", "b"} <= set(names)
+    assert {"a"} <= set(names)
     with pytest.raises(ModelError) as caught:
         load(path)
     assert caught.value.position in [repair.position for repair in robot.repairs]

@@ -4,73 +4,19 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from urdfkit.description.urdf.queries import cycles, owners, repeated
-from urdfkit.description.urdf.repair_record import Repair
-from urdfkit.description.urdf.robot import Joint, Link, Pose, Problem, Robot
-from urdfkit.description.xacro.evaluation.failures import chain_words
+from urdfkit.description.unusable_values import LEFT_OUT, Defect, unusable_values
+from urdfkit.description.urdf.likely_children import likely_children
+from urdfkit.description.urdf.queries import cycles, is_loop, repeated
+from urdfkit.description.urdf.robot import Joint, Link, Pose, Robot
 from urdfkit.description.xml.element import Element
-from urdfkit.errors import ModelError, did_you_mean, with_effect
-from urdfkit.record import field, record
+from urdfkit.errors import did_you_mean
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping
+    from collections.abc import Iterable
 
-    from urdfkit.description.urdf.queries import Owner
-    from urdfkit.position import Position
-
-_HARMLESS = frozenset({"unknown-value", "missing", "zero", "version"})
-_NEEDED = {("joint", "type"), ("parent", "link"), ("child", "link"), ("mimic", "joint")}
-_UNREAD = frozenset({"mechanicalReduction"})
-"""Elements whose text neither urdfkit nor urdfdom uses; only the linter checks them."""
-_CODES = {"bad-number": "E010", "wrong-arity": "E011", "not-finite": "E012", "conflict": "E023"}
-_SHAPES = frozenset({"box", "cylinder", "sphere", "capsule"})
 _HINTS = 20
 """Number of defects whose messages suggest a similar name."""
-
-
-@record(eq=False)
-class Defect:
-    """A defect of a robot's structure, and its repair by `repaired_structure`.
-
-    Attributes:
-        message: description of the defect.
-        effect: description of the repair.
-        code: code of the lint rule that reports the defect.
-        element: the element that has the defect.
-        link: name of the affected link.
-        joint: name of the affected joint.
-        attribute: attribute that has the defect; None if it depends on the code.
-    """
-
-    message: str
-    effect: str
-    code: str
-    element: Element = field(repr=False)
-    link: str | None = None
-    joint: str | None = None
-    attribute: str | None = None
-
-    @property
-    def position(self) -> Position:
-        """Source position of the element."""
-        return self.element.origin.position
-
-    @property
-    def error(self) -> ModelError:
-        """The error of a reader that repairs nothing."""
-        return ModelError(self.message + self._chain, position=self.position)
-
-    @property
-    def repair(self) -> Repair:
-        """The repair."""
-        message = with_effect(self.message, self.effect) + self._chain
-        place = self.position
-        return Repair("structure", self.code, message, place, self.link, self.joint, attribute=self.attribute)
-
-    @property
-    def _chain(self) -> str:
-        return chain_words(self.element.origin.expansions)
 
 
 def repaired_structure(robot: Robot) -> tuple[Robot, list[Defect]]:
@@ -82,9 +28,7 @@ def repaired_structure(robot: Robot) -> tuple[Robot, list[Defect]]:
     Args:
         robot: a robot with at least one link.
     """
-    unusable = [problem for problem in robot.problems if _is_unusable(problem)]
-    by_element = owners(robot) if unusable else {}
-    defects = [_unusable(problem, by_element) for problem in unusable]
+    defects = unusable_values(robot)
     structure = _Structure(robot, defects)
     structure.name_parts()
     structure.connect_joints()
@@ -96,45 +40,16 @@ def repaired_structure(robot: Robot) -> tuple[Robot, list[Defect]]:
     return replace(robot, links=tuple(structure.links), joints=tuple(structure.joints)), defects
 
 
-def _is_unusable(problem: Problem) -> bool:
-    """Return whether a value is invalid, or missing without a valid default (urdfdom rejects these too)."""
-    tag = problem.element.tag
-    if tag in _UNREAD:
-        return False
-    if problem.kind not in _HARMLESS:
-        return True
-    if problem.kind in ("zero", "version"):
-        return False  # see `repaired_values`
-    if problem.kind == "unknown-value":
-        return tag == "joint"
-    return tag in ("limit", "inertia", "mass") or (tag, problem.attribute) in _NEEDED
-
-
-def _unusable(problem: Problem, by_element: Mapping[Element, Owner]) -> Defect:
-    element = problem.element
-    code, effect = _CODES.get(problem.kind, "E014"), "the value is ignored"
-    if element.tag == "joint":
-        code, effect = "J402" if problem.kind == "unknown-value" else "J401", "the joint is fixed"
-    elif element.tag in ("parent", "child"):
-        effect = "the joint is left out"
-    elif problem.kind == "conflict":
-        effect = f"`{problem.attribute}` is used"
-    elif element.tag == "limit" and problem.kind == "missing":
-        code, effect = ("E014", "it is 0") if problem.attribute in ("lower", "upper") else ("J404", effect)
-    elif element.tag in _SHAPES:
-        effect = "the shape is unknown"
-    link, joint = by_element.get(element, (None, None))
-    return Defect(problem.message, effect, code, element, link, joint, problem.attribute)
-
-
 class _Structure:
     """Links and joints while they are repaired."""
 
     def __init__(self, robot: Robot, defects: list[Defect]) -> None:
         self.robot, self.defects = robot, defects
         self.links, self.joints = list(robot.links), list(robot.joints)
-        self._detached: set[str] = set()
-        """Links without a parent because of a defect that has been reported."""
+        self._detached: dict[str, int] = {}
+        """Link without a parent because of a defect that has been reported → index of the defect."""
+        self._left_out = {defect.element: i for i, defect in enumerate(defects) if defect.effect == LEFT_OUT}
+        """Element without which a joint is left out → index of its defect."""
 
     def _add(
         self,
@@ -185,22 +100,37 @@ class _Structure:
         names = {link.name for link in self.links}
         undefined: dict[str, Element] = {}
         kept: dict[str, Joint] = {}
+        meant = likely_children(self.robot, most=_HINTS)
         for joint in self.joints:
             for end, name in (("parent", joint.parent), ("child", joint.child)):
                 if name is None and joint.element.find(end) is None:
                     message = f"joint `{joint.name}` lacks <{end} link=…>"
-                    self._add(message, "the joint is left out", "E014", joint.element, joint=joint.name)
+                    self._add(message, LEFT_OUT, "E014", joint.element, joint=joint.name)
+                    self._left_out[joint.element] = len(self.defects) - 1
                 elif name is not None and name not in names:
                     element = joint.element.find(end) or joint.element
-                    if name:
-                        undefined.setdefault(name, element)
                     message = f"joint `{joint.name}`: its {end} link `{name}` does not exist"
                     code = "T201" if end == "parent" else "T202"
                     hint = self._similar(name, self.robot.link_by_name)
-                    effect = f"an empty link `{name}` is added" if name else "the joint is left out"
+                    effect = f"an empty link `{name}` is added" if name else LEFT_OUT
                     self._add(message + hint, effect, code, element, joint=joint.name)
+                    at = len(self.defects) - 1
+                    if not name:
+                        self._left_out[element] = at
+                    elif name not in undefined:
+                        undefined[name] = element
+                        self._detached[name] = at
+                    if end == "child" and name in meant:
+                        self._detached.setdefault(meant[name], at)
             if not joint.parent or not joint.child:
-                self._detached.add(joint.child or "")
+                parts = (joint.element, joint.element.find("parent"), joint.element.find("child"))
+                at = next(self._left_out[part] for part in parts if part in self._left_out)
+                self._detached.setdefault(joint.child or "", at)
+                continue
+            if is_loop(joint):
+                message = f"joint `{joint.name}` connects link `{joint.child}` with itself"
+                self._add(message, LEFT_OUT, "T204", joint.element, link=joint.child, joint=joint.name)
+                self._detached.setdefault(joint.child, len(self.defects) - 1)
                 continue
             joint = self._movable(joint)
             if (other := kept.setdefault(joint.child or "", joint)) is not joint:
@@ -214,7 +144,6 @@ class _Structure:
                 effect = f"joint `{joint.name}` is left out"
                 self._add(message, effect, code, element, link=joint.child, joint=joint.name)
         self.links += [Link(name, None, (), (), element) for name, element in undefined.items()]
-        self._detached.update(undefined)
         if self.defects:
             self.joints = list(kept.values())
 
@@ -245,7 +174,7 @@ class _Structure:
             message = f"the joints form a loop: {' → '.join([*names, names[0]])}"
             effect = f"joint `{last.name}` is left out"
             self._add(message, effect, "T204", last.element, joint=last.name)
-            self._detached.add(last.child or "")
+            self._detached.setdefault(last.child or "", len(self.defects) - 1)
         self.joints = [joint for joint in self.joints if joint.name not in cut]
 
     def join_trees(self) -> None:
@@ -260,13 +189,20 @@ class _Structure:
         if len(written) > 1:
             self._report_roots([link for link in written if link is not main], main)
         names = Names(joint.name for joint in self.joints)
+        fixed: dict[int, list[str]] = {}
         for link in roots:
             if link is not main:
                 self.joints.append(_fixed(names.unused(f"{main.name}_to_{link.name}"), main.name, link))
+                if link.name in self._detached:
+                    fixed.setdefault(self._detached[link.name], []).append(link.name)
+        for at, links in fixed.items():
+            effect = self.defects[at].effect
+            is_same = effect.endswith(f" link `{links[0]}` is added") and len(links) == 1
+            effect += ", fixed" if is_same else f"; {_fixed_words(links)}"
+            self.defects[at] = replace(self.defects[at], effect=f"{effect} to the origin of `{main.name}`")
 
     def _report_roots(self, others: list[Link], main: Link) -> None:
-        more = f" and {len(others) - 3} more" if len(others) > 3 else ""
-        names = ", ".join(f"`{link.name}`" for link in others[:3]) + more
+        names = _listed([link.name for link in others])
         verb = "has" if len(others) == 1 else "have"
         message = (
             f"{len(others) + 1} root links: {names} {verb} no parent joint; a joint to the tree of `{main.name}` "
@@ -324,6 +260,17 @@ class Names:
         self._last[name] = number
         self._taken.add(found)
         return found
+
+
+def _listed(links: list[str]) -> str:
+    """Return the names of three links, and the number of the others."""
+    more = f" and {len(links) - 3} more" if len(links) > 3 else ""
+    return ", ".join(f"`{link}`" for link in links[:3]) + more
+
+
+def _fixed_words(links: list[str]) -> str:
+    """Return words for links that are fixed to the origin of another one."""
+    return f"{_listed(links)} {'is' if len(links) == 1 else 'are'} fixed"
 
 
 def _fixed(name: str, parent: str, link: Link) -> Joint:

@@ -14,6 +14,7 @@ from urdfkit.description.urdf.robot import (
     Collision,
     Cylinder,
     Link,
+    Mesh,
     Problem,
     Robot,
     Sphere,
@@ -37,7 +38,7 @@ _CLEAR = 0.5
 def with_placeholders(robot: Robot, scene: Scene) -> tuple[Scene, list[Repair]]:
     """Return a scene with a placeholder for each link that lacks shapes, and repairs of missing shapes and textures.
 
-    A shape is missing if its mesh cannot be loaded, its geometry is unknown, or a size is negative. The placeholder of
+    A shape is missing if its mesh cannot be loaded or has no size, its geometry is unknown, or a size is negative. The placeholder of
     visual shapes has the bounding box of the collision shapes, and vice versa. A link with neither has a box around
     its frame, its child joints and the solid box of its inertia. Negative sizes become positive.
 
@@ -57,11 +58,13 @@ def with_placeholders(robot: Robot, scene: Scene) -> tuple[Scene, list[Repair]]:
             if item.geometry is None:
                 wanted[link.name, role] = None
                 repairs += unknown_shapes(link, item, problems, _EFFECT)
-            elif (size := _negative(item.geometry)) is not None:
-                repairs.append(_negative_size(link, role, item, size))
+            elif (size := _impossible(item.geometry)) is not None:
+                repairs.append(_impossible_size(link, role, item, size, _EFFECT))
+                if isinstance(item.geometry, Mesh):
+                    wanted[link.name, role] = None
     if not wanted and not repairs:
         return scene, []
-    shapes = [_positive(shape) for shape in scene.shapes]
+    shapes = [_positive(shape) for shape in scene.shapes if not _is_empty(shape.geometry)]
     sizes = PlaceholderSizes(robot, shapes)
     placeholders = [
         _placeholder(body, role, sizes.bounds(body, role), covers_shapes=sizes.has_shapes(body, role))
@@ -110,14 +113,19 @@ def _lengths(geometry: object) -> tuple[float, ...]:
     return ()
 
 
-def _negative(geometry: object) -> float | None:
-    """Return the first negative size of a shape [m]; None without one."""
-    return next((size for size in _lengths(geometry) if size < 0.0), None)
+def _is_empty(geometry: object) -> bool:
+    """Return whether the scale of a mesh leaves no area."""
+    return isinstance(geometry, Mesh) and geometry.scale.count(0.0) > 1
+
+
+def _impossible(geometry: object) -> float | None:
+    """Return the first negative size of a shape [m], or the scale of a mesh without area; None without one."""
+    return 0.0 if _is_empty(geometry) else next((size for size in _lengths(geometry) if size < 0.0), None)
 
 
 def _positive(shape: Shape) -> Shape:
     """Return a placeholder for a shape with a negative size; other shapes unchanged."""
-    if _negative(shape.geometry) is None:
+    if _impossible(shape.geometry) is None:
         return shape
     edges = [abs(size) for size in _lengths(shape.geometry)]
     if not isinstance(shape.geometry, Box):
@@ -162,7 +170,7 @@ def require_valid_shapes(robot: Robot) -> None:
             for problem in _unknown(item, problems):
                 origin = problem.element.origin
                 raise ModelError(problem.message + chain_words(origin.expansions), position=origin.position)
-            if item.geometry is not None and (size := _negative(item.geometry)) is not None:
+            if item.geometry is not None and (size := _impossible(item.geometry)) is not None:
                 message, element = _size_message(link, role, item, size)
                 raise ModelError(message + chain_words(element.origin.expansions), position=element.origin.position)
 
@@ -173,16 +181,29 @@ def _unknown(item: Visual | Collision, problems: Mapping[Element, Problem]) -> I
         yield from (problems[element] for element in item.element.walk() if element in problems)
 
 
-def _negative_size(link: Link, role: Role, item: Visual | Collision, size: float) -> Repair:
+def impossible_visuals(link: Link, effect: str) -> Iterator[tuple[Visual, Repair]]:
+    """Yield each visual shape with a negative size and each mesh without area, and its repair.
+
+    Args:
+        link: the link.
+        effect: what happens to the shape, for the message.
+    """
+    for item in link.visuals:
+        if item.geometry is not None and (size := _impossible(item.geometry)) is not None:
+            yield item, _impossible_size(link, "visual", item, size, effect)
+
+
+def _impossible_size(link: Link, role: Role, item: Visual | Collision, size: float, effect: str) -> Repair:
     message, element = _size_message(link, role, item, size)
     origin = element.origin
-    message = with_effect(message, _EFFECT) + chain_words(origin.expansions)
-    return Repair("shape", "G611", message, origin.position, link.name)
+    message = with_effect(message, effect) + chain_words(origin.expansions)
+    sizes = {"scale": (0.0,)} if isinstance(item.geometry, Mesh) else vars(item.geometry)
+    attribute = next((name for name, value in sizes.items() if size in np.atleast_1d(value)), None)
+    return Repair("shape", "G611", message, origin.position, link.name, attribute=attribute)
 
 
 def _size_message(link: Link, role: Role, item: Visual | Collision, size: float) -> tuple[str, Element]:
     kind = type(item.geometry).__name__.lower()
     geometry = item.element.find("geometry") or item.element
-    return f"link `{link.name}`: the <{kind}> of a {role} shape has the size {size:g} m", geometry.find(
-        kind
-    ) or geometry
+    fault = "a scale of 0" if kind == "mesh" else f"the size {size:g} m"
+    return f"link `{link.name}`: the <{kind}> of a {role} shape has {fault}", geometry.find(kind) or geometry

@@ -22,8 +22,9 @@ def unknown(plugin: Plugin, sensor: str | None = None, others: Iterable[str] = (
         others: stems of supported libraries that are not in the tables.
     """
     left_out = "" if sensor is None else f"; sensor `{sensor or 'sensor'}` is left out"
-    if plugin.filename is None:
-        return f"plugin `{plugin.name or ''}` has no filename and is ignored{left_out}"
+    if plugin.filename is None or not plugin.filename.strip():
+        which = f" `{plugin.name}`" if plugin.name else ""
+        return f"plugin{which} has no filename and is ignored{left_out}"
     name = stem(plugin.filename)
     if near := nearest(name, others):
         suggestion = f"did you mean `{plugin.filename.replace(name, near)}`?"

@@ -40,6 +40,30 @@ def cycles(robot: Robot) -> list[list[Joint]]:
     return loops
 
 
+def is_loop(joint: Joint) -> bool:
+    """Return whether a joint connects a link with itself."""
+    return joint.child is not None and joint.parent == joint.child
+
+
+def loop_closed_by(robot: Robot, joint: Joint, *, most: int = 100) -> list[str]:
+    """Return the links of the loop that a second parent of a link closes, the link first; empty if there is none.
+
+    Args:
+        robot: the robot.
+        joint: a joint to a link that has a parent already.
+        most: maximum number of links to follow.
+    """
+    found: list[str] = []
+    at = joint.parent
+    while at is not None and len(found) < most:
+        found.append(at)
+        if at == joint.child:
+            return found[::-1]
+        above = robot.parents_of.get(at)
+        at = above[0].parent if above else None
+    return []
+
+
 def tree_order(robot: Robot) -> list[Joint]:
     """Return the joints reachable from the roots, parents before children, depth first in document order."""
     order: list[Joint] = []

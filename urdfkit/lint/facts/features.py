@@ -17,6 +17,7 @@ from urdfkit.description.urdf.robot import (
     Joint,
     Limit,
     Link,
+    Mesh,
     Robot,
     Sphere,
     Visual,
@@ -145,6 +146,8 @@ def _of_link(link: Link, found: set[str]) -> None:
             least = min(geometry.size)
         elif isinstance(geometry, (Cylinder, Capsule)):
             least = min(geometry.radius, geometry.length)
+        elif isinstance(geometry, Mesh):
+            least = min(map(abs, geometry.scale))
         else:
             least = geometry.radius if isinstance(geometry, Sphere) else 1.0 if geometry is not None else 0.0
         if not least > 0.0:
@@ -179,7 +182,7 @@ def _of_tree(robot: Robot, found: set[str]) -> None:
             found.add("dangling!")
         if child is not None and "optical" in child.lower():
             found.add("optical!")
-        if parent in reached and child is not None:
+        if parent in reached and child is not None and child != parent:
             reached.add(child)
         else:
             found.add("order!")

@@ -97,13 +97,15 @@ def invalid_sizes(link: Link, collision: Collision) -> Iterator[Problem]:
     element = collision.element.find("geometry") or collision.element
     kind = type(collision.geometry).__name__.lower()
     for name, length in sizes_not_positive(collision):
-        message = f"the {kind} of link `{link.name}` has a {name} of {length:g} m; it must be positive"
-        yield message, element.find(kind) or element
+        value = "scale of 0; it must not be zero" if name == "scale" else f"{name} of {length:g} m; it must be positive"
+        yield f"the {kind} of link `{link.name}` has a {value}", element.find(kind) or element
 
 
 def sizes_not_positive(collision: Collision) -> Iterator[tuple[str, float]]:
-    """Yield attribute and value [m] for each size of a collision shape that is not positive."""
+    """Yield attribute and value [m] for each size of a collision shape that is not positive, or zero in a scale."""
     shape = collision.geometry
+    if isinstance(shape, Mesh) and 0.0 in shape.scale:
+        yield "scale", 0.0
     if shape is None or isinstance(shape, Mesh):
         return
     for name in ("size", "radius", "length"):

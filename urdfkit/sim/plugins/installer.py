@@ -188,7 +188,8 @@ def _choose(plugin: Plugin, setup: Setup, classes: tuple[type[Drive | Sensor | C
         return Needless()
     brought = [name for each in classes for table in each.specs for name in table.filenames]
     reason = unknown(plugin, None if sensor is None else sensor.name or "", [*NEEDLESS, *brought])
-    code = _NOT_SIMULATED if meant_library(name) is None else "Z825"
+    code = "Z809" if not (plugin.filename or "").strip() else _NOT_SIMULATED
+    code = code if meant_library(name) is None else "Z825"
     return LeftOut(reason, plugin.element.origin.position, code, "filename")
 
 

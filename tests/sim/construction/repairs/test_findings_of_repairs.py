@@ -82,6 +82,19 @@ LINKS = {
     "no geometry": (GOOD + "<visual/>", "E014"),
     "mesh without a vertex": (GOOD + BOX.replace('box size="0.1 0.2 0.3"', 'mesh filename="index.obj"'), "G607"),
     "mesh that is not finite": (GOOD + BOX.replace('box size="0.1 0.2 0.3"', 'mesh filename="nan.obj"'), "G607"),
+    "mesh without size": (
+        GOOD + BOX.replace('box size="0.1 0.2 0.3"', 'mesh filename="flat.obj" scale="0 0 0"'),
+        "G611",
+    ),
+    "flat collision mesh": (
+        GOOD + BOX.replace('box size="0.1 0.2 0.3"', 'mesh filename="flat.obj" scale="1 0 1"'),
+        "G611",
+    ),
+    "visual mesh without size": (
+        GOOD + '<visual><geometry><mesh filename="flat.obj" scale="0 0 0"/></geometry></visual>',
+        "G611",
+    ),
+    "negative visual": (GOOD + '<visual><geometry><sphere radius="-1"/></geometry></visual>', "G611"),
     "truncated mesh": (GOOD + BOX.replace('box size="0.1 0.2 0.3"', 'mesh filename="short.glb"'), "G607"),
     "folder as mesh": (GOOD + BOX.replace('box size="0.1 0.2 0.3"', 'mesh filename="folder.stl"'), "G607"),
     "empty cylinder": (GOOD + BOX.replace('box size="0.1 0.2 0.3"', 'cylinder radius="0.1" length="0"'), "G611"),
@@ -94,6 +107,7 @@ def robot_of(folder: Path, inside: str, base: str = "heavy") -> str:
     (folder / "pointer.stl").write_text("version https://git-lfs.github.com/spec/v1\noid sha256:0\nsize 9\n")
     (folder / "index.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n")
     (folder / "nan.obj").write_text("v nan 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+    (folder / "flat.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
     (folder / "short.glb").write_bytes(b"glTF\x02\0\0\0\x99\0\0\0")
     (folder / "folder.stl").mkdir()
     root = f'<link name="base">{BASES[base]}</link>' if BASES[base] is not None else '<link name="world"/>'

@@ -57,8 +57,8 @@ class PartNotSimulated(RobotRule):
         from urdfkit.description.sdf.reader.world_plugins import NEEDLESS
 
         for plugin, _, sensor in plugins(model.robot):
-            file = plugin.filename
-            if file is None or "$" in file or model.is_unresolved(plugin.element, "filename"):
+            file = (plugin.filename or "").strip()
+            if not file or "$" in file or model.is_unresolved(plugin.element, "filename"):
                 continue
             if stem(file) in NEEDLESS or match(plugin) is not None or meant_library(stem(file)) is not None:
                 continue  # The last ones are reported by Z825.

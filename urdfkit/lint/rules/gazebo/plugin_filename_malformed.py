@@ -7,10 +7,10 @@ from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
 
 
 class PluginFilenameMalformed(RobotRule):
-    """The file name of a plugin is malformed.
+    """The file name of a plugin is missing or malformed.
 
     ## What it does
-    Checks for white space and line breaks in ``filename``, and for libraries of Gazebo Classic without the prefix
+    Checks for plugins without ``filename``, for white space and line breaks in ``filename``, and for libraries of Gazebo Classic without the prefix
     ``lib`` or the suffix ``.so``.
 
     ## Why is this bad?
@@ -48,8 +48,13 @@ class PluginFilenameMalformed(RobotRule):
     def check(self, model: Model) -> Findings:
         """Yield a finding for each malformed file name."""
         for plugin, _, _ in plugins(model.robot):
-            name = plugin.filename
-            if name is None or "$" in name or model.is_unresolved(plugin.element, "filename"):
+            name = plugin.filename or ""
+            if not name.strip():
+                which = f" `{plugin.name.strip()}`" if (plugin.name or "").strip() else ""
+                message, help = f"plugin{which} has no filename", 'add filename="…", the library of the plugin'
+                yield self.at(model, plugin.element, message, attribute="filename", help=help)
+                continue
+            if "$" in name or model.is_unresolved(plugin.element, "filename"):
                 continue
             corrected = "".join(name.split())
             if corrected != name:

@@ -20,14 +20,16 @@ _SIZES = {
     "cylinder": ("radius", "length"),
     "sphere": ("radius",),
     "capsule": ("radius", "length"),
+    "mesh": ("scale",),
 }
 
 
 class NonpositivePrimitive(RobotRule):
-    """A box, cylinder, sphere or capsule has a size that is not positive.
+    """A box, cylinder, sphere or capsule has a size that is not positive, or a mesh has a scale of zero.
 
     ## What it does
-    Checks for sizes, radii and lengths that are zero or negative. Zero is a warning, and a note for the radius of a
+    Checks for sizes, radii and lengths that are zero or negative, and for zeros in the scale of a mesh; a negative
+    scale mirrors the mesh. Zero is a warning, and a note for the radius of a
     collision sphere, which exporters write for a contact point; both are errors for MuJoCo.
 
     ## Why is this bad?
@@ -66,9 +68,11 @@ class NonpositivePrimitive(RobotRule):
                     for attribute in _SIZES.get(element.tag, ()):
                         text = element.get(attribute, "") or ""
                         values = numbers(text) or []
-                        if any(value <= 0.0 for value in values) and not model.is_unresolved(element, attribute):
+                        is_mesh = element.tag == "mesh"
+                        if any(value == 0.0 if is_mesh else value <= 0.0 for value in values) and not model.is_unresolved(element, attribute):
                             severity = _severity(model, link, shape, element, values)
-                            message = f'link `{link.name}`: {attribute}="{text}" of <{element.tag}> must be positive'
+                            rule = "must not be zero" if is_mesh else "must be positive"
+                            message = f'link `{link.name}`: {attribute}="{text}" of <{element.tag}> {rule}'
                             place = root_cause(model, element, attribute, is_not_positive)
                             if place is None:
                                 yield self.at(
@@ -90,7 +94,7 @@ class NonpositivePrimitive(RobotRule):
 
 def _severity(model: Model, link: Link, shape: Visual | Collision, element: Element, values: list[float]) -> Severity:
     """Return ``error`` for a size that a reader of the target rejects."""
-    if model.target == "mujoco" or any(value < 0.0 for value in values):
+    if model.target == "mujoco" or (element.tag != "mesh" and any(value < 0.0 for value in values)):
         return "error"
     geometries = [each.geometry for each in link.collisions]
     is_placeholder = any(isinstance(geometry, Sphere) and geometry.radius == 0.0 for geometry in geometries)

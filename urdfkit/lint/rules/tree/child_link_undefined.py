@@ -1,7 +1,8 @@
 """T202 child-link-undefined."""
 
+from urdfkit.description.urdf.likely_children import meant_child
 from urdfkit.description.urdf.queries import dangling
-from urdfkit.lint.facts.parentless_links import meant_child
+from urdfkit.errors import suggestion
 from urdfkit.lint.fix_builders import new_value
 from urdfkit.lint.model.masked_names import unless_masked
 from urdfkit.lint.rule import Findings, Model, RobotRule
@@ -44,16 +45,16 @@ class ChildLinkUndefined(RobotRule):
     def check(self, model: Model) -> Findings:
         """Yield a finding for each joint with an undefined child link."""
         for joint, name, element in dangling(model.robot, "child"):
-            suggestion, hint = meant_child(model.robot, name)
+            meant = meant_child(model.robot, name)
             finding = self.at(
                 model,
                 element,
-                f"undefined child link `{name}` of joint `{joint.name}`{hint}",
+                f"undefined child link `{name}` of joint `{joint.name}`{suggestion(meant)}",
                 attribute="link",
                 joint=joint.name,
-                fix=new_value(model, element, "link", suggestion, "unsafe", f"Replace with `{suggestion}`")
-                if suggestion
+                fix=new_value(model, element, "link", meant, "unsafe", f"Replace with `{meant}`")
+                if meant
                 else None,
             )
             is_repaired = model.target == "urdfkit"
-            yield from unless_masked(model, name, suggestion, finding, is_repaired=is_repaired)
+            yield from unless_masked(model, name, meant, finding, is_repaired=is_repaired)

@@ -1,5 +1,6 @@
 """T205 multiple-parents."""
 
+from urdfkit.description.urdf.queries import is_loop, loop_closed_by
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
 
@@ -7,7 +8,7 @@ class MultipleParents(RobotRule):
     """A link is the child of more than one joint.
 
     ## What it does
-    Checks for links that several joints name as their child.
+    Checks for links that several joints name as their child. A joint that closes a loop is reported with the loop.
 
     ## Why is this bad?
     A URDF robot is a tree, so each link has at most one parent. check_urdf accepts the robot and silently keeps one of
@@ -43,15 +44,18 @@ class MultipleParents(RobotRule):
     def check(self, model: Model) -> Findings:
         """Yield a finding for each further joint with the same child."""
         for name, joints in model.robot.parents_of.items():
+            joints = [joint for joint in joints if not is_loop(joint)] or joints[:1]  # T204 reports the others.
             first = joints[0]
             for joint in joints[1:]:
                 if joint.name == first.name:
                     continue  # Reported by duplicate-joint.
+                loop = loop_closed_by(model.robot, joint)
+                closes = f"; `{joint.name}` closes the loop {' → '.join([*loop, loop[0]])}" if loop else ""
                 child = joint.element.find("child") or joint.element
                 yield self.at(
                     model,
                     child,
-                    f"link `{name}` is the child of both joint `{joint.name}` and joint `{first.name}`",
+                    f"link `{name}` is the child of both joint `{joint.name}` and joint `{first.name}`{closes}",
                     attribute="link",
                     link=name,
                     joint=joint.name,

@@ -41,15 +41,16 @@ class MultipleRoots(RobotRule):
 
     def check(self, model: Model) -> Findings:
         """Yield a finding for each root except that of the largest tree."""
+        from urdfkit.description.urdf.likely_children import likely_children
         from urdfkit.description.urdf.queries import dangling
 
         robot = model.robot
         roots = robot.roots()
         if len(roots) < 2:
             return
-        likely_children = _likely_children(robot)
+        likely = set(likely_children(robot).values())
         masked = model.masked_names
-        roots = [link for link in roots if link.name not in likely_children and not masked.has_child(link.name)]
+        roots = [link for link in roots if link.name not in likely and not masked.has_child(link.name)]
         if len(roots) < 2:
             return
         joint_by_unknown_child: dict[str, str] = {}
@@ -61,10 +62,10 @@ class MultipleRoots(RobotRule):
                 yield self.at(
                     model,
                     link.element,
-                    f"link `{link.name}` has no parent, but `{main.name}` is already the root",
+                    f"{f'link `{link.name}`' if link.name else 'a link without a name'} has no parent, but `{main.name}` is already the root",
                     attribute="name",
                     link=link.name,
-                    help=_suggested_change(joint_by_unknown_child, link.name, main.name),
+                    help=_suggested_change(joint_by_unknown_child, link.name, main.name) if link.name else None,
                 )
 
 
@@ -77,16 +78,6 @@ def _links_below(robot: Robot, name: str) -> int:
                 seen.add(joint.child)
                 pending.append(joint.child)
     return len(seen)
-
-
-def _likely_children(robot: Robot) -> set[str]:
-    """Return the suggested corrections of undefined child links."""
-    from urdfkit.description.urdf.queries import dangling
-    from urdfkit.lint.facts.parentless_links import meant_child
-
-    return {
-        suggestion for _, name, _ in dangling(robot, "child") if (suggestion := meant_child(robot, name)[0]) is not None
-    }
 
 
 def _suggested_change(joint_by_unknown_child: dict[str, str], name: str, root: str) -> str:

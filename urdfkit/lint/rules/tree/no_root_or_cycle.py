@@ -1,6 +1,6 @@
 """T204 no-root-or-cycle."""
 
-from urdfkit.description.urdf.queries import cycles
+from urdfkit.description.urdf.queries import cycles, is_loop
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
 
@@ -8,7 +8,7 @@ class NoRootOrCycle(RobotRule):
     """The joints of the robot form a loop.
 
     ## What it does
-    Follows the joints from child to parent and checks for loops.
+    Follows the joints from child to parent and checks for loops, and for joints that connect a link with itself.
 
     ## Why is this bad?
     A URDF robot is a tree, and a loop has no root. check_urdf and Pinocchio reject a robot that consists only of a
@@ -39,14 +39,21 @@ class NoRootOrCycle(RobotRule):
 
     def check(self, model: Model) -> Findings:
         """Yield a finding for each loop, at the last of its joints in the file."""
-        for loop in cycles(model.robot):
-            last = max(loop, key=model.robot.joints.index)
+        robot = model.robot
+        loops = cycles(robot)
+        found = {id(loop[0]) for loop in loops}
+        loops += [[joint] for joint in robot.joints if is_loop(joint) and id(joint) not in found]
+        for loop in loops:
+            last = max(loop, key=robot.joints.index)
             links = [str(joint.parent) for joint in loop]
+            message = f"the joints form a loop: {' → '.join([*links, links[0]])}"
+            if len(loop) == 1:
+                message = f"joint `{last.name}` connects link `{links[0]}` with itself"
             yield self.at(
                 model,
                 last.element,
-                f"the joints form a loop: {' → '.join([*links, links[0]])}",
+                message,
                 attribute="name",
                 joint=last.name,
-                help="remove one of the joints: each link has at most one parent",
+                help="remove one of the joints: each link has at most one parent" if len(loop) > 1 else None,
             )

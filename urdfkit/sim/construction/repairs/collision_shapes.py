@@ -10,10 +10,11 @@ from urdfkit.description.urdf.robot import Link, Problem, Robot
 from urdfkit.description.xml.element import Element
 from urdfkit.errors import with_effect
 from urdfkit.scene import Scene, Shape
-from urdfkit.scene.placeholders import shape_problems, unknown_shapes
+from urdfkit.scene.placeholders import impossible_visuals, shape_problems, unknown_shapes
 from urdfkit.sim.construction.repairs.inertia_tensors import repair_at
 from urdfkit.sim.construction.validation import invalid_sizes, sizes_not_positive
 
+_INVISIBLE = "the shape is left out: it is invisible"
 _SHOWN = 6
 """Largest number of links in a message."""
 
@@ -32,7 +33,11 @@ def without_empty_shapes(robot: Robot) -> tuple[Robot, list[Repair]]:
 
 def _without_empty(link: Link, problems: Mapping[Element, Problem], repairs: list[Repair]) -> Link:
     for visual in link.visuals:
-        repairs += unknown_shapes(link, visual, problems, "the shape is left out: it is invisible")
+        repairs += unknown_shapes(link, visual, problems, _INVISIBLE)
+    if invisible := list(impossible_visuals(link, _INVISIBLE)):
+        repairs += [repair for _, repair in invisible]
+        left_out = {id(visual) for visual, _ in invisible}
+        link = replace(link, visuals=tuple([visual for visual in link.visuals if id(visual) not in left_out]))
     kept = []
     for collision in link.collisions:
         if unknown := list(unknown_shapes(link, collision, problems, "the shape is left out: it has no contacts")):

@@ -102,6 +102,7 @@ def mass_repair(link: Link, inertials: list[Inertial], joint: Joint | None, basi
     written, element, code = link.inertial, link.element, "I511"
     if written is None:
         problem = "has no <inertial>"
+        code = {"parent": "T201", "child": "T202"}.get(element.tag, code)  # The link was added for a joint.
     elif not has_mass(link):
         problem = "has no mass"
         element, code = written.element, "E014"
