@@ -28,7 +28,11 @@ ROBOT = f"""<robot name="bad">
 </robot>
 """
 WARNINGS = [
-    ("T201", 4, "its parent link `bse` does not exist; an empty link `bse` is added, fixed to the origin of `base`; did you mean `base`?"),
+    (
+        "T201",
+        4,
+        "its parent link `bse` does not exist; an empty link `bse` is added, fixed to the origin of `base`",
+    ),
     ("T203", 5, "is missing; `stray` is fixed to the origin of `base`"),
     ("J416", 8, "mimic joints form a cycle: `wrist` → `wrist`; joint `wrist` moves by itself"),
 ]

@@ -29,7 +29,11 @@ CASES = {
         "T203",
         "`c` is fixed to the origin of `a`",
     ),
-    "undefined parent": (links("a", "b") + "\n" + joint("j", "aa", "b"), "T201", "an empty link `aa` is added, fixed to the origin of `a`"),
+    "undefined parent": (
+        links("a", "b") + "\n" + joint("j", "aa", "b"),
+        "T201",
+        "an empty link `aa` is added, fixed to the origin of `a`",
+    ),
     "undefined child": (
         links("a", "b") + joint("k", "a", "b") + "\n" + joint("j", "a", "bb"),
         "T202",

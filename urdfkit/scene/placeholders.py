@@ -38,9 +38,9 @@ _CLEAR = 0.5
 def with_placeholders(robot: Robot, scene: Scene) -> tuple[Scene, list[Repair]]:
     """Return a scene with a placeholder for each link that lacks shapes, and repairs of missing shapes and textures.
 
-    A shape is missing if its mesh cannot be loaded or has no size, its geometry is unknown, or a size is negative. The placeholder of
-    visual shapes has the bounding box of the collision shapes, and vice versa. A link with neither has a box around
-    its frame, its child joints and the solid box of its inertia. Negative sizes become positive.
+    A shape is missing if its mesh cannot be loaded or has no area, its geometry is unknown, or a size is negative.
+    The placeholder of visual shapes has the bounding box of the collision shapes, and vice versa. A link with neither
+    has a box around its frame, its child joints and the solid box of its inertia. Negative sizes become positive.
 
     Args:
         robot: the robot.

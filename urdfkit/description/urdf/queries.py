@@ -46,7 +46,7 @@ def is_loop(joint: Joint) -> bool:
 
 
 def loop_closed_by(robot: Robot, joint: Joint, *, most: int = 100) -> list[str]:
-    """Return the links of the loop that a second parent of a link closes, the link first; empty if there is none.
+    """Return the links of the loop that a second parent of a link closes, the link first; empty without a loop.
 
     Args:
         robot: the robot.

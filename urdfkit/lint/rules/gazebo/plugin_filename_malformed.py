@@ -10,8 +10,8 @@ class PluginFilenameMalformed(RobotRule):
     """The file name of a plugin is missing or malformed.
 
     ## What it does
-    Checks for plugins without ``filename``, for white space and line breaks in ``filename``, and for libraries of Gazebo Classic without the prefix
-    ``lib`` or the suffix ``.so``.
+    Checks for plugins without ``filename``, for white space and line breaks in it, and for libraries of Gazebo Classic
+    without the prefix ``lib`` or the suffix ``.so``.
 
     ## Why is this bad?
     Gazebo reports "Failed to load plugin", because the file does not exist.
@@ -50,8 +50,8 @@ class PluginFilenameMalformed(RobotRule):
         for plugin, _, _ in plugins(model.robot):
             name = plugin.filename or ""
             if not name.strip():
-                which = f" `{plugin.name.strip()}`" if (plugin.name or "").strip() else ""
-                message, help = f"plugin{which} has no filename", 'add filename="…", the library of the plugin'
+                label = f" `{plugin.name.strip()}`" if plugin.name and plugin.name.strip() else ""
+                message, help = f"plugin{label} has no filename", 'add filename="…", the library of the plugin'
                 yield self.at(model, plugin.element, message, attribute="filename", help=help)
                 continue
             if "$" in name or model.is_unresolved(plugin.element, "filename"):

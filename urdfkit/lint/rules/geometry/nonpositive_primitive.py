@@ -69,7 +69,9 @@ class NonpositivePrimitive(RobotRule):
                         text = element.get(attribute, "") or ""
                         values = numbers(text) or []
                         is_mesh = element.tag == "mesh"
-                        if any(value == 0.0 if is_mesh else value <= 0.0 for value in values) and not model.is_unresolved(element, attribute):
+                        if any(
+                            value == 0.0 if is_mesh else value <= 0.0 for value in values
+                        ) and not model.is_unresolved(element, attribute):
                             severity = _severity(model, link, shape, element, values)
                             rule = "must not be zero" if is_mesh else "must be positive"
                             message = f'link `{link.name}`: {attribute}="{text}" of <{element.tag}> {rule}'

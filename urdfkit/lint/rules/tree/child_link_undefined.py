@@ -52,9 +52,7 @@ class ChildLinkUndefined(RobotRule):
                 f"undefined child link `{name}` of joint `{joint.name}`{suggestion(meant)}",
                 attribute="link",
                 joint=joint.name,
-                fix=new_value(model, element, "link", meant, "unsafe", f"Replace with `{meant}`")
-                if meant
-                else None,
+                fix=new_value(model, element, "link", meant, "unsafe", f"Replace with `{meant}`") if meant else None,
             )
             is_repaired = model.target == "urdfkit"
             yield from unless_masked(model, name, meant, finding, is_repaired=is_repaired)

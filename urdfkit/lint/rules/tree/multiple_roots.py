@@ -59,10 +59,11 @@ class MultipleRoots(RobotRule):
         main = max(roots, key=lambda link: _links_below(robot, link.name))
         for link in roots:
             if link is not main:
+                label = f"link `{link.name}`" if link.name else "a link without a name"
                 yield self.at(
                     model,
                     link.element,
-                    f"{f'link `{link.name}`' if link.name else 'a link without a name'} has no parent, but `{main.name}` is already the root",
+                    f"{label} has no parent, but `{main.name}` is already the root",
                     attribute="name",
                     link=link.name,
                     help=_suggested_change(joint_by_unknown_child, link.name, main.name) if link.name else None,
