@@ -331,3 +331,16 @@ def test_two_nodes_of_one_name_in_python(source, second, is_reported):
     text = f"def generate_launch_description():\n    return LaunchDescription([{first}, {second}])\n"
     write(package / "launch/two.launch.py", text)
     assert any("has the name `view` too" in each for each in findings(source)) is is_reported
+
+
+def test_the_paths_of_the_setup_assistant_exist_unless_the_builder_replaces_them(source):
+    package = source / "cart_description"
+    config = (
+        "moveit_setup_assistant_config:\n  urdf:\n    package: cart_description\n    relative_path: cart.urdf.xacro\n"
+    )
+    write(package / ".setup_assistant", config)
+    launch = 'import moveit_configs_utils as m\n\nm.MoveItConfigsBuilder("cart", package_name="{}"){}\n'
+    write(package / "launch/move.launch.py", launch.format("cart_description", ""))
+    assert "M111" in codes(source)
+    write(package / "launch/move.launch.py", launch.format("cart_description", ".robot_description(file_path=urdf)"))
+    assert "M111" not in codes(source)

@@ -211,6 +211,9 @@ RELATED_FILES: tuple[Row, ...] = (
     (_LAUNCH, "launch.node_name_duplicate", "NodeNameDuplicate"),
     (_LAUNCH, "launch.controller_parameters_missing", "ControllerParametersMissing"),
     (_LAUNCH, "launch.robot_description_missing", "RobotDescriptionMissing"),
+    (_LAUNCH, "launch.xacro_argument_malformed", "XacroArgumentMalformed"),
+    (_LAUNCH, "launch.launch_argument_duplicate", "LaunchArgumentDuplicate"),
+    (_LAUNCH, "launch.launch_include_cycle", "LaunchIncludeCycle"),
     (_SRDF, "moveit.srdf_not_well_formed", "SrdfNotWellFormed"),
     (_SRDF, "moveit.srdf_element_unknown", "SrdfElementUnknown"),
     (_SRDF, "moveit.srdf_of_other_robot", "SrdfOfOtherRobot"),
@@ -221,6 +224,7 @@ RELATED_FILES: tuple[Row, ...] = (
     (_SRDF, "moveit.moveit_name_undefined", "MoveitNameUndefined"),
     (_SRDF, "moveit.moveit_setting_invalid", "MoveitSettingInvalid"),
     (_SRDF, "moveit.srdf_adjacent_pair_missing", "SrdfAdjacentPairMissing"),
+    (_PYTHON, "moveit.moveit_configuration_missing", "MoveitConfigurationMissing"),
 )
 """Robot rules that run if the package has files with one of the suffixes."""
 

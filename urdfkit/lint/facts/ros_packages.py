@@ -118,7 +118,11 @@ def names() -> frozenset[str]:
     return frozenset(_NAMES.split())
 
 
-def misspelling_of(name: str, others: Iterable[str]) -> str | None:
+_SUCCESSORS = {"rviz": "rviz2", "tf": "tf2_ros"}
+"""Package of ROS 1 → the package of ROS 2 with the same executables."""
+
+
+def misspelling_of(name: str, others: Iterable[str], version: int = 0) -> str | None:
     """Return the package that a name misspells by one letter or two swapped letters; None if it misspells none.
 
     Names that differ by a digit or a final ``s`` can be two packages, as can short names of Python modules.
@@ -126,8 +130,11 @@ def misspelling_of(name: str, others: Iterable[str]) -> str | None:
     Args:
         name: the name in the file.
         others: further valid names, such as the packages of the workspace.
+        version: version of ROS that reads the file, which lacks some packages of the other version; 0 if it is unknown.
     """
     valid = names() | set(others)
+    if version == 2 and name in _SUCCESSORS and name not in others:
+        return _SUCCESSORS[name]
     if name in valid or len(name) < 4 or re.fullmatch(r"python3?-\w{1,4}", name):
         return None
     from urdfkit.errors import similar

@@ -11,7 +11,7 @@ from urdfkit.description.xml.source import Source
 from urdfkit.lint.facts.control.controller_joints import Named
 from urdfkit.lint.facts.control.launch_package_paths import uncommented
 from urdfkit.lint.facts.control.yaml_tree import Node, documents, start_of
-from urdfkit.lint.facts.launch.records import Call, Declared, Executable, LaunchActions
+from urdfkit.lint.facts.launch.records import WITHOUT_COLON, Call, Declared, Executable, LaunchActions
 from urdfkit.lint.facts.launch.ros_version import reads_ros1
 from urdfkit.lint.model.model import Model
 from urdfkit.lint.model.tags import Document, Tag
@@ -69,7 +69,7 @@ def _actions_of(source: Source, is_ros1: bool) -> LaunchActions:
         group = 1 if use[1] is not None else 2
         found.used.append((Named(use[group], use.start(group)), False))
     for root in roots:
-        _read(root, found)
+        _read(root, found, False)
     return found
 
 
@@ -79,8 +79,9 @@ def share_of(text: str) -> tuple[str, str]:
     return (match[1], match[2]) if match else ("", "")
 
 
-def _read(action: LaunchAction, found: LaunchActions) -> None:
+def _read(action: LaunchAction, found: LaunchActions, is_conditional: bool) -> None:
     at, tag = action.attributes, action.tag
+    is_conditional |= "if" in at or "unless" in at
     name = at.get("name")
     if tag == "arg" and name is not None:
         is_fixed = "value" in at
@@ -95,7 +96,8 @@ def _read(action: LaunchAction, found: LaunchActions) -> None:
         package, path = share_of(at["file"].name if "file" in at else "")
         passed = [child.attributes["name"] for child in action.children if _passes(child)]
         is_all = "pass_all_args" in at
-        found.includes.append(Call(package, path, action.start, action.end, tuple(passed), is_all))
+        call = Call(package, path, action.start, action.end, tuple(passed), is_all, is_conditional=is_conditional)
+        found.includes.append(call)
         return
     elif tag in ("node", "composable_node", "node_container") and "pkg" in at:
         program = at.get("type") or at.get("exec")
@@ -109,9 +111,10 @@ def _read(action: LaunchAction, found: LaunchActions) -> None:
             start = one.start + command.start(1)
             passed = [Named(word[1], start + word.start(1)) for word in re.finditer(_PASSED, command[1])]
             end = start + len(command[1])
-            found.xacro.append(Call(package, path, start, end, tuple(passed), bool(defaults)))
+            malformed = [Named(word[1], start + word.start(1)) for word in re.finditer(WITHOUT_COLON, command[1])]
+            found.xacro.append(Call(package, path, start, end, tuple(passed), bool(defaults), tuple(malformed)))
     for child in action.children:
-        _read(child, found)
+        _read(child, found, is_conditional)
 
 
 def _passes(child: LaunchAction) -> bool:

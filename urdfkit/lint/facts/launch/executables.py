@@ -11,7 +11,7 @@ from urdfkit.record import record
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Iterable, Mapping
 
 _RELEASED = """
 robot_state_publisher: robot_state_publisher state_publisher; joint_state_publisher: joint_state_publisher;
@@ -48,6 +48,19 @@ pointcloud_to_laserscan: pointcloud_to_laserscan_node laserscan_to_pointcloud_no
 """
 """Package: executables; of Noetic, Humble, Jazzy and Rolling (their CMakeLists.txt and setup.py)."""
 
+_ONLY_IN = {
+    1: """robot_state_publisher: state_publisher; controller_manager: controller_manager controller_group; xacro:
+    xacro.py; gazebo_ros: gazebo spawn_model debug perf gdbrun urdf2gazebo libcommon.sh; teleop_twist_keyboard:
+    teleop_twist_keyboard.py; robot_localization: ekf_localization_node ukf_localization_node""",
+    2: """controller_manager: ros2_control_node hardware_spawner; gazebo_ros: spawn_entity.py; robot_localization:
+    ekf_node ukf_node robot_localization_listener_node""",
+}
+"""Version of ROS → executables that no release of the other version has."""
+
+_UNTIL_GALACTIC = "controller_manager: spawner.py unspawner.py hardware_spawner.py"
+_SINCE_HUMBLE = ("gz_ros2_control", "ros_gz_sim", "ros_gz_bridge")
+"""Packages that no release before Humble has."""
+
 _LITERAL = r"\b(?:add_executable|ament_auto_add_executable|catkin_add_executable)\s*\(\s*([^\s()]+)"
 _ENTRY_POINT = r"(?m)[\"']?\b([\w.-]+)\s*=\s*[\w.]+:\w+"
 _MAX_FILES = 3_000
@@ -71,8 +84,28 @@ class Executables:
 @cache
 def released() -> Mapping[str, Executables]:
     """Return package → the executables of common released packages; others may exist in other releases."""
-    pairs = (entry.partition(":") for entry in _RELEASED.strip(";\n").split(";"))
-    return {name.strip(): Executables(tuple(names.split()), frozenset(), False) for name, _, names in pairs}
+    return {name: Executables(tuple(names), frozenset(), False) for name, names in _names(_RELEASED).items()}
+
+
+def is_of_other_release(package: str, program: str, version: int, texts: Iterable[str]) -> bool:
+    """Return whether only releases that a workspace cannot use have an executable of a released package.
+
+    Args:
+        package: a released package.
+        program: one of its executables in any release.
+        version: version of ROS that reads the launch file; 0 if it is unknown.
+        texts: texts of files of the workspace, which can name packages of Humble and later.
+    """
+    if version and program in _names(_ONLY_IN[3 - version]).get(package, ()):
+        return True
+    is_old = version == 2 and program in _names(_UNTIL_GALACTIC).get(package, ())
+    return is_old and any(name in text for text in texts for name in _SINCE_HUMBLE)
+
+
+@cache
+def _names(table: str) -> dict[str, list[str]]:
+    pairs = (entry.partition(":") for entry in table.strip(";\n").split(";"))
+    return {name.strip(): names.split() for name, _, names in pairs}
 
 
 def executables_of(package: Path, name: str) -> Executables | None:

@@ -26,7 +26,7 @@ def duplicates(source: Source, tree: ast.Module) -> Iterator[tuple[str, Span, in
     reader = LaunchReader(tree)
     for function in (node for node in ast.walk(tree) if isinstance(node, ast.FunctionDef)):
         first: dict[tuple[str, str], ast.Call] = {}
-        calls = (call for statement in function.body for call in _calls(statement))
+        calls = (call for statement in function.body for call in calls_in(statement, _NODES))
         for call in sorted(calls, key=lambda each: (each.lineno, each.col_offset)):
             words = {word.arg: word.value for word in call.keywords if word.arg is not None}
             name, space = (reader.text(words[key]) if key in words else "" for key in ("name", "namespace"))
@@ -42,13 +42,13 @@ def _has_condition(call: ast.Call) -> bool:
     return any(word.arg == "condition" for word in call.keywords)
 
 
-def _calls(statement: ast.AST) -> Iterator[ast.Call]:
-    """Yield the nodes that a statement creates whenever it runs."""
+def calls_in(statement: ast.AST, names: tuple[str, ...]) -> Iterator[ast.Call]:
+    """Yield the calls of some classes that a statement makes whenever it runs."""
     pending = [statement]
     for part in pending:  # The list grows during the iteration.
         called = name_of(part.func) if isinstance(part, ast.Call) else ""
         if isinstance(part, _CONDITIONAL) or called == "GroupAction":
             continue
-        if isinstance(part, ast.Call) and called in _NODES:
+        if isinstance(part, ast.Call) and called in names:
             yield part
         pending += ast.iter_child_nodes(part)

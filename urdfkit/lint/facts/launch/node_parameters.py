@@ -1,4 +1,4 @@
-"""Parameters of well-known nodes in YAML, by the names that the nodes have by default.
+"""Parameters of well-known nodes in YAML, by the names that the nodes have by default, and in launch files.
 
 Sources: teleop_twist_joy and joy (README.md), twist_mux (src/twist_mux.cpp), robot_localization (params/ekf.yaml),
 slam_toolbox (config/mapper_params_online_async.yaml), nav2_amcl (src/amcl_node.cpp), Noetic to Rolling.
@@ -6,11 +6,16 @@ slam_toolbox (config/mapper_params_online_async.yaml), nav2_amcl (src/amcl_node.
 
 from __future__ import annotations
 
+import ast
 from collections.abc import Iterator
 from functools import cache
 
+from urdfkit.description.launch.python_constants import LaunchReader, name_of, parsed
 from urdfkit.description.xml.source import Source
+from urdfkit.lint.facts.control.controller_joints import Named
+from urdfkit.lint.facts.control.launch_package_paths import place
 from urdfkit.lint.facts.control.yaml_tree import Node, documents
+from urdfkit.lint.model.tags import Document
 
 _PARAMETERS = """
 teleop_twist_joy_node teleop_twist_joy: require_enable_button enable_button enable_turbo_button axis_linear axis_angular
@@ -34,14 +39,82 @@ scan_topic map_topic set_initial_pose always_reset_initial_pose first_map_only;
 """
 """Names of nodes: parameters; similar names are misspelt ones, other names are ignored."""
 
+_OF_PACKAGES = """
+ros_gz_bridge: config_file expand_gz_topic_names override_timestamps_with_wall_time subscription_heartbeat bridge_names
+override_frame_id; robot_state_publisher: publish_frequency ignore_timestamp frame_prefix use_tf_static tf_prefix;
+joint_state_publisher joint_state_publisher_gui: source_list dependent_joints publish_default_positions use_mimic_tags
+publish_default_velocities publish_default_efforts use_smallest_joint_limits;
+"""
+"""Packages: parameters of their nodes (ros_gz_bridge, robot_state_publisher and joint_state_publisher of Jazzy).
+
+The nodes of the packages in `_NODES` have the parameters in `_PARAMETERS`.
+"""
+
+_NODES = {
+    "joy": "joy_node",
+    "nav2_amcl": "amcl",
+    "robot_localization": "ekf_filter_node",
+    "slam_toolbox": "slam_toolbox",
+    "teleop_twist_joy": "teleop_twist_joy_node",
+    "twist_mux": "twist_mux",
+}
+"""Package → the default name of its node."""
+
 _MIN_LENGTH = 5
 """Length of a parameter from which on a similar name is a misspelt one."""
 
 
 @cache
-def _parameters() -> dict[str, tuple[str, ...]]:
-    rows = (row.partition(":") for row in _PARAMETERS.strip(";\n").split(";"))
+def _parameters(table: str = _PARAMETERS) -> dict[str, tuple[str, ...]]:
+    rows = (row.partition(":") for row in table.strip(";\n").split(";"))
     return {name: tuple(accepted.split()) for names, _, accepted in rows for name in names.split()}
+
+
+def misspelt_in_launch(source: Source) -> Iterator[tuple[Named, str, str]]:
+    """Yield the misspelt parameters of well-known nodes in a launch file: key, package, suggested name."""
+    from urdfkit.lint.facts.ros_packages import is_slip
+
+    for package, keys in _in_python(source) if source.file.endswith(".py") else _in_xml(source):
+        accepted = _parameters(_OF_PACKAGES).get(package) or _parameters().get(_NODES.get(package, ""), ())
+        written = {key.name for key in keys}
+        lacking = [each for each in accepted if each not in written and len(each) >= _MIN_LENGTH]
+        for key in keys:
+            near = next((each for each in lacking if is_slip(key.name, each)), None)
+            if near is not None and key.name not in accepted:
+                yield key, package, near
+
+
+def _in_xml(source: Source) -> Iterator[tuple[str, list[Named]]]:
+    if not source.file.endswith((".launch", ".xml")):
+        return
+    for tag in (tag for root in Document(source).roots for tag in root.walk() if tag.name == "node"):
+        inner = [
+            child.attributes["name"] for child in tag.children if child.name == "param" if "name" in child.attributes
+        ]
+        if "pkg" in tag.attributes:
+            yield tag.attributes["pkg"].value, [Named(each.value, each.value_start) for each in inner]
+
+
+def _in_python(source: Source) -> Iterator[tuple[str, list[Named]]]:
+    tree = parsed(source) if any(name in source.text for name in (*_parameters(_OF_PACKAGES), *_NODES)) else None
+    if tree is None:
+        return
+    reader = LaunchReader(tree)
+    for call in (each for each in ast.walk(tree) if isinstance(each, ast.Call) and name_of(each.func) == "Node"):
+        words = {word.arg: word.value for word in call.keywords}
+        package, listed = (words.get(key) for key in ("package", "parameters"))
+        if package is None or not isinstance(listed, (ast.List, ast.Tuple)):
+            continue
+        items = [reader.assigned.get(item.id) if isinstance(item, ast.Name) else item for item in listed.elts]
+        keys = [key for item in items if isinstance(item, ast.Dict) for key in item.keys]
+        yield (
+            reader.text(package) or "",
+            [
+                Named(key.value, place(source, key)[0] + 1)
+                for key in keys
+                if isinstance(key, ast.Constant) and isinstance(key.value, str)
+            ],
+        )
 
 
 def misspelt_parameters(source: Source) -> Iterator[tuple[Node, str, str]]:

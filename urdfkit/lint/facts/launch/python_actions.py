@@ -10,7 +10,15 @@ from urdfkit.description.launch.python_constants import LaunchReader, name_of, p
 from urdfkit.description.xml.source import Source
 from urdfkit.lint.facts.control.controller_joints import Named
 from urdfkit.lint.facts.control.launch_package_paths import place
-from urdfkit.lint.facts.launch.records import COMPUTED, IMPORTED, Call, Declared, Executable, LaunchActions
+from urdfkit.lint.facts.launch.records import (
+    COMPUTED,
+    IMPORTED,
+    WITHOUT_COLON,
+    Call,
+    Declared,
+    Executable,
+    LaunchActions,
+)
 
 _NODES = ("Node", "LifecycleNode", "ComposableNodeContainer")
 _DECLARATIONS = ("DeclareLaunchArgument", "DeclareBooleanLaunchArg")
@@ -34,9 +42,14 @@ def read_python(source: Source) -> LaunchActions:
 class _PythonActions:
     def __init__(self, source: Source, tree: ast.Module, found: LaunchActions) -> None:
         self._source, self._tree, self._found, self._constants = source, tree, found, LaunchReader(tree)
+        self._conditional = set[ast.AST]()
 
     def read(self) -> None:
         for node in ast.walk(self._tree):
+            is_conditional = isinstance(node, (ast.If, ast.IfExp, ast.Try, ast.While, ast.For)) or (
+                isinstance(node, ast.Call) and any(word.arg == "condition" for word in node.keywords)
+            )
+            self._conditional.update(ast.walk(node) if is_conditional else ())
             if isinstance(node, ast.Call):
                 self._call(node)
             elif isinstance(node, ast.Subscript) and name_of(node.value) == "launch_configurations":
@@ -73,7 +86,7 @@ class _PythonActions:
         elif kind == "IncludeLaunchDescription":
             file = first or keywords.get("launch_description_source")
             passed, is_all = self._pairs(keywords.get("launch_arguments"))
-            self._add(found.includes, self._file(file), node, passed, is_all)
+            self._add(found.includes, self._file(file), node, passed, is_all, is_conditional=node in self._conditional)
         elif kind in ("process_file", "process"):
             passed, is_all = self._pairs(keywords.get("mappings"))
             self._add(found.xacro, self._path(first), node, passed, is_all)
@@ -84,11 +97,19 @@ class _PythonActions:
             found.nodes.append(Executable(*names))
 
     def _add(
-        self, calls: list[Call], file: tuple[str, str], node: ast.expr, passed: list[Named], passes_all: bool
+        self,
+        calls: list[Call],
+        file: tuple[str, str],
+        node: ast.expr,
+        passed: list[Named],
+        passes_all: bool,
+        without_colon: tuple[Named, ...] = (),
+        is_conditional: bool = False,
     ) -> None:
         start, end = place(self._source, node)
         first_line = self._source.text.find("\n", start)
-        calls.append(Call(*file, start, min(end, first_line if first_line > 0 else end), tuple(passed), passes_all))
+        end = min(end, first_line if first_line > 0 else end)
+        calls.append(Call(*file, start, end, tuple(passed), passes_all, without_colon, is_conditional))
 
     def _named(self, node: ast.expr) -> Named | None:
         """Return a literal text with the offset of its first character."""
@@ -156,7 +177,13 @@ class _PythonActions:
         defaults = [] if paths else [found for part in parts if (found := self._default(part))[0]]
         paths += defaults
         is_computed = bool(defaults) or any(isinstance(part, (ast.Starred, ast.BinOp, ast.JoinedStr)) for part in parts)
-        self._add(self._found.xacro, paths[0] if paths else ("", ""), node, passed, is_computed)
+        malformed = tuple(
+            Named(word[1], text.start + word.start(1))
+            for text in texts
+            if text is not None
+            for word in re.finditer(WITHOUT_COLON, text.name)
+        )
+        self._add(self._found.xacro, paths[0] if paths else ("", ""), node, passed, is_computed, malformed)
 
     def _default(self, node: ast.expr) -> tuple[str, str]:
         """Return package and path of the default of the launch argument in ``LaunchConfiguration("name")``."""

@@ -34,13 +34,18 @@ OUTSIDE = {
 """Package and file of launch files from outside → their arguments (gazebo_ros Noetic and Humble, ros_gz Jazzy)."""
 
 _FILES = {
-    "gazebo_ros": "empty_world.launch gazebo.launch.py gzserver.launch.py gzclient.launch.py mud_world.launch",
-    "ros_gz_sim": "gz_sim.launch.py gz_server.launch.py gz_spawn_model.launch.py ros_gz_sim.launch.py",
+    "gazebo_ros": "empty_world.launch gazebo.launch.py gzserver.launch.py gzclient.launch.py mud_world.launch"
+    " elevator_world.launch range_world.launch rubble_world.launch shapes_world.launch willowgarage_world.launch",
+    "ros_gz_sim": "gz_sim.launch.py gz_server.launch.py gz_spawn_model.launch.py ros_gz_sim.launch.py"
+    " ros_gz_spawn_model.launch.py gz_remove_model.launch.py",
     "nav2_bringup": "bringup_launch.py navigation_launch.py localization_launch.py slam_launch.py rviz_launch.py",
     "slam_toolbox": "online_async_launch.py online_sync_launch.py offline_launch.py localization_launch.py",
     "urdf_launch": "display.launch.py description.launch.py",
 }
 """Package from outside → some of its launch files."""
+
+_WHOLE = ("gazebo_ros", "ros_gz_sim")
+"""Packages of which all launch files in all releases are known."""
 
 _MAX_FILES = 50
 
@@ -56,13 +61,17 @@ def receiver(call: Call, model: Model) -> Path | None:
 
 
 def misspelt_file(call: Call) -> str | None:
-    """Return the launch file of a package from outside that a call misspells by one letter; None without one."""
+    """Return the launch file of a package from outside that a call misspells; None without one.
+
+    If only some files of the package are known, the names must differ by one letter.
+    """
     from urdfkit.lint.facts.ros_packages import is_slip
     from urdfkit.lint.fix_builders import nearest
 
     files, written = _FILES.get(call.package, "").split(), call.path.rpartition("/")[2]
-    near = nearest(written, files, cutoff=0.8) if written and written not in files else None
-    return near if near is not None and is_slip(written, near) else None
+    is_whole = call.package in _WHOLE and written.endswith((".launch", ".py"))
+    near = nearest(written, files, cutoff=0.6 if is_whole else 0.8) if written and written not in files else None
+    return near if near is not None and (is_whole or is_slip(written, near)) else None
 
 
 def actions_at(path: Path, model: Model) -> LaunchActions | None:

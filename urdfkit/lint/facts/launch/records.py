@@ -12,6 +12,9 @@ COMPUTED = "\0"
 IMPORTED = "\1"
 """Name of arguments that imported modules can declare."""
 
+WITHOUT_COLON = r"(?:(?<=\s)|^)([A-Za-z_]\w*)=(?!=)"
+"""Matches the name in a word ``name=value`` of a xacro command."""
+
 
 @record(eq=False)
 class Declared:
@@ -39,6 +42,8 @@ class Call:
         end: offset after the action, or after its first tag.
         passed: the arguments that it passes.
         passes_all: whether it may pass more arguments, or names another file than the default of a launch argument.
+        without_colon: the words ``name=value`` of a xacro command, which xacro takes for file names.
+        is_conditional: whether it is run under a condition only.
     """
 
     package: str
@@ -47,6 +52,8 @@ class Call:
     end: int
     passed: tuple[Named, ...]
     passes_all: bool = False
+    without_colon: tuple[Named, ...] = ()
+    is_conditional: bool = False
 
 
 @record(eq=False)

@@ -26,6 +26,11 @@ def ros_version(source: Source) -> int:
     return 0 if not ros2 and ros1 >= _MANY else 2
 
 
+def reads_version(source: Source) -> int:
+    """Return the ROS version that reads a launch file, or 0 if its words contradict; ROS 2 reads Python."""
+    return 2 if source.file.endswith(".py") else ros_version(source)
+
+
 def reads_ros1(source: Source) -> bool:
     """Return whether roslaunch reads a launch file in XML; by the suffix and ROS 2 words if its words contradict."""
     version = ros_version(source)

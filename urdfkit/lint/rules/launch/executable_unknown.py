@@ -9,6 +9,8 @@ TYPE_CHECKING = False
 if TYPE_CHECKING:
     from urdfkit.lint.facts.launch.executables import Executables
 
+_RELEASES = {1: "ROS 1", 2: "this release of ROS 2"}
+
 
 class ExecutableUnknown(RobotRule):
     """A launch file starts an executable that its package does not have.
@@ -16,7 +18,8 @@ class ExecutableUnknown(RobotRule):
     ## What it does
     Compares the ``exec``, ``type`` or ``executable`` of nodes with the executables that CMakeLists.txt, setup.py or
     setup.cfg of a package next to the robot's package define, and for catkin also with the files of the package. For
-    about fifty common released packages, the rule reports misspelt executables.
+    about fifty common released packages, the rule reports misspelt executables, and for some of these packages those
+    of the other version of ROS.
 
     ## Why is this bad?
     The launch fails with "executable not found on the libexec directory" or "Cannot locate node of type".
@@ -42,17 +45,22 @@ class ExecutableUnknown(RobotRule):
     def check(self, model: Model) -> Findings:
         """Yield a finding for each unknown executable."""
         from urdfkit.description.packages.related_files import neighbours
+        from urdfkit.errors import suggestion
         from urdfkit.lint.facts.launch.actions import launch_files
-        from urdfkit.lint.facts.launch.executables import executables_of, released
+        from urdfkit.lint.facts.launch.executables import executables_of, is_of_other_release, released
+        from urdfkit.lint.facts.launch.ros_version import reads_version
+        from urdfkit.lint.facts.ros_packages import misspelling_of
         from urdfkit.lint.fix_builders import nearest
 
         if model.package is None:
             return
         near = neighbours(model.package)
+        texts = [source.text for source in model.related_files.values()]
         by_package: dict[str, Executables | None] = {**released()}
         for package in near:
             by_package.pop(package, None)
         for file in launch_files(model):
+            version = reads_version(file.source)
             for node in file.nodes:
                 if node.package is None or node.program is None:
                     continue
@@ -62,12 +70,20 @@ class ExecutableUnknown(RobotRule):
                 if package not in by_package:
                     by_package[package] = executables_of(near[package], package) if package in near else None
                 found = by_package[package]
-                if found is None or program in found.names or program in found.words:
+                if found is None or misspelling_of(package, near, version) is not None:
+                    continue  # package-xml-dependency reports a package of the other version
+                others = [
+                    name
+                    for name in (found.names if package not in near else ())
+                    if is_of_other_release(package, name, version, texts)
+                ]
+                if program not in others and (program in found.names or program in found.words):
                     continue
-                suggestion = nearest(program, found.names, cutoff=0.7)
-                if suggestion is None and not found.is_complete:
+                names = [name for name in found.names if name not in others]
+                meant = nearest(program, names, cutoff=0.6 if program in others else 0.7)
+                if meant is None and not found.is_complete and program not in others:
                     continue
-                hint = f"; did you mean `{suggestion}`?" if suggestion is not None else ""
-                message = f"package `{package}` has no executable `{program}`{hint}"
+                release = f" in {_RELEASES[version]}" if program in others else ""
+                message = f"package `{package}` has no executable `{program}`{release}{suggestion(meant)}"
                 span = file.source.span(node.program.start, node.program.start + len(program))
                 yield Finding(self.code, self.name, self.severity, message, span)

@@ -18,6 +18,9 @@ _NAMES = ("use_sim_time", "robot_description")
 _TOPICS = (*_NAMES, "joint_states", "controller_manager")
 _QUOTED = r"[\"'](?:(?:[\w~/]*/)?(?P<name>[A-Za-z]\w{8,20})|[\w~/]*/(?P<dashed>[A-Za-z][\w-]{8,20}))[\"']"
 _KEY = r"(?m)(?<=[\s{,])(?P<name>[A-Za-z]\w{8,20})(?=[ \t]*:)(?P<dashed>)"
+_WORLD = r"(?<![\w/.-])([A-Za-z]\w+)\.sdf\b"
+_WORLDS = ("empty", "shapes", "sensors", "visualize_lidar", "diff_drive", "gpu_lidar_sensor")
+"""Worlds of gz-sim (examples/worlds), which need no path."""
 _SUBSCRIBED = {
     "controller_manager": "robot_description",
     "joint_state_publisher": "joint_states",
@@ -34,9 +37,10 @@ class LaunchNameMisspelt(RobotRule):
     ## What it does
     Compares quoted words in launch files with ``use_sim_time``, ``robot_description``, ``joint_states`` and
     ``controller_manager``, keys in YAML files with the first two, and the topics that remappings of common nodes
-    replace with the topics of these nodes. In YAML files, also compares the parameters of common nodes, such as
-    ``teleop_twist_joy_node`` and ``amcl``, with the parameters of these nodes. Words that differ by more than one
-    letter, or that the file declares as a launch argument, are accepted.
+    replace with the topics of these nodes. Also compares the parameters of common nodes, such as
+    ``teleop_twist_joy_node`` and ``parameter_bridge``, with the parameters of these nodes, and worlds without a path
+    with those of Gazebo. Words that differ by more than one letter, or that the file declares as a launch argument, are
+    accepted.
 
     ## Why is this bad?
     The node does not use the simulated time, or waits for a description that is never published.
@@ -65,7 +69,7 @@ class LaunchNameMisspelt(RobotRule):
         from urdfkit.lint.facts.control.launch_package_paths import uncommented
         from urdfkit.lint.facts.control.yaml_tree import span_of
         from urdfkit.lint.facts.launch.actions import actions_of
-        from urdfkit.lint.facts.launch.node_parameters import misspelt_parameters
+        from urdfkit.lint.facts.launch.node_parameters import misspelt_in_launch, misspelt_parameters
         from urdfkit.lint.facts.ros_packages import is_slip
 
         for source in model.related_files.values():
@@ -85,6 +89,14 @@ class LaunchNameMisspelt(RobotRule):
             for key, node, near in () if is_launch else misspelt_parameters(source):
                 message = f"unknown parameter `{key.text}` of node `{node}`; did you mean `{near}`?"
                 yield Finding(self.code, self.name, "warning", message, span_of(source, key))
+            for parameter, package, near in misspelt_in_launch(source) if is_launch else ():
+                message = f"unknown parameter `{parameter.name}` of a node of `{package}`; did you mean `{near}`?"
+                span = source.span(parameter.start, parameter.start + len(parameter.name))
+                yield Finding(self.code, self.name, "warning", message, span)
+            for world in re.finditer(_WORLD, uncommented(source)) if is_launch and "gz" in source.text else ():
+                near = next((name for name in _WORLDS if is_slip(world[1], name)), None)
+                if near is not None and world[1] not in _WORLDS:
+                    yield self._at(source, f"{world[1]}.sdf", world.start(1), f"{near}.sdf")
             if is_launch and not source.file.endswith(".py"):
                 for topic, near in _remapped(source):
                     yield self._at(source, topic.name, topic.start, near)

@@ -19,8 +19,8 @@ class PythonLaunchApiMisused(RobotRule):
     ## What it does
     Compares imports from ``launch``, ``launch_ros``, ``ament_index_python`` and ``moveit_configs_utils``, and the
     keywords of common actions, with the names of all releases from Foxy to Rolling. The rule reports misspelt names,
-    names of another module, attributes of XML launch files such as ``pkg``, and lists without brackets. Imports in
-    ``try`` are left out.
+    names of another module, attributes of XML launch files such as ``pkg``, lists without brackets, and ``items``
+    without a call. Imports in ``try`` are left out.
 
     ## Why is this bad?
     The launch file stops with an ImportError or a TypeError before it starts a node.
@@ -82,6 +82,7 @@ class PythonLaunchApiMisused(RobotRule):
                 yield self._at(source, place(source, word), message)
 
     def _call(self, source: Source, node: ast.Call, kind: str, reader: LaunchReader) -> Findings:
+        from urdfkit.description.launch.python_constants import name_of
         from urdfkit.lint.facts.control.launch_package_paths import place
         from urdfkit.lint.facts.launch.python_api import LISTS, wrong_keyword
 
@@ -91,6 +92,8 @@ class PythonLaunchApiMisused(RobotRule):
             start, end = place(source, word.value)
             before = max(source.text.rfind(word.arg, 0, start), 0)
             near = wrong_keyword(kind, word.arg)
+            if word.arg == "launch_arguments" and name_of(word.value) == "items":
+                yield self._at(source, (start, end), "`items` is not called; write `items()`")
             if near is not None:
                 message = f"`{kind}` has no argument `{word.arg}`; did you mean `{near}`?"
                 yield self._at(source, (before, before + len(word.arg)), message)

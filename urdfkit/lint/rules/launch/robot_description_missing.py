@@ -56,11 +56,14 @@ class RobotDescriptionMissing(RobotRule):
     def check(self, model: Model) -> Findings:
         """Yield a finding for each node that has no description."""
         from urdfkit.lint.facts.launch.started_nodes import started_nodes
+        from urdfkit.lint.facts.ros_packages import is_slip
 
         for node in started_nodes(model):
             is_publisher = node.program == node.package == "robot_state_publisher"
             names = node.parameters
-            if is_publisher and names is not None and not node.has_arguments and "robot_description" not in names:
+            if not is_publisher or names is None or node.has_arguments or "robot_description" in names:
+                continue
+            if not any(is_slip(name, "robot_description") for name in names):  # launch-name-misspelt reports these
                 message = "`robot_state_publisher` is started without the parameter `robot_description`"
                 yield Finding(self.code, self.name, self.severity, message, node.source.span(node.start, node.end))
         yield from self._in_ros1(model)

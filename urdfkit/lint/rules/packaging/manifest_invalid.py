@@ -82,7 +82,8 @@ class ManifestInvalid(RobotRule):
                 yield self._at(files, defect.tag, defect.message, defect.severity, defect.is_in_start_tag)
             depends = {tag.name for tag in root.children if tag.name.endswith("depend")}
             for text, tag in files.tags(*depends):
-                suggestion = misspelling_of(text, near)
+                is_ros2 = files.build_tool.startswith("ament") and "condition" not in tag.attributes
+                suggestion = misspelling_of(text, near, 2 if is_ros2 else 0)
                 if suggestion is not None:
                     message = f"unknown dependency `{text}`; did you mean `{suggestion}`?"
                     yield self._at(files, tag, message, "warning")

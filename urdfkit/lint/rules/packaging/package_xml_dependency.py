@@ -151,10 +151,12 @@ class PackageXmlDependency(RobotRule):
                     yield Finding(self.code, self.name, self.severity, message, span, help=help)
 
     def _missing(self, name: str, source: Source, start: int, end: int, near: set[str]) -> Finding:
+        from urdfkit.lint.facts.launch.ros_version import reads_version
         from urdfkit.lint.facts.ros_packages import misspelling_of
 
         span = source.span(start, end)
-        if (meant := misspelling_of(name, near)) is not None:
+        version = reads_version(source) if source.file.endswith(LAUNCH) else 0
+        if (meant := misspelling_of(name, near, version)) is not None:
             message = f"unknown package `{name}`; did you mean `{meant}`?"
             return Finding(self.code, self.name, "error", message, span, cause=f"package {name}")
         return Finding(
@@ -176,5 +178,5 @@ def _dependencies(manifest: str, near: Iterable[str]) -> set[str]:
     """Return the dependencies, and the packages that misspelt ones stand for; manifest-invalid reports these."""
     from urdfkit.lint.facts.ros_packages import misspelling_of
 
-    found = dependencies_in(manifest)
-    return found | {meant for name in found if (meant := misspelling_of(name, near)) is not None}
+    found, version = dependencies_in(manifest), 2 if ">ament" in manifest and ">catkin" not in manifest else 0
+    return found | {meant for name in found if (meant := misspelling_of(name, near, version)) is not None}

@@ -73,7 +73,7 @@ class SpawnArgumentMisspelt(RobotRule):
                 continue
             for node in started(source):
                 if node.package in _PACKAGES and node.program in _OPTIONS:
-                    invalid = (*_invalid_arguments(node), *_unknown_joints(node, model), *_without_source(node))
+                    invalid = (*_invalid_arguments(node, model), *_unknown_joints(node, model), *_without_source(node))
                     for start, text, message in invalid:
                         span = source.span(start, start + len(text))
                         severity = "warning" if _is_ignored(node, text) else self.severity
@@ -90,8 +90,9 @@ def _is_ignored(node: Started, option: str) -> bool:
     return node.program == "create" and option.startswith("-") and not written.isdisjoint(sources)
 
 
-def _invalid_arguments(node: Started) -> Iterator[tuple[int, str, str]]:
+def _invalid_arguments(node: Started, model: Model) -> Iterator[tuple[int, str, str]]:
     """Yield the offset, text and message of each invalid argument."""
+    from urdfkit.lint.facts.ros_packages import is_slip
     from urdfkit.lint.fix_builders import nearest
 
     options, previous = _OPTIONS[node.program], ""
@@ -106,10 +107,17 @@ def _invalid_arguments(node: Started) -> Iterator[tuple[int, str, str]]:
                 yield word.start, text, f"unknown option `{text}` of `{node.program}`; did you mean `-{suggestion}`?"
         elif word is not None and previous in ("topic", "param"):
             name = text.strip("/").rpartition("/")[2]
-            if name != _DESCRIPTION and nearest(name, [_DESCRIPTION], cutoff=0.88) is not None:
+            near = nearest(name, [_DESCRIPTION], cutoff=0.7)
+            if near is not None and name != near and (is_slip(name, near) or _is_only_here(name, model)):
                 kind = "topic" if previous == "topic" else "parameter"
                 yield word.start, text, f"unknown {kind} `{text}`; did you mean `{_DESCRIPTION}`?"
         previous = option[1] if option is not None else ""
+
+
+def _is_only_here(topic: str, model: Model) -> bool:
+    """Return whether no other place of the files around the robot names a topic, so that no node publishes it."""
+    pattern = rf"(?<!\w){re.escape(topic)}(?!\w)"
+    return sum(len(re.findall(pattern, source.text)) for source in model.related_files.values()) == 1
 
 
 def _unknown_joints(node: Started, model: Model) -> Iterator[tuple[int, str, str]]:

@@ -1,0 +1,43 @@
+"""L114 xacro-argument-malformed."""
+
+from urdfkit.lint.finding import Finding
+from urdfkit.lint.rule import Findings, Model, RobotRule
+
+
+class XacroArgumentMalformed(RobotRule):
+    """A launch file passes an argument to xacro with ``=`` instead of ``:=``.
+
+    ## What it does
+    Checks the words ``name=value`` of xacro commands in launch files. Options, such as ``--xacro-ns``, are left out.
+
+    ## Why is this bad?
+    xacro takes the word for a second input file and stops: "expected exactly one input file as argument".
+
+    ## Example
+    ```xml
+    <launch>
+      <param name="robot_description" command="xacro $(find cart_description)/urdf/cart.urdf.xacro length=2"/>
+    </launch>
+    ```
+
+    ## Use instead
+    ```xml
+    <launch>
+      <param name="robot_description" command="xacro $(find cart_description)/urdf/cart.urdf.xacro length:=2"/>
+    </launch>
+    ```
+    """
+
+    code = "L114"
+    name = "xacro-argument-malformed"
+
+    def check(self, model: Model) -> Findings:
+        """Yield a finding for each argument without a colon."""
+        from urdfkit.lint.facts.launch.actions import launch_files
+
+        for file in launch_files(model):
+            for word in (word for call in file.xacro for word in call.without_colon):
+                end = word.start + len(word.name)
+                message = f"`{word.name}=` is no argument of xacro; write `{word.name}:=`"
+                span = file.source.span(word.start, end + 1)
+                yield Finding(self.code, self.name, self.severity, message, span)

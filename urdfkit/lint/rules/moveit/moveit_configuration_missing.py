@@ -1,0 +1,87 @@
+"""M111 moveit-configuration-missing."""
+
+from __future__ import annotations
+
+from urdfkit.lint.finding import Finding
+from urdfkit.lint.rule import Findings, Model, RobotRule
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from urdfkit.lint.facts.moveit.configuration import Builder
+
+
+class MoveitConfigurationMissing(RobotRule):
+    """A launch file or ``.setup_assistant`` names a MoveIt package, robot or description that does not exist.
+
+    ## What it does
+    Checks ``MoveItConfigsBuilder`` in launch files: its package, which is ``<robot>_moveit_config`` without
+    ``package_name``, must not be a misspelling of a package of the workspace, nor its robot of a robot of these
+    packages. Checks the paths of the URDF and of the SRDF in the ``.setup_assistant`` of that package, if the packages
+    are in the workspace.
+
+    ## Why is this bad?
+    The launch stops: "package not found" or "No such file or directory".
+
+    ## Example
+    ```python
+    from launch import LaunchDescription
+    from moveit_configs_utils import MoveItConfigsBuilder
+
+
+    def generate_launch_description():
+        config = MoveItConfigsBuilder("cart", package_name="cart_descripton").to_moveit_configs()
+        return LaunchDescription([config])
+    ```
+
+    ## Use instead
+    ```python
+    from launch import LaunchDescription
+    from moveit_configs_utils import MoveItConfigsBuilder
+
+
+    def generate_launch_description():
+        config = MoveItConfigsBuilder("cart", package_name="cart_description").to_moveit_configs()
+        return LaunchDescription([config])
+    ```
+    """
+
+    code = "M111"
+    name = "moveit-configuration-missing"
+
+    def check(self, model: Model) -> Findings:
+        """Yield a finding for each package, robot and path that does not exist."""
+        from urdfkit.description.packages.related_files import neighbours
+        from urdfkit.lint.facts.control.yaml_tree import span_of
+        from urdfkit.lint.facts.moveit.configuration import builders, missing_paths
+
+        if model.package is None:
+            return
+        near = neighbours(model.package)
+        used = list(builders(model))
+        for builder in used:
+            yield from self._builder(builder, model, list(near))
+        for package in dict.fromkeys(builder.package for builder in used):
+            replaced = frozenset.intersection(*(each.replaced for each in used if each.package == package))
+            for source, node, message in missing_paths(near.get(package), replaced, near, model):
+                yield Finding(self.code, self.name, self.severity, message, span_of(source, node))
+
+    def _builder(self, builder: Builder, model: Model, packages: list[str]) -> Findings:
+        import re
+
+        from urdfkit.lint.facts.moveit.srdf import robot_names
+        from urdfkit.lint.facts.ros_packages import is_slip
+        from urdfkit.lint.fix_builders import nearest
+
+        near = nearest(builder.package, packages, cutoff=0.8) if builder.package not in packages else None
+        stems = [name.partition("_moveit")[0] for name in (builder.package, near or "")]
+        if near is not None and (stems[0] == stems[1] or is_slip(builder.package, near)):
+            message = f"unknown package `{builder.package}`; did you mean `{near}`?"
+            yield Finding(self.code, self.name, self.severity, message, builder.place)
+            return
+        names = robot_names(model)
+        if any(re.fullmatch(name, builder.robot) for name in names):
+            return
+        near = nearest(builder.robot, [name for name in names if name.isidentifier()], cutoff=0.7)
+        if near is not None:
+            message = f"no robot has the name `{builder.robot}`; did you mean `{near}`?"
+            yield Finding(self.code, self.name, "warning", message, builder.robot_place)
