@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 
 from urdfkit.description import load
+from urdfkit.description.loading import load_repaired
 from urdfkit.errors import ModelError, ResourceError, UrdfkitError, XacroError, XmlError
 
 Write = Callable[[str, str], Path]
@@ -145,3 +146,25 @@ def test_a_reduction_nobody_reads_may_be_no_number(tmp_path: Path) -> None:
         '<actuator name="motor"><mechanicalReduction>one</mechanicalReduction></actuator></transmission></robot>'
     )
     assert len(load(model).problems) == 1
+
+
+@pytest.mark.parametrize("before", ["\n\n", "<!-- made by hand -->\n", " "])
+@pytest.mark.parametrize("name", ["m.urdf", "m.urdf.xacro"])
+def test_a_declaration_after_blank_text_or_comments_is_left_out(write: Write, before: str, name: str) -> None:
+    path = write(name, f"{before}<?xml version='1.0'?>\n{model(links('a'))}")
+    with pytest.raises(XmlError, match="very start"):
+        load(path)
+    robot = load_repaired(path)
+    repair, *others = robot.repairs
+    assert (repair.code, str(repair.position)) == (
+        "E001",
+        f"{name}:{before.count(chr(10)) + 1}:{len(before.rpartition(chr(10))[2]) + 1}",
+    )
+    assert [link.name for link in robot.links] == ["a"]
+    assert others == []
+    assert robot.links[0].element.origin.position.line == before.count("\n") + 3
+
+
+def test_a_declaration_after_an_element_stays_an_error(write: Write) -> None:
+    with pytest.raises(XmlError, match="very start"):
+        load_repaired(write("m.urdf", "<robot name='r'><?xml version='1.0'?><link name='a'/></robot>"))

@@ -11,6 +11,7 @@ from urdfkit.description.packages.resolver import Packages
 from urdfkit.description.repair_positions import at_attributes
 from urdfkit.description.structure_defects import repaired_structure
 from urdfkit.description.urdf.parser import parse
+from urdfkit.description.urdf.repair_record import Repair
 from urdfkit.description.urdf.robot import Robot
 from urdfkit.description.value_defects import repaired_values, require_valid_values
 from urdfkit.description.xacro.declared_arguments import unused_arguments
@@ -19,9 +20,10 @@ from urdfkit.description.xacro.expand import expand as expand_file
 from urdfkit.description.xacro.expand import expand_leniently, is_xacro
 from urdfkit.description.xacro.expanded import Expanded
 from urdfkit.description.xml.element import Element
+from urdfkit.description.xml.misplaced_declaration import without_declaration
 from urdfkit.description.xml.reader import read_source
 from urdfkit.description.xml.source import absolute
-from urdfkit.errors import ModelError, UsageError, XacroError, did_you_mean
+from urdfkit.errors import ModelError, UsageError, XacroError, XmlError, did_you_mean
 from urdfkit.resources import ModelArgument, find_model
 
 OTHER_ROOTS = {
@@ -169,6 +171,13 @@ def _load(
         if partial is None:
             raise
         return partial
+    except XmlError as error:
+        readable = without_declaration(read_source(model.path).text, error) if repairs and text is None else None
+        if readable is None:
+            raise
+        robot = _load(model, check, readable, repairs=True)
+        repair = Repair("structure", "E001", f"{error.message}; it is left out", error.position)
+        return replace(robot, repairs=(repair, *robot.repairs))
     try:
         robot = _parsed(expanded, model.arguments)
         check(robot)

@@ -10,6 +10,7 @@ from pathlib import Path
 
 from urdfkit.description.packages.resolver import Packages
 from urdfkit.description.xacro.expanded import Expanded
+from urdfkit.description.xml.misplaced_declaration import without_declaration
 from urdfkit.description.xml.reader import document_of, read_source, shown_path
 from urdfkit.description.xml.source import absolute
 from urdfkit.errors import ResourceError, XmlError
@@ -80,13 +81,13 @@ def expand_leniently(
     """
     _check_exists(path)
     packages = packages if packages is not None else Packages(near=path)
-    if is_xacro(path) if run_xacro is None else run_xacro:
-        from urdfkit.description.xacro.recovery.expansion import expand_with_recovery
+    if not (is_xacro(path) if run_xacro is None else run_xacro):
+        return _read_plain_leniently(path, packages, texts, memory)
+    from urdfkit.description.xacro.recovery.expansion import expand_with_recovery
 
-        return expand_with_recovery(
-            str(path), arguments or {}, packages, add_prefixes=add_prefixes, texts=texts, memory=memory
-        )
-    return _read_plain_leniently(path, packages, texts, memory)
+    return expand_with_recovery(
+        str(path), arguments or {}, packages, add_prefixes=add_prefixes, texts=texts, memory=memory
+    )
 
 
 def is_xacro(path: str | Path) -> bool:
@@ -118,15 +119,15 @@ def _read_plain_leniently(
     except XmlError as error:
         if error.position is None:
             raise
+        fault = Fault("xml", error.message, error.position, details={"cause": error.cause})
         shown = shown_path(path)
-        return Expanded(
-            path=Path(path),
-            root=None,
-            files=(absolute(path),),
-            sources={shown: read_source(Path(path), shown_as=shown, texts=texts)},
-            packages=packages,
-            faults=(Fault("xml", error.message, error.position, details={"cause": error.cause}),),
-        )
+        sources = {shown: read_source(Path(path), shown_as=shown, texts=texts)}
+        text = without_declaration(sources[shown].text, error)
+        if text is not None:
+            rest = _read_plain_leniently(path, packages, {**(texts or {}), str(absolute(path)): text}, memory)
+            return Expanded(**{**rest.__dict__, "sources": sources, "faults": (fault, *rest.faults)})
+        files = (absolute(path),)
+        return Expanded(path=Path(path), root=None, files=files, sources=sources, packages=packages, faults=(fault,))
 
 
 def _check_exists(path: str | Path) -> None:

@@ -1,6 +1,7 @@
 """E001 xml-not-well-formed."""
 
 from urdfkit.description.xacro.faults import Fault
+from urdfkit.description.xml.misplaced_declaration import CAUSE as MISPLACED
 from urdfkit.lint.finding import Edit, Fix
 from urdfkit.lint.model.tags import Document
 from urdfkit.lint.rule import FaultRule, Findings, Model
@@ -35,7 +36,8 @@ class XmlNotWellFormed(FaultRule):
     ```
 
     ## Fix safety
-    Unsafe: the fix closes an unclosed root element at the end of the file, but more may be missing.
+    The fix deletes blank text before ``<?xml``. It is unsafe where it closes an unclosed root element at the end of the
+    file, because more may be missing.
     """
 
     code = "E001"
@@ -53,11 +55,16 @@ class XmlNotWellFormed(FaultRule):
             severity, help = fault.details["severity"], "save the file as UTF-8"
             yield self.at(model, fault.position, fault.message, help=help, severity=severity)
             return
+        document = model.document(fault.position.file)
+        source = document.source
+        if fault.details.get("cause") == MISPLACED:
+            before = source.text[: source.offset(fault.position.line, fault.position.column)]
+            blank = Fix("safe", "Delete the blank text before it", (Edit(source.span(0, len(before)), ""),))
+            yield self.at(model, fault.position, fault.message, fix=None if before.strip() else blank)
+            return
         if fault.details.get("cause") != "no element found":
             yield from super().check(fault, model)
             return
-        document = model.document(fault.position.file)
-        source = document.source
         end = len(source.text.rstrip())
         yield self.at(model, source.position(max(end - 1, 0)), fault.message, fix=_closed(document, end))
 
