@@ -427,3 +427,20 @@ def test_a_value_that_is_no_boolean_stops_moveit_2(ros2, tool, severity):
     write(ros2, {"package.xml": MANIFEST.format("arm_description", tool, "")})
     change(ros2, "config/moveit.yaml", "has_position_limits: true", "has_velocity_limits: maybe")
     assert [one.severity for one in lint(ros2) if "`has_velocity_limits` of" in one.message] == [severity]
+
+
+@pytest.mark.parametrize(("options", "is_reported"), [("", True), (' "--param-file", "other.yaml",', False)])
+def test_a_spawned_controller_without_a_type_is_reported_at_its_parameters(ros2, options, is_reported):
+    node = f'Node(package="controller_manager", executable="spawner", arguments=[{options} "arm_controller"])'
+    launch = f"def generate_launch_description():\n    return LaunchDescription([{node}])\n"
+    write(
+        ros2,
+        {
+            "launch/arm.launch.py": "from launch import LaunchDescription\nfrom launch_ros.actions import Node\n"
+            + launch
+        },
+    )
+    entry = "    arm_controller:\n      type: joint_trajectory_controller/JointTrajectoryController\n"
+    lines = change(ros2, "config/arm.yaml", entry, "")
+    expected = ["arm.yaml:9: controller `arm_controller` has no `type`, but launch/arm.launch.py spawns it"]
+    assert lines == (expected if is_reported else [])

@@ -198,6 +198,9 @@ RELATED_FILES: tuple[Row, ...] = (
     (_YAML, "packaging.parameter_value_invalid", "ParameterValueInvalid"),
     ("package.xml", "packaging.manifest_invalid", "ManifestInvalid"),
     ("package.xml", "packaging.build_file_inconsistent", "BuildFileInconsistent"),
+    (_YAML, "packaging.parameter_type_wrong", "ParameterTypeWrong"),
+    (_YAML, "packaging.controllers_share_interface", "ControllersShareInterface"),
+    (_YAML, "packaging.controller_joint_foreign", "ControllerJointForeign"),
     (_LAUNCH, "launch.launch_argument_undeclared", "LaunchArgumentUndeclared"),
     (_LAUNCH, "launch.launch_argument_unknown", "LaunchArgumentUnknown"),
     (_LAUNCH, "launch.executable_unknown", "ExecutableUnknown"),
@@ -225,6 +228,7 @@ RELATED_FILES: tuple[Row, ...] = (
     (_SRDF, "moveit.moveit_setting_invalid", "MoveitSettingInvalid"),
     (_SRDF, "moveit.srdf_adjacent_pair_missing", "SrdfAdjacentPairMissing"),
     (_PYTHON, "moveit.moveit_configuration_missing", "MoveitConfigurationMissing"),
+    (_SRDF, "moveit.moveit_controller_contradiction", "MoveitControllerContradiction"),
 )
 """Robot rules that run if the package has files with one of the suffixes."""
 

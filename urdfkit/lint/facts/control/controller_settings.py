@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
+from itertools import pairwise
 
 from urdfkit.description.control.controller_parameters import ALWAYS, OF_TYPES
 from urdfkit.description.xml.source import Source
+from urdfkit.lint.facts.control.launch_package_paths import uncommented
 from urdfkit.lint.facts.control.ros2_controllers import PARAMETERS, declared
 from urdfkit.lint.facts.control.yaml_tree import Node, documents, groups, walk
 from urdfkit.record import record
@@ -39,6 +41,9 @@ _MANAGER = (
     *("shutdown_on_initial_state_failure", "state_publish_rate", "is_async", "qos_overrides", "robot_description"),
 )
 """Parameters of controller_manager (Humble to Rolling)."""
+
+_KEY = r"(?m)^([ \t]*)[\"']?([\w/]+)[\"']?[ \t]*:[ \t]*\r?$"
+_GROUP = r"(?m)(?:^|[{,])[ \t]*[\"']?(ros_*[A-Za-z_]+)[\"']?[ \t]*:[ \t]*(?=\r?$|[{&*])"
 
 INTERFACES = ("position", "velocity", "acceleration", "effort", "torque", "force")
 _INTERFACE_KEYS = ("command_interfaces", "state_interfaces", "interface_name", "interface_names")
@@ -116,6 +121,30 @@ def _managers(source: Source) -> Iterator[tuple[Node, Node]]:
             kinds = [value.find("type") for _, value in group.entries] if group is not None else []
             if group is not None and any(kind is not None and "/" in kind.text for kind in kinds):
                 yield key, group
+
+
+def misspelt_sections(source: Source) -> Iterator[tuple[int, str, str]]:
+    """Yield the misspelt names of ``ros__parameters`` and of controllers' sections: offset, name, suggested name."""
+    from urdfkit.lint.facts.control.controller_joints import controllers
+    from urdfkit.lint.fix_builders import nearest
+
+    text = uncommented(source)
+    for key in re.finditer(_GROUP, text):
+        if key[1] != PARAMETERS and nearest(key[1], [PARAMETERS], cutoff=0.85) is not None:
+            yield key.start(1), key[1], PARAMETERS
+    defined = set(controllers(source))
+    keys = [(key[2], key.start(2), len(key[1])) for key in re.finditer(_KEY, text)]
+    sections = [
+        (name, name.rpartition("/")[2], start)
+        for (name, start, indent), (below, _, _) in pairwise(keys)
+        if indent == 0 and below == PARAMETERS
+    ]
+    without_section = defined - {short_name for _, short_name, _ in sections}
+    for name, short_name, start in sections:
+        if short_name not in (*defined, "controller_manager"):
+            near = nearest(short_name, without_section, cutoff=0.85)
+            if near is not None:
+                yield start, name, near
 
 
 def sections_without_parameters(source: Source) -> list[Node]:

@@ -12,6 +12,8 @@ from urdfkit.lint.model.model import Model
 from urdfkit.record import record
 
 _NODE = r"<node\b[^<>]*>"
+_CONDITION = r"\s(?:if|unless)\s*="
+_GROUP = rf"<group\b[^<>]*{_CONDITION}"
 _ARGUMENTS = r"\bargs\s*=\s*(?:\"([^\"]*)\"|'([^']*)')"
 
 
@@ -23,11 +25,13 @@ class Started:
         package: package of the executable; empty if it is computed.
         program: name of the executable; empty if it is computed.
         arguments: command line arguments in order, with their offsets; None for each computed argument.
+        is_conditional: whether it starts under a condition only, or may do so.
     """
 
     package: str
     program: str
     arguments: tuple[Named | None, ...]
+    is_conditional: bool = False
 
 
 def launches(model: Model) -> Iterator[Source]:
@@ -46,6 +50,7 @@ def started(source: Source) -> Iterator[Started]:
         yield from _in_yaml(source)
         return
     text = uncommented(source)
+    in_groups = re.search(_GROUP, text) is not None
     for tag in re.finditer(_NODE, text):
         program = re.search(r"\b(?:type|exec)\s*=\s*[\"']([^\"'$]*)[\"']", tag[0])
         package = re.search(r"\bpkg\s*=\s*[\"']([^\"'$]*)[\"']", tag[0])
@@ -53,7 +58,8 @@ def started(source: Source) -> Iterator[Started]:
         group = 1 if written is not None and written[1] is not None else 2
         start = tag.start() + (written.start(group) if written is not None else 0)
         arguments = _words(written[group], start) if written is not None else ()
-        yield Started(package[1] if package else "", program[1] if program else "", arguments)
+        is_conditional = in_groups or re.search(_CONDITION, tag[0]) is not None
+        yield Started(package[1] if package else "", program[1] if program else "", arguments, is_conditional)
 
 
 def _words(text: str, start: int) -> tuple[Named | None, ...]:
@@ -78,7 +84,8 @@ def _in_yaml(source: Source) -> Iterator[Started]:
                 start += not arguments.is_plain
                 if source.text.startswith(arguments.text, start):  # neither folded nor escaped
                     written = _words(arguments.text, start)
-            yield Started("" if "$" in names[0] else names[0], "" if "$" in names[1] else names[1], written)
+            package, program = ("" if "$" in name else name for name in names)
+            yield Started(package, program, written, "if:" in source.text or "unless:" in source.text)
 
 
 def _in_python(source: Source) -> Iterator[Started]:
@@ -91,7 +98,13 @@ def _in_python(source: Source) -> Iterator[Started]:
     if tree is None:
         return
     reader = LaunchReader(tree)
+    conditional: set[ast.AST] = set()
     for node in ast.walk(tree):
+        is_conditional = isinstance(node, (ast.If, ast.IfExp, ast.For, ast.Try, ast.While)) or (
+            isinstance(node, ast.Call)
+            and (name_of(node.func) == "GroupAction" or any(word.arg == "condition" for word in node.keywords))
+        )
+        conditional.update(ast.walk(node) if is_conditional else ())
         if not isinstance(node, ast.Call) or name_of(node.func) not in ("Node", "LifecycleNode"):
             continue
         keywords = {word.arg: word.value for word in node.keywords}
@@ -101,4 +114,4 @@ def _in_python(source: Source) -> Iterator[Started]:
         for word in written.elts if isinstance(written, (ast.List, ast.Tuple)) else ():
             text = word.value if isinstance(word, ast.Constant) else None
             arguments.append(Named(text, place(source, word)[0] + 1) if isinstance(text, str) else None)
-        yield Started(names[0] or "", names[1] or "", tuple(arguments))
+        yield Started(names[0] or "", names[1] or "", tuple(arguments), node in conditional)

@@ -7,6 +7,7 @@ moveit_ros/planning (request and response adapters), Noetic to Rolling.
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Iterable, Iterator
 
 from urdfkit.lint.facts.control.yaml_tree import Node, documents, not_a_number, walk
@@ -67,7 +68,8 @@ def planning_defects(source: Source, groups: Collection[str]) -> Defects:
         for top in unwrapped(document):
             for key, value in top.entries:
                 near = nearest(key.text, _KEYS, cutoff=0.9) if key.text not in _KEYS else None
-                if near is not None and key.text.rstrip("s") != near.rstrip("s"):
+                is_other = key.text.rstrip("s") == near.rstrip("s") and not _has_limits(value) if near else True
+                if near is not None and not is_other:
                     yield key, f"unknown parameter `{key.text}` of MoveIt; did you mean `{near}`?"
                 if key.text in _SCALING_FACTORS:
                     yield from _scaling_factor(key, value)
@@ -81,6 +83,11 @@ def planning_defects(source: Source, groups: Collection[str]) -> Defects:
                     yield configs, f"`planner_configs` of group `{key.text}` is a text; write a list"
                 if is_of_group:
                     yield from _planners(key, value, top.find("planner_configs"))
+
+
+def _has_limits(value: Node) -> bool:
+    """Return whether a mapping has limits of joints."""
+    return any(re.match(r"(has|max)_", key.text) for _, joint in value.entries for key, _ in joint.entries)
 
 
 def _scaling_factor(key: Node, value: Node) -> Defects:
@@ -206,7 +213,7 @@ def limit_defects(entry: MoveitEntry, joint: Joint | None) -> Defects:
         if joint.type != "prismatic" and abs(ratio / _DEGREES - 1.0) < 0.005:
             message = f"`{key.text}` of joint `{entry.name.text}` is {value:g}: the limit {bound:g} {unit} in degrees"
             yield node, f"{message}; write {bound:g}"
-        elif ratio > 10.0:
+        elif ratio >= 5.0:
             yield (
                 node,
                 f"`{key.text}` of joint `{entry.name.text}` is {value:g} {unit}, but its limit is {bound:g} {unit}",

@@ -151,14 +151,16 @@ def _joint(entry: MoveitEntry) -> Iterator[tuple[Node, str]]:
     from urdfkit.lint.facts.moveit.settings import LIMIT_KEYS
 
     settings, joint = entry.settings, entry.name.text
-    yield from _misspelt(entry, LIMIT_KEYS)
+    found = list(_misspelt(entry, LIMIT_KEYS))
+    misspelt = {message.split("`")[-2] for _, message in found}
+    yield from found
     for key, node in settings.entries:
         quantity, _, kind = key.text.removeprefix("has_").rpartition("_")
         is_flag = key.text.startswith("has_") and kind == "limits"
         if is_flag and node.text.lower() in ("true", "yes", "on"):
             limit = settings.find(f"max_{quantity}")
             value = _number(limit)
-            if limit is None and key.text in LIMIT_KEYS:
+            if limit is None and key.text in LIMIT_KEYS and f"max_{quantity}" not in misspelt:
                 yield key, f"`{key.text}` of joint `{joint}` is true, but `max_{quantity}` is missing"
             elif quantity == "position" and settings.find("min_position") is None:
                 yield key, f"`{key.text}` of joint `{joint}` is true, but `min_position` is missing"

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-from itertools import pairwise
 
 from urdfkit.description.xml.source import Source
 from urdfkit.lint.finding import Finding
@@ -13,8 +12,6 @@ TYPE_CHECKING = False
 if TYPE_CHECKING:
     from urdfkit.lint.finding import Severity
 
-_KEY = r"(?m)^([ \t]*)[\"']?([\w/]+)[\"']?[ \t]*:[ \t]*\r?$"
-_GROUP = r"(?m)(?:^|[{,])[ \t]*[\"']?(ros_*[A-Za-z_]+)[\"']?[ \t]*:[ \t]*(?=\r?$|[{&*])"
 _PARAMETERS = "ros__parameters"
 _TAB = r"(?m)^ *\t[ \t]*(?=[^\s#])"
 
@@ -67,6 +64,7 @@ class ControllerSettingsMisspelt(RobotRule):
         """Yield a finding for each misspelt name, and for the first tab of a file."""
         from urdfkit.description.control.controller_types import meant_type
         from urdfkit.lint.facts.control.controller_joints import typed
+        from urdfkit.lint.facts.control.controller_settings import misspelt_sections
         from urdfkit.lint.facts.control.exported_plugins import is_exported_plugin
         from urdfkit.lint.facts.control.launch_package_paths import uncommented
 
@@ -83,7 +81,10 @@ class ControllerSettingsMisspelt(RobotRule):
                 if suggestion is not None and not is_exported_plugin(model, reference.name):
                     message = f"unknown controller type `{reference.name}`; did you mean `{suggestion}`?"
                     yield self._at(source, reference.start, reference.name, message, severity="error")
-            yield from self._keys(source, text)
+            for start, name, meant in misspelt_sections(source):
+                is_level = meant == _PARAMETERS
+                message = f"unknown {'key' if is_level else 'controller'} `{name}`; did you mean `{meant}`?"
+                yield self._at(source, start, name, message, severity="error" if is_level else None)
             yield from self._parameters(source, model)
             yield from self._sections(source)
             if (tab := re.search(_TAB, text)) is not None:
@@ -112,31 +113,6 @@ class ControllerSettingsMisspelt(RobotRule):
             if is_defect and kind.value and kind.value not in TYPES and meant_type(kind.value) is None:
                 message = f"controller `{name}`: urdfkit does not simulate the type `{kind.value}` of another package"
                 yield self.at(model, kind.position, message)
-
-    def _keys(self, source: Source, text: str) -> Findings:
-        from urdfkit.lint.facts.control.controller_joints import controllers
-        from urdfkit.lint.fix_builders import nearest
-
-        keys = [(key[2], key.start(2), len(key[1])) for key in re.finditer(_KEY, text)]
-        for name, start in ((key[1], key.start(1)) for key in re.finditer(_GROUP, text)):
-            if name != _PARAMETERS and nearest(name, [_PARAMETERS], cutoff=0.85) is not None:
-                message = f"unknown key `{name}`; did you mean `{_PARAMETERS}`?"
-                yield self._at(source, start, name, message, severity="error")
-        declared = set(controllers(source))
-        sections = [
-            (name, name.rpartition("/")[2], start)
-            for (name, start, indent), (below, _, _) in pairwise(keys)
-            if indent == 0 and below == _PARAMETERS
-        ]
-        without_section = declared - {short_name for _, short_name, _ in sections}
-        for name, short_name, start in sections:
-            suggestion = (
-                nearest(short_name, without_section, cutoff=0.85)
-                if short_name not in (*declared, "controller_manager")
-                else None
-            )
-            if suggestion is not None:
-                yield self._at(source, start, name, f"unknown controller `{name}`; did you mean `{suggestion}`?")
 
     def _sections(self, source: Source) -> Findings:
         """Yield a finding for each type without package, and each ROS 2 section without ``ros__parameters``."""

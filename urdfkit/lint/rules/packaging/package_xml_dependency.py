@@ -15,6 +15,9 @@ warehouse.launch warehouse_settings.launch.xml
 """
 """Launch files in the templates of moveit_setup_assistant that need packages which its package.xml leaves out."""
 
+_OF_ROS1 = ("joint_state_controller", "imu_sensor_controller", "force_torque_sensor_controller")
+"""Packages of controllers that only ROS 1 has."""
+
 _TESTS = frozenset(("test", "tests"))
 """Folders whose files do not add runtime dependencies."""
 
@@ -140,8 +143,13 @@ class PackageXmlDependency(RobotRule):
             package = package_of(Path(source.file))
             for controller in declared(source) if package is not None else ():
                 name, _, kind = controller.kind.text.partition("/")
-                # Grippers have the type of another package.
-                if controller.kind.text not in TYPES or name not in names() or kind == "GripperActionController":
+                # Grippers have the type of another package; controller-type-wrong-generation reports types of ROS 1.
+                if (
+                    name in _OF_ROS1
+                    or controller.kind.text not in TYPES
+                    or name not in names()
+                    or kind == "GripperActionController"
+                ):
                     continue
                 if name not in needed and not is_in_metapackage(name, needed):
                     needed.add(name)

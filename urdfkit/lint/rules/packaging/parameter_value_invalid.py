@@ -55,11 +55,15 @@ class ParameterValueInvalid(RobotRule):
     def check(self, model: Model) -> Findings:
         """Yield a finding for each impossible value and each repeated key."""
         from urdfkit.description.control.parameter_defects import invalid_parameters
-        from urdfkit.lint.facts.control.controller_settings import sections_without_parameters
+        from urdfkit.lint.facts.control.controller_settings import misspelt_sections, sections_without_parameters
         from urdfkit.lint.facts.control.loaded_controllers import loaded_controllers
         from urdfkit.lint.facts.control.yaml_tree import yamls
 
-        unread = {source.file for source in yamls(model) if sections_without_parameters(source)}
+        unread = {
+            source.file
+            for source in yamls(model)
+            if sections_without_parameters(source) or ("controller" in source.text and any(misspelt_sections(source)))
+        }
         places = set()
         for finding in self._in_yaml(model, unread):
             places.add((finding.span.file, finding.span.line))
@@ -75,7 +79,9 @@ class ParameterValueInvalid(RobotRule):
         from urdfkit.lint.facts.control.parameter_values import contradictions, incomplete_controllers, value_defects
         from urdfkit.lint.facts.control.ros2_controllers import PARAMETERS
         from urdfkit.lint.facts.control.yaml_tree import documents, span_of, walk, yamls
+        from urdfkit.lint.facts.moveit.settings import moveit_yamls
 
+        of_moveit = {source.file for source, _ in moveit_yamls(model)}
         is_typed_at_start = any(re.search(r"controller.type", file.text) for file in model.related_files.values())
 
         for source in yamls(model):
@@ -85,7 +91,7 @@ class ParameterValueInvalid(RobotRule):
                     continue
                 seen.add((node.line, node.column))
                 in_controllers = value_defects(node, PARAMETERS in source.text) if is_of_controllers else ()
-                for place, message in (*_in_any(node), *in_controllers):
+                for place, message in (*_in_any(node, source.file in of_moveit), *in_controllers):
                     yield Finding(self.code, self.name, self.severity, message, span_of(source, place))
             if is_of_controllers:
                 incomplete = () if source.file in unread else incomplete_controllers(source, is_typed_at_start)
@@ -93,14 +99,15 @@ class ParameterValueInvalid(RobotRule):
                     yield Finding(self.code, self.name, self.severity, message, span_of(source, place))
 
 
-def _in_any(node: Node) -> Iterator[tuple[Node, str]]:
+def _in_any(node: Node, is_of_moveit: bool) -> Iterator[tuple[Node, str]]:
     first: dict[str, Node] = {}
     for key, value in node.entries:
         before = first.setdefault(key.text, key)
         # rcl merges the parameters of a ROS 2 node that is named twice.
         if before is not key and key.text != "<<" and not _has_parameters(value):
             yield key, f"duplicate key `{key.text}`; the first is in line {before.line}; only the last value applies"
-        if value.is_plain and re.fullmatch(_MISSPELT, value.text):
+        is_limit = is_of_moveit and re.fullmatch(r"has_\w+_limits", key.text)  # moveit-setting-invalid reports these
+        if value.is_plain and re.fullmatch(_MISSPELT, value.text) and not is_limit:
             yield value, f"`{value.text}` is a text; did you mean `{'true' if value.text[0] in 'tT' else 'false'}`?"
         if re.fullmatch(_SENSOR_CONFIG, key.text) and value.kind == "list" and len(value.items) != 15:
             yield key, f"`{key.text}` has {len(value.items)} values; robot_localization requires 15"

@@ -3,18 +3,10 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
 
 from urdfkit.description.xml.source import Source
 from urdfkit.lint.finding import Finding
 from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from urdfkit.lint.facts.control.controller_joints import Named
-
-
-_SPAWNERS = ("spawner", "spawner.py", "controller_spawner", "controller_spawner.py")
 
 
 class SpawnedControllerUndefined(RobotRule):
@@ -22,8 +14,9 @@ class SpawnedControllerUndefined(RobotRule):
 
     ## What it does
     Checks for controllers passed to the spawner in launch files that are misspellings of a controller with a type in
-    the YAML files of these packages, and in ROS 1 for controllers that the same launch file loads in another namespace
-    than that of the spawner. Python launch files are parsed, not executed.
+    the YAML files of these packages, for controllers of ROS 2 whose parameters are in a file that gives a type only to
+    other controllers, and in ROS 1 for controllers that the same launch file loads in another namespace than that of
+    the spawner. Python launch files are parsed, not executed.
 
     ## Why is this bad?
     The spawner waits for the controller and then fails, and the robot does not move.
@@ -54,16 +47,24 @@ class SpawnedControllerUndefined(RobotRule):
         """Yield a finding for each misspelt name of a spawned controller."""
         from urdfkit.errors import did_you_mean
         from urdfkit.lint.facts.control.controller_joints import controllers
+        from urdfkit.lint.facts.control.launched_nodes import started
+        from urdfkit.lint.facts.control.spawned_together import SPAWNERS, spawned, untyped
+        from urdfkit.lint.facts.control.yaml_tree import span_of
 
         launches = [file for file in model.related_files.values() if re.search(r"spawner", file.text)]
         parameter_files = [file for file in model.related_files.values() if file.file.endswith((".yaml", ".yml"))]
         if not launches or not parameter_files:
             return
         defined = [name for file in parameter_files for name in controllers(file)]
+        for source, key, launch in untyped(model):
+            message = f"controller `{key.text}` has no `type`, but {launch.file} spawns it"
+            help = "add it to the parameters of `controller_manager`"
+            yield Finding(self.code, self.name, self.severity, message, span_of(source, key), help=help)
         for source in launches:
             if source.file.endswith(".launch"):
                 yield from self._namespaces(source, model)
-            for reference in _spawned(source):
+            nodes = (node for node in started(source) if node.program in SPAWNERS)
+            for reference in (word for node in nodes for word in spawned(node)):
                 key_pattern = rf"(?<![\w-]){re.escape(reference.name)}[\"']?\s*:"
                 hint = did_you_mean(reference.name, defined)
                 if (
@@ -89,16 +90,3 @@ class SpawnedControllerUndefined(RobotRule):
             spawner = f"{source.file}:{one.line}"
             message = f"`{one.controller}` is in {found}, but its spawner in {spawner} has {expected}"
             yield Finding(self.code, self.name, self.severity, message, span_of(one.source, one.key))
-
-
-def _spawned(source: Source) -> Iterator[Named]:
-    """Yield the literal controller names that a launch file passes to spawners, without the values of options."""
-    from urdfkit.lint.facts.control.launched_nodes import started
-
-    for node in started(source):
-        if node.program not in _SPAWNERS:
-            continue
-        for previous, word in zip([None, *node.arguments], node.arguments, strict=False):
-            is_option = previous is not None and previous.name.startswith("-")
-            if word is not None and re.fullmatch(r"[A-Za-z][\w-]*", word.name) and not is_option:
-                yield word

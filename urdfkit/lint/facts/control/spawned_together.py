@@ -1,0 +1,100 @@
+"""Controllers of ROS 2 that a launch file spawns: without a type, or with the command interface of another one."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+
+from urdfkit.description.xml.source import Source
+from urdfkit.lint.facts.control.controller_joints import Named
+from urdfkit.lint.facts.control.launched_nodes import Started, launches, started
+from urdfkit.lint.facts.control.ros2_controllers import PARAMETERS, DeclaredController, Wanted, declared, wanted
+from urdfkit.lint.facts.control.yaml_tree import Node, documents, yamls
+from urdfkit.lint.model.model import Model
+
+SPAWNERS = ("spawner", "spawner.py", "controller_spawner", "controller_spawner.py")
+_INACTIVE = ("--inactive", "--stopped", "--load-only")
+_WITH_TYPE = ("-t", "--controller-type", "-p", "--param-file")
+
+
+def spawned(node: Started) -> Iterator[Named]:
+    """Yield the literal controller names that a node passes to a spawner, without the values of options."""
+    for previous, word in zip([None, *node.arguments], node.arguments, strict=False):
+        is_option = previous is not None and previous.name.startswith("-") and previous.name not in _INACTIVE
+        if word is not None and re.fullmatch(r"[A-Za-z][\w-]*", word.name) and not is_option:
+            yield word
+
+
+def _is_literal(node: Started) -> bool:
+    """Return whether a node always starts, and only values of its options are computed."""
+    before = [None, *node.arguments]
+    pairs = zip(before, node.arguments, strict=False)
+    is_open = any(word is None and (last is None or not last.name.startswith("-")) for last, word in pairs)
+    return not node.is_conditional and not is_open
+
+
+def _spawners(model: Model, without: tuple[str, ...]) -> Iterator[tuple[Source, list[Named]]]:
+    """Yield each launch file and the controllers that it always spawns, by spawners without some options."""
+    for source in launches(model):
+        names: list[Named] = []
+        for node in started(source) if "spawner" in source.text else ():
+            options = {word.name for word in node.arguments if word is not None}
+            if node.program in SPAWNERS and _is_literal(node) and options.isdisjoint(without):
+                names += spawned(node)
+        yield source, names
+
+
+def untyped(model: Model) -> Iterator[tuple[Source, Node, Source]]:
+    """Yield the spawned controllers whose parameters are in a file that gives other controllers a type, but not them.
+
+    Yields:
+        The YAML file, the name of the section, and the launch file.
+    """
+    files = [source for source in yamls(model) if PARAMETERS in source.text]
+    typed = {one.name for source in files for one in declared(source)}
+    seen: set[int] = set()
+    for launch, names in _spawners(model, _WITH_TYPE) if typed else ():
+        for source in files if names else ():
+            if not any(declared(source)) or "<<" in source.text:
+                continue
+            for key, section in (entry for root in documents(source)[0] for entry in root.entries):
+                group = section.find(PARAMETERS)
+                is_spawned = key.text.strip("/") in {word.name for word in names}
+                if group is None or not is_spawned or key.text.strip("/") in typed or id(key) in seen:
+                    continue
+                if group.find("type") is None and not _is_mentioned(key.text.strip("/"), files):
+                    seen.add(id(key))
+                    yield source, key, launch
+
+
+def _is_mentioned(name: str, files: list[Source]) -> bool:
+    """Return whether a controller manager has an entry for a controller, perhaps a misspelt or an empty one."""
+    managers = [
+        root.find("controller_manager") for source in files for root in documents(source)[0] if "type" in source.text
+    ]
+    groups = [each.find(PARAMETERS) for each in managers if each is not None]
+    return any(group is not None and group.find(name) is not None for group in groups)
+
+
+def shared_interfaces(model: Model) -> Iterator[tuple[Source, Wanted, str]]:
+    """Yield the command interfaces of spawned controllers that another one claims: YAML file, interface, the other."""
+    for _, names in _spawners(model, _INACTIVE):
+        listed = [word.name for word in names]
+        for source in yamls(model) if len(listed) > 1 else ():
+            found: dict[str, DeclaredController] = {}
+            for one in declared(source) if PARAMETERS in source.text else ():
+                if one.name in listed:
+                    found.setdefault(one.name, one)
+            claimed: dict[tuple[str, str], str] = {}
+            for one in sorted(found.values(), key=lambda each: listed.index(each.name)):
+                for each in wanted(one):
+                    other = claimed.setdefault((each.joint, each.interface), one.name) if each.is_command else one.name
+                    if other != one.name:
+                        yield source, Wanted(each.joint, each.interface, True, _joint(one, each)), other
+
+
+def _joint(one: DeclaredController, claim: Wanted) -> Node:
+    """Return the YAML node that names the joint of a claim."""
+    entries = one.settings.entries if one.settings is not None else ()
+    nodes = (node for key, value in entries if "interface" not in key.text for node in (value, *value.items))
+    return next((node for node in nodes if node.text == claim.joint), claim.where)

@@ -1,0 +1,50 @@
+"""Controllers of MoveIt, compared with the controllers of ros_control that they command.
+
+Sources: moveit_simple_controller_manager (actions by type), ros2_controllers and ros_controllers (actions).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from urdfkit.description.control.controller_types import TYPES
+from urdfkit.lint.facts.control.controller_settings import ControllerSettings, settings
+from urdfkit.lint.facts.control.yaml_tree import Node, yamls
+from urdfkit.lint.facts.moveit.settings import MoveitEntry
+from urdfkit.lint.model.model import Model
+
+_ACTIONS = {
+    "FollowJointTrajectory": ("JointTrajectoryController",),
+    "GripperCommand": ("GripperActionController",),
+    "ParallelGripperCommand": ("GripperActionController",),
+}
+"""Type of a controller of MoveIt → classes of controllers with its action."""
+
+
+def started_controllers(model: Model) -> dict[str, list[ControllerSettings]]:
+    """Return name → settings of the controllers of ros_control in the YAML files around a robot."""
+    found: dict[str, list[ControllerSettings]] = {}
+    for source in yamls(model):
+        for one in settings(source):
+            found.setdefault(one.name, []).append(one)
+    return found
+
+
+def contradictions(
+    entry: MoveitEntry, controllers: list[ControllerSettings], model: Model
+) -> Iterator[tuple[Node, str]]:
+    """Yield the type and the joints of a controller of MoveIt that no controller with its name has."""
+    kind = entry.settings.find("type")
+    classes = _ACTIONS.get(kind.text, ()) if kind is not None else ()
+    if not classes or not controllers or any(one.kind not in TYPES for one in controllers):
+        return
+    kinds = dict.fromkeys(one.kind for one in controllers)
+    if kind is not None and not any(each.partition("/")[2] in classes for each in kinds):
+        yield kind, f"controller `{entry.name.text}` has no action for `{kind.text}`: its type is {next(iter(kinds))}"
+        return
+    listed = [one.group.find(key) for one in controllers for key in ("joints", "joint")]
+    names = {name for node in listed if node is not None for name in node.texts()}
+    joints = entry.settings.find("joints")
+    for node in joints.items if joints is not None and names else ():
+        if node.text in model.robot.joint_by_name and node.text not in names:
+            yield node, f"controller `{entry.name.text}` does not control joint `{node.text}` and refuses trajectories"

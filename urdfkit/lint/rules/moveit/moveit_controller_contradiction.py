@@ -1,0 +1,61 @@
+"""M112 moveit-controller-contradiction."""
+
+from urdfkit.lint.finding import Finding
+from urdfkit.lint.rule import Findings, Model, RobotRule
+
+
+class MoveitControllerContradiction(RobotRule):
+    """A controller of MoveIt has another type or other joints than the controller that it commands.
+
+    ## What it does
+    Compares the ``type`` and the ``joints`` of MoveIt's controllers with the controllers of the same name in the YAML
+    files of these packages.
+
+    ## Why is this bad?
+    MoveIt waits for an action that the controller does not offer, or the controller refuses the trajectory: "Joints on
+    incoming trajectory don't match the controller joints".
+
+    ## Example
+    ```yaml
+    moveit_controller_manager: moveit_simple_controller_manager/MoveItSimpleControllerManager
+    moveit_simple_controller_manager:
+      controller_names: [arm_controller]
+      arm_controller:
+        type: GripperCommand
+        action_ns: gripper_cmd
+        joints: [elbow]
+    ```
+
+    ## Use instead
+    ```yaml
+    moveit_controller_manager: moveit_simple_controller_manager/MoveItSimpleControllerManager
+    moveit_simple_controller_manager:
+      controller_names: [arm_controller]
+      arm_controller:
+        type: FollowJointTrajectory
+        action_ns: follow_joint_trajectory
+        joints: [elbow]
+    ```
+
+    ## References
+    In the package of this example, config/controllers.yaml gives ``arm_controller`` the type
+    joint_trajectory_controller/JointTrajectoryController.
+    """
+
+    code = "M112"
+    name = "moveit-controller-contradiction"
+    severity = "warning"
+
+    def check(self, model: Model) -> Findings:
+        """Yield a finding for each type and joint that differs."""
+        from urdfkit.lint.facts.control.yaml_tree import span_of
+        from urdfkit.lint.facts.moveit.controllers import contradictions, started_controllers
+        from urdfkit.lint.facts.moveit.settings import entries, moveit_yamls
+
+        started = started_controllers(model)
+        for source, _ in moveit_yamls(model):
+            for entry in entries(source):
+                name = entry.name.text.strip("/").rpartition("/")[2]
+                if entry.kind == "controller":
+                    for node, message in contradictions(entry, started.get(name, []), model):
+                        yield Finding(self.code, self.name, self.severity, message, span_of(source, node))

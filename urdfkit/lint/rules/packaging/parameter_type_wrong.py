@@ -1,0 +1,62 @@
+"""K974 parameter-type-wrong."""
+
+from urdfkit.lint.finding import Finding
+from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
+
+
+class ParameterTypeWrong(RobotRule):
+    """A parameter of ROS 2 is an integer where a number with a decimal point is needed.
+
+    ## What it does
+    Compares the numbers of controllers of ros2_controllers with the types of their parameters, and checks lists of
+    numbers in the parameters of all nodes of ROS 2, whose elements must have one type.
+
+    ## Why is this bad?
+    rclcpp does not convert integers: the controller is not configured, "parameter 'constraints.goal_time' has invalid
+    type". rcl refuses a file that has a list with both types: "Sequence should be of same type".
+
+    ## Example
+    ```yaml
+    controller_manager:
+      ros__parameters:
+        base_controller:
+          type: diff_drive_controller/DiffDriveController
+    base_controller:
+      ros__parameters:
+        left_wheel_names: [left]
+        right_wheel_names: [right]
+        wheel_separation: 1
+        wheel_radius: 0.1
+    ```
+
+    ## Use instead
+    ```yaml
+    controller_manager:
+      ros__parameters:
+        base_controller:
+          type: diff_drive_controller/DiffDriveController
+    base_controller:
+      ros__parameters:
+        left_wheel_names: [left]
+        right_wheel_names: [right]
+        wheel_separation: 1.0
+        wheel_radius: 0.1
+    ```
+    """
+
+    code = "K974"
+    name = "parameter-type-wrong"
+    not_for = NOT_GAZEBO
+
+    def check(self, model: Model) -> Findings:
+        """Yield a finding for each integer parameter and each list of two types."""
+        from urdfkit.lint.facts.control.parameter_types import integers_for_doubles, mixed_lists
+        from urdfkit.lint.facts.control.yaml_tree import span_of, yamls
+
+        for source in yamls(model):
+            for value, name, controller in integers_for_doubles(source):
+                message = f"`{name}` of controller `{controller}` is the integer {value.text}; write {value.text}.0"
+                yield Finding(self.code, self.name, self.severity, message, span_of(source, value))
+            for key, item in mixed_lists(source):
+                message = f"`{key.text}` has integers and numbers with a decimal point; write all with a decimal point"
+                yield Finding(self.code, self.name, self.severity, message, span_of(source, item))
