@@ -127,18 +127,15 @@ def test_a_late_joiner_gets_the_static_transforms_by_cyclonedds_alone() -> None:
     assert "camera" in done.stdout
 
 
-def urdfkit_by(distribution: str) -> list[str | Path]:
-    """Return the command that runs urdfkit with rclpy; skip the test if its Python is another."""
+def urdfkit_by(distribution: str, code: str = "from urdfkit.cli import main; sys.exit(main())") -> list[str | Path]:
+    """Return the command that runs urdfkit, or code with it, with rclpy; skip the test if its Python is another."""
     python = node_python(distribution)
     version = "import sys; import std_srvs; print(sys.version_info[:2] == " + repr(sys.version_info[:2]) + ")"
     done = subprocess.run([python, "-c", version], capture_output=True, text=True, check=False)
     if done.stdout.strip() != "True":
         pytest.skip("needs rclpy for this version of Python, and std_srvs: make ros2-nodes")
-    code = (
-        f"import site, sys; sys.path.insert(0, {str(ROOT)!r}); site.addsitedir({site.getsitepackages()[0]!r}); "
-        "from urdfkit.cli import main; sys.exit(main())"
-    )
-    return [python, "-c", code]
+    run = f"import site, sys; sys.path.insert(0, {str(ROOT)!r}); site.addsitedir({site.getsitepackages()[0]!r}); {code}"
+    return [python, "-c", run]
 
 
 @pytest.mark.slow
@@ -154,6 +151,23 @@ def test_rclpy_publishes_the_topics_and_serves_the_services(distribution: str) -
     assert found["x"] > 1.0
     assert found["descriptions"] == 1
     assert done.stdout.splitlines()[-1:] == ["answered"], done.stderr
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("distribution", DISTRIBUTIONS)
+def test_best_effort_subscribers_get_the_images_of_rclpy(distribution: str) -> None:
+    """With the shared memory of Fast DDS's default, most images of 800 × 800 pixels are lost."""
+    here, sent = Path(__file__).parent, 60
+    writer = urdfkit_by(distribution, f"import runpy; runpy.run_path({str(here / 'image_writer.py')!r})")
+    environment = {name: value for name, value in os.environ.items() if not name.startswith("PYTHON")}
+    environment |= {**LOCAL, "ROS_DOMAIN_ID": str(61 + DISTRIBUTIONS.index(distribution))}
+    reader = [str(node_python(distribution)), str(here / "image_reader.py"), str(sent)]
+    with (
+        running([*map(str, writer), str(sent)], env=environment),
+        running(reader, env=environment, stdout=subprocess.PIPE, text=True) as viewer,
+    ):
+        received = int(viewer.communicate(timeout=90.0)[0].split()[-1])
+    assert received >= 0.75 * sent
 
 
 @pytest.mark.slow

@@ -5,6 +5,7 @@ from __future__ import annotations
 import time
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from pathlib import Path
 from typing import Any
 
 import pytest
@@ -13,7 +14,7 @@ from tests.time_limit import PATIENCE
 from urdfkit.bridges.bridge import CallQueue
 from urdfkit.bridges.node.node import Done, End, Quality, UnknownTypeError
 from urdfkit.bridges.node.node_bridge import NodeBridge, check_namespace
-from urdfkit.bridges.ros2.environment import keep_on_this_machine, on_this_machine, ros_domain
+from urdfkit.bridges.ros2.environment import keep_on_this_machine, on_this_machine, ros_domain, share_long_messages
 from urdfkit.bridges.service import Service
 from urdfkit.bus import Bus
 from urdfkit.cli import main
@@ -157,6 +158,20 @@ def test_variables_of_ros() -> None:
         ros_domain(None, {"ROS_DOMAIN_ID": "x"})
     with pytest.raises(UsageError, match="switches discovery off"):
         on_this_machine({"ROS_AUTOMATIC_DISCOVERY_RANGE": "OFF"})
+
+
+def test_fast_dds_shares_memory_for_images_unless_it_is_configured() -> None:
+    for before, variable in (
+        ({"ROS_DISTRO": "kilted"}, "FASTDDS_DEFAULT_PROFILES_FILE"),
+        ({"ROS_DISTRO": "jazzy"}, "FASTRTPS_DEFAULT_PROFILES_FILE"),
+    ):
+        environment = dict(before)
+        share_long_messages(environment)
+        assert Path(environment.pop(variable)).is_file()
+        assert environment == before
+    configured = {"FASTDDS_BUILTIN_TRANSPORTS": "UDPv4"}
+    share_long_messages(configured)
+    assert configured == {"FASTDDS_BUILTIN_TRANSPORTS": "UDPv4"}
 
 
 def test_namespaces() -> None:

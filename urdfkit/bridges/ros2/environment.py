@@ -1,9 +1,11 @@
-"""Variables of ROS 2: the domain, and how far discovery reaches."""
+"""Variables of ROS 2: the domain, how far discovery reaches, and the transports of Fast DDS."""
 
 from __future__ import annotations
 
 import os
 from collections.abc import Mapping, MutableMapping
+from importlib.util import find_spec
+from pathlib import Path
 
 from urdfkit.errors import UsageError
 
@@ -11,6 +13,10 @@ HIGHEST_DOMAIN = 232
 RANGE, LOCALHOST_ONLY, DOMAIN = "ROS_AUTOMATIC_DISCOVERY_RANGE", "ROS_LOCALHOST_ONLY", "ROS_DOMAIN_ID"
 BEFORE_RANGE = ("dashing", "eloquent", "foxy", "galactic", "humble")
 """Distributions that read only ``ROS_LOCALHOST_ONLY``."""
+WITH_FAST_DDS_2 = (*BEFORE_RANGE, "iron", "jazzy")
+PROFILES, PROFILES_2 = "FASTDDS_DEFAULT_PROFILES_FILE", "FASTRTPS_DEFAULT_PROFILES_FILE"
+"""Variable with the profiles of Fast DDS 3, and that of Fast DDS 2."""
+TRANSPORTS = "FASTDDS_BUILTIN_TRANSPORTS"
 
 
 def ros_domain(requested: int | None, environment: Mapping[str, str] = os.environ) -> int:
@@ -48,3 +54,11 @@ def keep_on_this_machine(environment: MutableMapping[str, str] = os.environ) -> 
             environment[LOCALHOST_ONLY] = "1"
         else:
             environment[RANGE] = "LOCALHOST"
+
+
+def share_long_messages(environment: MutableMapping[str, str] = os.environ) -> None:
+    """Set the variable by which Fast DDS shares memory for several images, unless the user has configured Fast DDS."""
+    if not {PROFILES, PROFILES_2, TRANSPORTS} & environment.keys():
+        distribution = environment.get("ROS_DISTRO")
+        old = distribution in WITH_FAST_DDS_2 if distribution else find_spec("fastrtps") is not None  # of the wheels
+        environment[PROFILES_2 if old else PROFILES] = str(Path(__file__).parent / "fastdds_profiles.xml")

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from importlib.util import find_spec
 
 from urdfkit.bridges.node.node import Node
-from urdfkit.bridges.ros2.environment import keep_on_this_machine, ros_domain
+from urdfkit.bridges.ros2.environment import keep_on_this_machine, ros_domain, share_long_messages
 from urdfkit.errors import MissingDependencyError
 
 INSTALL = "--ros2 needs rclpy or Cyclone DDS: source a ROS 2 workspace, or pip install 'urdfkit[ros2]'"
@@ -22,6 +22,7 @@ def open_node(domain: int | None, namespace: str, report: Callable[[str], None] 
     number = ros_domain(domain)
     keep_on_this_machine()
     if find_spec("rclpy") is not None:
+        share_long_messages()
         from urdfkit.bridges.ros2.rclpy_node import RclpyNode
 
         return RclpyNode(number, namespace, report)
