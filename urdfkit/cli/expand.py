@@ -88,7 +88,7 @@ def _refuse_other_formats(expanded: Expanded, path: str) -> None:
     Raises:
         ModelError: the file is of another format, without xacro.
     """
-    from urdfkit.description.loading import OTHER_ROOTS
+    from urdfkit.description.document_root import OTHER_ROOTS
 
     root = expanded.root
     if root is not None and (kind := OTHER_ROOTS.get(root.tag)) is not None:

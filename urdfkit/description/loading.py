@@ -7,6 +7,8 @@ from collections.abc import Callable, Iterable, Mapping
 from dataclasses import replace
 from pathlib import Path
 
+from urdfkit.description.document_root import check_is_robot
+from urdfkit.description.encoding_defects import encoding_repairs
 from urdfkit.description.packages.resolver import Packages
 from urdfkit.description.repair_positions import at_attributes
 from urdfkit.description.structure_defects import repaired_structure
@@ -19,23 +21,11 @@ from urdfkit.description.xacro.evaluation.failures import chain_words
 from urdfkit.description.xacro.expand import expand as expand_file
 from urdfkit.description.xacro.expand import expand_leniently, is_xacro
 from urdfkit.description.xacro.expanded import Expanded
-from urdfkit.description.xml.element import Element
 from urdfkit.description.xml.misplaced_declaration import without_declaration
 from urdfkit.description.xml.reader import read_source
 from urdfkit.description.xml.source import absolute
-from urdfkit.errors import ModelError, UsageError, XacroError, XmlError, did_you_mean
+from urdfkit.errors import ModelError, UsageError, XacroError, XmlError
 from urdfkit.resources import ModelArgument, find_model
-
-OTHER_ROOTS = {
-    "sdf": "an SDF file",
-    "gazebo": "an SDF file",
-    "mujoco": "an MJCF file (MuJoCo)",
-    "mujocoinclude": "an MJCF file (MuJoCo)",
-    "collada": "a COLLADA mesh",
-    "launch": "a launch file",
-    "package": "a package manifest",
-}
-"""Root element of a file that is no robot description → its format."""
 
 
 def load(
@@ -81,6 +71,9 @@ def load_valid(model: ModelArgument) -> Robot:
         UrdfkitError: see `load`, or a value needs a repair (`repaired_values`).
     """
     robot = _load(model, check)
+    for repair in robot.repairs:
+        if repair.severity == "warning":
+            raise ModelError(repair.message, position=repair.position)
     require_valid_values(robot)
     return robot
 
@@ -186,7 +179,8 @@ def _load(
             raise
         hint = "; xacro is not run on .urdf files: rename it to .urdf.xacro"
         raise ModelError(error.message + hint, position=error.position) from None
-    return robot
+    repairs_of_text = encoding_repairs(expanded.sources.values())
+    return replace(robot, repairs=repairs_of_text) if repairs_of_text else robot
 
 
 def _partial(model: ModelArgument, packages: Packages, texts: Mapping[str, str]) -> Robot | None:
@@ -200,6 +194,7 @@ def _partial(model: ModelArgument, packages: Packages, texts: Mapping[str, str])
     if repairs is None or expanded.root is None or expanded.root.tag != "robot":
         return None
     robot = parse(expanded.root, files=expanded.files, packages=packages, arguments=model.arguments)
+    repairs = [*encoding_repairs(expanded.sources.values()), *repairs]
     return replace(robot, repairs=tuple(repairs)) if robot.links else None
 
 
@@ -296,22 +291,6 @@ def _parsed(expanded: Expanded, arguments: Mapping[str, str]) -> Robot:
 
 def _holds_xacro(expanded: Expanded) -> bool:
     return any("${" in source.text or "<xacro:" in source.text for source in expanded.sources.values())
-
-
-def check_is_robot(root: Element) -> None:
-    """Raise unless the document element is ``<robot>``.
-
-    Args:
-        root: the document element.
-
-    Raises:
-        ModelError: the document element is another one; the message contains its name.
-    """
-    if root.tag == "robot":
-        return
-    kind = OTHER_ROOTS.get(root.tag.lower())
-    what = f"this is {kind}, not a robot description" if kind else f"the root element is <{root.tag}>, not <robot>"
-    raise ModelError(f"{what}{'' if kind else did_you_mean(root.tag, ['robot'])}", position=root.origin.position)
 
 
 def check(robot: Robot) -> None:

@@ -17,7 +17,7 @@ class MovingLinkWithoutInertial(RobotRule):
     link nor any link fixed to it has a mass and a tensor. The finding is an error for simulators: with ``--target gz``,
     ``classic``, ``mujoco``, ``isaac`` or ``drake``, or if the robot contains Gazebo plugins. For other robots it is a
     warning. A robot without any ``<inertial>`` is reported once if joints move its shapes, and with these targets also
-    if it has joints that move or shapes. Other robots describe kinematics only.
+    if it has joints that move or shapes; as a note if it has collision shapes. Other robots describe kinematics only.
 
     ## Why is this bad?
     Gazebo silently drops the link and all links attached to it; MuJoCo rejects the model. `urdfkit sim` estimates the
@@ -93,7 +93,9 @@ class MovingLinkWithoutInertial(RobotRule):
                 link, joint = (shaped[0], moved[shaped[0].name]) if shaped else (link, joint)
             is_shaped = bool(link.visuals or link.collisions)
             if sum((is_shaped, joint is not None, is_simulator(model))) < 2:
-                return  # It describes kinematics only.
+                if not any(each.collisions for each in robot.links):
+                    return  # It describes kinematics only.
+                severity = "note"
             effect = f"joints move `{link.name}` and other links" if joint is not None else "the robot is free to move"
             yield self.at(
                 model,
