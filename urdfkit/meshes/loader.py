@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from urdfkit.description.lfs_pointer import LFS, POINTER
 from urdfkit.description.meshes.format_faults import (
+    dae_fault,
     glb_fault,
     obj_fault,
     other_format,
@@ -126,6 +127,8 @@ def _fault(suffix: str, content: bytes) -> str:
     """Return the fault of the content of a mesh file that is found without its reader; else an empty text."""
     if suffix == ".obj":
         return obj_fault(content)
+    if suffix == ".dae":
+        return text_fault(suffix, content) or dae_fault(content)
     if suffix == ".glb":
         return glb_fault(content, len(content))
     if suffix != ".stl":

@@ -32,6 +32,13 @@ _NOT_FINITE = re.compile(
 )
 """Matches a vertex with a number that is infinite, also as a 32-bit number, or not a number."""
 _NOT_FINITE_STL = re.compile(rb"vertex[ \t][^\r\n]*?(?:nan|inf)")
+_NOT_FINITE_WORD = re.compile(rb"[\s>][-+]?(?:nan|inf)", re.IGNORECASE)
+_INPUT = re.compile(rb"<(?:\w+:)?input\b[^<>]*")
+_SOURCE = re.compile(rb"""#([^"'\s>]+)""")
+_ARRAY = re.compile(
+    rb"""<(?:\w+:)?source\b[^<>]*?\bid\s*=\s*["']([^"'<>]+)["'][^<>]*>\s*<(?:\w+:)?float_array\b[^<>]*>([^<]*)"""
+)
+"""Matches an array of numbers in a COLLADA file; the groups are its ID and the numbers."""
 _FACE = re.compile(rb"^[ \t]*f[ \t](.*)$", re.MULTILINE)
 _INDEX = re.compile(rb"-?\d{1,9}(?![^\s/])")
 _GLB_HEADER = 20
@@ -52,6 +59,16 @@ _OTHERS = (
     (rb"\{\s*\"", "a glTF file", ".gltf"),
 )
 """Start of a file (pattern), its format, and the suffix of a supported format."""
+
+
+def dae_fault(content: bytes) -> str:
+    """Return the fault of the vertices of a COLLADA file; empty if none is found. Normals may be no numbers."""
+    if not _NOT_FINITE_WORD.search(content):
+        return ""
+    inputs = [tag for tag in _INPUT.findall(content) if b"POSITION" in tag]
+    positions = {name for tag in inputs for name in _SOURCE.findall(tag)}
+    arrays = (numbers for name, numbers in _ARRAY.findall(content) if name in positions)
+    return NOT_FINITE if any(_NOT_FINITE_WORD.search(b" " + numbers) for numbers in arrays) else ""
 
 
 def obj_fault(content: bytes) -> str:

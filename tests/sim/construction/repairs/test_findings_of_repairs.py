@@ -82,6 +82,10 @@ LINKS = {
     "no geometry": (GOOD + "<visual/>", "E014"),
     "mesh without a vertex": (GOOD + BOX.replace('box size="0.1 0.2 0.3"', 'mesh filename="index.obj"'), "G607"),
     "mesh that is not finite": (GOOD + BOX.replace('box size="0.1 0.2 0.3"', 'mesh filename="nan.obj"'), "G607"),
+    "COLLADA mesh that is not finite": (
+        GOOD + BOX.replace('box size="0.1 0.2 0.3"', 'mesh filename="nan.dae"'),
+        "G607",
+    ),
     "mesh without size": (
         GOOD + BOX.replace('box size="0.1 0.2 0.3"', 'mesh filename="flat.obj" scale="0 0 0"'),
         "G611",
@@ -107,6 +111,11 @@ def robot_of(folder: Path, inside: str, base: str = "heavy") -> str:
     (folder / "pointer.stl").write_text("version https://git-lfs.github.com/spec/v1\noid sha256:0\nsize 9\n")
     (folder / "index.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n")
     (folder / "nan.obj").write_text("v nan 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+    (folder / "nan.dae").write_text(
+        '<COLLADA><library_geometries><geometry><mesh><source id="p"><float_array count="9">0 0 0 1 NaN 0 0 1 0'
+        '</float_array></source><vertices id="v"><input source="#p" semantic="POSITION"/></vertices></mesh></geometry>'
+        "</library_geometries></COLLADA>"
+    )
     (folder / "flat.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
     (folder / "short.glb").write_bytes(b"glTF\x02\0\0\0\x99\0\0\0")
     (folder / "folder.stl").mkdir()

@@ -8,6 +8,7 @@ from urdfkit.description.meshes.bounds import bounds
 from urdfkit.description.meshes.format_faults import (
     NOT_FINITE,
     TITLES,
+    dae_fault,
     glb_fault,
     has_infinite_stl_vertex,
     obj_fault,
@@ -42,9 +43,9 @@ class MeshCorrupt(RobotRule):
     ## What it does
     Checks for folders, empty mesh files, Git LFS pointers, files of another format than their suffix, truncated STL
     and glTF files, invalid COLLADA files, files without triangles, meshes with all triangles in one point, and meshes
-    above 256 MiB or 5 million triangles. In STL and OBJ files, checks for vertices that are not finite, and in OBJ
-    files up to 2 MiB for faces with missing vertices. Files that the linter cannot read itself are read by trimesh if
-    it is installed.
+    above 256 MiB or 5 million triangles. In STL, OBJ and COLLADA files, checks for vertices that are not finite, and in
+    OBJ files up to 2 MiB for faces with missing vertices. Files that the linter cannot read itself are read by trimesh
+    if it is installed.
 
     ## Why is this bad?
     Viewers show nothing, and simulators stop with an error of the mesh reader that does not name the cause.
@@ -122,7 +123,8 @@ def _fault_in(path: Path) -> str:
         return glb_fault(head, size)
     if suffix in (".dae", ".gltf", ".ply") and (fault := text_fault(suffix, head)):
         return fault
-    if suffix == ".obj" and size <= _LARGE and (fault := obj_fault(path.read_bytes())):
+    check = {".obj": obj_fault, ".dae": dae_fault}.get(suffix)
+    if check is not None and size <= _LARGE and (fault := check(path.read_bytes())):
         return fault
     faces = _FACES.get(suffix)
     if faces is None or bounds(path, estimated=True) is not None:
