@@ -50,6 +50,8 @@ class _Structure:
         """Link without a parent because of a defect that has been reported → index of the defect."""
         self._left_out = {defect.element: i for i, defect in enumerate(defects) if defect.effect == LEFT_OUT}
         """Element without which a joint is left out → index of its defect."""
+        self._childless: int | None = None
+        """Index of the defect of a joint without child, which may be any link without parent."""
 
     def _add(
         self,
@@ -126,6 +128,8 @@ class _Structure:
                 parts = (joint.element, joint.element.find("parent"), joint.element.find("child"))
                 at = next(self._left_out[part] for part in parts if part in self._left_out)
                 self._detached.setdefault(joint.child or "", at)
+                if joint.child is None:
+                    self._childless = at
                 continue
             if is_loop(joint):
                 message = f"joint `{joint.name}` connects link `{joint.child}` with itself"
@@ -183,6 +187,8 @@ class _Structure:
         roots = [link for link in self.links if link.name not in children]
         if len(roots) < 2:
             return
+        if self._childless is not None:
+            self._detached = {link.name: self._childless for link in roots} | self._detached
         size = self._tree_sizes(roots)
         written = [link for link in roots if link.name not in self._detached]
         main = max(written or roots, key=lambda link: size[link.name])

@@ -29,15 +29,17 @@ AGREEMENT = 1e-3
 """Largest difference between entries of the rotations of ``rpy`` and ``quat_xyzw`` that is rounding."""
 
 GAZEBO_VALUES = {
-    "mu1": "a number, zero or greater",
-    "mu2": "a number, zero or greater",
+    **dict.fromkeys(
+        ("mu1", "mu2", "kp", "kd", "maxVel", "max_vel", "minDepth", "min_depth", "maxContacts", "dampingFactor"),
+        "a number, zero or greater",
+    ),
     "fdir1": "3 numbers",
     "gravity": "true or false",
     "turnGravityOff": "true or false",
     "selfCollide": "true or false",
     "self_collide": "true or false",
 }
-"""Simulated elements of a ``<gazebo>`` block, and their valid values."""
+"""Elements of a ``<gazebo>`` block with numbers or truth values, and their valid values."""
 
 TRUTHS = {"true": True, "yes": True, "1": True, "false": False, "no": False, "0": False}
 """Values of the elements that are true or false; Gazebo ignores case, too."""

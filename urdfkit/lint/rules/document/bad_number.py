@@ -22,8 +22,8 @@ class BadNumber(RobotRule):
 
     ## What it does
     Checks every attribute that holds numbers (``xyz``, ``rpy``, ``size``, ``radius``, ``value``, ``lower`` …). Commas
-    between numbers, trailing units and expressions that were never evaluated cannot be parsed. Also checks friction,
-    gravity and self-collision of links in ``<gazebo>``.
+    between numbers, trailing units and expressions that were never evaluated cannot be parsed. Also checks contact
+    parameters, gravity and self-collision of links in ``<gazebo>``.
 
     ## Why is this bad?
     check_urdf, Pinocchio and MuJoCo reject the whole robot; more lenient readers use zero.

@@ -11,6 +11,8 @@ from urdfkit.description.urdf.massless_links import first_of, has_inertia, has_m
 from urdfkit.description.urdf.repair_record import Repair
 from urdfkit.description.urdf.robot import Geometry, Inertia, Inertial, Joint, Link, Pose, Robot
 from urdfkit.description.urdf.volume_moments import Moments, of_primitive, union
+from urdfkit.description.xml.element import Element
+from urdfkit.description.xml.numbers import number
 from urdfkit.meshes.mesh_moments import moments
 from urdfkit.scene import Scene, Shape
 from urdfkit.sim.construction.repairs.inertia_tensors import repair_at
@@ -105,12 +107,12 @@ def mass_repair(link: Link, inertials: list[Inertial], joint: Joint | None, basi
         code = {"parent": "T201", "child": "T202"}.get(element.tag, code)  # The link was added for a joint.
     elif not has_mass(link):
         problem = "has no mass"
-        element, code = written.element, "E014"
+        element, code = _unread(written.element, "mass", ("value",))
         if written.mass is not None:
             element, code = written.element.find("mass") or element, "I501"
     else:
         problem = "has no moment of inertia"
-        element, code = written.element, "E014"
+        element, code = _unread(written.element, "inertia", ("ixx", "ixy", "ixz", "iyy", "iyz", "izz"))
         if written.inertia is not None:
             element, code = written.inertia.element, "I504"
     amount = f"{sum(inertial.mass or 0.0 for inertial in inertials):.4g} kg"
@@ -120,6 +122,17 @@ def mass_repair(link: Link, inertials: list[Inertial], joint: Joint | None, basi
         amount += f" and {i.ixx:.4g}, {i.iyy:.4g}, {i.izz:.4g} kg·m²"
     message = f"link `{link.name}` {problem}, but {why}; simulated with {amount} ({basis})"
     return repair_at(element, "mass", code, message, link=link.name, joint=None if joint is None else joint.name)
+
+
+def _unread(inertial: Element, tag: str, attributes: tuple[str, ...]) -> tuple[Element, str]:
+    """Return the element without which an inertial has no mass or inertia, and the code of its defect."""
+    element = inertial.find(tag)
+    if element is None:
+        return inertial, "E014"
+    texts = [element.get(name) for name in attributes]
+    if None in texts:
+        return element, "E014"
+    return element, "E010" if any(number(text or "") is None for text in texts) else "E012"
 
 
 def _volume(scene: Scene, link: str) -> Moments:
