@@ -184,6 +184,12 @@ def test_a_neighbour_that_misspells_its_dependency_belongs_to_the_robot(tmp_path
         ("share/${PROJECT_NAME}", "share", "5: folder `launch` is installed to `share`, but its files are searched in"),
         ("share/${PROJECT_NAME}", "lib/cart", "5: folder `launch` is installed to `lib/cart`, but its files are"),
         ("install(PROGRAMS scripts/wait.py DESTINATION lib/${PROJECT_NAME})\n", "", "4: `scripts/wait.py` is not"),
+        ("(DIRECTORY", "(DIRECTROY", "4: unknown word `DIRECTROY` of install(); did you mean `DIRECTORY`?"),
+        (
+            "  DESTINATION share",
+            "  DESTNATION share",
+            "5: unknown word `DESTNATION` of install(); did you mean `DESTINA",
+        ),
     ],
 )
 def test_a_defect_of_cmake_is_reported(cmake, old, new, expected):

@@ -99,8 +99,8 @@ LIMB = """<robot name="limb">
 """
 SEMANTICS = """<robot name="{robot}">
   <group name="limb"><chain base_link="{base}" tip_link="c"/></group>
-  <group_state name="home" group="{group}"><joint name="a_b" value="0"/><joint name="b_c" value="0"/></group_state>
-  <end_effector name="tip" parent_link="c" group="limb"/>
+  <group_state name="home" group="{group}"><joint name="a_b" value="0"/><joint name="{valued}" value="0"/></group_state>
+  <end_effector name="tip" parent_link="{parent}" group="limb"/>
   <disable_collisions link1="a" link2="{link}" reason="{reason}"/>
 </robot>
 """
@@ -114,6 +114,11 @@ SHAPE = '<collision><geometry><sphere radius="0.1"/></geometry></collision>'
         ({"reason": "Adjcent"}, ["M102 unknown reason `Adjcent`; did you mean `Adjacent`?"]),
         ({"link": "c"}, ["M102 the reason is `Adjacent`, but several joints separate links `a` and `c`"]),
         ({"link": "c", "reason": "Never"}, []),
+        ({"parent": "c"}, ["M105 parent link `c` of end effector `tip` is in group `limb`"]),
+        (
+            {"valued": "b_cc"},
+            ["M104 joint `b_cc` of <joint> does not exist in robot `limb`; did you mean `b_c`?"],
+        ),
         ({"group": "limp"}, ["M104 group `limp` of <group_state> does not exist in this SRDF; did you mean `limb`?"]),
         (
             {"robot": "lmb", "base": "c"},
@@ -126,6 +131,7 @@ SHAPE = '<collision><geometry><sphere radius="0.1"/></geometry></collision>'
 )
 def test_mistakes_in_an_srdf(changes: dict[str, str], expected: list[str], tmp_path: Path) -> None:
     words = {"robot": "limb", "base": "a", "group": "limb", "link": "b", "reason": "Adjacent", **changes}
+    words = {"parent": "a", "valued": "b_c", **words}
     links = "".join(f'<link name="{name}">{SHAPE}</link>' for name in "abc")
     joints = "".join(
         f'<joint name="{a}_{b}" type="revolute"><parent link="{a}"/><child link="{b}"/><axis xyz="0 0 1"/>'
@@ -136,3 +142,26 @@ def test_mistakes_in_an_srdf(changes: dict[str, str], expected: list[str], tmp_p
     (tmp_path / "limb.srdf").write_text(SEMANTICS.format(**words))
     found = [f"{one.code} {one.message}" for one in lint(tmp_path / "limb.urdf") if one.code.startswith("M")]
     assert sorted(found) == sorted(expected)
+
+
+@pytest.mark.parametrize(
+    ("pairs", "expected"),
+    [
+        ("ab bc cd de", []),
+        ("ab bc cd", ["M110 links `d` and `e` are adjacent, but their collisions are not disabled"]),
+        ("ab bc cd dd", ["M106 link `d` cannot collide with itself"]),
+        ("ab bc", []),
+    ],
+)
+def test_the_only_missing_pair_of_adjacent_links_is_reported(pairs: str, expected: list[str], tmp_path: Path) -> None:
+    links = "".join(f'<link name="{name}">{SHAPE}</link>' for name in "abcde")
+    joints = "".join(
+        f'<joint name="{a}_{b}" type="fixed"><parent link="{a}"/><child link="{b}"/></joint>'
+        for a, b in ("ab", "bc", "cd", "de")
+    )
+    (tmp_path / "limb.urdf").write_text(LIMB.format(links=links, joints=joints))
+    disabled = "".join(f'<disable_collisions link1="{a}" link2="{b}" reason="Adjacent"/>' for a, b in pairs.split())
+    group = '<group name="limb"><chain base_link="a" tip_link="e"/></group>'
+    (tmp_path / "limb.srdf").write_text(f'<robot name="limb">{group}{disabled}</robot>')
+    found = [f"{one.code} {one.message}" for one in lint(tmp_path / "limb.urdf") if one.code.startswith("M")]
+    assert found == expected

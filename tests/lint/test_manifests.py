@@ -53,3 +53,37 @@ def test_a_dependency_on_the_package_itself_stands_for_the_missing_one(tmp_path,
     assert "K956" not in {each.code for each in lint(tmp_path)}
     (tmp_path / "arm_bringup" / "package.xml").write_text(manifest("arm_bringup", "arm_description"))
     assert "missing dependency on `arm_gazebo`" in {each.message for each in lint(tmp_path)}
+
+
+def test_a_cycle_of_dependencies_is_reported_once(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    needs = {"a_description": ["b_control"], "b_control": ["c_bringup"], "c_bringup": ["a_description"]}
+    for name, needed in needs.items():
+        (tmp_path / name).mkdir()
+        (tmp_path / name / "package.xml").write_text(manifest(name, *needed))
+    (tmp_path / "a_description" / "arm.urdf").write_text('<robot name="arm"><link name="a"/></robot>')
+    (found,) = lint(tmp_path)
+    cycle = "`a_description` → `b_control` → `c_bringup` → `a_description`"
+    assert (found.file, found.code) == ("a_description/package.xml", "K972")
+    assert found.message == f"the packages depend on each other: {cycle}; colcon refuses to build"
+    for tool in ("catkin", "ament_cmake"):
+        text = manifest("b_control", "c_bringup").replace(
+            "exec_depend", "test_depend" if "ament" in tool else "exec_depend"
+        )
+        for name in needs:
+            file = tmp_path / name / "package.xml"
+            file.write_text((text if name == "b_control" else file.read_text()).replace("ament_cmake", tool))
+        assert lint(tmp_path) == []
+
+
+def test_a_misspelt_name_without_its_last_letter_and_utf_16(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "arm.urdf").write_text('<robot name="arm"><link name="a"/></robot>')
+    (tmp_path / "package.xml").write_text(manifest("p", "moveit_kinematic", "velocity_controller"))
+    assert [each.message for each in lint(tmp_path)] == [
+        "unknown dependency `moveit_kinematic`; did you mean `moveit_kinematics`?"
+    ]
+    (tmp_path / "launch").mkdir()
+    (tmp_path / "launch" / "v.launch.xml").write_text('<launch><node pkg="rviz2" exec="rviz2"/></launch>')
+    (tmp_path / "package.xml").write_text(manifest("p", "rviz2"), "utf-16")
+    assert [each.message for each in lint(tmp_path)] == ["package.xml is in UTF-16; colcon and catkin read UTF-8 only"]

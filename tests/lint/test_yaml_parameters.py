@@ -444,3 +444,22 @@ def test_a_spawned_controller_without_a_type_is_reported_at_its_parameters(ros2,
     lines = change(ros2, "config/arm.yaml", entry, "")
     expected = ["arm.yaml:9: controller `arm_controller` has no `type`, but launch/arm.launch.py spawns it"]
     assert lines == (expected if is_reported else [])
+
+
+@pytest.mark.parametrize(
+    ("text", "line", "why"),
+    [
+        (
+            "a: &a [1, 1]\n"
+            + "".join(f"{n}: &{n} [{', '.join([f'*{p}'] * 9)}]\n" for p, n in zip("abcdefg", "bcdefgh", strict=True)),
+            5,
+            "nested too deeply, or too many aliases",
+        ),
+        ("x: 1\ny: " + "[" * 50_000, 2, "nested too deeply"),
+    ],
+    ids=["aliases", "brackets"],
+)
+def test_a_yaml_file_that_expands_without_end_is_one_finding(ros2, text, line, why):
+    write(ros2, {"config/other.yaml": text})
+    (finding,) = lint(ros2)
+    assert (finding.code, finding.line, finding.message) == ("K966", line, f"invalid YAML: {why}")

@@ -36,11 +36,16 @@ def package_of(path: Path) -> Path | None:
     return next((folder for folder in path.absolute().parents if is_file(folder / "package.xml")), None)
 
 
+_UTF_16 = (b"\xff\xfe", b"\xfe\xff")
+"""First bytes of a text in UTF-16."""
+
+
 def manifest(package: Path) -> str:
     """Return the package.xml of a package, without comments; empty if it cannot be read."""
     file = package / "package.xml"
     try:
-        return uncommented(file.read_text("utf-8", "replace")) if is_file(file) else ""
+        content = file.read_bytes() if is_file(file) else b""
+        return uncommented(content.decode("utf-16" if content[:2] in _UTF_16 else "utf-8", "replace"))
     except OSError:
         return ""
 

@@ -87,14 +87,15 @@ def build_files(model: Model) -> Iterator[BuildFiles]:
     """Yield the build files of the robot's package and of related packages."""
     files = {Path(name).absolute(): source for name, source in model.related_files.items()}
     for path, source in files.items():
-        if path.name == "package.xml" and _is_well_formed(source):
+        if path.name == "package.xml" and is_well_formed(source):
             cmake, setup, config = (
                 files.get(path.with_name(name)) for name in ("CMakeLists.txt", "setup.py", "setup.cfg")
             )
             yield BuildFiles(path.parent, source, cmake, setup, config, model.texts)
 
 
-def _is_well_formed(source: Source) -> bool:
+def is_well_formed(source: Source) -> bool:
+    """Return whether a file can be parsed as XML."""
     try:
         document_of(source)
     except XmlError:
@@ -124,6 +125,8 @@ def installed_folders(files: BuildFiles) -> tuple[set[str], list[CMakeCommand]] 
             return None
         for command in commands(files.cmake):
             words = [word for word, _ in command.words]
+            if misspelt_word(command) is not None:
+                return None
             if command.name.startswith("inst") and words[:1] == ["DIRECTORY"]:
                 installs.append(command)
                 end = next((at for at, word in enumerate(words) if word in OPTIONS), len(words))
@@ -136,6 +139,23 @@ def installed_folders(files: BuildFiles) -> tuple[set[str], list[CMakeCommand]] 
             return None
     return None if any("$" in name or name in (".", "") for name in names) else (names, installs)
 
+
+def misspelt_word(command: CMakeCommand) -> tuple[str, int, str] | None:
+    """Return the first keyword of ``install()`` that is misspelt: word, offset, suggested word; None without one."""
+    from urdfkit.lint.fix_builders import nearest
+
+    for at, (word, start) in enumerate(command.words if command.name == "install" else ()):
+        accepted = _MODES if at == 0 else OPTIONS
+        if word.isupper() and word not in accepted and word not in _OTHERS:
+            near = nearest(word, accepted, cutoff=0.75)
+            if near is not None:
+                return word, start, near
+    return None
+
+
+_MODES = ("CODE", "DIRECTORY", "EXPORT", "FILES", "IMPORTED_RUNTIME_ARTIFACTS", "PROGRAMS", "SCRIPT", "TARGETS")
+_OTHERS = ("COMPONENTS", "CONFIGURATIONS", "OPTION", "PERMISSIONS", "DIRECTORY_PERMISSIONS", "FILE_PERMISSIONS")
+"""First words of ``install()``, and words that resemble an option."""
 
 OPTIONS = frozenset(
     ("DESTINATION", "PATTERN", "FILES_MATCHING", "USE_SOURCE_PERMISSIONS", "REGEX", "OPTIONAL", "COMPONENT")

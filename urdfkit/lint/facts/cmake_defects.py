@@ -74,10 +74,17 @@ def unbalanced(source: Source) -> BuildDefect | None:
 
 def cmake_defects(source: Source, every: list[CMakeCommand]) -> Iterator[BuildDefect]:
     """Yield the defects of the commands of a CMakeLists.txt without syntax errors."""
+    from urdfkit.lint.facts.build_files import misspelt_word
+
     yield from _calls(source, every)
     yield from _variables(source, every)
     for command in every:
         words = [word for word, _ in command.words]
+        misspelt = misspelt_word(command)
+        if misspelt is not None:
+            word, start, near = misspelt
+            yield BuildDefect(source, start, word, f"unknown word `{word}` of install(); did you mean `{near}`?")
+            continue
         if command.name not in ("install", "catkin_install_python") or words[:1] not in (
             ["DIRECTORY"],
             ["FILES"],

@@ -118,6 +118,9 @@ def names() -> frozenset[str]:
     return frozenset(_NAMES.split())
 
 
+_OF_ONE_PROJECT = r"(?:ament|joint_state|launch|moveit|nav2|ros_gz|ros2|rviz)_"
+"""Matches names of packages that one project releases, so that a package without the final ``s`` does not exist."""
+
 _SUCCESSORS = {"rviz": "rviz2", "tf": "tf2_ros"}
 """Package of ROS 1 → the package of ROS 2 with the same executables."""
 
@@ -139,6 +142,8 @@ def misspelling_of(name: str, others: Iterable[str], version: int = 0) -> str | 
         return None
     from urdfkit.errors import similar
 
+    if f"{name}s" in names() and re.match(_OF_ONE_PROJECT, name):
+        return f"{name}s"
     return next((near for near in similar(name, valid, count=3, cutoff=0.75) if is_slip(name, near)), None)
 
 

@@ -17,6 +17,8 @@ if TYPE_CHECKING:
 
 _MAX_NODES = 20_000
 _MAX_DEPTH = 12
+_DEEP = r"(?:[\[{]\s*){200}"
+"""Matches brackets that are nested more deeply than in any file of parameters; PyYAML reads many of them slowly."""
 
 
 @record(eq=False)
@@ -120,6 +122,10 @@ def documents_in(text: str) -> tuple[tuple[Node, ...], Broken | None]:
     from urdfkit.description.control.parameter_yaml import loader_of
 
     found: list[Node] = []
+    deep = re.search(_DEEP, text)
+    if deep is not None:
+        line = text.count("\n", 0, deep.start()) + 1
+        return (), Broken(line, deep.start() - text.rfind("\n", 0, deep.start()), "nested too deeply")
     try:
         for document in yaml.compose_all(text, Loader=loader_of(text)):
             found.append(_Reader().node(document, 0))
@@ -127,9 +133,25 @@ def documents_in(text: str) -> tuple[tuple[Node, ...], Broken | None]:
         mark = error.problem_mark or error.context_mark
         why = error.problem or error.context or "invalid YAML"
         return tuple(found), Broken(mark.line + 1 if mark else 1, mark.column + 1 if mark else 1, why)
-    except (yaml.YAMLError, RecursionError) as error:
+    except _TooManyAliasesError as error:
+        return tuple(found), Broken(*error.place, "nested too deeply, or too many aliases")
+    except RecursionError:
+        return tuple(found), Broken(1, 1, "nested too deeply")
+    except yaml.YAMLError as error:
         return tuple(found), Broken(1, 1, " ".join(str(error).split())[:200] or "invalid YAML")
     return tuple(found), None
+
+
+class _TooManyAliasesError(Exception):
+    """Aliases repeat a document more often than it has nodes.
+
+    Args:
+        place: line and column of the last node that is written out.
+    """
+
+    def __init__(self, place: tuple[int, int]) -> None:
+        super().__init__()
+        self.place = place
 
 
 class _Reader:
@@ -137,10 +159,17 @@ class _Reader:
 
     def __init__(self) -> None:
         self._count = 0
+        self._seen: dict[int, int] = {}
+        self._last = (1, 1)
 
     def node(self, written: Any, depth: int) -> Node:
         self._count += 1
         place = (written.start_mark.line + 1, written.start_mark.column + 1)
+        times = self._seen[id(written)] = self._seen.get(id(written), 0) + 1
+        if times == 1:
+            self._last = place
+        elif self._count > _MAX_NODES and len(self._seen) * 4 < self._count:
+            raise _TooManyAliasesError(self._last)
         if depth > _MAX_DEPTH or self._count > _MAX_NODES:
             return Node("text", "", (), (), *place)
         if written.id == "mapping":

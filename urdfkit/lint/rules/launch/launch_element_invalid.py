@@ -48,13 +48,14 @@ class LaunchElementInvalid(RobotRule):
 
     def check(self, model: Model) -> Findings:
         """Yield a finding for each unknown element, attribute and substitution, and for missing attributes."""
+        from urdfkit.lint.facts.build_files import is_well_formed
         from urdfkit.lint.facts.launch.ros_version import ros_version
         from urdfkit.lint.model.tags import Document
 
         for name, source in model.related_files.items():
             if not name.endswith((".launch", ".launch.xml", "_launch.xml")):
                 continue
-            roots = [tag for tag in Document(source).roots if tag.name == "launch"]
+            roots = [tag for tag in Document(source).roots if tag.name == "launch"] if is_well_formed(source) else []
             version = ros_version(source) if roots else 0
             if version:
                 yield from self._substitutions(source, version)

@@ -6,10 +6,16 @@ from urdfkit.lint.rule import Findings, Model, RobotRule
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
+    from urdfkit.description.urdf.robot import Joint
     from urdfkit.description.xml.element import Element
+
+    Pair = tuple[Joint, frozenset[str]]
 
 _MIN_SHARE = 2
 """Number of adjacent pairs that an SRDF disables for each missing one, at least."""
+
+_MIN_PAIRS = 4
+"""Number of adjacent pairs of a robot from which on a single missing one is reported, whatever links it has."""
 
 
 class SrdfAdjacentPairMissing(RobotRule):
@@ -17,7 +23,8 @@ class SrdfAdjacentPairMissing(RobotRule):
 
     ## What it does
     Checks links with collision geometry that a joint connects, in an SRDF that disables most of these pairs. Both links
-    must occur in disabled pairs. SRDFs with ``enable_collisions`` or ``disable_default_collisions`` are left out.
+    must occur in disabled pairs, unless all other adjacent pairs are disabled. SRDFs with ``enable_collisions`` or
+    ``disable_default_collisions`` are left out.
 
     ## Why is this bad?
     The shapes of adjacent links often overlap at the joint. MoveIt then reports every state as a collision and finds no
@@ -64,15 +71,16 @@ class SrdfAdjacentPairMissing(RobotRule):
                 continue
             disabled = {frozenset(_links(pair)): pair for pair in root.find_all("disable_collisions")}
             mentioned = {link for pair in disabled for link in pair}
-            solid = {link.name for link in model.robot.links if link.collisions} & mentioned
-            adjacent = [
-                (joint, frozenset((joint.parent, joint.child)))
-                for joint in model.robot.joints
-                if joint.parent in solid and joint.child in solid
-            ]
-            missing = [(joint, pair) for joint, pair in adjacent if pair not in disabled]
+            every = {link.name for link in model.robot.links if link.collisions}
+            adjacent, missing = _adjacent(model, every, disabled)
+            if len(missing) != 1 or len(adjacent) < _MIN_PAIRS:
+                adjacent, missing = _adjacent(model, every & mentioned, disabled)
             if len(adjacent) < (1 + _MIN_SHARE) * len(missing):
                 continue
+            links = set(model.robot.link_by_name)
+            # Other rules report a pair that names one link twice, or a link that does not exist.
+            wrong = [each for each in disabled if len(each) < 2 or not each <= links]
+            missing = [(joint, pair) for joint, pair in missing if not any(pair & each for each in wrong)]
             for joint, pair in missing:
                 near = next((element for links, element in disabled.items() if links & pair), root)
                 message = (
@@ -81,6 +89,16 @@ class SrdfAdjacentPairMissing(RobotRule):
                 written = f'<disable_collisions link1="{joint.parent}" link2="{joint.child}" reason="Adjacent"/>'
                 severity = severity_for(root, model)
                 yield self.at(model, near, message, help=f"add {written}", severity=severity)
+
+
+def _adjacent(model: Model, solid: set[str], disabled: dict[frozenset[str], Element]) -> tuple[list[Pair], list[Pair]]:
+    """Return the pairs of links that a joint connects, and those among them whose collisions are not disabled."""
+    adjacent = [
+        (joint, frozenset((joint.parent, joint.child)))
+        for joint in model.robot.joints
+        if joint.parent in solid and joint.child in solid
+    ]
+    return adjacent, [(joint, pair) for joint, pair in adjacent if pair not in disabled]
 
 
 def _links(pair: Element) -> tuple[str, str]:

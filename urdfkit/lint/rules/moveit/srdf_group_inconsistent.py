@@ -45,7 +45,7 @@ class SrdfGroupInconsistent(RobotRule):
 
     def check(self, model: Model) -> Findings:
         """Yield a finding for each contradiction."""
-        from urdfkit.lint.facts.moveit.srdf import groups, semantics_of, severity_for
+        from urdfkit.lint.facts.moveit.srdf import groups, path_between, semantics_of, severity_for
 
         if model.is_incomplete:
             return
@@ -70,11 +70,14 @@ class SrdfGroupInconsistent(RobotRule):
                     yield self.at(model, joint, message, attribute="child_link", help=help, severity=severity)
             for effector in root.find_all("end_effector"):
                 name, parent = effector.get("group") or "", effector.get("parent_link") or ""
-                links = by_name[name].find_all("link") if name in by_name else []
+                links = [link.get("name") for link in by_name[name].find_all("link")] if name in by_name else []
+                for chain in by_name[name].find_all("chain") if name in by_name else ():
+                    ends = (chain.get("base_link") or "", chain.get("tip_link") or "")
+                    links += [joint.child for joint in path_between(*ends, model.robot) or ()]
                 if name and name == effector.get("parent_group"):
                     message = f"group `{name}` of end effector `{effector.get('name')}` is its own parent group"
                     yield self.at(model, effector, message, attribute="parent_group", severity=severity)
-                if any(link.get("name") == parent for link in links):
+                if parent in links:
                     message = f"parent link `{parent}` of end effector `{effector.get('name')}` is in group `{name}`"
                     help = "write the link of the arm that carries the group"
                     yield self.at(model, effector, message, attribute="parent_link", help=help, severity=severity)

@@ -65,6 +65,9 @@ class SrdfNameUndefined(RobotRule):
                 if name in existing[kind]:
                     continue
                 suggestion, hint = meant(name, existing[kind])
+                # A group that has the name of another one, which srdf-duplicate reports, leaves its own undefined.
+                if kind == "group" and suggestion is None and len(groups(root)) < len(root.find_all("group")):
+                    continue
                 if kind == "group" and suggestion is None:  # short names such as `arm`
                     slip = next((each for each in existing[kind] if is_slip(name, each)), None)
                     hint = f"; did you mean `{slip}`?" if slip else ""

@@ -63,6 +63,7 @@ class SrdfStateInvalid(RobotRule):
     def check(self, model: Model) -> Findings:
         """Yield a finding for each invalid value, and for joints that are missing in a state or in its group."""
         from urdfkit.lint.facts.moveit.srdf import fits, joints_of, semantics_of, severity_for
+        from urdfkit.lint.fix_builders import nearest
 
         robot = model.robot
         if model.is_incomplete:
@@ -91,6 +92,8 @@ class SrdfStateInvalid(RobotRule):
                     if joint.name in members and joint.type in _COUNT and joint.mimic is None
                     if joint.name not in valued and joint.name not in passive
                 ]
+                unknown = [name for name in valued if name and name not in robot.joint_by_name]
+                missing = [name for name in missing if nearest(name, unknown, cutoff=0.7) is None]  # it is misspelt
                 if missing:
                     names = ", ".join(f"`{name}`" for name in missing[:4]) + (" …" if len(missing) > 4 else "")
                     message = f"state `{state.get('name')}` has no value for {names} of group `{group}`"

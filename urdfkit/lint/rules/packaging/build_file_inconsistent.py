@@ -135,11 +135,12 @@ class BuildFileInconsistent(RobotRule):
 
     def _install(self, files: BuildFiles, source: Source, command: CMakeCommand) -> Findings:
         """Yield a finding for each literal file or folder that does not exist."""
-        from urdfkit.lint.facts.build_files import OPTIONS
+        from urdfkit.lint.facts.build_files import OPTIONS, misspelt_word
         from urdfkit.lint.fix_builders import nearest
 
         if not command.words or command.words[0][0] not in ("DIRECTORY", "FILES", "PROGRAMS"):
             return
+        misspelt = misspelt_word(command)
         for (option, _), (word, start) in pairwise(command.words):
             first, separator, _ = word.partition("/")
             near = nearest(first, _DESTINATIONS, cutoff=0.7) if option == "DESTINATION" and separator else None
@@ -148,7 +149,7 @@ class BuildFileInconsistent(RobotRule):
                     source, start, word, f"unknown folder `{first}` of the installation; did you mean `{near}`?"
                 )
         for word, start in command.words[1:]:
-            if word in OPTIONS:
+            if word in OPTIONS or (misspelt is not None and start == misspelt[1]):
                 return
             yield from self._existing(files, source, word, start)
 

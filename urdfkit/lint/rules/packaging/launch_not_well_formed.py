@@ -39,7 +39,7 @@ class LaunchNotWellFormed(RobotRule):
         for source in model.related_files.values():
             error = None
             if source.file.endswith((".launch", "launch.xml", "package.xml")):
-                error = _in_xml(source)
+                error = _in_xml(source) or _encoding(source)
             elif source.file.endswith("launch.py"):
                 error = _in_python(source)
             if error is not None:
@@ -58,6 +58,20 @@ def _in_xml(source: Source) -> tuple[int, int, str] | None:
         position = error.position
         return (position.line, position.column, error.message) if position is not None else (1, 1, error.message)
     return None
+
+
+def _encoding(source: Source) -> tuple[int, int, str] | None:
+    """Return the error of a package.xml in another encoding; catkin_pkg decodes all of them as UTF-8."""
+    from pathlib import Path
+
+    try:
+        start = Path(source.file).read_bytes()[:2] if source.file.endswith("package.xml") else b""
+    except OSError:
+        return None
+    return (1, 1, "package.xml is in UTF-16; colcon and catkin read UTF-8 only") if start in _UTF_16 else None
+
+
+_UTF_16 = (b"\xff\xfe", b"\xfe\xff")
 
 
 def _in_python(source: Source) -> tuple[int, int, str] | None:

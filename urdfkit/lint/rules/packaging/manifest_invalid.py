@@ -69,6 +69,7 @@ class ManifestInvalid(RobotRule):
         """Yield a finding for each defect of a package.xml."""
         from urdfkit.description.packages.related_files import neighbours
         from urdfkit.lint.facts.build_files import build_files
+        from urdfkit.lint.facts.dependency_cycles import cycle_over
         from urdfkit.lint.facts.package_format import format_defects
         from urdfkit.lint.facts.ros_packages import misspelling_of
 
@@ -87,6 +88,13 @@ class ManifestInvalid(RobotRule):
                 if suggestion is not None:
                     message = f"unknown dependency `{text}`; did you mean `{suggestion}`?"
                     yield self._at(files, tag, message, "warning")
+            for text, tag in files.tags(*depends - {"test_depend"}):
+                # catkin orders packages by what they need to be built.
+                is_ordered = files.build_tool.startswith("ament") and text in folders and text != files.name
+                cycle = cycle_over(files.name, text, folders) if is_ordered and not tag.attributes else []
+                if cycle and files.name == min(cycle):  # each cycle in one package
+                    names = " → ".join(f"`{name}`" for name in cycle)
+                    yield self._at(files, tag, f"the packages depend on each other: {names}; colcon refuses to build")
             yield from self._build_tool(files, root)
 
     def _build_tool(self, files: BuildFiles, root: Tag) -> Findings:
