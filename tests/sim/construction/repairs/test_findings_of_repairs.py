@@ -56,6 +56,7 @@ LINKS = {
     "no mass": (BOX + INERTIAL.format(0, 0.01), "I501"),
     "zero tensor": (BOX + INERTIAL.format(1, 0).replace("0.01", "0"), "I504"),
     "impossible tensor": (BOX + INERTIAL.format(1, 0.05), "I503"),
+    "mass on a line": (BOX + INERTIAL.format(1, 0.01).replace('iyy="0.01"', 'iyy="0"'), "I502"),
     "note": (BOX + INERTIAL.format(1, 0.020001), "I503"),
     "moment of zero": (BOX + INERTIAL.format(1, 0).replace('izz="0.01"', 'izz="0.05"'), "I502"),
     "negative moment": (BOX + INERTIAL.format(1, -0.01), "I502"),

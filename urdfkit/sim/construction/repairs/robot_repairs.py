@@ -18,6 +18,7 @@ from urdfkit.sim.construction.repairs.collision_shapes import with_substitutes, 
 from urdfkit.sim.construction.repairs.estimated_masses import with_estimates
 from urdfkit.sim.construction.repairs.inertia_tensors import possible, repair_at
 from urdfkit.sim.construction.repairs.least_masses import with_least_masses
+from urdfkit.sim.construction.repairs.line_masses import with_thickness
 
 _SHOWN = 6
 """Largest number of masses in a message."""
@@ -60,8 +61,9 @@ def repaired(robot: Robot, scene: Scene | None, repairs: Repairs, *, floating: b
     found += values
     robot, estimated = with_estimates(robot, scene, floating=floating, density=repairs.density)
     robot, least = with_least_masses(robot, floating=floating)
+    robot, thick = with_thickness(robot, floating=floating)
     masses = _of_whole_robot(written, robot, [*estimated, *least], repairs.density, floating=floating)
-    repairs.add(*found, *masses)
+    repairs.add(*found, *masses, *thick)
     return robot, scene
 
 
