@@ -46,7 +46,7 @@ def with_thickness(robot: Robot, *, floating: bool) -> tuple[Robot, list[Repair]
 
 
 def _on_line(link: Link) -> Array | None:
-    """Return the tensor of a link with a principal moment of zero and a largest one that is not; shape (3, 3)."""
+    """Return the tensor of a link whose mass lies on a line, shape (3, 3); else None."""
     inertial = link.inertial
     if inertial is None or inertial.inertia is None or not (inertial.mass or 0.0) > 0.0:
         return None
