@@ -149,6 +149,10 @@ DEFECTS = {
     "plugin joint": ("<joint_name>shoulder", "<joint_name>shouldr"),
     "plugin library": ("libgazebo_ros_joint_state_publisher", "libgazebo_ros_joint_state_publsher"),
     "no plugin file": (' filename="libgazebo_ros_joint_state_publisher.so"', ""),
+    "hardware that no plugin runs": (
+        "</robot>",
+        '<ros2_control name="h" type="system">\n<hardware><plugin>a/Motors</plugin></hardware></ros2_control></robot>',
+    ),
     "empty plugin file": ('filename="libgazebo_ros_joint_state_publisher.so"', 'filename=""'),
 }
 """Defect → the text of the good robot, and its replacement."""

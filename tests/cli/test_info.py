@@ -88,3 +88,15 @@ def test_a_broken_model_is_one_line(model: Path, capsys: pytest.CaptureFixture[s
     assert captured.err.startswith("urdfkit: arm.urdf:10:")
     assert captured.err.endswith("does not exist; did you mean `finger`?\n")
     assert captured.err.count("\n") == 1
+
+
+def test_a_negative_mass_and_a_sensor_of_no_link_are_named(model: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    text = MODEL.replace('reference="upper"><sensor', 'reference="uper"><sensor').replace(
+        '<mass value="1"/>', '<mass value="-1"/>'
+    )
+    model.write_text(text)
+    assert main(["info", str(model)]) == 0
+    out = capsys.readouterr().out
+    assert "kg of `upper`, which `sim` refuses" in out
+    assert "estimated masses" not in out
+    assert "eye (camera) on `uper`, which does not exist, 30 Hz" in out

@@ -28,7 +28,7 @@ COMMANDS = {
     "new": "create a robot, world or package; add a sensor, an arm or controllers",
     "import": "turn a bare URDF, such as a CAD export, into ROS packages",
     "lint": "find and fix the defects of a URDF or xacro",
-    "format": "format URDF and xacro files: indentation, white space, one element per line",
+    "format": "format URDF and xacro files: indentation, white space, line breaks",
     "rule": "print the page of a lint rule, or list all rules",
     "lsp": "run the language server: diagnostics, hover, definitions, completion, fixes",
     "mcp": "run the server of the Model Context Protocol: lint, fix, ik, sim run, pictures",

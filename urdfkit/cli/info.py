@@ -46,7 +46,7 @@ def run(arguments: argparse.Namespace) -> int:
         facts = facts_of(robot)
     if facts["note"] and not arguments.quiet:
         print(f"urdfkit: note: {facts['note']}", file=sys.stderr)
-    print(json.dumps(facts) if arguments.json else _table(facts))
+    print(json.dumps(facts) if arguments.json else _table(facts, robot))
     return 0
 
 
@@ -105,7 +105,9 @@ def _joint(joint: Any) -> dict[str, Any]:
 def _estimated_masses(robot: Robot) -> list[dict[str, Any]]:
     from urdfkit.description.urdf.massless_links import is_free, massless
 
-    found = []
+    found: list[dict[str, Any]] = []
+    if any(link.inertial is not None and (link.inertial.mass or 0.0) < 0.0 for link in robot.links):
+        return found  # `sim` refuses the robot
     for link, joint in massless(robot, floating=is_free(robot)):
         place = link.element.origin.position
         found.append(
@@ -187,14 +189,24 @@ def _extent(robot: Robot, mass: float) -> dict[str, Any]:
     }
 
 
-def _table(facts: dict[str, Any]) -> str:
+def _negative_masses(robot: Robot) -> str:
+    """Return words about links with negative masses, or an empty text."""
+    found = [
+        f"{link.inertial.mass:g} kg of `{link.name}`"
+        for link in robot.links
+        if link.inertial is not None and (link.inertial.mass or 0.0) < 0.0
+    ]
+    return f" with {', '.join(found)}, which `sim` refuses" if found else ""
+
+
+def _table(facts: dict[str, Any], robot: Robot) -> str:
     kinds = Counter(joint["type"] for joint in facts["joints"])
     rows = [
         ("robot", f"{facts['robot']}  ({facts['file']})"),
         ("links", f"{len(facts['links'])}, root {facts['root']}"),
         ("joints", ", ".join(f"{count} {kind}" for kind, count in kinds.items()) or "none"),
         ("degrees of freedom", str(facts["degrees_of_freedom"])),
-        ("mass", f"{facts['mass']:.6g} kg"),
+        ("mass", f"{facts['mass']:.6g} kg{_negative_masses(robot)}"),
     ]
     if estimated := facts["estimated_masses"]:
         places = [f"`{one['link']}` ({one['file']}:{one['line']}:{one['column']})" for one in estimated[:_SHOWN]]
@@ -208,7 +220,10 @@ def _table(facts: dict[str, Any]) -> str:
     rows += [("drive", f"{d['kind']} ({d['generation']}): {', '.join(d['joints'])}") for d in facts["drives"]]
     for sensor in facts["sensors"]:
         rate = f", {sensor['update_rate']:g} Hz" if sensor["update_rate"] else ""
-        rows.append(("sensor", f"{sensor['name']} ({sensor['type']}) on {sensor['on']}{rate}"))
+        link = sensor["on"]
+        is_part = link in robot.link_by_name or link in robot.joint_by_name
+        on = f"on {link}" if is_part else f"on `{link}`, which does not exist" if link else "on no link"
+        rows.append(("sensor", f"{sensor['name'] or 'without a name'} ({sensor['type'] or 'no type'}) {on}{rate}"))
     width = max(len(name) for name, _ in rows) + 2
     return "\n".join(f"{name:<{width}}{text}" for name, text in rows)
 

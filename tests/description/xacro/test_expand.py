@@ -343,3 +343,18 @@ def test_packages_can_be_given(write: Write) -> None:
     root = expand(main, packages=Packages(["elsewhere"])).root
     assert root is not None
     assert root.children[0].get("name") == str(Path("elsewhere/p").absolute())
+
+
+def test_symbolic_links_that_lead_back_are_named(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    Path("self.xacro").symlink_to("self.xacro")
+    Path("alias.xacro").symlink_to("r.xacro")
+    for included, message in (
+        ("self.xacro", "is a symbolic link to self.xacro, which does not exist or leads back to the link"),
+        ("alias.xacro", "files include each other in a cycle: r.xacro → r.xacro"),
+    ):
+        Path("r.xacro").write_text(
+            f'<robot name="r" xmlns:xacro="http://www.ros.org/wiki/xacro"><xacro:include filename="{included}"/></robot>'
+        )
+        with pytest.raises(XacroError, match=message):
+            expand("r.xacro", packages=Packages((), Path("r.xacro")))

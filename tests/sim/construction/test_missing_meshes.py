@@ -154,3 +154,10 @@ def test_a_misspelt_material_of_a_world_is_reported_with_the_nearest(tmp_path: P
     assert note.endswith(
         "no material `Gazebo/Oragne`; the visual keeps its plain colour; did you mean `Gazebo/Orange`?"
     )
+
+
+def test_a_robot_without_any_collision_shape_left_is_named(tmp_path: Path) -> None:
+    notes: list[str] = []
+    Simulator(written(tmp_path, MESH.format("gone.stl")), note=notes.append)
+    (note,) = [each for each in notes if "gone.stl" in each]
+    assert note.endswith("no collision shape of the robot is left, so nothing holds it up")

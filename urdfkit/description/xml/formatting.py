@@ -1,4 +1,4 @@
-"""Format URDF and xacro files: indentation, white space in tags, one element per line; the expanded robot is unchanged.
+"""Format URDF and xacro files: indentation, white space in tags, line breaks; the expanded robot is unchanged.
 
 Line breaks and columns are the author's: an element on one line stays on one line, attributes on several lines stay on
 several lines, and spaces between attributes that align them are kept. Texts, attribute values, comments and the order

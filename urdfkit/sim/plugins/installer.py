@@ -140,7 +140,8 @@ def install(robot: Robot, setup: Setup, *, seed: int) -> Installed:
                 f"no plugin runs ros2_control `{block.name or ''}`; "
                 f"add gz_ros2_control or gazebo_ros2_control{simulation_hint(robot)}"
             )
-            _report(LeftOut(message, block.element.origin.position, _NOT_SIMULATED), "hardware", setup)
+            code = "C718" if any(each.plugins or each.sensors for each in robot.gazebo) else _NOT_SIMULATED
+            _report(LeftOut(message, block.element.origin.position, code), "hardware", setup)
     if not installed.publishes_joint_states:
         installed.joint_states.append(all_joint_states(setup))
     return installed
@@ -209,7 +210,8 @@ def _configure(made: Drive | Sensor | Controller | JointStates, setup: Setup) ->
         if not isinstance(error, (SimulationError, UsageError)):
             raise
         name = setup.sensor.name if setup.sensor is not None else made.plugin.name
-        message = with_effect(error.message, f"sensor `{name}` is left out")
+        label = f"sensor `{name}`" if name else "the sensor"
+        message = with_effect(error.message, f"{label} is left out")
         return LeftOut(message, error.position or made.plugin.element.origin.position, error.code)
     return Simulated(made)
 

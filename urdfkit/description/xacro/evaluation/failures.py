@@ -132,11 +132,12 @@ def circular_property(cycle: tuple[str, ...]) -> Failure:
 
 
 def cycle(names: list[str]) -> tuple[str, ...]:
-    """Return the cycle at the end of a stack of names, first name repeated."""
-    last = names[-1]
-    for distance in range(1, len(names)):
-        if names[-1 - distance] == last:
-            return tuple(names[-1 - distance :])
+    """Return the last cycle of a stack of names, first name repeated; the names above it are left out."""
+    for end in range(len(names), 1, -1):
+        last = names[end - 1]
+        for start in range(end - 2, -1, -1):
+            if names[start] == last:
+                return tuple(names[start:end])
     return tuple(names[-3:])
 
 

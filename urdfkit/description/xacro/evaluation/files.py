@@ -112,7 +112,7 @@ class Files(Texts):
         """
         self.file_stack.append(file)
         if len(self.file_stack) > MAX_INCLUDE_DEPTH:
-            raise self.placed(recursive_include(cycle([shown_path(name) for name in self.file_stack])))
+            raise self.placed(recursive_include(cycle([shown_path(_target(name)) for name in self.file_stack])))
         self._opened += 1
         if self._opened > MAX_INCLUDES:
             message = f"more than {MAX_INCLUDES:,} files are included; check for includes that multiply each other"
@@ -229,3 +229,8 @@ class Files(Texts):
         position = tag.position if tag is not None else Position(shown_path(self.path), 1, 1)
         self.warnings.append(Warned(" ".join(map(str, words)), position, tag.chain if tag is not None else (), level))
         return ""
+
+
+def _target(file: str) -> str:
+    """Return the file that a name stands for: that of a symbolic link, which may lead back to a file on the stack."""
+    return os.path.join(os.path.dirname(file), os.readlink(file)) if os.path.islink(file) else file  # noqa: PTH114, PTH115, PTH118, PTH120

@@ -230,6 +230,8 @@ def unreadable(error: OSError, *, is_include: bool) -> Failure:
         try:
             if path.is_dir():
                 why = "is a folder"
+            elif path.is_symlink() and not path.exists():
+                why = f"is a symbolic link to {path.readlink()}, which does not exist or leads back to the link"
             else:
                 why = f"{'cannot be read' if path.is_file() else 'does not exist'}{near_path(path)}"
         except PermissionError:  # of a folder above it

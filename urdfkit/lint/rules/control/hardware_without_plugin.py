@@ -1,6 +1,6 @@
 """C718 gazebo-hardware-without-plugin."""
 
-from urdfkit.lint.facts.gazebo.plugins import plugins, simulated_hardware
+from urdfkit.lint.facts.gazebo.plugins import is_simulated, plugins, simulated_hardware
 from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
 
 _PLUGINS = {
@@ -20,7 +20,8 @@ class HardwareWithoutPlugin(RobotRule):
 
     ## What it does
     Checks for robots whose ``<hardware>`` is that of gz_ros2_control, ign_ros2_control or gazebo_ros2_control and that
-    include none of the corresponding plugins. Nothing is reported if another file of the package names such a plugin.
+    include none of the corresponding plugins. Other hardware is a note if the robot has plugins or sensors for Gazebo.
+    Nothing is reported if another file of the package names such a plugin.
 
     ## Why is this bad?
     The plugin runs the controller manager inside Gazebo. Without it, spawners wait for ``/controller_manager`` forever
@@ -65,6 +66,11 @@ class HardwareWithoutPlugin(RobotRule):
             hardware = block.element.find("hardware")
             element = hardware.find("plugin") if hardware is not None else None
             if element is None or element.text not in _PLUGINS:
+                if element is not None and model.target != "urdfkit" and is_simulated(model):  # see Z833
+                    label = f" `{block.name}`" if block.name else ""
+                    message = f"no Gazebo plugin runs ros2_control{label}: its controllers do not run in Gazebo"
+                    if not _is_loaded_elsewhere(model):
+                        yield self.at(model, block.element, message, severity="note")
                 continue
             supported = simulated_hardware(model)
             if supported is not None and element.text.partition("/")[0] not in supported:

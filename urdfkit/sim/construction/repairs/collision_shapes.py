@@ -89,6 +89,9 @@ def with_substitutes(scene: Scene) -> tuple[Scene, list[Repair]]:
         message = with_effect(fault, effect)
         repairs.append(Repair("mesh", "G602", message, first.position, names[0]))
     shapes = [*scene.shapes, *(shape for found in replaced.values() for shape in found)]
+    if not any(shape.role == "collision" for shape in shapes):
+        message = with_effect(repairs[-1].message, "no collision shape of the robot is left, so nothing holds it up")
+        repairs[-1] = replace(repairs[-1], message=message)
     order = scene.body_index
     shapes.sort(key=lambda shape: (order[shape.body], shape.role == "collision"))
     kept = tuple([problem for problem in scene.problems if problem.role != "collision"])
