@@ -58,6 +58,17 @@ def test_a_file_that_is_gone_is_missing_once_that_has_settled(files: list[Path],
     assert watch.missing == ()
 
 
+def test_a_file_that_never_existed_does_not_hide_a_save(files: list[Path], tmp_path: Path) -> None:
+    absent = tmp_path / "included.xacro"
+    watch = FileWatch([*files, absent])
+    assert [watch.changed() for _ in range(3)] == [False, False, False]
+    assert watch.missing == ()
+    save(files[0], "two")
+    assert [watch.changed() for _ in range(3)] == [False, True, False]
+    save(absent, "one")
+    assert [watch.changed() for _ in range(3)] == [False, True, False]
+
+
 def test_files_can_come_and_go(files: list[Path], tmp_path: Path) -> None:
     watch = FileWatch(files[:1])
     watch.follow(files)

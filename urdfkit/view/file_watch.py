@@ -10,11 +10,11 @@ class FileWatch:
     """Detects saved files. A change is reported when two checks in a row agree, so half-written files are skipped.
 
     Attributes:
-        missing: files that did not exist at the last two checks.
+        missing: files that existed before, and did not at the last two checks.
         unsettled: whether the last check found a change that is not reported yet.
 
     Args:
-        files: the watched files; a missing file counts as changed when it appears.
+        files: the watched files; a missing file counts as changed when it appears, and does not hide other changes.
         optional: more files; these count as changed when they disappear, too.
     """
 
@@ -32,9 +32,8 @@ class FileWatch:
 
     def follow(self, files: Iterable[Path], optional: Iterable[Path] = ()) -> None:
         """Watch these files from now on, starting from their current state."""
-        needed = tuple(files)
-        paths = dict.fromkeys((*needed, *optional))
-        self._needed = set(needed)
+        self._needed = tuple(dict.fromkeys(files))
+        paths = dict.fromkeys((*self._needed, *optional))
         # Keep the previous signatures: a save between reading a file and this call must still be detected.
         self._settled = {path: self._settled.get(path, _signature(path)) for path in paths}
         self._last = dict(self._settled)
@@ -47,7 +46,7 @@ class FileWatch:
         self.unsettled = now != self._settled
         if not steady:
             return False
-        missing = tuple(path for path, signature in now.items() if signature is None and path in self._needed)
+        missing = tuple(path for path in self._needed if now[path] is None and self._settled[path] is not None)
         returned, self.missing = self.missing, missing
         if missing or not (returned or now != self._settled):
             return False
