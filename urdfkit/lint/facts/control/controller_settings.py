@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
+from functools import lru_cache
 from itertools import pairwise
 
 from urdfkit.description.control.controller_parameters import ALWAYS, OF_TYPES
 from urdfkit.description.xml.source import Source
 from urdfkit.lint.facts.control.launch_package_paths import uncommented
-from urdfkit.lint.facts.control.ros2_controllers import PARAMETERS, declared
+from urdfkit.lint.facts.control.ros2_controllers import PARAMETERS, DeclaredController, declared
 from urdfkit.lint.facts.control.yaml_tree import Node, documents, groups, walk
 from urdfkit.record import record
 
@@ -64,19 +65,21 @@ class ControllerSettings:
     group: Node
 
 
-def settings(source: Source) -> Iterator[ControllerSettings]:
-    """Yield the settings of the controllers with a type in a YAML file; each mapping once."""
-    seen: set[int] = set()
-    for controller in declared(source) if PARAMETERS in source.text else ():
-        if controller.settings is not None:
-            seen.add(id(controller.settings))
-            yield ControllerSettings(controller.name, controller.kind.text, controller.settings)
-    for root in documents(source)[0]:
-        for name, group in groups(root):
-            kind = group.find("type")
-            if kind is not None and re.fullmatch(r"\w+/\w+", kind.text) and id(group) not in seen:
-                seen.add(id(group))
-                yield ControllerSettings(name, kind.text, group)
+def settings(source: Source) -> tuple[ControllerSettings, ...]:
+    """Return the settings of the controllers with a type in a YAML file; each mapping once."""
+    return _settings(documents(source)[0], declared(source) if PARAMETERS in source.text else ())
+
+
+@lru_cache(maxsize=400)
+def _settings(roots: tuple[Node, ...], controllers: tuple[DeclaredController, ...]) -> tuple[ControllerSettings, ...]:
+    found = [(one.name, one.kind, one.settings) for one in controllers if one.settings is not None]
+    seen = {id(group) for _, _, group in found}
+    for name, group in (each for root in roots for each in groups(root)):
+        kind = group.find("type")
+        if kind is not None and re.fullmatch(r"\w+/\w+", kind.text) and id(group) not in seen:
+            seen.add(id(group))
+            found.append((name, kind, group))
+    return tuple(ControllerSettings(name, kind.text, group) for name, kind, group in found)
 
 
 def misspelt_names(source: Source) -> Iterator[tuple[Node, str, str]]:

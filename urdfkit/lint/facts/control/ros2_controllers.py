@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
+from functools import lru_cache
 from pathlib import Path
 
 from urdfkit.description.xml.source import Source
@@ -46,18 +47,23 @@ class Wanted:
     where: Node
 
 
-def declared(source: Source) -> Iterator[DeclaredController]:
-    """Yield the controllers with a type in the parameters of a ROS 2 controller manager in a YAML file."""
-    roots, _ = documents(source)
+def declared(source: Source) -> tuple[DeclaredController, ...]:
+    """Return the controllers with a type in the parameters of a ROS 2 controller manager in a YAML file."""
+    return _declared(documents(source)[0])
+
+
+@lru_cache(maxsize=400)
+def _declared(roots: tuple[Node, ...]) -> tuple[DeclaredController, ...]:
     groups = [each for root in roots for each in _parameters(root, "", 0)]
     settings: dict[str, Node] = {}
     for name, group in groups:
         settings.setdefault(name, group)
-    for _, group in groups:
-        for key, value in group.entries:
-            kind = value.find("type")
-            if kind is not None and re.fullmatch(r"\w+/\w+", kind.text):
-                yield DeclaredController(key.text, kind, settings.get(key.text))
+    return tuple(
+        DeclaredController(key.text, kind, settings.get(key.text))
+        for _, group in groups
+        for key, value in group.entries
+        if (kind := value.find("type")) is not None and re.fullmatch(r"\w+/\w+", kind.text)
+    )
 
 
 def _parameters(node: Node, name: str, depth: int) -> Iterator[tuple[str, Node]]:

@@ -98,20 +98,26 @@ def not_a_number(node: Node) -> str:
     return "" if node.is_plain else f'"{node.text}", a text in quotes'
 
 
-def walk(node: Node, depth: int = 0) -> Iterator[Node]:
+def walk(node: Node) -> Iterator[Node]:
     """Yield a node and all nodes below it."""
-    yield node
-    if depth < _MAX_DEPTH:
-        for inner in (*(value for _, value in node.entries), *node.items):
-            yield from walk(inner, depth + 1)
+    waiting = [(node, 0)]
+    while waiting:
+        node, depth = waiting.pop()
+        yield node
+        if depth < _MAX_DEPTH:
+            waiting += [(item, depth + 1) for item in reversed(node.items)]
+            waiting += [(value, depth + 1) for _, value in reversed(node.entries)]
 
 
-def groups(node: Node, name: str = "", depth: int = 0) -> Iterator[tuple[str, Node]]:
+def groups(node: Node, name: str = "") -> Iterator[tuple[str, Node]]:
     """Yield a node and the values below it with their names; ``ros__parameters`` has the name of its ROS node."""
-    yield name, node
-    for key, value in node.entries if depth < 4 else ():
-        called = name if key.text == "ros__parameters" else key.text.strip("/").rpartition("/")[2]
-        yield from groups(value, called, depth + 1)
+    waiting = [(name, node, 0)]
+    while waiting:
+        name, node, depth = waiting.pop()
+        yield name, node
+        for key, value in reversed(node.entries) if depth < 4 else ():
+            called = name if key.text == "ros__parameters" else key.text.strip("/").rpartition("/")[2]
+            waiting.append((called, value, depth + 1))
 
 
 @lru_cache(maxsize=400)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from functools import lru_cache
 
 from urdfkit.lint.finding import Finding
 from urdfkit.lint.rule import Findings, Model, RobotRule
@@ -70,7 +71,6 @@ class LaunchNameMisspelt(RobotRule):
         from urdfkit.lint.facts.control.yaml_tree import span_of
         from urdfkit.lint.facts.launch.actions import actions_of
         from urdfkit.lint.facts.launch.node_parameters import misspelt_in_launch, misspelt_parameters
-        from urdfkit.lint.facts.ros_packages import is_slip
 
         for source in model.related_files.values():
             is_launch = source.file.endswith(LAUNCH)
@@ -80,7 +80,7 @@ class LaunchNameMisspelt(RobotRule):
             for word in re.finditer(_QUOTED if is_launch else _KEY, uncommented(source)):
                 group = "name" if word["name"] is not None else "dashed"
                 written, start = word[group], word.start(group)
-                near = next((name for name in names if written != name and is_slip(written, name)), None)
+                near = _nearest(written, names)
                 before = source.text[max(word.start() - 25, 0) : word.start() + 1]
                 if near is None or re.search(r"-(?:topic|param)\b", before):  # spawn-argument-misspelt reports these
                     continue
@@ -94,7 +94,7 @@ class LaunchNameMisspelt(RobotRule):
                 span = source.span(parameter.start, parameter.start + len(parameter.name))
                 yield Finding(self.code, self.name, "warning", message, span)
             for world in re.finditer(_WORLD, uncommented(source)) if is_launch and "gz" in source.text else ():
-                near = next((name for name in _WORLDS if is_slip(world[1], name)), None)
+                near = _nearest(world[1], _WORLDS)
                 if near is not None and world[1] not in _WORLDS:
                     yield self._at(source, f"{world[1]}.sdf", world.start(1), f"{near}.sdf")
             if is_launch and not source.file.endswith(".py"):
@@ -104,6 +104,13 @@ class LaunchNameMisspelt(RobotRule):
     def _at(self, source: Source, written: str, start: int, near: str) -> Finding:
         message = f"unknown name `{written}`; did you mean `{near}`?"
         return Finding(self.code, self.name, self.severity, message, source.span(start, start + len(written)))
+
+
+@lru_cache(maxsize=4096)
+def _nearest(written: str, names: tuple[str, ...]) -> str | None:
+    from urdfkit.lint.facts.ros_packages import is_slip
+
+    return next((name for name in names if written != name and is_slip(written, name)), None)
 
 
 def _remapped(source: Source) -> Iterator[tuple[Named, str]]:
