@@ -1,4 +1,4 @@
-"""`urdfkit action` on an arm that is simulated in a thread of this process."""
+"""`urdfkit action` on an arm that is simulated in a thread of this process, also over rosbridge."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ import signal
 import subprocess
 import sys
 from collections.abc import Iterator
+from pathlib import Path
 
 import pytest
 import yaml
@@ -14,8 +15,9 @@ import yaml
 pytest.importorskip("meshcat")
 pytest.importorskip("numba")
 
+from tests.bridges.rosbridge.test_actions import ros2_arm
 from tests.processes import running
-from tests.served_simulation import driven
+from tests.served_simulation import driven, rosbridge
 from tests.time_limit import PATIENCE
 from urdfkit.app.simulation.loop import DriveLoop
 from urdfkit.cli import main
@@ -74,3 +76,22 @@ def test_ctrl_c_cancels_the_goal(arm: DriveLoop) -> None:
         sending.send_signal(signal.SIGINT)
         assert sending.communicate(timeout=PATIENCE)[1] == ""
     assert states == [2]  # preempted
+
+
+@pytest.mark.parametrize("ros", [1, 2])
+def test_goals_are_sent_to_a_live_robot(ros: int, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    simulator = Simulator("heterogeneous", note=lambda _: None) if ros == 1 else ros2_arm(tmp_path)
+    name, joint = (NAME, "jarmLink0") if ros == 1 else ("/arm_controller/follow_joint_trajectory", "elbow")
+    with rosbridge(simulator) as url:
+        assert main(["action", "list", "--types", "--live", url]) == 0
+        assert capsys.readouterr().out == f"{name} [control_msgs/action/FollowJointTrajectory]\n"
+        assert main(["action", "send", name, goal(0.2, 0.5, joint), "--feedback", "--json", "--live", url]) == 0
+        *feedback, result = map(json.loads, capsys.readouterr().out.splitlines())
+        assert result == {"error_code": 0, "error_string": ""}
+        assert joint in feedback[0]["joint_names"]
+        assert main(["action", "send", name, goal(0.2, 0.5, "jarmLink9"), "--live", url]) == 1
+        assert capsys.readouterr().err.startswith("urdfkit: the goal is rejected")
+        assert main(["action", "send", "/arm_controler/follow_joint_trajectory", "--live", url]) == 2
+        line = capsys.readouterr().err
+        assert f"did you mean `{name}`?" in line
+        assert line.count("\n") == 1

@@ -14,7 +14,7 @@ pytest.importorskip("meshcat")
 pytest.importorskip("numba")
 
 from urdfkit.app.simulation import loop
-from urdfkit.app.simulation.bridging.action_requests import action_requests
+from urdfkit.app.simulation.bridging.action_requests import SimulationActions, action_requests
 from urdfkit.app.simulation.bridging.service_requests import SimulationServices, service_requests
 from urdfkit.app.simulation.clock_rate import FRAME, ClockRate
 from urdfkit.app.simulation.features import topic_stream
@@ -137,7 +137,7 @@ def test_every_part_is_at_work(ride) -> None:
 
     defined = {each for each in below(Feature) if each.__module__.startswith("urdfkit.app.simulation.")}
     assert defined - {Feature} == set(FEATURES)
-    of_commands = {*service_requests(SimulationServices(dict)), *action_requests(ride.simulator.bus)}
+    of_commands = {*service_requests(SimulationServices(dict)), *action_requests(SimulationActions(ride.simulator.bus))}
     assert set(ride.page.requests) == {name for part in ride.features for name in part.takes} | of_commands
 
 

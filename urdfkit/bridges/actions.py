@@ -80,6 +80,7 @@ class SentGoal:
         fields: of the goal, as JSON or YAML writes them.
         feedback: receives each feedback, a message.
         ended: receives the state, the result, a message or None, and the reason for the state, once.
+        is_live: whether the server is in another program, which answers later.
 
     Raises:
         UsageError: the goal has no such fields.
@@ -93,6 +94,7 @@ class SentGoal:
         *,
         feedback: Callable[[Any], None],
         ended: Callable[[int, Any, str], None],
+        is_live: bool = False,
     ) -> None:
         self._bus, self._action, self._feedback, self._ended = bus, action, feedback, ended
         self._id = uuid4()
@@ -118,7 +120,7 @@ class SentGoal:
             bus.subscribe(f"{base}/{name}", type, receive) for name, (type, receive) in topics.items()
         ]
         bus.publish(f"{base}/{'send_goal' if action.is_rcl else 'goal'}", request.__msgtype__, request)
-        if self.is_open and not self._accepted:  # the server answers before it returns
+        if not is_live and self.is_open and not self._accepted:  # the server answers before it returns
             self._end(REJECTED, None, "the goal is rejected")
 
     @property

@@ -107,6 +107,23 @@ def test_a_client_of_actionlib_moves_an_arm(master: Master) -> None:
     assert lines == []
 
 
+@pytest.mark.slow
+def test_the_command_sends_goals_over_ros1(master: Master, capsys: pytest.CaptureFixture[str]) -> None:
+    lines, simulator = list[str](), Simulator("heterogeneous", note=lambda _: None)
+    name = "/heterogeneous/arm_controller/follow_joint_trajectory"
+    goal = "{trajectory: {joint_names: [%s], points: [{positions: [0.2], time_from_start: 1}]}}"
+    with on_ros1(simulator, lines):
+        assert main(["action", "list", "--live", "ros1"]) == 0
+        assert capsys.readouterr().out == f"{name}\n"
+        assert main(["action", "send", name, goal % "jarmLink0", "--feedback", "--json", "--live", "ros1"]) == 0
+        *feedback, result = map(json.loads, capsys.readouterr().out.splitlines())
+        assert result == {"error_code": 0, "error_string": ""}
+        assert "jarmLink0" in feedback[0]["joint_names"]
+        assert main(["action", "send", name, goal % "jarmLink9", "--json", "--live", "ros1"]) == 1
+        assert json.loads(capsys.readouterr().out)["error_code"] == -2
+    assert lines == []
+
+
 def test_nodes_find_each_other_and_again_after_the_master_was_gone(master: Master) -> None:
     lines, received = list[str](), list[Any]()
     first, second = Ros1Node(report=lines.append), Ros1Node(name="/other", report=lines.append)

@@ -1,4 +1,4 @@
-"""Topics and services of a live graph for ``topic`` and ``service``, as if they were those of a simulation."""
+"""Topics, services and actions of a live graph for commands, as if they were those of a simulation."""
 
 from __future__ import annotations
 
@@ -8,8 +8,10 @@ from contextlib import contextmanager
 from threading import Event, Thread
 from typing import Any
 
+from urdfkit.app.replay.live_actions import live_actions
 from urdfkit.app.replay.live_topics import LiveTopics
 from urdfkit.app.replay.live_view import open_source
+from urdfkit.app.simulation.bridging.action_requests import action_requests
 from urdfkit.app.simulation.bridging.service_requests import service_requests
 from urdfkit.app.simulation.features.feature import Done
 from urdfkit.app.simulation.features.topic_panel import ECHO, TopicPanel
@@ -48,7 +50,11 @@ class TopicSession:
         panel = TopicPanel(simulation, server, clock)
         self._features = panel, TopicStreams(simulation, server, clock)
         schema, _ = panel.takes["publish"]
-        self._takes = {"publish": (schema, self._publish), **service_requests(topics.node)}
+        self._takes = {
+            "publish": (schema, self._publish),
+            **service_requests(topics.node),
+            **action_requests(live_actions(topics, bus)),
+        }
         server.requests.update({name: schema for name, (schema, _) in self._takes.items()})
 
     def tick(self) -> None:

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from urdfkit.app.page import note
 from urdfkit.app.repair_findings import with_repairs
-from urdfkit.app.simulation.bridging.action_requests import action_requests
+from urdfkit.app.simulation.bridging.action_requests import SimulationActions, action_requests
 from urdfkit.app.simulation.bridging.service_requests import SimulationServices, service_requests
 from urdfkit.app.simulation.bridging.services import simulation_services
 from urdfkit.app.simulation.clock_rate import FRAME, ClockRate
@@ -117,7 +117,7 @@ class DriveLoop:
                 part.pace = self.pace
             self._takes.update(part.takes)
         self._takes.update(service_requests(SimulationServices(lambda: self.services)))
-        self._takes.update(action_requests(simulator.bus))
+        self._takes.update(action_requests(SimulationActions(simulator.bus)))
         server.requests.update({name: schema for name, (schema, _) in self._takes.items()})
 
     @cached_property

@@ -48,6 +48,7 @@ class Rosapi:
             "publishers": lambda it: {"publishers": [NODE] if _text(it, "topic") in graph.topics else []},
             "subscribers": lambda it: {"subscribers": [NODE] if _text(it, "topic") in self._subscribed else []},
             "action_servers": lambda _: {"action_servers": list(actions(graph.bus))},
+            "action_type": lambda it: {"type": self._action_type(absolute(_text(it, "action")))},
             "get_param_names": lambda _: {"names": list(graph.parameters)},
             "has_param": lambda it: {"exists": _parameter(_text(it, "name")) in graph.parameters},
             "get_param": self._get_parameter,
@@ -83,6 +84,10 @@ class Rosapi:
     @property
     def _subscribed(self) -> list[str]:
         return [topic.name for topic in self._graph.bus.topics if topic.subscribers and "/msg/" in topic.type]
+
+    def _action_type(self, name: str) -> str:
+        found = actions(self._graph.bus).get(name)
+        return "" if found is None else found.type
 
     def _topics_with_definitions(self) -> dict[str, Any]:
         topics = self._graph.topics

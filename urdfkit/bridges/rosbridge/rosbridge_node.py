@@ -37,6 +37,10 @@ class RosbridgeNode:
 
     Raises:
         ResourceError: no server responds there.
+
+    Attributes:
+        operations: operation of a frame → function that takes its message, in the thread of the connection.
+        gone: called when the server is gone, in that thread.
     """
 
     ros, option = "rosbridge", "--live"
@@ -45,6 +49,8 @@ class RosbridgeNode:
         self.description, self._report = url, report
         self._receivers: dict[str, Callable[[bytes], None]] = {}
         self._responses: dict[str, Future[Any]] = {}
+        self.operations: dict[str, Callable[[dict[str, Any]], object]] = {}
+        self.gone: Callable[[], object] = lambda: None
         self._number, self._closed = 0, False
         self._sent: Future[Any] | None = None
         self._loop = asyncio.new_event_loop()
@@ -159,9 +165,12 @@ class RosbridgeNode:
                 receive(json.dumps(message.get("msg")).encode())
             elif op == "service_response" and (waiting := self._responses.get(message.get("id"))) is not None:
                 waiting.set_result(message)
+            elif op in self.operations:
+                self.operations[op](message)
         if not self._closed:
             self._closed = True
             self._report(f"{self.description}: the server is gone")
+            self.gone()
 
 
 async def _connect(address: str) -> WebSocketClientConnection:

@@ -1,4 +1,4 @@
-"""`urdfkit action`: list actions of a running simulation and send goals, as ``ros2 action`` does."""
+"""`urdfkit action`: list actions of a simulation or a live robot and send goals, as ``ros2 action`` does."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     subcommands = parser.add_subparsers(dest="subcommand", metavar="SUBCOMMAND", required=True)
     for name, summary in SUBCOMMANDS.items():
         sub = subcommands.add_parser(name, help=summary, description=summary, formatter_class=HelpFormatter)
-        add_connection_options(sub, live=False)
+        add_connection_options(sub)
         if name == "list":
             sub.add_argument("-t", "--types", action="store_true", help="print the types too")
             sub.epilog = "example:\n  urdfkit action list --types"

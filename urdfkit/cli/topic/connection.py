@@ -36,18 +36,16 @@ class Row:
     subscribers: int
 
 
-def add_connection_options(parser: argparse.ArgumentParser, *, live: bool = True) -> None:
-    """Add the options that select a simulation or, if `live`, another graph."""
-    parser.set_defaults(live=None)
+def add_connection_options(parser: argparse.ArgumentParser) -> None:
+    """Add the options that select a simulation or another graph."""
     parser.add_argument(
         "--url",
         metavar="ADDRESS",
         help="address of the simulation that `sim teleop` prints (default: the running simulation)",
     )
-    if live:
-        parser.add_argument(
-            "--live", metavar="SOURCE", help="connect to another graph: ros1, ros2 or rosbridge://HOST:PORT"
-        )
+    parser.add_argument(
+        "--live", metavar="SOURCE", help="connect to another graph: ros1, ros2 or rosbridge://HOST:PORT"
+    )
 
 
 def run_with_client(work: Callable[[Client, argparse.Namespace], Awaitable[int]], arguments: argparse.Namespace) -> int:

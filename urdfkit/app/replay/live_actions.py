@@ -1,0 +1,93 @@
+"""Actions of a live graph for the command ``action``: of actionlib on ROS 1, and of a server of rosbridge."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any
+
+from urdfkit.bridges.actions import SentGoal, actions, find_action
+from urdfkit.bus import Bus, Subscription
+from urdfkit.errors import ResourceError, UsageError
+
+if TYPE_CHECKING:
+    from urdfkit.app.replay.live_topics import LiveTopics
+    from urdfkit.app.simulation.bridging.action_requests import Actions
+
+CONNECTED = 5.0
+"""Longest time until an action server is connected [s]; it publishes its status five times a second."""
+
+
+def live_actions(topics: LiveTopics, bus: Bus) -> Actions:
+    """Return the actions of a graph, for the thread that updates the topics."""
+    if topics.node.ros == "rosbridge":
+        from urdfkit.bridges.rosbridge.rosbridge_node import RosbridgeNode
+        from urdfkit.bridges.rosbridge.server_actions import ServerActions
+
+        assert isinstance(topics.node, RosbridgeNode)
+        return ServerActions(topics.node, topics.calls.add)
+    return ActionlibActions(topics, bus)
+
+
+class ActionlibActions:
+    """Action servers of ROS 1: topics of actionlib.
+
+    Args:
+        topics: of the graph.
+        bus: with the topics.
+    """
+
+    def __init__(self, topics: LiveTopics, bus: Bus) -> None:
+        self._topics, self._bus = topics, bus
+
+    def types(self) -> dict[str, str]:
+        """Return action → type.
+
+        Raises:
+            UsageError: the graph is that of ROS 2.
+        """
+        if self._topics.node.ros != "ROS 1":
+            raise UsageError("actions of ROS 2 are used over rosbridge: --live rosbridge://HOST:PORT")
+        return {each.name: each.type for each in actions(self._bus).values()}
+
+    def send(
+        self, name: str, fields: Any, feedback: Callable[[Any], None], ended: Callable[[int, Any, str], None]
+    ) -> SentGoal:
+        """Send a goal when its server is connected, see `SentGoal`.
+
+        Raises:
+            UrdfkitError: the action is unknown, or its server does not respond.
+        """
+        self.types()
+        action = find_action(self._bus, name)
+        status = self._bus.subscribe(f"{action.name}/status", "actionlib_msgs/msg/GoalStatusArray", lambda _: None)
+        try:
+            before, end = self._count(action.name), time.monotonic() + CONNECTED
+            while self._count(action.name) == before:
+                if time.monotonic() > end:
+                    raise ResourceError(f"the server of {action.name} does not publish its status")
+                self._topics.update()
+                time.sleep(0.01)
+            graph: Any = _GraphBus(self._topics, self._bus)
+            return SentGoal(graph, action, fields, feedback=feedback, ended=ended, is_live=True)
+        finally:
+            status.close()
+
+    def _count(self, action: str) -> int:
+        return next(topic.count for topic in self._bus.topics if topic.name == f"{action}/status")
+
+
+class _GraphBus:
+    """A bus whose messages are received from and published on a graph."""
+
+    def __init__(self, topics: LiveTopics, bus: Bus) -> None:
+        self._topics, self._bus = topics, bus
+
+    def subscribe(self, name: str, type: str, callback: Callable[[Any], None]) -> Subscription:
+        """Receive the messages of a topic."""
+        return self._bus.subscribe(name, type, callback)
+
+    def publish(self, name: str, type: str, message: Any) -> None:
+        """Publish a message, when the subscriptions are connected."""
+        self._topics.update()
+        self._topics.publish(name, type, message, wait=CONNECTED)
