@@ -8,6 +8,18 @@ from importlib.metadata import Distribution, PackageNotFoundError, distribution
 _NAME = r"[A-Za-z0-9][\w.-]*"
 _CLASSIFIER = "License :: "
 
+_SPDX = {
+    "MIT License": "MIT",
+    "Apache Software License": "Apache-2.0",
+    "Apache 2.0": "Apache-2.0",
+    "ISC License (ISCL)": "ISC",
+    "Python Software Foundation License": "PSF-2.0",
+}
+"""Licence as packages name it → its SPDX identifier, where that is certain; `BSD License` has two or three clauses."""
+
+_VAGUE = r"any-OSI|OSI Approved|unknown|Copyright\b.*|"
+"""Matches texts that name no licence."""
+
 
 def required(name: str = "urdfkit") -> list[Distribution]:
     """Return the installed distributions that a distribution requires with any of its extras, and itself first.
@@ -42,15 +54,28 @@ def _is_for_tests(requirement: str) -> bool:
 
 
 def licence(package: Distribution) -> str:
-    """Return the licence of a distribution: its SPDX expression, else classifiers, else the first line of its text."""
+    """Return the licence of a distribution: its SPDX expression, else classifiers, else the first line of its text.
+
+    Where these name no licence, the installed file with the licence is added.
+    """
+    text = _licence_of_metadata(package)
+    if re.fullmatch(_VAGUE, text) is None:
+        return text
+    file = next((each for each in package.files or () if re.match("LICEN[CS]E|COPYING", each.name)), None)
+    return f"{text or 'unknown'}; see {file}" if file is not None else text or "unknown"
+
+
+def _licence_of_metadata(package: Distribution) -> str:
     metadata = package.metadata
     if expression := spdx_expression(package):
         return expression
     classifiers = [str(each) for each in metadata.get_all("Classifier") or () if str(each).startswith(_CLASSIFIER)]
-    if classifiers:
-        return ", ".join(each.rpartition(" :: ")[2] for each in classifiers)
+    names = [each.rpartition(" :: ")[2] for each in classifiers]
+    if names := [_SPDX.get(each, each) for each in names if each != "OSI Approved"]:
+        return ", ".join(names)
     text = str(metadata["License"]).strip() if "License" in metadata else ""
-    return text.splitlines()[0][:80] if text else "unknown"
+    first = text.splitlines()[0][:80] if text else ""
+    return _SPDX.get(first, first)
 
 
 def spdx_expression(package: Distribution) -> str:
