@@ -45,6 +45,7 @@ def contradictions(
     listed = [one.group.find(key) for one in controllers for key in ("joints", "joint")]
     names = {name for node in listed if node is not None for name in node.texts()}
     joints = entry.settings.find("joints")
-    for node in joints.items if joints is not None and names else ():
+    is_complete = names <= model.robot.joint_by_name.keys()  # a joint that no robot has is reported where it is listed
+    for node in joints.items if joints is not None and names and is_complete else ():
         if node.text in model.robot.joint_by_name and node.text not in names:
             yield node, f"controller `{entry.name.text}` does not control joint `{node.text}` and refuses trajectories"
