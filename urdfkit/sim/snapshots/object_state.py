@@ -33,19 +33,16 @@ class Registry:
 
     Attributes:
         packages: packages whose classes a state may contain.
+        names: `id` of a registered object → its robot, and the name under which it is registered.
     """
 
     def __init__(self, robots: Mapping[str, LiveObjects]) -> None:
         self.robots = robots
         self.packages = {"urdfkit", *(package for live in robots.values() for package in live.packages)}
-        self._names: dict[int, tuple[str, str]] = {}
+        self.names: dict[int, tuple[str, str]] = {}
         for robot, live in robots.items():
             for key, name in live.names.items():
-                self._names.setdefault(key, (robot, name))
-
-    def name(self, instance: Any) -> tuple[str, str] | None:
-        """Return the robot and the name under which an object is registered; None if it is not."""
-        return self._names.get(id(instance))
+                self.names.setdefault(key, (robot, name))
 
     def find(self, name: tuple[str, str]) -> Any:
         """Return a registered object.
@@ -79,7 +76,7 @@ class Registry:
 
     def _is_saved(self, live: LiveObjects, value: Any) -> bool:
         """Return whether an attribute is part of a state; functions that are set later are not."""
-        if type(value) in ATOMS or id(value) in self._names:
+        if type(value) in ATOMS or id(value) in self.names:
             return True
         return not isinstance(value, FUNCTIONS) and not live.is_wiring(value)
 
@@ -138,11 +135,11 @@ def loads(content: bytes, registry: Registry) -> Any:
 class _Pickler(pickle.Pickler):
     def __init__(self, file: io.BytesIO, registry: Registry) -> None:
         super().__init__(file, protocol=5)
-        self._registry = registry
+        self._names = registry.names
 
     def persistent_id(self, instance: Any) -> Any:
-        """Return the name of a registered object."""
-        return self._registry.name(instance)
+        """Return the name of a registered object. It is called for each value, so it must be short."""
+        return self._names.get(id(instance))
 
     def reducer_override(self, instance: Any) -> Any:
         """Save a message by its type and values."""

@@ -50,6 +50,7 @@ class Snapshots:
     def __init__(self, world: LiveWorld, bus: Bus) -> None:
         self._world, self._bus = world, bus
         self._digest: tuple[Any, bytes] = None, b""
+        self._spans: tuple[Any, list[slice]] = None, []
 
     def take(self, *, calls: bool = True) -> bytes:
         """Return the state as bytes.
@@ -75,7 +76,7 @@ class Snapshots:
             "forces": world.forces.acting,
             "calls": world.scheduler.save() if calls else (0, ()),
         }
-        floats = [arrays.floats[span].data for span in _spans(arrays)]
+        floats = [arrays.floats[span].data for span in self._state_spans()]
         ends = json.dumps(names).encode(), dumps(content, registry)
         sizes = len(ends[0]), sum(part.nbytes for part in floats), arrays.integers.nbytes, len(ends[1])
         header = HEADER.pack(MAGIC, VERSION, self._model_digest(), *sizes)
@@ -96,7 +97,7 @@ class Snapshots:
         world.scheduler.restore(*content["calls"])
         arrays.integers[:] = np.frombuffer(integers, dtype=np.int64)
         values, start = np.frombuffer(floats), 0
-        for span in _spans(arrays):
+        for span in self._state_spans():
             end = start + span.stop - span.start
             arrays.floats[span], start = values[start:end], end
         registry.restore(content["objects"])
@@ -163,6 +164,13 @@ class Snapshots:
                     digest.update(repr((element.tag, element.attributes, element.text)).encode())
             self._digest = engine, digest.digest()
         return self._digest[1]
+
+    def _state_spans(self) -> list[slice]:
+        """Return the ranges of the engine's floats that are part of the state."""
+        engine = self._world.builder.engine
+        if self._spans[0] is not engine:
+            self._spans = engine, _spans(engine.arrays)
+        return self._spans[1]
 
 
 def _spans(arrays: Arrays) -> list[slice]:
