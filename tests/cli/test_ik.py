@@ -43,7 +43,7 @@ def test_one_pose_as_json(capsys: pytest.CaptureFixture[str], arm_file: str) -> 
     code, out, err = ran(capsys, arm_file, "finger_a", *pose_words(target), "--json")
     assert (code, err) == (0, "")
     found = json.loads(out)
-    assert list(found) == ["base", "tip", "joints", "targets", "reached", "solutions"]
+    assert list(found) == ["base", "tip", "joints", "targets", "reached", "solutions", "repairs"]
     assert (found["base"], found["tip"], found["joints"]) == ("world", "finger_a", ["turn", "slide", "bend", "grip"])
     assert (found["targets"], found["reached"]) == (1, 1)
     (solution,) = found["solutions"]
