@@ -87,3 +87,14 @@ def test_a_misspelt_name_without_its_last_letter_and_utf_16(tmp_path, monkeypatc
     (tmp_path / "launch" / "v.launch.xml").write_text('<launch><node pkg="rviz2" exec="rviz2"/></launch>')
     (tmp_path / "package.xml").write_text(manifest("p", "rviz2"), "utf-16")
     assert [each.message for each in lint(tmp_path)] == ["package.xml is in UTF-16; colcon and catkin read UTF-8 only"]
+
+
+def test_a_uri_with_the_folder_of_the_package_in_place_of_its_name(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "robot-data").mkdir()
+    (tmp_path / "robot-data" / "package.xml").write_text(manifest("robot_descriptions"))
+    mesh = '<visual><geometry><mesh filename="package://robot-data/{}.stl"/></geometry></visual>'
+    links = f'<link name="a">{mesh.format("a")}</link>'
+    (tmp_path / "robot-data" / "r.urdf").write_text(f'<robot name="r">{links}</robot>')
+    message = "`robot-data` is the folder of this package; its name in package.xml is `robot_descriptions`"
+    assert [each.message for each in lint(tmp_path) if each.code == "K956"] == [message]

@@ -70,7 +70,8 @@ class PackageXmlDependency(RobotRule):
             return
         manifest = model.manifest(package)
         near = neighbours(package)
-        declared = {name_in(manifest, package.name), *_dependencies(manifest, near)}
+        own = name_in(manifest, package.name)
+        declared = {own, *_dependencies(manifest, near)}
         from urdfkit.lint.facts.ros_packages import is_in_metapackage
 
         unknown = {fault.name for fault in model.expanded.faults if fault.kind == "package-not-found"}
@@ -85,6 +86,12 @@ class PackageXmlDependency(RobotRule):
                 if name in declared or any(start <= match.start() < end for start, end, _ in comments):
                     continue
                 if is_in_metapackage(name, declared):
+                    continue
+                if name == package.name:
+                    declared.add(name)
+                    span = source.span(match.start(), match.end())
+                    message = f"`{name}` is the folder of this package; its name in package.xml is `{own}`"
+                    yield Finding(self.code, self.name, self.severity, message, span)
                     continue
                 finding = self._missing(name, source, match.start(), match.end(), {*near, *declared})
                 if finding.severity == self.severity:
