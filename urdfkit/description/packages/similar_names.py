@@ -21,7 +21,7 @@ def near_package(name: str, packages: Iterable[str]) -> str:
 def near_path(path: Path, hints: dict[Path, str] | None = None) -> str:
     """Return a did-you-mean hint for the first part of `path` that does not exist, ignoring case.
 
-    A common suffix from the first dot on does not make two names similar.
+    A common suffix from the first dot on does not make two names similar, and only a folder stands for a folder.
 
     Args:
         path: a path that does not exist.
@@ -35,7 +35,7 @@ def near_path(path: Path, hints: dict[Path, str] | None = None) -> str:
     if hints is not None and missing in hints:
         return hints[missing]
     try:
-        names = sorted(child.name for child in parent.iterdir())
+        names = sorted(child.name for child in parent.iterdir() if missing is path or child.is_dir())
     except OSError:
         return ""
     stem = _stem(missing.name)
