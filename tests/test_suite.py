@@ -58,8 +58,7 @@ def test_a_run_that_is_told_to_end_ends_what_its_tests_have_started(tmp_path: Pa
     command = run(tmp_path / "test_waits.py", WAITS)
     with running(command, cwd=ROOT, stdout=subprocess.PIPE, text=True) as process:
         assert process.stdout is not None
-        while process.stdout.readline() != "\n":  # of the program that the test has started
-            pass
+        assert "\n" in iter(process.stdout.readline, "")  # of the program that the test has started
         process.send_signal(signal.SIGTERM)
         reported = process.communicate(timeout=PATIENCE)[0]
     assert process.returncode == 143, reported

@@ -98,6 +98,7 @@ class BuildFileInconsistent(RobotRule):
                 yield from self._programs(model, files)
 
     def _cmake(self, files: BuildFiles, source: Source, every: list[CMakeCommand]) -> Findings:
+        from urdfkit.description.packages.similar_names import near_path
         from urdfkit.lint.facts.ros_packages import misspelling_of
         from urdfkit.lint.fix_builders import nearest
         from urdfkit.lint.model.masked_names import is_typo
@@ -117,7 +118,9 @@ class BuildFileInconsistent(RobotRule):
             if command.name == "install":
                 yield from self._install(files, source, command)
             elif len(command.words) > (at := _TESTED.get(command.name, len(command.words))):
-                yield from self._existing(files, source, *command.words[at])
+                word, start = command.words[at]
+                if "." in word or near_path(files.folder / word):  # tests may be generated into another folder
+                    yield from self._existing(files, source, word, start)
         if project is not None and project.words and "$" not in project.words[0][0]:
             word, start = project.words[0]
             if word != files.name and word == files.folder.name:
