@@ -49,6 +49,8 @@ VARIANTS: dict[str, Callable[[str], str]] = {
 @pytest.mark.parametrize("variant", VARIANTS)
 def test_every_robot_is_shown_with_a_repair_for_each_missing_mesh(variant: str, tmp_path: Path) -> None:
     models = json.loads((CORPUS / "expected.json").read_text())["models"]
+    if variant != "as written":  # a third of the robots for each defect, another third for the next
+        models = models[list(VARIANTS).index(variant) % 3 :: 3]
     changed = placeholders = 0
     for i, entry in enumerate(models):
         path, arguments = CORPUS / entry["entry"], entry.get("args", {})
@@ -65,5 +67,5 @@ def test_every_robot_is_shown_with_a_repair_for_each_missing_mesh(variant: str, 
         missing = {shape.body for shape in shown.scene.shapes if shape.is_placeholder}
         assert missing == {repair.link for repair in shown.repairs if repair.kind == "mesh"}, entry["entry"]
         placeholders += len(missing)
-    assert placeholders > 1000
-    assert variant == "as written" or changed > 20
+    assert placeholders > 3 * len(models)
+    assert variant == "as written" or changed > 5
