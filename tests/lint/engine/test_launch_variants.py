@@ -99,3 +99,31 @@ def test_a_file_is_right_if_it_fits_a_variant(package: Path, capsys: pytest.Capt
     default = {(line, variant) for code, line, variant in found(capsys, "--no-launch-arguments") if code[0] == "M"}
     assert default == {(2, None), (3, None)}
     assert {(line, variant) for code, line, variant in found(capsys) if code[0] == "M"} == {(3, None)}
+
+
+def test_an_interface_is_compared_with_the_variants_that_have_hardware(
+    package: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    mast = '<link name="mast"/><joint name="lift" type="continuous"><parent link="base"/><child link="mast"/></joint>'
+    hardware = (
+        '<ros2_control name="s" type="system"><hardware><plugin>gz_ros2_control/GazeboSimSystem</plugin></hardware>'
+        '<joint name="lift"><command_interface name="velocity"/><state_interface name="velocity"/></joint>'
+        "</ros2_control>"
+    )
+    robot = ROBOT.replace('"lidar" default="false"', '"sim" default="true"').replace("$(arg lidar)", "$(arg sim)")
+    robot = robot.replace("  <xacro:if", f"  {mast}\n  <xacro:if").replace("bse", "base")
+    (package / "urdf/cart.urdf.xacro").write_text(robot.replace("</xacro:if>", f"{hardware}</xacro:if>"))
+    (package / "launch/sim.launch.py").unlink()
+    display = LAUNCH.replace("lidar:=VALUE", "sim:=false").replace("ros_gz_sim", "rviz2").replace("create", "rviz2")
+    (package / "launch/display.launch.py").write_text(display)
+    config = package / "config/controllers.yaml"
+    config.parent.mkdir()
+    for interface, expected in (("veloctiy", ["K965"]), ("velocity", [])):
+        config.write_text(
+            "controller_manager:\n  ros__parameters:\n    lift_controller:\n"
+            "      type: joint_trajectory_controller/JointTrajectoryController\n"
+            "lift_controller:\n  ros__parameters:\n    joints: [lift]\n"
+            f"    command_interfaces: [{interface}]\n    state_interfaces: [velocity]\n"
+        )
+        main(["lint", ".", "--target", "gz", "--select", "K962,K965", "--format", "json"])
+        assert [each["code"] for each in json.loads(capsys.readouterr().out)] == expected

@@ -15,6 +15,9 @@ if TYPE_CHECKING:
 
     Check = Callable[[Mapping[str, str]], tuple[EntryResult, Model]]
 
+HARDWARE = "K965"
+"""Code of the rule that compares controllers with ``<ros2_control>``; robots without it cannot contradict it."""
+
 MOST = 4
 """Maximum number of variants of one robot that are linted."""
 
@@ -76,7 +79,8 @@ def with_variants(
     """Return the result of a robot with the findings of its variants, and the variants.
 
     A finding in the description is added if the robot with the default arguments does not have it. A finding in another
-    file, such as a YAML file that names an undefined joint, stays only if every variant has it.
+    file, such as a YAML file that names an undefined joint, stays only if every variant has it; one on interfaces of
+    the hardware, if every variant with ``<ros2_control>`` has it.
 
     Args:
         found: the result with the default arguments.
@@ -91,13 +95,17 @@ def with_variants(
     for each in variants:
         every.append((*check({**each.arguments, **arguments}), str(each)))
     sources = {file for _, each, _ in every for file in each.expanded.sources}
-    common = [{(one.code, one.span) for one in result.findings} for result, each, _ in every if not each.is_incomplete]
+    complete = [(result, each) for result, each, _ in every if not each.is_incomplete]
+    common = [{(one.code, one.span) for one in result.findings} for result, _ in complete]
+    with_hardware = [keys for keys, (_, each) in zip(common, complete, strict=True) if each.robot.ros2_control]
     findings: list[Finding] = []
     for result, _, variant in every:
         present = {(one.code, one.span) for one in findings}
         for one in result.findings:
             key = one.code, one.span
-            is_defect = one.file in sources or all(key in keys for keys in common)
+            is_defect = one.file in sources or all(
+                key in keys for keys in (with_hardware if one.code == HARDWARE else common)
+            )
             if is_defect and key not in present and not _is_passed(one, variants):
                 findings.append(Finding(**{**one.__dict__, "variant": variant, "fix": None}) if variant else one)
     merged = EntryResult(
