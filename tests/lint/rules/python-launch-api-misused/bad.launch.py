@@ -21,4 +21,5 @@ def generate_launch_description():
         launch.actions.ExecuteProcess(cmd="ls", outputs="screen"),  # <!-- expect: L106, L106 -->
         GroupAction([SetParametr(name="gui", value=True)]),
         launch.actions.IncludeLaunchDescription("x.launch.py", launch_arguments={"gui": "1"}.items),  # <!-- expect: L106 -->
+        launch.actions.IncludeLaunchDescription("y.launch.py", launch_arguments={"gui": "1"}),  # <!-- expect: L106 -->
     ])

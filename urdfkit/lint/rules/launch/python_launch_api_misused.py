@@ -82,6 +82,8 @@ class PythonLaunchApiMisused(RobotRule):
                 yield self._at(source, place(source, word), message)
 
     def _call(self, source: Source, node: ast.Call, kind: str, reader: LaunchReader) -> Findings:
+        import ast
+
         from urdfkit.description.launch.python_constants import name_of
         from urdfkit.lint.facts.control.launch_package_paths import place
         from urdfkit.lint.facts.launch.python_api import LISTS, wrong_keyword
@@ -94,6 +96,8 @@ class PythonLaunchApiMisused(RobotRule):
             near = wrong_keyword(kind, word.arg)
             if word.arg == "launch_arguments" and name_of(word.value) == "items":
                 yield self._at(source, (start, end), "`items` is not called; write `items()`")
+            elif word.arg == "launch_arguments" and isinstance(word.value, ast.Dict) and word.value.keys:
+                yield self._at(source, (end - 1, end), "`launch_arguments` is a dictionary; write `.items()` after it")
             if near is not None:
                 message = f"`{kind}` has no argument `{word.arg}`; did you mean `{near}`?"
                 yield self._at(source, (before, before + len(word.arg)), message)
