@@ -169,10 +169,8 @@ class Checker:
             from urdfkit.lint.engine.inapplicable import inapplicable
 
             note = "; ".join(filter(None, (note, inapplicable(options.select, family_of(options.target)))))
-        packages, extents = (
-            self.packages.near_file(entry.path),
-            self.runner.clean.extents if self.runner.clean is not None else None,
-        )
+        packages, clean = self.packages.near_file(entry.path), self.runner.clean
+        extents = clean.extents if clean is not None else None
         if not entry.has_robot:
             return self._check_package(entry, options, packages, note)
         model = model_of(entry.path, options, packages=packages, memory=self.memory, extents=extents)

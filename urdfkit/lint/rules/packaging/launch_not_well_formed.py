@@ -62,16 +62,9 @@ def _in_xml(source: Source) -> tuple[int, int, str] | None:
 
 def _encoding(source: Source) -> tuple[int, int, str] | None:
     """Return the error of a package.xml in another encoding; catkin_pkg decodes all of them as UTF-8."""
-    from pathlib import Path
-
-    try:
-        start = Path(source.file).read_bytes()[:2] if source.file.endswith("package.xml") else b""
-    except OSError:
+    if not source.file.endswith("package.xml") or source.flaw is None or not source.flaw[1].startswith("UTF-"):
         return None
-    return (1, 1, "package.xml is in UTF-16; colcon and catkin read UTF-8 only") if start in _UTF_16 else None
-
-
-_UTF_16 = (b"\xff\xfe", b"\xfe\xff")
+    return 1, 1, f"package.xml is in {source.flaw[1]}; colcon and catkin read UTF-8 only"
 
 
 def _in_python(source: Source) -> tuple[int, int, str] | None:
