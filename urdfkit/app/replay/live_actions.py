@@ -6,7 +6,8 @@ import time
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
-from urdfkit.bridges.actions import SentGoal, actions, find_action
+from urdfkit.app.simulation.bridging.action_requests import SimulationActions
+from urdfkit.bridges.actions import SentGoal, find_action
 from urdfkit.bus import Bus, Subscription
 from urdfkit.errors import ResourceError, UsageError
 
@@ -48,7 +49,7 @@ class ActionlibActions:
         """
         if self._topics.node.ros != "ROS 1":
             raise UsageError("actions of ROS 2 are used over rosbridge: --live rosbridge://HOST:PORT")
-        return {each.name: each.type for each in actions(self._bus).values()}
+        return SimulationActions(self._bus).types()
 
     def send(
         self, name: str, fields: Any, feedback: Callable[[Any], None], ended: Callable[[int, Any, str], None]

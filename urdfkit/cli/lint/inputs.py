@@ -178,7 +178,7 @@ def _folder(word: str) -> Path:
 
 
 def _has_settings(start: Path) -> bool:
-    """Whether a settings file may exist above a path; `urdfkit.lint.project.settings` reads it."""
+    """Whether a settings file may exist above a path; `urdfkit.lint.engine.settings` reads it."""
     folder = os.path.abspath(start)  # noqa: PTH100 - a dozen look-ups before every run
     while True:
         if os.path.exists(f"{folder}/urdfkit.toml") or os.path.exists(f"{folder}/pyproject.toml"):  # noqa: PTH110
