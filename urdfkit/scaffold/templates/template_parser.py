@@ -3,6 +3,7 @@
 import re
 import sys
 from collections.abc import Mapping
+from functools import lru_cache
 from pathlib import Path
 from typing import Any, NoReturn, get_args, get_type_hints
 
@@ -75,14 +76,21 @@ def load_template(
     path = folder / NAME
     try:
         text = path.read_text(encoding="utf-8")
-        table = tomllib.loads(text)
     except OSError as error:
         raise ResourceError(f"{path}: {error.strerror}") from error
     except UnicodeDecodeError as error:
         raise ResourceError(f"{path} is not UTF-8: {error.reason}") from error
+    return _template(path, text, source, name or folder.name, tuple(sorted((options or {}).items())))
+
+
+@lru_cache(maxsize=16)
+def _template(path: Path, text: str, source: str, name: str, options: tuple[tuple[str, str], ...]) -> Template:
+    """Return the template of a text; see `load_template`."""
+    try:
+        table = tomllib.loads(text)
     except tomllib.TOMLDecodeError as error:
         raise ResourceError(_placed(path, str(error), text.count("\n") + 1)) from error
-    return _TemplateReader(path, text, table, options or {}).template(source, name or folder.name)
+    return _TemplateReader(path, text, table, dict(options)).template(source, name)
 
 
 def _placed(path: Path, message: str, last: int) -> str:
@@ -98,6 +106,10 @@ class _TemplateReader:
     def __init__(self, path: Path, text: str, table: dict[str, Any], options: Mapping[str, str]) -> None:
         self._path, self._lines, self._table, self._options = path, text.splitlines(), table, options
         self._values: dict[str, tuple[str, ...]] = {FRESH: ("yes", "no")}
+        self._starts: dict[str, list[int]] = {}
+        for number, line in enumerate(self._lines):
+            if found := re.match(r"\s*\[\[\s*(\w+)\s*\]\]", line):
+                self._starts.setdefault(found[1], []).append(number)
 
     def template(self, source: str, name: str) -> Template:
         """Return the template."""
@@ -247,8 +259,8 @@ class _TemplateReader:
         """Return the line of a key in one table, or of the table if the key is missing."""
         start = 0
         if kind:
-            heads = [i for i, line in enumerate(self._lines) if re.match(rf"\s*\[\[\s*{kind}\s*\]\]", line)]
-            start = heads[index] if index < len(heads) else 0
+            starts = self._starts.get(kind, ())
+            start = starts[index] if index < len(starts) else 0
         for number in range(start + bool(kind), len(self._lines) if key else 0):
             line = self._lines[number]
             if re.match(rf"""\s*\[*(\w+\.)?["']?{re.escape(key)}["']?\s*[\].=]""", line):
