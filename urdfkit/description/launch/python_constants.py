@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
+
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     import ast
@@ -16,16 +18,27 @@ JOINS = frozenset(("join", "PathJoinSubstitution"))
 
 
 def parsed(source: Source) -> ast.Module | None:
-    """Return the syntax tree of a Python launch file; None if it cannot be parsed."""
+    """Return the syntax tree of a Python launch file, which all callers share; None if it cannot be parsed."""
+    return _tree(source.text)
+
+
+@lru_cache(maxsize=200)
+def _tree(text: str) -> ast.Module | None:
     import ast
     import warnings
 
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         try:
-            return ast.parse(source.text)
+            return ast.parse(text)
         except (SyntaxError, ValueError, RecursionError, MemoryError):
             return None
+
+
+@lru_cache(maxsize=200)
+def launch_reader(tree: ast.Module) -> LaunchReader:
+    """Return the reader of a syntax tree, which all callers share."""
+    return LaunchReader(tree)
 
 
 class LaunchReader:

@@ -7,7 +7,7 @@ import os
 from collections.abc import Mapping
 
 from urdfkit.description.launch.launch_scope import MAX_TEXT, UNKNOWN, LaunchScope, is_false, is_true
-from urdfkit.description.launch.python_constants import JOINS, SHARE, LaunchReader, name_of
+from urdfkit.description.launch.python_constants import JOINS, SHARE, launch_reader, name_of
 
 _MAX_STEPS = 50_000
 _NODES = frozenset(("Node", "LifecycleNode", "ComposableNode", "ComposableNodeContainer"))
@@ -30,7 +30,7 @@ def read_tree(tree: ast.Module, scope: LaunchScope) -> None:
 class _PythonLaunch:
     def __init__(self, tree: ast.Module, scope: LaunchScope) -> None:
         self._tree, self._scope, self._steps = tree, scope, 0
-        self._assigned: Mapping[str, ast.expr | None] = LaunchReader(tree).assigned
+        self._assigned: Mapping[str, ast.expr | None] = launch_reader(tree).assigned
 
     def read(self) -> None:
         """Read the declared arguments, then the actions that use them."""

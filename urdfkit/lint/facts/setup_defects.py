@@ -6,7 +6,7 @@ import fnmatch
 import re
 from collections.abc import Iterator
 
-from urdfkit.description.launch.python_constants import LaunchReader, name_of, parsed
+from urdfkit.description.launch.python_constants import LaunchReader, launch_reader, name_of, parsed
 from urdfkit.lint.facts.cmake_defects import BuildDefect
 
 TYPE_CHECKING = False
@@ -28,7 +28,7 @@ def setup_defects(files: BuildFiles, source: Source, used: dict[str, str]) -> It
     tree = parsed(source)
     if tree is None:
         return
-    reader = LaunchReader(tree)
+    reader = launch_reader(tree)
     keywords = _keywords(tree)
     yield from _data_files(files, source, reader, keywords.get("data_files"), used)
     scripts = _scripts(source, reader, keywords.get("entry_points"))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 
-from urdfkit.description.launch.python_constants import JOINS, SHARE, LaunchReader, name_of, parsed
+from urdfkit.description.launch.python_constants import JOINS, SHARE, launch_reader, name_of, parsed
 from urdfkit.record import record
 
 TYPE_CHECKING = False
@@ -65,7 +65,7 @@ def packages_used(source: Source) -> Iterator[tuple[str, int, int]]:
         return
     import ast
 
-    reader = LaunchReader(tree)
+    reader = launch_reader(tree)
     for node in ast.walk(tree):
         if not isinstance(node, ast.Call):
             continue
@@ -101,7 +101,7 @@ def _in_python(source: Source) -> Iterator[PackagePath]:
         return
     import ast
 
-    reader = LaunchReader(tree)
+    reader = launch_reader(tree)
     nodes = list(ast.walk(tree))
     inner: set[ast.AST] = set()  # parts of a longer path, and paths that are only tested for existence
     for node in nodes:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
+from functools import lru_cache
 
 from urdfkit.description.packages.related_files import LAUNCH
 from urdfkit.description.xml.source import Source
@@ -39,8 +40,13 @@ def launches(model: Model) -> Iterator[Source]:
     yield from (source for name, source in model.related_files.items() if name.endswith(LAUNCH))
 
 
-def started(source: Source) -> Iterator[Started]:
-    """Yield the nodes that a launch file starts."""
+@lru_cache(maxsize=400)
+def started(source: Source) -> tuple[Started, ...]:
+    """Return the nodes that a launch file starts."""
+    return tuple(_started(source))
+
+
+def _started(source: Source) -> Iterator[Started]:
     from urdfkit.lint.facts.control.launch_package_paths import uncommented
 
     if source.file.endswith(".py"):
@@ -91,13 +97,13 @@ def _in_yaml(source: Source) -> Iterator[Started]:
 def _in_python(source: Source) -> Iterator[Started]:
     import ast
 
-    from urdfkit.description.launch.python_constants import LaunchReader, name_of, parsed
+    from urdfkit.description.launch.python_constants import launch_reader, name_of, parsed
     from urdfkit.lint.facts.control.launch_package_paths import place
 
     tree = parsed(source) if "Node" in source.text else None
     if tree is None:
         return
-    reader = LaunchReader(tree)
+    reader = launch_reader(tree)
     conditional: set[ast.AST] = set()
     for node in ast.walk(tree):
         is_conditional = isinstance(node, (ast.If, ast.IfExp, ast.For, ast.Try, ast.While)) or (

@@ -7,7 +7,7 @@ import re
 from collections.abc import Iterator
 from itertools import pairwise
 
-from urdfkit.description.launch.python_constants import LaunchReader, name_of
+from urdfkit.description.launch.python_constants import LaunchReader, launch_reader, name_of
 from urdfkit.description.xml.source import Source
 from urdfkit.lint.facts.control.launch_package_paths import place
 
@@ -18,7 +18,7 @@ _LITERAL = r"[rRbBuU]?(\"[^\"\n]*\"|'[^'\n]*')"
 
 def joined_words(source: Source, tree: ast.Module) -> Iterator[tuple[tuple[int, int], str]]:
     """Yield start and end offset and the message for each word that runs into the one before."""
-    reader = LaunchReader(tree)
+    reader = launch_reader(tree)
     for node in ast.walk(tree):
         if not isinstance(node, ast.Call):
             continue

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from urdfkit.description.launch.python_constants import LaunchReader, name_of
+from urdfkit.description.launch.python_constants import launch_reader, name_of
 from urdfkit.description.xml.source import Source, Span
 from urdfkit.lint.facts.control.launch_package_paths import place
 
@@ -23,7 +23,7 @@ def duplicates(source: Source, tree: ast.Module) -> Iterator[tuple[str, Span, in
     """Yield the name, its place and the line of the other node for each node whose name an earlier node has."""
     if any(word in source.text for word in _MOVING):
         return
-    reader = LaunchReader(tree)
+    reader = launch_reader(tree)
     for function in (node for node in ast.walk(tree) if isinstance(node, ast.FunctionDef)):
         first: dict[tuple[str, str], ast.Call] = {}
         calls = (call for statement in function.body for call in calls_in(statement, _NODES))

@@ -10,7 +10,7 @@ import ast
 from collections.abc import Iterator
 from functools import cache
 
-from urdfkit.description.launch.python_constants import LaunchReader, name_of, parsed
+from urdfkit.description.launch.python_constants import launch_reader, name_of, parsed
 from urdfkit.description.xml.source import Source
 from urdfkit.lint.facts.control.controller_joints import Named
 from urdfkit.lint.facts.control.launch_package_paths import place
@@ -99,7 +99,7 @@ def _in_python(source: Source) -> Iterator[tuple[str, list[Named]]]:
     tree = parsed(source) if any(name in source.text for name in (*_parameters(_OF_PACKAGES), *_NODES)) else None
     if tree is None:
         return
-    reader = LaunchReader(tree)
+    reader = launch_reader(tree)
     for call in (each for each in ast.walk(tree) if isinstance(each, ast.Call) and name_of(each.func) == "Node"):
         words = {word.arg: word.value for word in call.keywords}
         package, listed = (words.get(key) for key in ("package", "parameters"))

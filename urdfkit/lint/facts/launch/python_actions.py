@@ -6,7 +6,7 @@ import ast
 import re
 import sys
 
-from urdfkit.description.launch.python_constants import LaunchReader, name_of, parsed
+from urdfkit.description.launch.python_constants import launch_reader, name_of, parsed
 from urdfkit.description.xml.source import Source
 from urdfkit.lint.facts.control.controller_joints import Named
 from urdfkit.lint.facts.control.launch_package_paths import place
@@ -41,7 +41,7 @@ def read_python(source: Source) -> LaunchActions:
 
 class _PythonActions:
     def __init__(self, source: Source, tree: ast.Module, found: LaunchActions) -> None:
-        self._source, self._tree, self._found, self._constants = source, tree, found, LaunchReader(tree)
+        self._source, self._tree, self._found, self._constants = source, tree, found, launch_reader(tree)
         self._conditional = set[ast.AST]()
 
     def read(self) -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from urdfkit.description.launch.python_constants import LaunchReader
+from urdfkit.description.launch.python_constants import launch_reader
 from urdfkit.description.xml.source import Source, Span
 from urdfkit.lint.facts.control.launch_package_paths import place
 from urdfkit.lint.facts.launch.named_nodes import calls_in
@@ -57,7 +57,7 @@ def _in_xml(source: Source, parent: Tag) -> Iterator[RepeatedArgument]:
 
 
 def _in_python(source: Source, tree: ast.Module) -> Iterator[RepeatedArgument]:
-    reader = LaunchReader(tree)
+    reader = launch_reader(tree)
     for function in (node for node in ast.walk(tree) if isinstance(node, ast.FunctionDef)):
         first: dict[str, ast.Call] = {}
         calls = (call for statement in function.body for call in calls_in(statement, ("DeclareLaunchArgument",)))

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from urdfkit.description.launch.python_constants import LaunchReader, name_of
+from urdfkit.description.launch.python_constants import LaunchReader, launch_reader, name_of
 from urdfkit.description.xml.source import Source
 from urdfkit.lint.facts.control.launch_package_paths import place
 from urdfkit.lint.facts.launch.python_names import python_files
@@ -61,7 +61,7 @@ def _from_tag(source: Source, tag: Tag) -> StartedNode:
 
 
 def _in_python(source: Source, tree: ast.Module) -> Iterator[StartedNode]:
-    reader = LaunchReader(tree)
+    reader = launch_reader(tree)
     for node in ast.walk(tree):
         if not isinstance(node, ast.Call) or name_of(node.func) not in ("Node", "LifecycleNode"):
             continue

@@ -10,7 +10,7 @@ import re
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 
-from urdfkit.description.launch.python_constants import LaunchReader, name_of
+from urdfkit.description.launch.python_constants import launch_reader, name_of
 from urdfkit.description.packages.existence import is_file
 from urdfkit.description.packages.similar_names import near_path
 from urdfkit.description.xml.reader import read_source, shown_path
@@ -51,7 +51,7 @@ def builders(model: Model) -> Iterator[Builder]:
     for source, tree in python_files(model):
         if "MoveItConfigsBuilder" not in source.text:
             continue
-        reader = LaunchReader(tree)
+        reader = launch_reader(tree)
         replaced = frozenset(key for key, method in _METHODS.items() if re.search(rf"\.{method}\(\s*\w", source.text))
         for call in ast.walk(tree):
             if not isinstance(call, ast.Call) or name_of(call.func) != "MoveItConfigsBuilder":

@@ -53,11 +53,11 @@ class PythonLaunchApiMisused(RobotRule):
         """Yield a finding for each wrong import, keyword and list."""
         import ast
 
-        from urdfkit.description.launch.python_constants import LaunchReader
+        from urdfkit.description.launch.python_constants import launch_reader
         from urdfkit.lint.facts.launch.python_names import class_called, launch_classes, python_files
 
         for source, tree in python_files(model):
-            classes, reader = launch_classes(tree), LaunchReader(tree)
+            classes, reader = launch_classes(tree), launch_reader(tree)
             guarded = {inner for node in ast.walk(tree) if isinstance(node, ast.Try) for inner in ast.walk(node)}
             for node in ast.walk(tree):
                 if isinstance(node, ast.ImportFrom) and not node.level and node not in guarded:
