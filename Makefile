@@ -68,7 +68,8 @@ $(VENV)/ros2-jazzy/.done: PREFIX := ros-jazzy
 $(VENV)/ros2-%/.done: $(VENV)/bin/python
 	$(PYTHON) -m venv $(@D)
 	$(@D)/bin/python -m pip --disable-pip-version-check install --quiet \
-	  $(addprefix $(PREFIX)-,rclpy rmw-fastrtps-cpp geometry-msgs nav-msgs rosgraph-msgs sensor-msgs std-msgs std-srvs)
+	  $(addprefix $(PREFIX)-,rclpy rmw-fastrtps-cpp geometry-msgs nav-msgs rosgraph-msgs sensor-msgs std-msgs std-srvs \
+    trajectory-msgs)
 	@touch $@
 
 wheel: $(VENV)/.run

@@ -23,6 +23,7 @@ STATES = {1: EXECUTING, 2: CANCELED, 3: SUCCEEDED, 4: ABORTED}
 NAMES = {REJECTED: "rejected", SUCCEEDED: "succeeded", CANCELED: "canceled", ABORTED: "aborted"}
 CANCEL = "action_msgs/srv/CancelGoal_Request"
 RCL = "/_action"
+REPORTS = ("feedback", "status")
 
 
 @dataclass(frozen=True, slots=True)
@@ -43,6 +44,13 @@ class ActionServer:
     def goal(self) -> str:
         """Message type of its goals."""
         return self.type.replace("/action/", "/msg/") + "Goal"
+
+    @property
+    def topics(self) -> tuple[str, ...]:
+        """Names of its topics on the bus."""
+        if self.is_rcl:
+            return tuple(f"{self.name}{RCL}/{each}" for each in ("send_goal", "cancel_goal", "get_result", *REPORTS))
+        return tuple(f"{self.name}/{each}" for each in ("goal", "cancel", "result", *REPORTS))
 
 
 def actions(bus: Bus) -> dict[str, ActionServer]:
@@ -77,7 +85,7 @@ class SentGoal:
     Args:
         bus: of the simulation.
         action: the action.
-        fields: of the goal, as JSON or YAML writes them.
+        fields: of the goal, as JSON or YAML writes them, or its message.
         feedback: receives each feedback, a message.
         ended: receives the state, the result, a message or None, and the reason for the state, once.
         is_live: whether the server is in another program, which answers later.
@@ -100,7 +108,7 @@ class SentGoal:
         self._id = uuid4()
         self._accepted, self._result = False, None
         base, kind = (action.name + RCL, action.type) if action.is_rcl else (action.name, action.goal[:-4])
-        goal = from_json(action.goal, fields)
+        goal = fields if hasattr(fields, "__msgtype__") else from_json(action.goal, fields)
         if action.is_rcl:
             request = from_fields(f"{kind}_SendGoal_Request", {"goal_id": {"uuid": list(self._id.bytes)}})
             topics = {

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import struct
+from array import array
 from dataclasses import fields, is_dataclass, replace
 from functools import cache
 from typing import Any
@@ -100,4 +101,4 @@ def _value(value: Any, node: int, details: Any, store: Any) -> Any:
     if value is None:
         base = inner[1][0]
         return [] if base == "string" else np.zeros(length if node == 3 else 0, dtype=base)
-    return value
+    return np.asarray(value) if isinstance(value, array) else value  # rclpy has arrays of Python's own

@@ -139,6 +139,20 @@ def test_topics_are_followed_and_missing_types_reported_in_one_line() -> None:
     bridge.close()
 
 
+def test_actions_without_a_server_are_one_line() -> None:
+    lines: list[str] = []
+    bus, calls, node = Bus(), CallQueue(), RecordedNode()
+    for name in ("left", "right"):
+        bus.advertise(f"/{name}/move/_action/send_goal", "control_msgs/action/FollowJointTrajectory_SendGoal_Request")
+    bridge = NodeBridge(bus, calls, node, namespace="/r1", report=lines.append)
+    bridge.update()
+    bridge.close()
+    assert lines == [
+        "/r1/left/move, /r1/right/move: not on ROS 2; recorded has no actions: send goals over --rosbridge"
+    ]
+    assert not bridge.actions
+
+
 def test_variables_of_ros() -> None:
     assert ros_domain(None, {}) == 0
     assert ros_domain(None, {"ROS_DOMAIN_ID": "7"}) == 7

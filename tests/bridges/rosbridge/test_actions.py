@@ -30,6 +30,11 @@ FOLLOW = "control_msgs/action/FollowJointTrajectory"
 
 def ros2_arm(folder: Path) -> Simulator:
     """Return an arm whose controller belongs to ROS 2."""
+    return Simulator(ros2_arm_file(folder), note=lambda _: None)
+
+
+def ros2_arm_file(folder: Path) -> Path:
+    """Write the file of an arm whose controller belongs to ROS 2."""
     config = arm_package.package(folder, "arm_bringup") / "config"
     config.mkdir(exist_ok=True)
     (config / "arm.yaml").write_text(f"{TRAJECTORIES}    allow_partial_joints_goal: true\n")
@@ -38,7 +43,7 @@ def ros2_arm(folder: Path) -> Simulator:
     block = BLOCK.format(
         filename=filename, name=name, hardware=hardware, commands=command("position"), more="", initial="", path=path
     )
-    return Simulator(arm_package.write_arm(folder, block), note=lambda _: None)
+    return arm_package.write_arm(folder, block)
 
 
 @pytest.mark.slow

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any, Protocol
+from typing import Any, Protocol, runtime_checkable
 
+from urdfkit.bridges.actions import ActionServer
 from urdfkit.bridges.bridge import is_latched
 from urdfkit.bridges.service import Service
 from urdfkit.errors import MissingDependencyError
@@ -22,6 +23,11 @@ End = Callable[[], None]
 """Ends a subscription."""
 Done = Callable[[Any, "str | None"], None]
 """Receives the response of a service, or None and the reason."""
+Begin = Callable[[Any, Callable[[Any], None], Callable[[int, Any, str], None]], Callable[[], None]]
+"""Sends a goal to the simulation, waits until it is accepted or has ended, and returns what cancels it.
+
+Its arguments are the message of the goal, and what receives the feedback and the end, see `SentGoal`.
+"""
 
 
 class UnknownTypeError(MissingDependencyError):
@@ -135,3 +141,20 @@ class Node(Protocol):
 
     def close(self) -> None:
         """Leave the graph."""
+
+
+@runtime_checkable
+class ActionNode(Protocol):
+    """A node that serves actions by the library's own servers instead of their topics."""
+
+    def serve_action(self, name: str, action: ActionServer, begin: Begin) -> None:
+        """Serve an action of a simulation.
+
+        Args:
+            name: on the graph.
+            action: of the simulation.
+            begin: sends a goal to the simulation; called in a thread of the library.
+
+        Raises:
+            UnknownTypeError: the library lacks the type.
+        """

@@ -4,16 +4,19 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Mapping
+from functools import partial
+from queue import Queue
 from types import MappingProxyType
 from typing import Any
 
+from urdfkit.bridges.actions import REJECTED, ActionServer, SentGoal, actions
 from urdfkit.bridges.bridge import CallQueue, message_topics, publish_received
 from urdfkit.bridges.message_builder import MessageBuilder
-from urdfkit.bridges.node.node import Done, Node, Quality, UnknownTypeError, publisher_quality
+from urdfkit.bridges.node.node import ActionNode, Done, Node, Quality, UnknownTypeError, publisher_quality
 from urdfkit.bridges.node.published_topics import OutputThread
 from urdfkit.bridges.service import Service, respond
 from urdfkit.bus import Bus, Topic, absolute
-from urdfkit.errors import UsageError
+from urdfkit.errors import UrdfkitError, UsageError
 
 GLOBAL = ("/clock", "/tf", "/tf_static")
 """Topics without the namespace: nodes in a namespace use them under these names too."""
@@ -48,6 +51,7 @@ class NodeBridge:
 
     Attributes:
         served: number of the services that nodes can call.
+        actions: names of the actions to which nodes can send goals, on the bus.
     """
 
     def __init__(
@@ -63,6 +67,9 @@ class NodeBridge:
     ) -> None:
         self._bus, self._calls, self._node, self._namespace = bus, calls, node, namespace
         self._report_line = report
+        self.actions: set[str] = set()
+        self._tried: set[str] = set()
+        self._replaced: set[str] = set()
         self._reported: set[str] = set()
         self._seen: set[str] = set()
         self._closed = False
@@ -77,8 +84,9 @@ class NodeBridge:
         new = [topic for topic in self._bus.topics if topic.name not in self._seen]
         self._seen.update(topic.name for topic in new)
         missing: dict[str, list[str]] = {}
+        self._serve_actions(missing)
         for topic in message_topics(self._bus):
-            if topic not in new:
+            if topic not in new or topic.name in self._replaced:
                 continue
             name = topic.name if topic.name in GLOBAL else self._namespace + topic.name
             if not VALID_NAME.fullmatch(name):
@@ -115,6 +123,52 @@ class NodeBridge:
         except UnknownTypeError:
             return False
         return True
+
+    def _serve_actions(self, missing: dict[str, list[str]]) -> None:
+        """Serve the actions of ROS 2, if the library has servers and their types; those of ROS 1 are topics."""
+        if self._node.ros != "ROS 2":
+            return
+        for name, action in actions(self._bus).items():
+            if name in self._tried:
+                continue
+            self._tried.add(name)
+            try:
+                if not isinstance(self._node, ActionNode):
+                    raise UnknownTypeError(f"{self._node.description} has no actions: send goals over --rosbridge")
+                self._node.serve_action(self._namespace + name, action, partial(self._begin, action))
+            except UnknownTypeError as error:
+                missing.setdefault(str(error), []).append(self._namespace + name)
+            else:
+                self.actions.add(name)
+                self._replaced.update(action.topics)
+
+    def _begin(
+        self,
+        action: ActionServer,
+        message: Any,
+        feedback: Callable[[Any], None],
+        ended: Callable[[int, Any, str], None],
+    ) -> Callable[[], None]:
+        answers: Queue[SentGoal | None] = Queue()
+
+        def send() -> None:
+            try:
+                answers.put(SentGoal(self._bus, action, message, feedback=feedback, ended=ended))
+            except UrdfkitError as error:
+                self._report(f"{action.name}: {error}")
+                ended(REJECTED, None, str(error))
+                answers.put(None)
+
+        if not self._calls.add(send):
+            ended(REJECTED, None, "too many calls wait for the simulation")
+            return lambda: None
+        goal = answers.get()
+
+        def cancel() -> None:
+            if goal is not None:
+                self._calls.add(goal.cancel)
+
+        return cancel
 
     def _receiver(self, topic: Topic) -> Callable[[bytes], None]:
         name, type, bus, node = topic.name, topic.type, self._bus, self._node

@@ -5,14 +5,16 @@ from __future__ import annotations
 import time
 from collections.abc import Callable
 from contextlib import suppress
-from importlib import import_module
 from importlib.util import find_spec
 from queue import Queue
 from threading import Event, Thread
 from typing import Any
 
+from urdfkit.bridges.actions import ActionServer
 from urdfkit.bridges.json_messages import json_values
-from urdfkit.bridges.node.node import RESPONSE, Done, End, Node, Quality, UnknownTypeError, Writer
+from urdfkit.bridges.node.node import RESPONSE, Begin, Done, End, Node, Quality, UnknownTypeError, Writer
+from urdfkit.bridges.ros2.rclpy_actions import serve_action
+from urdfkit.bridges.ros2.rclpy_messages import rclpy_type
 from urdfkit.bridges.service import Service
 from urdfkit.errors import MissingDependencyError, ResourceError
 from urdfkit.messages import from_fields
@@ -81,14 +83,14 @@ class RclpyNode:
 
     def writer(self, topic: str, type: str, quality: Quality) -> Writer:
         """Create a publisher."""
-        kind = self._type(type)
+        kind = rclpy_type(type)
         if kind is None:
             return self._fallback(type).writer(topic, type, quality)
         return _RclpyWriter(self._node.create_publisher(kind, topic, _profile(quality)))
 
     def subscribe(self, topic: str, type: str, quality: Quality, receive: Callable[[bytes], None]) -> End:
         """Call `receive`, in the thread of the executor, with each message in CDR."""
-        kind = self._type(type)
+        kind = rclpy_type(type)
         if kind is None:
             return self._fallback(type).subscribe(topic, type, quality, receive)
         made = self._node.create_subscription(kind, topic, receive, _profile(quality), raw=True)
@@ -108,7 +110,7 @@ class RclpyNode:
         """Serve a service, if its type is installed."""
         from rclpy.serialization import deserialize_message, serialize_message
 
-        kind = self._type(service.type)
+        kind = rclpy_type(service.type)
         if kind is None:
             raise UnknownTypeError(f"rclpy lacks {service.type}")
 
@@ -127,6 +129,13 @@ class RclpyNode:
         self._node.create_service(kind, service.name, answer)
         self._executor.wake()
 
+    def serve_action(self, name: str, action: ActionServer, begin: Begin) -> None:
+        """Serve an action, if its type is installed."""
+        if (kind := rclpy_type(action.type)) is None:
+            raise UnknownTypeError(f"rclpy lacks {action.type}: source its ROS package, or send goals over --rosbridge")
+        serve_action(self._node, kind, name, action, begin)
+        self._executor.wake()
+
     def services(self) -> list[str]:
         """Return the names of the services of the graph."""
         return sorted(dict(self._node.get_service_names_and_types()))
@@ -142,7 +151,7 @@ class RclpyNode:
         """Call a service, if its type is installed, and return the fields of its response."""
         from rclpy.serialization import deserialize_message, serialize_message
 
-        if (kind := self._type(type)) is None:
+        if (kind := rclpy_type(type)) is None:
             raise UnknownTypeError(f"rclpy lacks {type}: install its ROS package")
         data = encode_cdr(from_fields(f"{type}_Request", fields), f"{type}_Request")
         client = self._node.create_client(kind, service)
@@ -169,14 +178,6 @@ class RclpyNode:
         self._thread.join(1.0)
         self._node.destroy_node()
         self._context.try_shutdown()
-
-    def _type(self, name: str) -> Any:
-        """Return the class of a message; None if its package is not installed."""
-        package, kind, message = name.split("/")
-        try:
-            return getattr(import_module(f"{package}.{kind}"), message, None)
-        except ImportError:
-            return None
 
     def _fallback(self, type: str) -> Node:
         if self._other is None:

@@ -72,7 +72,8 @@ def connect_to_ros(
         )
         bridges.add(bridge)
         served = f"{bridge.served} services" if bridge.served else "services are not available"
-        note(f"{name}: topics are published by {node.description}; {served}")
+        more = f"; {len(bridge.actions)} actions" if bridge.actions else ""
+        note(f"{name}: topics are published by {node.description}; {served}{more}")
 
     if options.ros1:
         from urdfkit.bridges.ros1.ros1_node import Ros1Node
