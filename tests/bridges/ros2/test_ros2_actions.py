@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import os
 import shutil
+import signal
 import subprocess
 from pathlib import Path
 
@@ -14,6 +15,7 @@ pytest.importorskip("cyclonedds")
 
 from tests.bridges.ros2.test_real_nodes import LOCAL, node_python, simulated, urdfkit_by
 from tests.bridges.rosbridge.test_actions import FOLLOW, ros2_arm_file
+from tests.processes import running
 from tests.time_limit import PATIENCE
 
 HERE = Path(__file__).parent
@@ -60,3 +62,47 @@ def test_an_action_client_of_rclpy_moves_an_arm(control_msgs: Path, tmp_path: Pa
     assert seen["rejected"]
     assert (seen["cancelling"], seen["cancelled"][0]) == (1, 5)
     assert (seen["last"][0], seen["replaced"][0]) == (4, 6)
+
+
+def test_the_command_sends_goals_to_a_real_server(control_msgs: Path) -> None:
+    command = [*urdfkit(control_msgs), "action"]
+    environment = ENVIRONMENT | {"ROS_DOMAIN_ID": "65"}
+    name = "/arm/follow_joint_trajectory"
+
+    def action(*words: str) -> subprocess.CompletedProcess[str]:
+        line = [*command, *words, "--live", "ros2"]
+        return subprocess.run(line, capture_output=True, text=True, env=environment, timeout=PATIENCE, check=False)
+
+    def said(done: subprocess.CompletedProcess[str]) -> list[str]:
+        """Return the lines of urdfkit; rcutils notes that these types are for one middleware only."""
+        return [line for line in done.stderr.splitlines() if line.startswith("urdfkit")]
+
+    def goal(position: float, seconds: int, joint: str = "elbow") -> list[str]:
+        points = f"[{{positions: [{position}], time_from_start: {seconds}}}]"
+        return ["send", name, f"{{trajectory: {{joint_names: [{joint}], points: {points}}}}}"]
+
+    server = [str(node_python("kilted")), str(HERE / "real_action_server.py")]
+    environment_of_server = environment | {"PYTHONPATH": str(control_msgs)}
+    with running(server, env=environment_of_server, stdout=subprocess.PIPE, text=True) as arm:
+        assert arm.stdout is not None
+        assert arm.stdout.readline() == "ready\n"
+        done = action(*goal(0.5, 1), "--feedback", "--json")
+        *feedback, result = map(json.loads, done.stdout.splitlines())
+        assert (done.returncode, said(done), result) == (0, [], {"error_code": 0, "error_string": ""})
+        assert feedback[0]["joint_names"] == ["elbow"]
+        assert feedback[0]["desired"]["positions"] == [0.5]
+        assert action("list", "--types").stdout == f"{name} [{FOLLOW}]\n"
+        done = action(*goal(0.5, 1, "wrist"))
+        assert (done.returncode, done.stdout, said(done)) == (1, "", ["urdfkit: the goal is rejected"])
+        done = action(*goal(1.5, 0), "--json")
+        assert (done.returncode, said(done)) == (1, ["urdfkit: the goal is aborted"])
+        assert json.loads(done.stdout) == {"error_code": -4, "error_string": "elbow is off by 0.5 rad"}
+        done = action("send", "/arm/follow_joint_trajektory")
+        assert (done.returncode, done.stdout) == (2, "")
+        assert said(done) == [f"urdfkit: unknown action `/arm/follow_joint_trajektory`; did you mean `{name}`?"]
+        words = [*map(str, command), *goal(0.5, 60), "--feedback", "--json", "--live", "ros2"]
+        with running(words, env=environment, stdout=subprocess.PIPE, text=True) as sending:
+            assert sending.stdout is not None
+            assert "elbow" in sending.stdout.readline()
+            sending.send_signal(signal.SIGINT)
+            assert arm.stdout.readline() == "canceled\n"

@@ -1,4 +1,4 @@
-"""Actions of a live graph for the command ``action``: of actionlib on ROS 1, and of a server of rosbridge."""
+"""Actions of a live graph for the command ``action``: of actionlib on ROS 1, of rclpy, and of a server of rosbridge."""
 
 from __future__ import annotations
 
@@ -8,8 +8,10 @@ from typing import TYPE_CHECKING, Any
 
 from urdfkit.app.simulation.bridging.action_requests import SimulationActions
 from urdfkit.bridges.actions import SentGoal, find_action
+from urdfkit.bridges.node.node import UnknownTypeError
+from urdfkit.bridges.ros2.rclpy_node import RclpyNode
 from urdfkit.bus import Bus, Subscription
-from urdfkit.errors import ResourceError, UsageError
+from urdfkit.errors import ResourceError
 
 if TYPE_CHECKING:
     from urdfkit.app.replay.live_topics import LiveTopics
@@ -27,6 +29,10 @@ def live_actions(topics: LiveTopics, bus: Bus) -> Actions:
 
         assert isinstance(topics.node, RosbridgeNode)
         return ServerActions(topics.node, topics.calls.add)
+    if isinstance(topics.node, RclpyNode):
+        from urdfkit.bridges.ros2.rclpy_action_client import RclpyActions
+
+        return RclpyActions(topics.node, topics.calls.add)
     return ActionlibActions(topics, bus)
 
 
@@ -45,10 +51,12 @@ class ActionlibActions:
         """Return action → type.
 
         Raises:
-            UsageError: the graph is that of ROS 2.
+            UnknownTypeError: the graph is that of ROS 2.
         """
         if self._topics.node.ros != "ROS 1":
-            raise UsageError("actions of ROS 2 are used over rosbridge: --live rosbridge://HOST:PORT")
+            raise UnknownTypeError(
+                "Cyclone DDS has no actions: source a ROS 2 with rclpy, or use --live rosbridge://HOST:PORT"
+            )
         return SimulationActions(self._bus).types()
 
     def send(

@@ -136,6 +136,20 @@ class RclpyNode:
         serve_action(self._node, kind, name, action, begin)
         self._executor.wake()
 
+    def actions(self) -> dict[str, str]:
+        """Return action → type of the graph."""
+        from rclpy.action import get_action_names_and_types
+
+        return {name: kinds[0] for name, kinds in sorted(get_action_names_and_types(self._node)) if kinds}
+
+    def action_client(self, kind: Any, name: str) -> Any:
+        """Return a client of an action, whose callbacks run in the thread of the executor."""
+        from rclpy.action import ActionClient
+
+        client = ActionClient(self._node, kind, name)
+        self._executor.wake()
+        return client
+
     def services(self) -> list[str]:
         """Return the names of the services of the graph."""
         return sorted(dict(self._node.get_service_names_and_types()))

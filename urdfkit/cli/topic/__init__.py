@@ -1,4 +1,4 @@
-"""`urdfkit topic`: inspect and publish topics of a running simulation, as ``rostopic`` and ``ros2 topic`` do.
+"""`urdfkit topic`: inspect and publish topics of a simulation or live robot, as ``rostopic`` and ``ros2 topic`` do.
 
 A topic goes in; its messages, rate or bandwidth are printed.
 """

@@ -1,4 +1,4 @@
-"""`urdfkit service`: list and call services of a running simulation, as ``rosservice`` and ``ros2 service`` do."""
+"""`urdfkit service`: services of a simulation or live robot, as ``rosservice`` and ``ros2 service`` do."""
 
 from __future__ import annotations
 

@@ -1,0 +1,108 @@
+"""Actions of the graph of ROS 2, and goals that are sent to them by rclpy."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from typing import Any
+
+from urdfkit.bridges.actions import REJECTED, ActionServer
+from urdfkit.bridges.json_messages import from_json
+from urdfkit.bridges.node.node import UnknownTypeError
+from urdfkit.bridges.ros2.rclpy_messages import rclpy_message, rclpy_type
+from urdfkit.bridges.ros2.rclpy_node import DISCOVERY, RclpyNode
+from urdfkit.bus import absolute, nearest_topic
+from urdfkit.errors import ResourceError, UsageError, suggestion
+from urdfkit.messages import typestore
+from urdfkit.messages.conversion import converted
+
+
+class RclpyActions:
+    """The actions of a graph.
+
+    Args:
+        node: on the graph.
+        post: runs a function in the thread that uses the actions.
+    """
+
+    def __init__(self, node: RclpyNode, post: Callable[[Callable[[], None]], object]) -> None:
+        self._node, self._post = node, post
+        self._clients: dict[str, Any] = {}
+
+    def types(self) -> dict[str, str]:
+        """Return action → type, of the servers and clients that are discovered."""
+        return self._node.actions()
+
+    def send(
+        self, name: str, fields: Any, feedback: Callable[[Any], None], ended: Callable[[int, Any, str], None]
+    ) -> RclpyGoal:
+        """Send a goal, see `SentGoal`, when its server is discovered.
+
+        Raises:
+            UrdfkitError: the action is unknown, or has no server; its type is not installed, or unknown to urdfkit.
+        """
+        full, end = absolute(name), time.monotonic() + DISCOVERY
+        while full not in (types := self.types()):
+            if time.monotonic() > end:
+                raise UsageError(f"unknown action `{full}`{suggestion(nearest_topic(full, list(types)))}")
+            time.sleep(0.05)
+        action = ActionServer(full, types[full], is_rcl=True)
+        if (kind := rclpy_type(action.type)) is None:
+            raise UnknownTypeError(f"rclpy lacks {action.type}: install its ROS package")
+        message = rclpy_message(kind.Goal, from_json(action.goal, fields))
+        if full not in self._clients:
+            self._clients[full] = self._node.action_client(kind, full)
+        client = self._clients[full]
+        if not client.wait_for_server(timeout_sec=DISCOVERY):
+            raise ResourceError(f"{full} has no server")
+        goal = RclpyGoal(action, self._post, feedback, ended)
+        sending = client.send_goal_async(message, feedback_callback=goal.take_feedback)
+        sending.add_done_callback(goal.take_response)
+        return goal
+
+
+class RclpyGoal:
+    """A goal that was sent to an action; its callbacks run in the thread of the executor."""
+
+    def __init__(
+        self,
+        action: ActionServer,
+        post: Callable[[Callable[[], None]], object],
+        feedback: Callable[[Any], None],
+        ended: Callable[[int, Any, str], None],
+    ) -> None:
+        self._post, self._feedback, self._ended = post, feedback, ended
+        self._part = action.goal.removesuffix("Goal")
+        self._handle: Any = None
+        self._cancelled = False
+
+    def cancel(self) -> None:
+        """Request that the goal is cancelled; its end is reported as that of other goals."""
+        self._cancelled = True
+        if self._handle is not None:
+            self._handle.cancel_goal_async()
+
+    def close(self) -> None:
+        """Forget the goal, which is still executed."""
+        self._feedback, self._ended = (lambda message: None), (lambda state, result, reason: None)
+
+    def take_feedback(self, message: Any) -> None:
+        """Hand feedback over."""
+        found = converted(message.feedback, f"{self._part}Feedback", typestore())
+        self._post(lambda: self._feedback(found))
+
+    def take_response(self, future: Any) -> None:
+        """Wait for the result of an accepted goal."""
+        handle = future.result()
+        if not handle.accepted:
+            self._post(lambda: self._ended(REJECTED, None, ""))
+            return
+        self._handle = handle
+        handle.get_result_async().add_done_callback(self._take_result)
+        if self._cancelled:
+            handle.cancel_goal_async()
+
+    def _take_result(self, future: Any) -> None:
+        response = future.result()
+        result = converted(response.result, f"{self._part}Result", typestore())
+        self._post(lambda: self._ended(response.status, result, ""))
