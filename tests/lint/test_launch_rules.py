@@ -344,3 +344,45 @@ def test_the_paths_of_the_setup_assistant_exist_unless_the_builder_replaces_them
     assert "M111" in codes(source)
     write(package / "launch/move.launch.py", launch.format("cart_description", ".robot_description(file_path=urdf)"))
     assert "M111" not in codes(source)
+
+
+@pytest.mark.parametrize(
+    ("call", "message"),
+    [
+        ('.joint_limits(file_path="config/limit.yaml")', "`config/limit.yaml` does not exist in package"),
+        ('.joint_limits(Path("config") / "limit.yaml")', "`config/limit.yaml` does not exist in package"),
+        ('.planning_pipelines(pipelines=["opml"])', "planning pipeline `opml` has no file"),
+        ('.planning_pipelines("opml", ["ompl"])', "`opml` is not in `pipelines`; did you mean `ompl`?"),
+        ('.planning_pipelines(pipelines=["own"], default_planning_pipeline="ompl")', "`ompl` is not in `pipelines`"),
+        ('.joint_limit(file_path="config/limits.yaml")', "has no method `joint_limit`; did you mean `joint_limits`?"),
+        ('.joint_limits(filepath="config/limits.yaml")', "has no argument `filepath`; did you mean `file_path`?"),
+        ('.joint_limits(file_path="config/limits.yaml").planning_pipelines(pipelines=["ompl", "own"])', ""),
+        (".joint_limits(file_path=computed)", ""),
+    ],
+)
+def test_the_methods_of_the_moveit_builder_are_checked(source, call, message):
+    package = source / "cart_description"
+    write(package / "config/limits.yaml", "joint_limits:\n  wheel: {max_velocity: 1.0}\n")
+    write(package / "config/own_planning.yaml", "planning_plugin: own/Planner\n")
+    text = (
+        f'builder = MoveItConfigsBuilder("cart", package_name="cart_description")\nbuilder{call}.to_moveit_configs()\n'
+    )
+    write(package / "launch/move.launch.py", text)
+    found = [one.message for one in lint(package) if one.code == "M111"]
+    assert len(found) == bool(message)
+    assert all(message in one for one in found)
+
+
+@pytest.mark.parametrize(
+    ("text", "is_reported"),
+    [
+        ("from nav2_common.launch import RewrittenYaml\n", True),
+        ("import moveit_configs_utils.launches\n", True),
+        ("import launch, yaml, serial\nfrom launch_ros.actions import Node\n", False),
+        ("try:\n    import nav2_common\nexcept ImportError:\n    pass\n", False),
+    ],
+)
+def test_imports_of_launch_files_need_a_dependency(source, text, is_reported):
+    package = ros2_package(source, "<exec_depend>rviz2</exec_depend>")
+    write(package / "launch/all.launch.py", text)
+    assert any("missing dependency on" in each for each in findings(source)) is is_reported

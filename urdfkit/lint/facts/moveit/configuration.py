@@ -37,6 +37,9 @@ class Builder:
         package: name of the MoveIt package.
         place: place of this name, or of the robot that it follows from.
         replaced: the keys of ``.setup_assistant`` that the launch file replaces with a path of its own.
+        source: the launch file.
+        tree: its syntax tree.
+        call: the call.
     """
 
     robot: str
@@ -44,6 +47,9 @@ class Builder:
     package: str
     place: Span
     replaced: frozenset[str]
+    source: Source
+    tree: ast.Module
+    call: ast.Call
 
 
 def builders(model: Model) -> Iterator[Builder]:
@@ -64,7 +70,7 @@ def builders(model: Model) -> Iterator[Builder]:
             if robot_node is not None and node is not None and robot is not None and package is not None:
                 spans = [source.span(*place(source, each)) for each in (robot_node, node)]
                 package = package if "package_name" in words else f"{robot}{_SUFFIX}"
-                yield Builder(robot, spans[0], package, spans[1], replaced)
+                yield Builder(robot, spans[0], package, spans[1], replaced, source, tree, call)
 
 
 def missing_paths(

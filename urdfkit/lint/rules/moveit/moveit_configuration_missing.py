@@ -16,8 +16,9 @@ class MoveitConfigurationMissing(RobotRule):
     ## What it does
     Checks ``MoveItConfigsBuilder`` in launch files: its package, which is ``<robot>_moveit_config`` without
     ``package_name``, must not be a misspelling of a package of the workspace, nor its robot of a robot of these
-    packages. Checks the paths of the URDF and of the SRDF in the ``.setup_assistant`` of that package, if the packages
-    are in the workspace.
+    packages. Checks its methods: misspelt ones, their keywords, files that do not exist in the package, and planning
+    pipelines without a file. Checks the paths of the URDF and of the SRDF in the ``.setup_assistant`` of that package,
+    if the packages are in the workspace.
 
     ## Why is this bad?
     The launch stops: "package not found" or "No such file or directory".
@@ -52,6 +53,7 @@ class MoveitConfigurationMissing(RobotRule):
         """Yield a finding for each package, robot and path that does not exist."""
         from urdfkit.description.packages.related_files import neighbours
         from urdfkit.lint.facts.control.yaml_tree import span_of
+        from urdfkit.lint.facts.moveit.builder_methods import wrong_methods
         from urdfkit.lint.facts.moveit.configuration import builders, missing_paths
 
         if model.package is None:
@@ -60,6 +62,9 @@ class MoveitConfigurationMissing(RobotRule):
         used = list(builders(model))
         for builder in used:
             yield from self._builder(builder, model, list(near))
+            folder = near.get(builder.package)
+            for span, message in wrong_methods(builder.source, builder.tree, builder.call, folder, model):
+                yield Finding(self.code, self.name, self.severity, message, span)
         for package in dict.fromkeys(builder.package for builder in used):
             replaced = frozenset.intersection(*(each.replaced for each in used if each.package == package))
             for source, node, message in missing_paths(near.get(package), replaced, near, model):
