@@ -20,8 +20,9 @@ class MoveitSettingInvalid(RobotRule):
     Checks YAML files in packages with an SRDF of the robot for misspelt parameters, solvers, planners, plugins, actions
     and controller types, for limits that are negative or zero while ``has_…_limits`` is true, or far beyond those of
     the robot, for ``has_…_limits`` without a limit or that is not a boolean, for values of the wrong type, for solver
-    timeouts that are not positive, for default scaling factors beyond 1, for groups and controllers without a required
-    parameter, and for joints of a group that no controller moves.
+    timeouts that are not positive, for default scaling factors beyond 1, for Cartesian limits that are missing or of
+    the wrong sign, for groups and controllers without a required parameter, and for joints of a group that no
+    controller moves.
 
     ## Why is this bad?
     MoveIt ignores misspelt parameters. With a limit of zero, time parameterisation of trajectories fails. A trajectory
@@ -54,6 +55,7 @@ class MoveitSettingInvalid(RobotRule):
         from urdfkit.lint.facts.control.ros2_controllers import PARAMETERS
         from urdfkit.lint.facts.control.yaml_tree import span_of
         from urdfkit.lint.facts.launch.ros_version import ros_version
+        from urdfkit.lint.facts.moveit.cartesian_limits import cartesian_limit_defects
         from urdfkit.lint.facts.moveit.planning import incomplete_entries, planning_defects, uncontrolled_joints
         from urdfkit.lint.facts.moveit.settings import entries, moveit_yamls
         from urdfkit.lint.facts.moveit.srdf import groups
@@ -68,6 +70,7 @@ class MoveitSettingInvalid(RobotRule):
                 *(defect for entry in entries(source) for defect in _defects(entry, model)),
                 *planning_defects(source, groups(root)),
                 *incomplete_entries(source, is_ros2, has_manager),
+                *cartesian_limit_defects(source),
                 *(uncontrolled_joints(source, root, model.robot) if not model.is_incomplete else ()),
             ]
             for node, message in defects:
@@ -139,6 +142,10 @@ _READ_BY_MOVEIT2 = ("has_velocity_limits", "has_acceleration_limits", "has_jerk_
 """Parameters of the robot model loader, which does not catch the exception of rclcpp for a wrong type."""
 
 
+_SIGNED = ("position", "deceleration")
+"""Quantities whose limit may be negative."""
+
+
 def _not_boolean(entry: MoveitEntry) -> Iterator[tuple[str, Node, str]]:
     """Yield name, value and message of each ``has_…_limits`` that is neither true nor false."""
     for key, node in entry.settings.entries if entry.kind == "joint" else ():
@@ -164,11 +171,16 @@ def _joint(entry: MoveitEntry) -> Iterator[tuple[Node, str]]:
                 yield key, f"`{key.text}` of joint `{joint}` is true, but `max_{quantity}` is missing"
             elif quantity == "position" and settings.find("min_position") is None:
                 yield key, f"`{key.text}` of joint `{joint}` is true, but `min_position` is missing"
-            elif limit is not None and value is not None and value <= 0.0 and quantity != "position":
+            elif limit is not None and value is not None and value >= 0.0 and quantity == "deceleration":
+                yield (
+                    limit,
+                    f"`max_{quantity}` of joint `{joint}` is {value:g}; the Pilz planner requires a negative value",
+                )
+            elif limit is not None and value is not None and value <= 0.0 and quantity not in _SIGNED:
                 yield limit, f"`max_{quantity}` of joint `{joint}` is {value:g}; it must be positive"
         elif key.text.startswith("max_") and settings.find(f"has_{key.text[4:]}_limits") is None:
             value = _number(node)
-            if value is not None and value < 0.0 and key.text != "max_position" and key.text in LIMIT_KEYS:
+            if value is not None and value < 0.0 and key.text[4:] not in _SIGNED and key.text in LIMIT_KEYS:
                 yield node, f"`{key.text}` of joint `{joint}` is {value:g}; it must be positive"
     lower, upper = settings.find("min_position"), settings.find("max_position")
     values = _number(lower), _number(upper)
