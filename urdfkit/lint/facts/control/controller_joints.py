@@ -14,6 +14,9 @@ from urdfkit.record import record
 _TYPE = r"(?<!\w)\w*(?:_controllers?|_broadcaster)/\w+"
 _JOINTS = r"joints?|(?:left|right)_wheel(?:_names)?"
 
+_GAINS = "pid_gains"
+"""Section of gazebo_ros_control with the gains of joints."""
+
 _WRITTEN_TYPE = r"(?m)(?:^|[{,])[ \t]*type[ \t]*:[ \t]*[\"']?([\w-]+/[\w-]+)[\"']?[ \t]*(?=\r?$|[},])"
 
 
@@ -37,8 +40,8 @@ def controllers(source: Source) -> list[str]:
 
 
 def joints(source: Source) -> Iterator[Named]:
-    """Yield the joints named in a YAML file that configures controllers; nothing for other files."""
-    if controllers(source):
+    """Yield the joints named in a YAML file that configures controllers or gazebo_ros_control; else nothing."""
+    if controllers(source) or _GAINS in source.text:
         for root in documents(source)[0]:
             yield from _named(source, root)
 
@@ -74,4 +77,10 @@ def _named(source: Source, part: Node) -> Iterator[Named]:
             for item in (value, *value.items) if re.fullmatch(_JOINTS, key.text) else ():
                 if item.kind == "text" and re.fullmatch(r"[\w./-]+", item.text):
                     places.setdefault(start_of(source, item), item.text)
+            for joint, gains in value.entries if key.text.rpartition("/")[2] == _GAINS else ():
+                if gains.kind == "group" and re.fullmatch(r"[\w.-]+", joint.text):
+                    places.setdefault(start_of(source, joint), joint.text)
+            section, _, joint_name = key.text.rpartition("/")
+            if section.endswith(f"gazebo_ros_control/{_GAINS}") and value.kind == "group":
+                places.setdefault(start_of(source, key) + len(section) + 1, joint_name)
     yield from (Named(name, start) for start, name in sorted(places.items()))

@@ -9,10 +9,11 @@ class ControllerJointUndefined(RobotRule):
     """A controller uses a joint that the robot does not have.
 
     ## What it does
-    Compares the joints of controllers in the YAML files of the robot's package and of neighbouring packages that depend
-    on it with the joints of the robot. Nothing is reported if the joint may be defined by another description in these
-    packages, or under other arguments or conditions. A file most of whose joints the robot lacks belongs to another
-    robot; its joints are reported only if they are misspelt. A misspelt joint is an error.
+    Compares the joints of controllers, and those with gains of gazebo_ros_control, in the YAML files of the robot's
+    package and of neighbouring packages that depend on it with the joints of the robot. Nothing is reported if the
+    joint may be defined by another description in these packages, or under other arguments or conditions. A file most
+    of whose joints the robot lacks belongs to another robot; its joints are reported only if they are misspelt. A
+    misspelt joint is an error.
 
     ## Why is this bad?
     The controller does not start, because it cannot claim the joint.
