@@ -10,7 +10,7 @@ from urdfkit.record import record
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     import ast
-    from collections.abc import Iterator
+    from collections.abc import Collection, Iterator
 
     from urdfkit.description.xml.source import Source
 
@@ -21,6 +21,11 @@ _XACRO_WORD = r"[\"']xacro(?:\.py)?[\"'\s]"
 """Calls of xacro by its name alone."""
 
 _STARTS = frozenset(("Node", "LifecycleNode", "ComposableNode", "ComposableNodeContainer"))
+_OF_ROS2LAUNCH = frozenset(
+    ("ament_index_python", "launch", "launch_ros", "launch_xml", "launch_yaml", "lifecycle_msgs", "rcl_interfaces")
+)
+"""Packages that the command ``ros2 launch`` needs (package.xml of ros2launch and launch_ros)."""
+
 _EXISTENCE_TESTS = frozenset(("exists", "isfile", "isdir", "is_file", "is_dir"))
 
 
@@ -77,6 +82,32 @@ def packages_used(source: Source) -> Iterator[tuple[str, int, int]]:
             name = reader.text(package) if package is not None else None
         if name is not None:
             yield name, *place(source, node)
+
+
+def packages_imported(source: Source, others: Collection[str]) -> Iterator[tuple[str, int, int]]:
+    """Yield name, start and end offset of each package that a launch file in Python imports without a condition.
+
+    Args:
+        source: the launch file.
+        others: packages beside the common ones, such as those of the workspace.
+    """
+    if not source.file.endswith(".py") or (tree := parsed(source)) is None:
+        return
+    import ast
+
+    from urdfkit.lint.facts.ros_packages import names
+
+    optional = {each for node in ast.walk(tree) if isinstance(node, (ast.Try, ast.If)) for each in ast.walk(node)}
+    for node in ast.walk(tree):
+        modules = [word.name for word in node.names] if isinstance(node, ast.Import) else []
+        modules += [node.module] if isinstance(node, ast.ImportFrom) and node.module and not node.level else []
+        for name in (module.partition(".")[0] for module in modules):
+            is_package = name in others or (name in names() and ("_" in name or name in ("rclpy", "xacro")))
+            if is_package and name not in _OF_ROS2LAUNCH and node not in optional:
+                assert isinstance(node, (ast.Import, ast.ImportFrom))
+                start, end = place(source, node)
+                start = source.text.find(name, start, end)
+                yield name, start, start + len(name)
 
 
 def uncommented(source: Source) -> str:

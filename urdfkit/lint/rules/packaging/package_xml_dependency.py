@@ -27,9 +27,9 @@ class PackageXmlDependency(RobotRule):
 
     ## What it does
     Compares the packages that the files of the robot's package use, by ``$(find …)`` and ``package://…``, with the
-    dependencies in package.xml. Also compares the packages that launch files start or include, and ``xacro`` where they
-    call it, with the dependencies of their own package, and the packages of ROS 2 controllers in YAML with the
-    dependencies of all packages of the robot, if one of these is about controllers. Metapackages, such as
+    dependencies in package.xml. Also compares the packages that launch files start, include or import, and ``xacro``
+    where they call it, with the dependencies of their own package, and the packages of ROS 2 controllers in YAML with
+    the dependencies of all packages of the robot, if one of these is about controllers. Metapackages, such as
     ``navigation2``, stand for the packages that they depend on. Names that misspell a dependency, a package of the
     workspace or a common package by one letter are errors at each place. Each other package is reported once; test
     folders are not checked, nor the optional launch files that the MoveIt Setup Assistant writes, or dependencies that
@@ -104,7 +104,7 @@ class PackageXmlDependency(RobotRule):
 
     def _check_launch_files(self, model: Model, declared: dict[Path, set[str]]) -> Findings:
         """Yield a finding for each package that a launch file uses without a dependency in its own package."""
-        from urdfkit.lint.facts.control.launch_package_paths import packages_used
+        from urdfkit.lint.facts.control.launch_package_paths import packages_imported, packages_used
         from urdfkit.lint.facts.ros_packages import is_in_metapackage
 
         files = {Path(file).absolute(): source.text for file, source in model.related_files.items()}
@@ -123,9 +123,9 @@ class PackageXmlDependency(RobotRule):
             # A dependency on the package itself, which is reported, stands for the missing one.
             own = model.manifest(package)
             is_own = name_in(own, package.name) in dependencies_in(own)
-            for name, start, end in () if is_own else packages_used(source):
+            near = {*neighbours(package), *declared[package]}
+            for name, start, end in () if is_own else (*packages_used(source), *packages_imported(source, near)):
                 if name not in declared[package] | disabled and not is_in_metapackage(name, declared[package]):
-                    near = {*neighbours(package), *declared[package]}
                     finding = self._missing(name, source, start, end, near)
                     if finding.severity == self.severity:
                         declared[package].add(name)
