@@ -100,6 +100,18 @@ def test_xacro_arguments(package, capsys):
     assert main(["lint", "arg.xacro", "prefix:=left_"]) == 0
 
 
+def test_a_misspelt_xacro_argument_is_named(package, capsys):
+    text = (
+        '<robot name="a" xmlns:xacro="http://www.ros.org/wiki/xacro"><xacro:arg name="prefix" default="x"/>{}</robot>'
+    )
+    (package / "arg.xacro").write_text(text.format('<link name="$(arg prefix)base"/>'))
+    assert main(["lint", "arg.xacro", "prefx:=left_"]) == 0
+    warning = "urdfkit: warning: no file uses the argument `prefx`; did you mean `prefix`?"
+    assert warning in capsys.readouterr().err.splitlines()
+    assert main(["lint", "arg.xacro", "prefix:=left_"]) == 0
+    assert "no file uses" not in capsys.readouterr().err
+
+
 @pytest.mark.parametrize(
     ("words", "complaint"),
     [

@@ -27,6 +27,7 @@ class Inputs:
         paths: files, package folders or workspaces, as named.
         settings: the settings file; None without one.
         options: what to lint for.
+        xacro_arguments: the xacro arguments of the command line.
 
     Raises:
         UsageError: an argument or a setting is invalid.
@@ -35,10 +36,10 @@ class Inputs:
 
     def __init__(self, arguments: argparse.Namespace) -> None:
         self._arguments = arguments
-        self.paths, xacro_arguments = _split(arguments.paths)
+        self.paths, self.xacro_arguments = _split(arguments.paths)
         self._confinement = self._confine()
         self.settings = self._read_settings()
-        self.options = self._options(xacro_arguments)
+        self.options = self._options(self.xacro_arguments)
 
     def entries(self) -> tuple[list[Entry], tuple[str, ...]]:
         """Return the entry files that the settings do not exclude, and a line for each path without any.

@@ -108,10 +108,23 @@ class Run:
                 )
         return Outcome(**{**outcome.__dict__, "findings": tuple(findings)})
 
+    def _unused_arguments(self, outcome: Outcome) -> list[str]:
+        """Return a warning for each xacro argument of the command line that no description has."""
+        if not self._inputs.xacro_arguments or not outcome.files:
+            return []
+        from urdfkit.description.packages.related_files import LAUNCH
+        from urdfkit.description.xacro.declared_arguments import unused_arguments
+
+        others = (*LAUNCH, ".srdf", ".yaml", ".yml", ".txt", ".py", "package.xml")
+        found = (outcome.sources.get(name) for name in outcome.files if not name.endswith(others))
+        sources = [source for source in found if source is not None]
+        unused = unused_arguments(self._inputs.xacro_arguments, sources, self._arguments.macro)
+        return [f"warning: {line}" for line in unused]
+
     def _report(self, whole: Outcome) -> int:
         arguments = self._arguments
         outcome = self._left(whole)
-        for note in () if arguments.quiet else outcome.notes:
+        for note in () if arguments.quiet else (*outcome.notes, *self._unused_arguments(whole)):
             print(f"urdfkit: {note}", file=sys.stderr)
         refused = self._refuse(outcome)
         if arguments.write_baseline is not None:
