@@ -89,7 +89,7 @@ def packages_imported(source: Source, others: Collection[str]) -> Iterator[tuple
 
     Args:
         source: the launch file.
-        others: packages beside the common ones, such as those of the workspace.
+        others: further packages, such as those of the workspace.
     """
     if not source.file.endswith(".py") or (tree := parsed(source)) is None:
         return

@@ -144,11 +144,14 @@ def _pipelines(
         return
     written = [reader.text(name) for name in names.elts]
     model.expanded.packages.watch(folder, ".yaml")
-    known = {*_PIPELINES, *(file.name.removesuffix("_planning.yaml") for file in folder.glob("config/*_planning.yaml"))}
+    existing = {
+        *_PIPELINES,
+        *(file.name.removesuffix("_planning.yaml") for file in folder.glob("config/*_planning.yaml")),
+    }
     for node, name in zip(names.elts, written, strict=True):
-        if name and name not in known:
+        if name and name not in existing:
             message = f"planning pipeline `{name}` has no file `config/{name}_planning.yaml` in package `{folder.name}`"
-            yield source.span(*place(source, node)), f"{message}{did_you_mean(name, known)}"
+            yield source.span(*place(source, node)), f"{message}{did_you_mean(name, existing)}"
     name = reader.text(default) if default is not None else None
     if default is not None and name and written and None not in written and name not in written:
         hint = did_you_mean(name, [each for each in written if each])
