@@ -58,6 +58,10 @@ _MAX_LENGTH_DIFFERENCE = 2
 
 def meant_type(name: str) -> str | None:
     """Return the type that a misspelt name stands for; None for a type, or for a name of another package."""
+    package, _, kind = name.partition("/")
+    of_package = {each.partition("/")[2]: each for each in TYPES if each.startswith(f"{package}/")}
+    if name not in TYPES and kind.endswith("Controller") and (inner := similar(kind, of_package, cutoff=0.8)):
+        return of_package[inner[0]]
     if name in TYPES or not (near := similar(name, TYPES, cutoff=0.9)):
         return None
     parts = zip(name.split("/"), near[0].split("/"), strict=False)

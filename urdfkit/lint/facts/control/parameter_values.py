@@ -114,7 +114,7 @@ def value_defects(node: Node, is_ros2: bool) -> Defects:
             continue
         above = f"{prefix}.max_{last[4:]}" if prefix else f"max_{last[4:]}"
         lower, upper = _number(value), _number(values.get(above))
-        if lower is not None and upper is not None and lower > upper and (upper >= 0.0 or last == "min_velocity"):
+        if lower is not None and upper is not None and lower > upper and upper >= 0.0:
             yield value, f"`{name}` {lower:g} is greater than `{above}` {upper:g}"
     for key, value in node.entries:
         listed: set[str] = set()
@@ -141,8 +141,7 @@ def _of_number(name: str, value: Node, is_ros2: bool) -> Defects:
         return
     number = _number(value) if last not in _OF_ANY_SIGN else None
     is_positive = last in _POSITIVE or (is_ros2 and last in _POSITIVE_IN_ROS2)
-    is_with_minimum = "." in name and last == "max_velocity"
-    if number is not None and (number < 0.0 or (number == 0.0 and is_positive)) and not is_with_minimum:
+    if number is not None and (number < 0.0 or (number == 0.0 and is_positive)):
         yield value, f"`{name}` is {number:g}; it must {'be positive' if is_positive else 'not be negative'}"
 
 

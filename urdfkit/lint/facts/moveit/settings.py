@@ -112,3 +112,19 @@ def unwrapped(document: Node) -> Iterator[Node]:
     for key, value in document.entries:
         if key.text in _WRAPPERS or value.find("ros__parameters") is not None:
             yield from unwrapped(value)
+
+
+def integer_limits(source: Source) -> Iterator[tuple[Node, str]]:
+    """Yield the limits of joints and of Cartesian motion that are integers, with their names; MoveIt 2 reads doubles.
+
+    Its setup assistant writes such integers (moveit2, issue 2776).
+    """
+    for document in documents(source)[0]:
+        for top in unwrapped(document):
+            groups = [each.settings for each in entries(source) if each.kind == "joint"] if top is document else []
+            groups += [value for key, value in top.entries if key.text == "cartesian_limits"]
+            for group, name, value in ((each, key.text, value) for each in groups for key, value in each.entries):
+                flag = group.find(f"has_{name[4:]}_limits")
+                is_read = name.startswith(("max_", "min_")) and (flag is None or flag.text.lower() != "false")
+                if is_read and value.is_plain and value.text.lstrip("+-").isdecimal():
+                    yield value, name

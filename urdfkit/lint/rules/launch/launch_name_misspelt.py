@@ -71,6 +71,7 @@ class LaunchNameMisspelt(RobotRule):
         from urdfkit.lint.facts.control.yaml_tree import span_of
         from urdfkit.lint.facts.launch.actions import actions_of
         from urdfkit.lint.facts.launch.node_parameters import misspelt_in_launch, misspelt_parameters
+        from urdfkit.lint.facts.navigation.defects import misspelt_navigation
 
         for source in model.related_files.values():
             is_launch = source.file.endswith(LAUNCH)
@@ -88,6 +89,9 @@ class LaunchNameMisspelt(RobotRule):
                     yield self._at(source, written, start, near)
             for key, node, near in () if is_launch else misspelt_parameters(source):
                 message = f"unknown parameter `{key.text}` of node `{node}`; did you mean `{near}`?"
+                yield Finding(self.code, self.name, "warning", message, span_of(source, key))
+            for key, kind, near in () if is_launch else misspelt_navigation(source):
+                message = f"unknown {kind} `{key.text}` in the parameters of Nav2; did you mean `{near}`?"
                 yield Finding(self.code, self.name, "warning", message, span_of(source, key))
             for parameter, package, near in misspelt_in_launch(source) if is_launch else ():
                 message = f"unknown parameter `{parameter.name}` of a node of `{package}`; did you mean `{near}`?"

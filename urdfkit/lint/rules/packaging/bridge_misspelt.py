@@ -143,7 +143,7 @@ def _topic_defects(bridges: list[tuple[Source, Bridged]], model: Model) -> Itera
     if model.is_incomplete:
         return
     commands: set[str] = set()
-    others = {publication.topic.strip("/") for publication in published(model)}
+    others = {"clock", *(publication.topic.strip("/") for publication in published(model))}
     for text, _, parameter, _ in references(model, ("topic",)):
         (commands if parameter.meaning == "command_topic" else others).add(text.strip().strip("/"))
     robot_topics = commands | others

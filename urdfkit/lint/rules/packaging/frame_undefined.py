@@ -8,7 +8,8 @@ from urdfkit.lint.model.masked_names import unless_masked
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
 _FRAME = (
-    r"(?m)^[ \t]*(robot_base_frame|base_frame(?:_id)?|base_link_frame(?:_id)?|base_link|tip_link|ee_link|root_link)"
+    r"(?m)^[ \t]*(robot_base_frame|base_frame(?:_id)?|base_link_frame(?:_id)?|base_link|tip_link|ee_link|root_link"
+    r"|frame_id)"
     r"[ \t]*:[ \t]*([\"']?)([\w./-]+)\2[ \t]*\r?$"
 )
 """Matches parameters of controllers, navigation and localisation that name a link of the robot."""
@@ -19,10 +20,10 @@ class FrameUndefined(RobotRule):
 
     ## What it does
     Checks ``base_frame_id``, ``base_frame``, ``robot_base_frame`` and ``base_link_frame``, and for arms ``base_link``,
-    ``root_link``, ``tip_link`` and ``ee_link``, in the YAML files of the robot's package and of neighbouring packages
-    that depend on it. The rule reports misspelt link names, unless another description in these packages defines a link
-    of that name. For the ``base_frame_id`` of a drive controller, it also reports names that no other file in these
-    packages mentions.
+    ``root_link``, ``tip_link`` and ``ee_link``, and ``frame_id`` with a name that differs by a letter, in the YAML
+    files of the robot's package and of neighbouring packages that depend on it. The rule reports misspelt link names,
+    unless another description in these packages defines a link of that name. For the ``base_frame_id`` of a drive
+    controller, it also reports names that no other file in these packages mentions.
 
     ## Why is this bad?
     The controller publishes a frame that is not part of the TF tree, or navigation waits for a frame that never
@@ -50,6 +51,7 @@ class FrameUndefined(RobotRule):
     def check(self, model: Model) -> Findings:
         """Yield a finding for each named link that no description in these packages can define."""
         from urdfkit.lint.facts.control.launch_package_paths import uncommented
+        from urdfkit.lint.facts.ros_packages import is_slip
         from urdfkit.lint.fix_builders import meant
 
         links_by_name = model.robot.link_by_name
@@ -64,6 +66,8 @@ class FrameUndefined(RobotRule):
                 if name in links_by_name or (suggestion is None and not _is_drive_frame(source, match, model)):
                     continue
                 if model.neighbouring_descriptions.define("link", name):
+                    continue
+                if match[1] == "frame_id" and (suggestion is None or not is_slip(name, suggestion)):
                     continue
                 finding = Finding(
                     self.code,

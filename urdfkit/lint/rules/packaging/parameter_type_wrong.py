@@ -8,8 +8,9 @@ class ParameterTypeWrong(RobotRule):
     """A parameter of ROS 2 is an integer where a number with a decimal point is needed.
 
     ## What it does
-    Compares the numbers of controllers of ros2_controllers with the types of their parameters, and checks lists of
-    numbers in the parameters of all nodes of ROS 2, whose elements must have one type.
+    Compares the numbers of controllers of ros2_controllers, of Nav2, of robot_localization and of the limits in MoveIt
+    2 with the types of their parameters, and checks lists of numbers in the parameters of all nodes of ROS 2, whose
+    elements must have one type.
 
     ## Why is this bad?
     rclcpp does not convert integers: the controller is not configured, "parameter 'constraints.goal_time' has invalid
@@ -52,10 +53,21 @@ class ParameterTypeWrong(RobotRule):
         """Yield a finding for each integer parameter and each list of two types."""
         from urdfkit.lint.facts.control.parameter_types import integers_for_doubles, mixed_lists
         from urdfkit.lint.facts.control.yaml_tree import span_of, yamls
+        from urdfkit.lint.facts.launch.ros_version import ros_version
+        from urdfkit.lint.facts.moveit.settings import integer_limits, moveit_yamls
+        from urdfkit.lint.facts.navigation.defects import wrong_numbers
 
+        for source in {each.file: each for each, _ in moveit_yamls(model)}.values():
+            for value, name in integer_limits(source) if ros_version(source) == 2 else ():
+                message = f"`{name}` is the integer {value.text}; write {value.text}.0"
+                yield Finding(self.code, self.name, self.severity, message, span_of(source, value))
         for source in yamls(model):
             for value, name, controller in integers_for_doubles(source):
                 message = f"`{name}` of controller `{controller}` is the integer {value.text}; write {value.text}.0"
+                yield Finding(self.code, self.name, self.severity, message, span_of(source, value))
+            for value, name, right in wrong_numbers(source):
+                kind = "integer" if right.endswith(".0") else "number with a decimal point"
+                message = f"`{name}` is the {kind} {value.text}; write {right}"
                 yield Finding(self.code, self.name, self.severity, message, span_of(source, value))
             for key, item in mixed_lists(source):
                 message = f"`{key.text}` has integers and numbers with a decimal point; write all with a decimal point"

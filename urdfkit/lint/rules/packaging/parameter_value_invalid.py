@@ -21,7 +21,8 @@ class ParameterValueInvalid(RobotRule):
 
     ## What it does
     Checks YAML files of the robot's package and of packages that depend on it: keys that occur twice in a group,
-    misspelt ``true`` and ``false``, sensor configurations of robot_localization without 15 values. In the parameters of
+    misspelt ``true`` and ``false``, sensor configurations of robot_localization without 15 values and its world frame,
+    and in Nav2 plugins that are listed without a section, and limits that its nodes refuse. In the parameters of
     controllers it also checks rates, wheel sizes, limits and tolerances that are negative, zero or not a number,
     numbers and truth values in quotes, names that are not in a list, minima above maxima, joints that are listed twice,
     controllers without a type or a required parameter, and parameters that are indented to the level of controllers.
@@ -76,15 +77,19 @@ class ParameterValueInvalid(RobotRule):
 
     def _in_yaml(self, model: Model, unread: set[str]) -> Findings:
         from urdfkit.lint.facts.control.controller_joints import controllers
+        from urdfkit.lint.facts.control.controller_needs import unmet_needs
         from urdfkit.lint.facts.control.parameter_values import contradictions, incomplete_controllers, value_defects
         from urdfkit.lint.facts.control.ros2_controllers import PARAMETERS
         from urdfkit.lint.facts.control.yaml_tree import documents, span_of, walk, yamls
         from urdfkit.lint.facts.moveit.settings import moveit_yamls
+        from urdfkit.lint.facts.navigation.defects import navigation_defects
 
         of_moveit = {source.file for source, _ in moveit_yamls(model)}
         is_typed_at_start = any(re.search(r"controller.type", file.text) for file in model.related_files.values())
-
+        names = frozenset(name for source in yamls(model) for name in controllers(source))
         for source in yamls(model):
+            for place, message in navigation_defects(source, names):
+                yield Finding(self.code, self.name, self.severity, message, span_of(source, place))
             is_of_controllers, seen = bool(controllers(source)), set[tuple[int, int]]()
             for node in (node for root in documents(source)[0] for node in walk(root)):
                 if (node.line, node.column) in seen:  # an alias
@@ -95,7 +100,7 @@ class ParameterValueInvalid(RobotRule):
                     yield Finding(self.code, self.name, self.severity, message, span_of(source, place))
             if is_of_controllers:
                 incomplete = () if source.file in unread else incomplete_controllers(source, is_typed_at_start)
-                for place, message in (*incomplete, *contradictions(source, model.robot)):
+                for place, message in (*incomplete, *contradictions(source, model.robot), *unmet_needs(source, model)):
                     yield Finding(self.code, self.name, self.severity, message, span_of(source, place))
 
 

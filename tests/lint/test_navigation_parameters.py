@@ -1,0 +1,149 @@
+"""Defects of the parameters of Nav2, robot_localization and sensor controllers, and correct files next to each."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from urdfkit.lint import lint
+
+ROBOT = """<robot name="cart">
+  <link name="base_link"/>
+  <link name="imu_link"/>
+  <joint name="imu_joint" type="fixed"><parent link="base_link"/><child link="imu_link"/></joint>
+  <ros2_control name="cart" type="system">
+    <hardware><plugin>mock_components/GenericSystem</plugin></hardware>
+    <sensor name="imu"><state_interface name="orientation.x"/></sensor>
+  </ros2_control>
+</robot>
+"""
+MANIFEST = """<package format="3">
+  <name>cart</name>
+  <version>1.0.0</version>
+  <description>A cart.</description>
+  <maintainer email="cart@example.com">The maintainers</maintainer>
+  <license>MIT</license>
+  <buildtool_depend>ament_cmake</buildtool_depend>
+  <exec_depend>imu_sensor_broadcaster</exec_depend>
+  <export><build_type>ament_cmake</build_type></export>
+</package>
+"""
+CONTROLLERS = """controller_manager:
+  ros__parameters:
+    update_rate: 100
+    imu_broadcaster:
+      type: imu_sensor_broadcaster/IMUSensorBroadcaster
+
+imu_broadcaster:
+  ros__parameters:
+    sensor_name: imu
+    frame_id: imu_link
+"""
+FILTER = """ekf_filter_node:
+  ros__parameters:
+    frequency: 30.0
+    map_frame: map
+    odom_frame: odom
+    base_link_frame: base_link
+    world_frame: odom
+    imu0: imu_broadcaster/imu
+    imu0_differential: true
+"""
+NAVIGATION = """controller_server:
+  ros__parameters:
+    controller_frequency: 20.0
+    controller_plugins: ["FollowPath"]
+    goal_checker_plugins: ["precise"]
+    precise:
+      plugin: "nav2_controller::SimpleGoalChecker"
+      xy_goal_tolerance: 0.25
+    FollowPath:
+      plugin: "nav2_regulated_pure_pursuit_controller::RegulatedPurePursuitController"
+
+local_costmap:
+  local_costmap:
+    ros__parameters:
+      width: 3
+      plugins: ["obstacle_layer"]
+      obstacle_layer:
+        plugin: "nav2_costmap_2d::ObstacleLayer"
+        observation_sources: front
+        front:
+          topic: /scan
+          data_type: "LaserScan"
+
+velocity_smoother:
+  ros__parameters:
+    feedback: "OPEN_LOOP"
+    max_velocity: [0.5, 0.0, 1.0]
+    max_decel: [-2.5, 0.0, -3.2]
+"""
+FILES = {"controllers": CONTROLLERS, "filter": FILTER, "navigation": NAVIGATION}
+
+BAD = [
+    ("controllers", "update_rate: 100", "update_rate: 100.0", "K974", 3, "write 100"),
+    ("controllers", "\nimu_broadcaster:", "\nimu_sensor:", "K971", 7, "controller `imu_broadcaster` has no section"),
+    ("controllers", "sensor_name: imu", "sensor_name: gyro", "K971", 9, "has no sensor `gyro`"),
+    ("controllers", "imu_link", "imu_lnk", "K961", 10, "did you mean `imu_link`?"),
+    ("filter", "30.0", "30", "K974", 3, "`frequency` is the integer 30; write 30.0"),
+    ("filter", "world_frame: odom", "world_frame: base", "K971", 7, "neither `map_frame` nor `odom_frame`"),
+    ("filter", "imu_broadcaster/imu", "imu_brodcaster/imu", "K971", 8, "did you mean `imu_broadcaster/imu`?"),
+    ("filter", "imu0_differential", "imu0_diferential", "K971", 9, "did you mean `imu0_differential`?"),
+    ("navigation", "\ncontroller_server", "\ncontoller_server", "L104", 1, "did you mean `controller_server`?"),
+    ("navigation", "    FollowPath:", "    Followpath:", "K971", 9, "section `Followpath` is not in"),
+    ("navigation", '["precise"]', '["exact"]', "K971", 5, "`goal_checker_plugins` lists `exact`, which has no section"),
+    ("navigation", "PursuitController", "PursuitControler", "L104", 10, "unknown plugin"),
+    ("navigation", "xy_goal_tolerance", "xy_goal_tolerence", "L104", 8, "did you mean `xy_goal_tolerance`?"),
+    ("navigation", "xy_goal_tolerance: 0.25", "xy_goal_tolerance: -0.25", "K971", 8, "it must be positive"),
+    ("navigation", "20.0", "20", "K974", 3, "write 20.0"),
+    ("navigation", "width: 3", "width: 3.0", "K974", 15, "write 3"),
+    (
+        "navigation",
+        "sources: front",
+        "sources: rear",
+        "K971",
+        19,
+        "lists `rear`, which has no section with its `topic`",
+    ),
+    ("navigation", "/scan", "/sacn", "L104", 21, "did you mean `/scan`?"),
+    ("navigation", '"LaserScan"', '"Laserscan"', "K971", 22, "did you mean `LaserScan`?"),
+    ("navigation", '"OPEN_LOOP"', '"OPENLOOP"', "K971", 26, "did you mean `OPEN_LOOP`?"),
+    ("navigation", "[0.5, 0.0, 1.0]", "[0.5, 1.0]", "K971", 27, "has 2 values"),
+    ("navigation", "[-2.5, 0.0, -3.2]", "[2.5, 0.0, 3.2]", "K971", 28, "requires zero or negative values"),
+]
+
+GOOD = [
+    ("navigation", "/scan", "/front/points"),
+    ("navigation", "nav2_costmap_2d::ObstacleLayer", "my_layers::ObstaclesLayer"),
+    ("navigation", '["FollowPath"]', "$(var plugins)"),
+    ("navigation", "local_costmap:\n  local_costmap", "rear_costmap:\n  rear_costmap"),
+    ("navigation", "max_velocity: [0.5, 0.0, 1.0]", "max_velocity: [0.5, 0.0, 0.0, 0.0, 0.0, 1.0]"),
+    ("filter", "world_frame: odom", "world_frame: $(var world)"),
+    ("filter", "imu_broadcaster/imu", "imu/data"),
+]
+
+
+def findings(folder: Path, name: str, old: str, new: str) -> list[tuple[str, int, str]]:
+    (folder / "config").mkdir()
+    (folder / "package.xml").write_text(MANIFEST)
+    (folder / "cart.urdf").write_text(ROBOT)
+    for file, text in FILES.items():
+        before = f"\n{text}"
+        assert file != name or old in before
+        changed = before.replace(old, new, 1)[1:] if file == name else text
+        (folder / f"config/{file}.yaml").write_text(changed)
+    found = lint(folder)
+    return [(one.code, one.line, one.message) for one in found if one.file.endswith(".yaml")]
+
+
+@pytest.mark.parametrize(("name", "old", "new", "code", "line", "message"), BAD)
+def test_each_defect_is_one_finding_at_its_line(tmp_path, name, old, new, code, line, message):
+    [(found, at, text)] = findings(tmp_path, name, old, new)
+    assert (found, at) == (code, line)
+    assert message in text
+
+
+@pytest.mark.parametrize(("name", "old", "new"), [("navigation", "width", "width"), *GOOD])
+def test_correct_parameters_are_silent(tmp_path, name, old, new):
+    assert findings(tmp_path, name, old, new) == []

@@ -1,0 +1,75 @@
+"""Names of Nav2: nodes, plugins, parameters and their types.
+
+Sources: ros-navigation/navigation2, nav2_bringup/params/nav2_params.yaml and the plugin descriptions of its packages
+(Humble to Rolling).
+"""
+
+from __future__ import annotations
+
+_NODES = """
+amcl behavior_server bt_navigator collision_monitor controller_server docking_server global_costmap local_costmap
+map_saver map_server planner_server recoveries_server route_server smoother_server velocity_smoother waypoint_follower
+"""
+NODES = frozenset(_NODES.split())
+
+_PLUGINS = """
+dwb_core::DWBLocalPlanner nav2_amcl::DifferentialMotionModel nav2_amcl::OmniMotionModel nav2_behaviors::AssistedTeleop
+nav2_behaviors::BackUp nav2_behaviors::DriveOnHeading nav2_behaviors::Spin nav2_behaviors::Wait
+nav2_bt_navigator::NavigateThroughPosesNavigator nav2_bt_navigator::NavigateToPoseNavigator
+nav2_constrained_smoother::ConstrainedSmoother nav2_controller::PoseProgressChecker
+nav2_controller::PositionGoalChecker nav2_controller::SimpleGoalChecker nav2_controller::SimpleProgressChecker
+nav2_controller::StoppedGoalChecker nav2_costmap_2d::BinaryFilter nav2_costmap_2d::DenoiseLayer
+nav2_costmap_2d::InflationLayer nav2_costmap_2d::KeepoutFilter nav2_costmap_2d::ObstacleLayer
+nav2_costmap_2d::RangeSensorLayer nav2_costmap_2d::SpeedFilter nav2_costmap_2d::StaticLayer nav2_costmap_2d::VoxelLayer
+nav2_graceful_controller::GracefulController nav2_mppi_controller::MPPIController nav2_navfn_planner::NavfnPlanner
+nav2_regulated_pure_pursuit_controller::RegulatedPurePursuitController
+nav2_rotation_shim_controller::RotationShimController nav2_smac_planner::SmacPlanner2D
+nav2_smac_planner::SmacPlannerHybrid nav2_smac_planner::SmacPlannerLattice nav2_smoother::SavitzkyGolaySmoother
+nav2_smoother::SimpleSmoother nav2_theta_star_planner::ThetaStarPlanner nav2_waypoint_follower::InputAtWaypoint
+nav2_waypoint_follower::PhotoAtWaypoint nav2_waypoint_follower::WaitAtWaypoint
+spatio_temporal_voxel_layer::SpatioTemporalVoxelLayer
+"""
+PLUGINS = frozenset(_PLUGINS.split())
+
+_DEFAULTS = """
+AssistedTeleop DriveOnHeading FollowPath GridBased SimpleSmoother Spin Wait assisted_teleop back_up backup
+drive_on_heading goal_checker inflation_layer navigate_through_poses navigate_to_pose obstacle_layer progress_checker
+simple_smoother smooth_path spin static_layer voxel_layer wait wait_at_waypoint general_goal_checker
+"""
+DEFAULTS = frozenset(_DEFAULTS.split())
+"""Names of plugins that need no section, because their nodes have types for them."""
+
+_DOUBLES = """
+acc_lim_theta acc_lim_x acc_lim_y angular_granularity bond_heartbeat_period controller_frequency cost_scaling_factor
+cycle_frequency decel_lim_theta decel_lim_x decel_lim_y desired_linear_vel expected_planner_frequency failure_tolerance
+inflation_radius laser_likelihood_max_dist laser_max_range laser_min_range linear_granularity lookahead_dist
+lookahead_time max_lookahead_dist max_obstacle_height max_rotational_vel max_speed_xy max_vel_theta max_vel_x max_vel_y
+min_lookahead_dist min_rotational_vel min_theta_velocity_threshold min_x_velocity_threshold min_y_velocity_threshold
+movement_time_allowance obstacle_max_range obstacle_min_range origin_z publish_frequency raytrace_max_range
+raytrace_min_range required_movement_radius resolution robot_radius rotational_acc_lim save_map_timeout sim_time
+simulate_ahead_time smoothing_frequency tolerance transform_tolerance update_frequency velocity_timeout
+xy_goal_tolerance yaw_goal_tolerance z_resolution
+"""
+DOUBLES = frozenset(_DOUBLES.split())
+
+INTEGERS = frozenset(("height", "loop_rate", "max_beams", "max_particles", "min_particles", "width", "z_voxels"))
+
+_POSITIVE = """
+controller_frequency cycle_frequency inflation_radius resolution robot_radius smoothing_frequency update_frequency
+xy_goal_tolerance yaw_goal_tolerance z_resolution max_particles min_particles max_beams width height
+"""
+POSITIVE = frozenset(_POSITIVE.split())
+
+_OTHERS = """
+allow_unknown always_send_full_costmap base_frame_id behavior_plugins bt_loop_duration clearing controller_plugins
+costmap_topic data_type default_server_timeout enabled footprint footprint_padding footprint_topic global_frame
+global_frame_id goal_checker_plugins lethal_cost_threshold local_frame map_subscribe_transient_local map_topic marking
+navigators observation_sources odom_frame_id odom_topic planner_plugins plugin_lib_names plugins
+progress_checker_plugin progress_checker_plugins robot_base_frame rolling_window scan_topic smoother_plugins stateful
+tf_broadcast track_unknown_space use_astar yaml_filename
+"""
+OTHERS = frozenset(_OTHERS.split())
+"""Further parameters, for which a similar name is a misspelt one."""
+
+VELOCITY_LIMITS = {"max_velocity": -1, "min_velocity": 1, "max_accel": -1, "max_decel": 1}
+"""List of velocity_smoother → the sign that its values must not have."""
