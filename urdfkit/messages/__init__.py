@@ -3,6 +3,7 @@
 Definitions that rosbags lacks are in the other modules, one per family of ROS packages.
 """
 
+from urdfkit.messages.point_cloud import read_points
 from urdfkit.messages.types import (
     BOOL,
     CLOCK,
@@ -48,6 +49,7 @@ __all__ = [
     "full_type_name",
     "header",
     "message_type",
+    "read_points",
     "register_in",
     "register_layouts",
     "register_types",

@@ -64,20 +64,11 @@ def _scan(message: Any) -> tuple[dict[str, float], dict[str, Any]]:
 
 def _cloud(message: Any) -> tuple[dict[str, float], dict[str, Any]]:
     """Return the size of a PointCloud2, and its columns."""
-    import numpy as np
+    from urdfkit.messages.point_cloud import read_points
 
-    kinds = {1: "i1", 2: "u1", 3: "<i2", 4: "<u2", 5: "<i4", 6: "<u4", 7: "<f4", 8: "<f8"}
-    row = np.dtype(
-        {
-            "names": [field.name for field in message.fields],
-            "formats": [kinds[field.datatype] for field in message.fields],
-            "offsets": [field.offset for field in message.fields],
-            "itemsize": message.point_step,
-        }
-    )
-    rows = np.frombuffer(message.data.tobytes(), dtype=row)
+    rows = read_points(message)
     columns: dict[str, Any] = {}
-    for name in row.names or ():
+    for name in rows.dtype.names or ():
         if name in ("rgb", "rgba") and rows[name].dtype.itemsize == 4:
             columns |= _colors(rows[name], name)
         else:

@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from urdfkit.linear_algebra import Array
+from urdfkit.messages.point_cloud import NUMBERS
 from urdfkit.sim.state.quaternion import from_matrix
 
 Item = dict[str, Any]
@@ -147,10 +148,6 @@ def scan(message: Any, field: str) -> list[Item]:
     intensities = np.asarray(message.intensities, dtype=float)
     values = intensities[seen] if field == "intensity" and len(intensities) == len(ranges) else ranges[seen]
     return [_points(xyz, values, ["range", *(["intensity"] if len(intensities) else [])])]
-
-
-NUMBERS = {1: "<i1", 2: "<u1", 3: "<i2", 4: "<u2", 5: "<i4", 6: "<u4", 7: "<f4", 8: "<f8"}
-"""Type of a field of a PointCloud2 → numpy type; sensor_msgs/PointField."""
 
 
 def cloud(message: Any, field: str) -> list[Item]:
