@@ -208,6 +208,12 @@ CASES: list[tuple[str, str, list[str]]] = [
     ("Z825", system("drive", "libgazebo_ros_dif_driv$.so"), []),
     ("Z825", system("drive", "libsomething_of_my_own.so"), []),
     ("Z825", system("drive", "libgazebo_ros_diff_drive.so"), []),
+    (
+        "Z825",
+        system("camera", "libgazebo_ros_kinect.so"),
+        ["error: unknown library `gazebo_ros_kinect`; did you mean `libgazebo_ros_openni_kinect.so`?"],
+    ),
+    ("Z825", system("drive", "libgazebo_ros_drive.so"), []),  # diff drive, or tricycle drive
     # interface-limits-beyond-joint
     ("C719", control(command("position", "max", 1.0005)), []),
     (

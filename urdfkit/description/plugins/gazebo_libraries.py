@@ -77,8 +77,9 @@ def meant_library(stem: str) -> str | None:
     """Return the library stem that a misspelt name stands for; None if the name may be a different library.
 
     A name is a misspelling of a library if each word equals, resembles or abbreviates a word of the library's name, if
-    the names differ in dashes, underscores and at most one letter, if their words have another order, or if the name
-    has an additional generic word. Libraries of installed packages with a table are no misspellings.
+    the names differ in dashes, underscores and at most one letter, if their words have another order, if the name
+    has an additional generic word, or if it lacks the word before the last one (``gazebo_ros_kinect``). Libraries of
+    installed packages with a table are no misspellings.
     """
     if not stem or stem in classes() or tables_of(stem):
         return None
@@ -89,7 +90,9 @@ def meant_library(stem: str) -> str | None:
     if near:
         return max(near)[1]
     longer = [candidate for candidate in classes() if candidate.startswith(f"{stem}_")]
-    return longer[0] if len(longer) == 1 and stem.count("_") >= 3 else _without_ending(stem)
+    if len(longer) == 1 and stem.count("_") >= 3:
+        return longer[0]
+    return _with_missing_word(stem) or _without_ending(stem)
 
 
 def meant_class(name: str, candidates: Iterable[str]) -> str | None:
@@ -101,6 +104,14 @@ def _with_ending(stem: str) -> str:
     """Return the name of a system with a corrected or added last word ``system``."""
     name, _, last = stem.rpartition("-")
     return f"{name}-system" if last == "plugin" or _is_like(last, "system", 0.65) else f"{stem}-system"
+
+
+def _with_missing_word(stem: str) -> str | None:
+    """Return the only library of gazebo_plugins with one more word before the last one; None if no or several match."""
+    family, _, last = stem.rpartition("_")
+    pattern = re.compile(f"gazebo_ros_[a-z]+_{re.escape(last)}")
+    longer = [name for name in classes() if family == "gazebo_ros" and pattern.fullmatch(name)]
+    return longer[0] if len(longer) == 1 else None
 
 
 def _without_ending(stem: str) -> str | None:
