@@ -1,4 +1,4 @@
-"""What controllers of ROS 2 need: sensors of the hardware, combinations of interfaces, and a section of parameters.
+"""What controllers of ROS 2 need: combinations of interfaces, and a section of parameters.
 
 Source: ros2_controllers, *_parameters.yaml and joint_trajectory_controller (Humble to Rolling).
 """
@@ -9,12 +9,10 @@ import re
 from collections.abc import Iterator
 
 from urdfkit.description.xml.source import Source
-from urdfkit.errors import nearest, suggestion
-from urdfkit.lint.facts.control.ros2_controllers import PARAMETERS, declared, offered
+from urdfkit.lint.facts.control.ros2_controllers import PARAMETERS, declared
 from urdfkit.lint.facts.control.yaml_tree import Node, documents, walk, yamls
 from urdfkit.lint.model.model import Model
 
-_OF_SENSORS = r"(?:imu_sensor|force_torque_sensor|range_sensor|gps_sensor)_broadcaster/\w+"
 _NEEDS = {
     "imu_sensor_broadcaster/IMUSensorBroadcaster": ("sensor_name", "frame_id"),
     "range_sensor_broadcaster/RangeSensorBroadcaster": ("sensor_name", "frame_id"),
@@ -25,7 +23,7 @@ _NEEDS = {
 
 
 def unmet_needs(source: Source, model: Model) -> Iterator[tuple[Node, str]]:
-    """Yield sensors that the hardware lacks, velocity states without position, and sections of no controller."""
+    """Yield velocity states without position, and sections of no controller."""
     if PARAMETERS not in source.text:
         return
     controllers = declared(source)
@@ -34,12 +32,6 @@ def unmet_needs(source: Source, model: Model) -> Iterator[tuple[Node, str]]:
         if group is None:
             yield from _renamed(source, one.name, kind, {each.name for each in controllers}, model)
             continue
-        sensor = group.find("sensor_name")
-        if sensor is not None and sensor.text and "$" not in sensor.text and re.fullmatch(_OF_SENSORS, kind):
-            sensors = _sensors(model)
-            if sensors and sensor.text not in sensors:
-                hint = suggestion(nearest(sensor.text, sensors)) or f" (it has {', '.join(sensors)})"
-                yield sensor, f"`<ros2_control>` has no sensor `{sensor.text}` for controller `{one.name}`{hint}"
         states = group.find("state_interfaces")
         if states is not None and kind == "joint_trajectory_controller/JointTrajectoryController":
             names = states.texts()
@@ -49,13 +41,6 @@ def unmet_needs(source: Source, model: Model) -> Iterator[tuple[Node, str]]:
 
 
 _NEEDED_STATES = (("velocity", "position"), ("acceleration", "velocity"))
-
-
-def _sensors(model: Model) -> list[str]:
-    """Return the sensors in ``<ros2_control>``; empty if other files may define more."""
-    has = offered(model)
-    blocks = model.robot.ros2_control if has is not None else ()
-    return [part.get("name") or "" for block in blocks for part in block.element.find_all("sensor")]
 
 
 def _renamed(source: Source, name: str, kind: str, controllers: set[str], model: Model) -> Iterator[tuple[Node, str]]:
