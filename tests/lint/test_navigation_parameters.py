@@ -84,7 +84,7 @@ FILES = {"controllers": CONTROLLERS, "filter": FILTER, "navigation": NAVIGATION}
 BAD = [
     ("controllers", "update_rate: 100", "update_rate: 100.0", "K974", 3, "write 100"),
     ("controllers", "\nimu_broadcaster:", "\nimu_sensor:", "K971", 7, "controller `imu_broadcaster` has no section"),
-    ("controllers", "sensor_name: imu", "sensor_name: gyro", "K965", 9, "`gyro`"),
+    ("controllers", "sensor_name: imu", "sensor_name: imuu", "K965", 9, "did you mean `imu`?"),
     ("controllers", "imu_link", "imu_lnk", "K961", 10, "did you mean `imu_link`?"),
     ("filter", "30.0", "30", "K974", 3, "`frequency` is the integer 30; write 30.0"),
     ("filter", "world_frame: odom", "world_frame: base", "K971", 7, "neither `map_frame` nor `odom_frame`"),

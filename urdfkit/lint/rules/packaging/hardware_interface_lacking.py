@@ -24,7 +24,7 @@ class HardwareInterfaceLacking(RobotRule):
     ## What it does
     Compares the interfaces that controllers of ros2_controllers require of their joints, according to their type and
     their parameters in YAML, with the ``<command_interface>`` and ``<state_interface>`` elements of these joints in
-    ``<ros2_control>``. Also checks that the ``sensor_name`` of broadcasters is a sensor of it.
+    ``<ros2_control>``. Also checks the ``sensor_name`` of broadcasters for misspelt sensor names.
 
     Nothing is reported if arguments or another description of the package may select other hardware, or if
     ``<ros2_control>`` misspells the joint or interface, which other rules report.
@@ -81,10 +81,10 @@ class HardwareInterfaceLacking(RobotRule):
         for source in sources if hardware is not None else ():
             for controller in declared(source):
                 yield from self._missing_interfaces(source, controller, hardware or {}, misspelt, model)
-                yield from self._unknown_sensor(source, controller, hardware or {}, model)
+                yield from self._unknown_sensor(source, controller, hardware or {})
 
     def _unknown_sensor(
-        self, source: Source, controller: DeclaredController, hardware: dict[str, dict[bool, list[str]]], model: Model
+        self, source: Source, controller: DeclaredController, hardware: dict[str, dict[bool, list[str]]]
     ) -> Findings:
         from urdfkit.lint.facts.control.yaml_tree import span_of
         from urdfkit.lint.fix_builders import nearest
@@ -93,12 +93,8 @@ class HardwareInterfaceLacking(RobotRule):
         if sensor is None or not sensor.text or controller.kind.text not in _BROADCASTERS or sensor.text in hardware:
             return
         suggestion = nearest(sensor.text, hardware, cutoff=0.7)
-        blocks = model.robot.ros2_control if hardware and "$" not in sensor.text else ()
-        sensors = [part.get("name") or "" for block in blocks for part in block.element.find_all("sensor")]
-        if suggestion is not None or sensors:
-            message = f"unknown sensor `{sensor.text}` of controller `{controller.name}`"
-            hint = f"did you mean `{suggestion}`?" if suggestion else f"`<ros2_control>` has {', '.join(sensors)}"
-            message = f"{message}; {hint}"
+        if suggestion is not None:
+            message = f"unknown sensor `{sensor.text}` of controller `{controller.name}`; did you mean `{suggestion}`?"
             yield Finding(self.code, self.name, self.severity, message, span_of(source, sensor))
 
     def _missing_interfaces(
