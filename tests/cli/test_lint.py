@@ -220,7 +220,8 @@ def test_of_several_files_the_broken_ones_do_not_hide_the_others(package, capsys
     assert main(["lint", "world.urdf", "cut.urdf", "urdf/clean.urdf", "--jobs", "1", "--no-cache"]) == 2
     reported = capsys.readouterr()
     assert "cut.urdf:1:17: E001" in reported.out
-    assert reported.err == "urdfkit: world.urdf:1:1: <sdf> is not a robot description\n"
+    message = "<sdf> is not a robot description; a world goes after --world of `urdfkit sim run`"
+    assert reported.err == f"urdfkit: world.urdf:1:1: {message}\n"
     assert main(["lint", "world.urdf"]) == 2
 
 

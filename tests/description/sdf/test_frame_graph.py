@@ -120,7 +120,7 @@ def test_a_frame_of_a_frame(tmp_path: Path) -> None:
         ),
         (
             '<model name="m"><link name="l"/></model><model name="m"><link name="l"/></model>',
-            "`w` already has a model `m`",
+            "`w` already has a model `m` (line 2); give one of them another <name>",
         ),
         ('<model name="m"><link name="a"/><frame name="a"/></model>', "model `m` already has a link `a`"),
         ('<model name="m"><link name="world"/></model>', "`world` is a reserved name"),

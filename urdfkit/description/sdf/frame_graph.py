@@ -77,8 +77,9 @@ class Scope:
         taken = self._frames.get(name)
         if taken is not None:
             if taken.kind == kind or (strict and taken.strict):
+                advice = "; give one of them another <name>" if kind == taken.kind == "model" else ""
                 raise DescriptionError(
-                    f"{self.owner} already has a {taken.kind} `{name}` (line {taken.raw.position.line})",
+                    f"{self.owner} already has a {taken.kind} `{name}` (line {taken.raw.position.line}){advice}",
                     position=raw.position,
                 )
             return

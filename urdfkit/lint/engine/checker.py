@@ -74,7 +74,8 @@ def model_of(
     if root is not None and root.tag != "robot" and not is_nearly_robot(root.tag):
         from urdfkit.errors import ModelError
 
-        raise ModelError(f"<{root.tag}> is not a robot description", position=root.origin.position)
+        world = "; a world goes after --world of `urdfkit sim run`" if root.tag == "sdf" else ""
+        raise ModelError(f"<{root.tag}> is not a robot description{world}", position=root.origin.position)
     parsed = memory.parts if memory is not None else None
     robot = parse(root if root is not None else empty_root(path), cached_parts=parsed)
     target, release = family_of(options.target), release_of(options.target)
