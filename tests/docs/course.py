@@ -3,7 +3,7 @@
 - A fenced block with a title is a file: the block replaces its content.
 - A block ``diff`` with a title changes that file: the lines with a blank or `-` are in it exactly once.
 - In a block ``console`` each line after `$` runs in a shell; the lines below it are its output. `…` stands for any
-  text, in a line of its own for any lines.
+  text, in a line of its own for any lines. An output that begins with ``urdfkit: `` and no warning is a usage error.
 - ``pip install`` installs without dependencies into a folder beside that of the reader, also for later commands.
 
 ``python -m tests.docs.course PAGE`` writes the output that its commands have now into the page.
@@ -37,6 +37,7 @@ PAGES = [
 """Pages with files of their own."""
 
 SERVES = re.compile(r"urdfkit (view|sim teleop|replay)\b(?!.*--(image|video))")
+REFUSED = re.compile(r"urdfkit: (?!warning|linted)")
 WAITS = r"^(urdfkit: )?(warning: )?(compiling the |waiting for the graphics driver).*\n"
 VARIES = ((r"[\d,.]+ × real time", "… × real time"), (r"\b\d+(\.\d+)? m?s \(CPU\)", "… (CPU)"), (r"-(?=0\.0+\b)", ""))
 
@@ -86,7 +87,7 @@ def run(page: str, folder: Path) -> Iterator[Step]:
                         served.close()
                         printed = _serve(command, folder, served)
                     else:
-                        printed = _output(command, folder)
+                        printed = _output(command, folder, REFUSED.match(shown) is not None)
                     yield Step(command, shown, printed)
             elif block.title:
                 file = folder / block.title
@@ -132,7 +133,7 @@ def _serve(command: str, folder: Path, served: ExitStack) -> str:
     return line
 
 
-def _output(command: str, folder: Path) -> str:
+def _output(command: str, folder: Path, refused: bool) -> str:
     python = shlex.quote(sys.executable)
     programs = f'urdfkit() {{ {python} -m urdfkit "$@"; }}; python() {{ {python} "$@"; }}\n'
     install = f"--no-build-isolation --no-deps --upgrade --target {shlex.quote(str(_site(folder)))}"
@@ -147,7 +148,7 @@ def _output(command: str, folder: Path) -> str:
         text=True,
         check=False,
     )
-    assert done.returncode in (0, 1), f"{command}\n{done.stdout}"
+    assert done.returncode in ((2,) if refused else (0, 1)), f"{command}\n{done.stdout}"
     printed = re.sub(WAITS, "", done.stdout, flags=re.MULTILINE)
     return printed.replace(str(folder), HOME)
 
