@@ -22,9 +22,20 @@ _XACRO_WORD = r"[\"']xacro(?:\.py)?[\"'\s]"
 
 _STARTS = frozenset(("Node", "LifecycleNode", "ComposableNode", "ComposableNodeContainer"))
 _OF_ROS2LAUNCH = frozenset(
-    ("ament_index_python", "launch", "launch_ros", "launch_xml", "launch_yaml", "lifecycle_msgs", "rcl_interfaces")
+    (
+        *(
+            "ament_index_python",
+            "launch",
+            "launch_ros",
+            "launch_xml",
+            "launch_yaml",
+            "lifecycle_msgs",
+            "rcl_interfaces",
+        ),
+        *("launch_testing", "launch_testing_ros"),
+    )
 )
-"""Packages that the command ``ros2 launch`` needs (package.xml of ros2launch and launch_ros)."""
+"""Packages that the command ``ros2 launch`` needs (package.xml of ros2launch and launch_ros), and those of tests."""
 
 _EXISTENCE_TESTS = frozenset(("exists", "isfile", "isdir", "is_file", "is_dir"))
 
