@@ -3,7 +3,7 @@
 - A fenced block with a title is a file: the block replaces its content.
 - A block ``diff`` with a title changes that file: the lines with a blank or `-` are in it exactly once.
 - In a block ``console`` each line after `$` runs in a shell; the lines below it are its output. `…` stands for any
-  text, in a line of its own for any lines. An output that begins with ``urdfkit: `` and no warning is a usage error.
+  text, in a line of its own for any lines. An output that begins with ``urdfkit: FILE:LINE:COLUMN:`` is an error (2).
 - ``pip install`` installs without dependencies into a folder beside that of the reader, also for later commands.
 
 ``python -m tests.docs.course PAGE`` writes the output that its commands have now into the page.
@@ -37,7 +37,7 @@ PAGES = [
 """Pages with files of their own."""
 
 SERVES = re.compile(r"urdfkit (view|sim teleop|replay)\b(?!.*--(image|video))")
-REFUSED = re.compile(r"urdfkit: (?!warning|linted)")
+REFUSED = re.compile(r"urdfkit: \S+:\d+:\d+: ")
 WAITS = r"^(urdfkit: )?(warning: )?(compiling the |waiting for the graphics driver).*\n"
 VARIES = ((r"[\d,.]+ × real time", "… × real time"), (r"\b\d+(\.\d+)? m?s \(CPU\)", "… (CPU)"), (r"-(?=0\.0+\b)", ""))
 
