@@ -84,3 +84,38 @@ def test_text_lists_ten_places_errors_first_and_ends_with_commands(tmp_path: Pat
     *_, last = output.split("Found ")
     assert "in " in last.splitlines()[0]
     assert all("`urdfkit lint r.urdf --" in line for line in last.splitlines()[1:])
+
+
+INERTIA = '<inertial><mass value="1"/><inertia ixx="{0}" ixy="0" ixz="0" iyy="1.25" iyz="0" izz="{1}"/></inertial>'
+IN_COPIES = '<robot name="r"><link name="base{n}">{inertial}</link></robot>'
+
+
+@pytest.mark.parametrize(("copies", "values", "groups"), [(3, 1, 3), (4, 1, 1), (4, 2, 2), (5, 2, 1)])
+def test_errors_in_copies_of_a_robot_are_one_finding_for_each_value(copies, values, groups, tmp_path) -> None:
+    for value in range(values):
+        inertial = INERTIA.format("2.5", f"{4 + value}.75")
+        for n in range(copies):
+            (tmp_path / f"hand_{value}_{n}.urdf").write_text(IN_COPIES.format(n=n, inertial=inertial))
+    found = lint_json(tmp_path, "--select", "I503")
+    assert len(found) == groups
+    assert sum(1 + len(one["related"]) for one in found) == copies * values
+
+
+def test_meshes_of_another_format_are_one_finding(tmp_path: Path) -> None:
+    (tmp_path / "meshes").mkdir()
+    for n in range(SMALLEST):
+        (tmp_path / f"meshes/part_{n}.glb").write_bytes(b"")
+    path = robot(tmp_path / "r.urdf", [f"meshes/part_{n}.dae" for n in range(SMALLEST)])
+    (found,) = lint_json(path, "--select", "G601")
+    assert found["related"][0]["message"].endswith("did you mean `part_1.glb`?")
+
+
+def test_included_packages_that_do_not_exist_are_one_finding(tmp_path: Path) -> None:
+    for n in range(SMALLEST):
+        (tmp_path / f"arm_{n}.urdf.xacro").write_text(
+            '<robot name="r" xmlns:xacro="http://www.ros.org/wiki/xacro">'
+            f'<xacro:include filename="$(find arm_{n}_support)/arm.xacro"/><xacro:arm_{n} prefix=""/>'
+            '<link name="a"/></robot>'
+        )
+    (found,) = lint_json(tmp_path)
+    assert (found["code"], len(found["related"])) == ("X113", SMALLEST - 1)

@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from urdfkit.description.xml.source import Position
+from urdfkit.errors import nearest
 from urdfkit.lint.finding import Finding
 from urdfkit.lint.model.model import Model as Model
 
@@ -116,7 +117,8 @@ class FaultRule(Rule):
 
     Attributes:
         kinds: fault kinds that the rule reports.
-        may_be_elsewhere: whether a missing include file may define the missing name; the finding is then a note.
+        may_be_elsewhere: whether a missing include file may define the missing name; the finding is then left out, or
+            a note if the name is similar to another.
     """
 
     kinds: ClassVar[tuple[str, ...]] = ()
@@ -127,8 +129,12 @@ class FaultRule(Rule):
         return fault.kind in self.kinds
 
     def check(self, fault: Fault, model: Model) -> Findings:
-        """Yield the finding for a fault; those of names that a missing file may define have one cause."""
+        """Yield the finding for a fault, unless a missing file may define the name and it is similar to no other."""
         if self.may_be_elsewhere and (missing := model.missing_file):
+            near = fault.message.partition("did you mean `")[2].partition("`")[0]
+            is_similar = near and nearest(fault.name or "", (near, near.removeprefix("xacro:")), cutoff=0.85)
+            if not is_similar and model.target != "urdfkit":  # whose repairs are findings
+                return  # include-not-found reports the missing file.
             help = f"it may be defined in {missing}, which was not found"
             yield self.at(
                 model, fault, fault.message, attribute=fault.attribute, help=help, severity="note", cause=missing

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+
 from urdfkit.errors import kind_of
 from urdfkit.lint.finding import SEVERITIES, Finding
 
@@ -12,15 +14,20 @@ if TYPE_CHECKING:
 SMALLEST = 4
 """Number of warnings, or of errors with a named cause, from which on they are grouped. Fewer are shown one by one."""
 SMALLEST_ALIKE = 10
-"""The same for errors with equal messages, which may be separate mistakes, and for notes without a named cause."""
+"""The same for errors of one kind, which may be separate mistakes, and for notes without a named cause."""
+
+_MEANT = "; did you mean "
+_VALUE = r"\d\.\d{2}|[1-9]\d\.\d|[1-9]\d{2}"
+"""Matches a number with three digits, which two separate mistakes seldom share."""
 
 
 def grouped(findings: Iterable[Finding]) -> list[Finding]:
     """Return one finding for each cause, sorted by position; `Finding.related` contains its other places.
 
     Findings have one cause if they have the same code, severity and `Finding.cause`. Where the rule names no cause,
-    errors have one if their messages are equal, and warnings and notes if their messages differ in names, tags and
-    numbers only: an export that gives no joint an effort limit, rounded angles.
+    warnings and notes have one if their messages differ in names, tags and numbers only: an export that gives no joint
+    an effort limit, rounded angles. Errors have one if there are many of these, or if they come from copies of a robot:
+    their messages have the same values, or each is in a file of its own.
 
     Args:
         findings: sorted by position.
@@ -29,28 +36,45 @@ def grouped(findings: Iterable[Finding]) -> list[Finding]:
     for finding in findings:
         groups.setdefault((finding.code, finding.severity, finding.cause or _kind(finding)), []).append(finding)
     found: list[Finding] = []
-    for first, *others in groups.values():
-        if 1 + len(others) < _smallest(first, others):
-            found += (first, *others)
-        else:
-            found.append(Finding(**{**first.__dict__, "related": tuple(others)}))
+    for group in groups.values():
+        for part in _parts(group):
+            first, *others = part
+            if len(part) < _smallest(part):
+                found += part
+            else:
+                found.append(Finding(**{**first.__dict__, "related": tuple(others)}))
     return sorted(found, key=lambda one: (one.span, one.code, one.message))
 
 
-def _smallest(finding: Finding, others: list[Finding]) -> int:
-    """Return the number of findings like one from which on they are grouped.
+def _parts(group: list[Finding]) -> list[list[Finding]]:
+    """Return errors of one kind by their values, unless there are many; other findings in one part."""
+    if group[0].severity != "error" or group[0].cause or len(group) >= SMALLEST_ALIKE:
+        return [group]
+    parts: dict[str, list[Finding]] = {}
+    for finding in group:
+        parts.setdefault(re.sub(r"`[^`]*`", "…", finding.message), []).append(finding)
+    return list(parts.values())
+
+
+def _smallest(group: list[Finding]) -> int:
+    """Return the number of findings from which on a group of them is shown as one.
 
     Notes on one cause always are, and findings whose cause and message are the same: a package that is not found.
     """
-    if finding.cause and all(other.message == finding.message for other in others):
+    first = group[0]
+    if first.cause and all(other.message == first.message for other in group):
         return 2
-    if finding.severity == "note":
-        return 2 if finding.cause else SMALLEST_ALIKE
-    return SMALLEST if finding.cause or finding.severity == "warning" else SMALLEST_ALIKE
+    if first.severity == "note":
+        return 2 if first.cause else SMALLEST_ALIKE
+    if first.cause or first.severity == "warning":
+        return SMALLEST
+    is_of_copies = re.search(_VALUE, first.message) is not None or len({one.file for one in group}) == len(group)
+    return SMALLEST if is_of_copies and _MEANT not in first.message else SMALLEST_ALIKE
 
 
 def _kind(finding: Finding) -> str:
-    if finding.severity == "error":
+    """Return the common part of the messages of one kind; misspelt names are separate mistakes."""
+    if finding.severity == "error" and _MEANT in finding.message:
         return finding.message
     return kind_of(finding.message)
 

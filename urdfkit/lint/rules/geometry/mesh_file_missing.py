@@ -84,8 +84,15 @@ class MeshFileMissing(RobotRule):
                 if has_same_suffix
                 else None,
                 severity="note" if is_of_output else None,
-                cause="" if near else f"folder of {mesh.uri.strip().rpartition('/')[0]}",
+                cause=(f"format of {uri.rpartition('.')[2]}" if _is_other_format(mesh.uri.strip(), uri) else "")
+                if near
+                else f"folder of {mesh.uri.strip().rpartition('/')[0]}",
             )
+
+
+def _is_other_format(uri: str, other: str) -> bool:
+    """Return whether two paths differ in the suffix only: all meshes were converted."""
+    return uri.rpartition(".")[0].rpartition("/")[2] == other.rpartition(".")[0].rpartition("/")[2]
 
 
 def _is_relative_to_output(uri: str, path: Path) -> bool:

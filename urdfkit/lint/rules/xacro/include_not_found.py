@@ -64,7 +64,10 @@ class IncludeNotFound(FaultRule):
         elif fault.kind == "include-not-found" and (name := argument_in_path(model, fault.details.get("path", ""))):
             severity, help = "note", f"pass {name}:=value: its default selects no file"
         fix = _nearest_file(fault, model)
-        yield self.at(model, fault, message, attribute=fault.attribute, help=help, fix=fix, severity=severity)
+        cause = "package" if fault.kind == "package-not-found" else ""
+        yield self.at(
+            model, fault, message, attribute=fault.attribute, help=help, fix=fix, severity=severity, cause=cause
+        )
 
 
 def _nearest_file(fault: Fault, model: Model) -> Fix | None:
