@@ -11,8 +11,9 @@ Source: M. Silcowitz-Hansen, S. Niebe, K. Erleben, The Visual Computer 26 (2010)
 from urdfkit.sim.engine.compilation import compiled
 from urdfkit.sim.engine.kernel_world import KernelWorld
 
-KEPT = 9
-"""Numbers kept in A for a contact: its effective mass matrix, and the effective masses of single rows."""
+KEPT = 12
+"""Room in A for a contact: its effective mass matrix, the effective masses of single rows, whether there is such a
+matrix, and the change of the velocities across the normal by an impulse along it."""
 
 
 @compiled

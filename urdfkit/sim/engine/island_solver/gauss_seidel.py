@@ -22,6 +22,7 @@ from typing import Any
 from urdfkit.sim.engine.compilation import compiled, inlined
 from urdfkit.sim.engine.dynamics.mass_matrix import solve_transposed
 from urdfkit.sim.engine.island_solver.conjugate_gradient import KEPT, go_further, note
+from urdfkit.sim.engine.island_solver.jacobian_products import contact_speeds, push_contact, push_row, row_speed
 from urdfkit.sim.engine.kernel_world import KernelWorld
 from urdfkit.sim.engine.simulation_memory import WIDTH
 
@@ -38,54 +39,26 @@ FLAT = 1e-9
 @inlined
 def speed_of(w: KernelWorld, k: int) -> float:
     """Return the velocity of a whitened row with the impulses so far [m/s or rad/s]."""
-    total = w.g[k]
-    at, tree = k * w.sizes[WIDTH], w.row_a[k]
-    first, size = w.tree_dof[tree], w.tree_dof[tree + 1] - w.tree_dof[tree]
-    for d in range(size):
-        total += w.Y[at + d] * w.u[first + d]
-    tree = w.row_b[k]
-    if tree >= 0:
-        at += size
-        first = w.tree_dof[tree]
-        for d in range(w.tree_dof[tree + 1] - first):
-            total += w.Y[at + d] * w.u[first + d]
-    return float(total)
-
-
-@inlined
-def give(w: KernelWorld, k: int, c: float) -> None:
-    """Let the trees of a whitened row have an impulse along it."""
-    at, tree = k * w.sizes[WIDTH], w.row_a[k]
-    first, size = w.tree_dof[tree], w.tree_dof[tree + 1] - w.tree_dof[tree]
-    for d in range(size):
-        w.u[first + d] += c * w.Y[at + d]
-    tree = w.row_b[k]
-    if tree >= 0:
-        at += size
-        first = w.tree_dof[tree]
-        for d in range(w.tree_dof[tree + 1] - first):
-            w.u[first + d] += c * w.Y[at + d]
+    return float(w.g[k] + row_speed(w, k, w.u))
 
 
 @inlined
 def delassus_entry(w: KernelWorld, i: int, j: int) -> float:
     """Return the product of two whitened rows of the same trees."""
-    a, b, width = w.row_a[i], w.row_b[i], w.sizes[WIDTH]
-    size = w.tree_dof[a + 1] - w.tree_dof[a]
-    if b >= 0:
-        size += w.tree_dof[b + 1] - w.tree_dof[b]
+    width = w.sizes[WIDTH]
     total = 0.0
-    for d in range(size):
+    for d in range(w.of_a[i] + w.of_b[i]):
         total += w.Y[i * width + d] * w.Y[j * width + d]
     return total
 
 
 @inlined
 def keep_inverse(A: Any, at: int, a: float, b: float, c: float, d: float, e: float, f: float) -> None:
-    """Store the inverse of [[a, d, e], [d, b, f], [e, f, c]], and the inverse masses of single rows."""
+    """Store the inverse of [[a, d, e], [d, b, f], [e, f, c]], d and e, and the inverse masses of single rows."""
     aa, bb, cc = b * c - f * f, a * c - e * e, a * b - d * d
     determinant = a * aa + d * (e * f - d * c) + e * (d * f - b * e)
     A[at + 6], A[at + 7] = 1.0 / a, 1.0 / max(b, c) if max(b, c) > 0.0 else 0.0
+    A[at + 9], A[at + 10] = d, e
     # Where there is no inverse the rows are taken one by one.
     A[at + 8] = 1.0 if determinant > FLAT * a * b * c else 0.0
     if determinant > FLAT * a * b * c:
@@ -100,11 +73,15 @@ def keep_inverse(A: Any, at: int, a: float, b: float, c: float, d: float, e: flo
 
 @compiled
 def prepare(w: KernelWorld, rows: int) -> None:
-    """Turn rows J into Y = J·L⁻¹, and the inverse mass of each contact and row in A, `KEPT` for each row."""
+    """Turn rows J into Y = J·L⁻¹, and write the inverse mass of each contact and row in A, `KEPT` for each contact.
+
+    For each row ``at_a``, ``of_a``, ``at_b``, ``of_b`` are where the dofs of its trees start, and how many these are.
+    """
     width = w.sizes[WIDTH]
     for k in range(rows):
         free = w.row_bias[k]
         at = k * width
+        w.of_a[k] = w.at_b[k] = w.of_b[k] = 0
         for side in range(2):
             tree = w.row_a[k] if side == 0 else w.row_b[k]
             if tree < 0:
@@ -114,6 +91,10 @@ def prepare(w: KernelWorld, rows: int) -> None:
                 free += w.Y[at - first + d] * w.v_start[d]
             solve_transposed(w, first, beyond, w.Y, at - first)
             at += beyond - first
+            if side == 0:
+                w.at_a[k], w.of_a[k] = first, beyond - first
+            else:
+                w.at_b[k], w.of_b[k] = first, beyond - first
         w.g[k] = free
     k = 0
     while k < rows:
@@ -124,45 +105,43 @@ def prepare(w: KernelWorld, rows: int) -> None:
             keep_inverse(w.A, at, own, ss, tt, ns, nt, delassus_entry(w, k + 1, k + 2))
             k += 3
             continue
-        w.A[3 * k] = 1.0 / own if own > 0.0 else 0.0
+        w.A[at] = 1.0 / own if own > 0.0 else 0.0
         k += 1
 
 
 @inlined
 def put_right(w: KernelWorld, k: int) -> float:
     """Give a contact the impulse that puts it right where all others stay; return by how much velocities change."""
-    x, A = w.x, w.A
-    at = 3 * k
+    x, g, A = w.x, w.g, w.A
+    at = KEPT * k // 3
     n, a, b = x[k], x[k + 1], x[k + 2]
-    off = speed_of(w, k)
+    off, s, t = contact_speeds(w, k, w.u)
+    off += g[k]
     if n == 0.0 and off >= 0.0:
         return 0.0
-    s, t = speed_of(w, k + 1), speed_of(w, k + 2)
+    s, t = s + g[k + 1], t + g[k + 2]
+    holds = False
     if A[at + 8] > 0.0:
         p = n - A[at] * off - A[at + 3] * s - A[at + 4] * t
         q = a - A[at + 3] * off - A[at + 1] * s - A[at + 5] * t
         r = b - A[at + 4] * off - A[at + 5] * s - A[at + 2] * t
-        if q * q + r * r <= w.mu[k] * w.mu[k] * p * p and p > 0.0:
-            x[k], x[k + 1], x[k + 2] = p, q, r
-            give(w, k, p - n)
-            give(w, k + 1, q - a)
-            give(w, k + 2, r - b)
-            return float(max(abs(off), max(abs(s), abs(t))))
-    p = max(0.0, n - A[at + 6] * off)
-    give(w, k, p - n)
-    q = r = 0.0
-    if p > 0.0:
-        q = a - A[at + 7] * speed_of(w, k + 1)
-        r = b - A[at + 7] * speed_of(w, k + 2)
-        size, most = math.sqrt(q * q + r * r), w.mu[k] * p
-        if size > most:
-            q, r = q * most / size, r * most / size
-    give(w, k + 1, q - a)
-    give(w, k + 2, r - b)
+        holds = q * q + r * r <= w.mu[k] * w.mu[k] * p * p and p > 0.0
+        moved = max(abs(off), max(abs(s), abs(t)))
+    if not holds:
+        p = max(0.0, n - A[at + 6] * off)
+        q = r = 0.0
+        if p > 0.0:
+            # With the new normal impulse.
+            q = a - A[at + 7] * (s + A[at + 9] * (p - n))
+            r = b - A[at + 7] * (t + A[at + 10] * (p - n))
+            size, most = math.sqrt(q * q + r * r), w.mu[k] * p
+            if size > most:
+                q, r = q * most / size, r * most / size
+        moved = abs(p - n) / A[at + 6]
+        if A[at + 7] > 0.0:
+            moved = max(moved, max(abs(q - a), abs(r - b)) / A[at + 7])
     x[k], x[k + 1], x[k + 2] = p, q, r
-    moved = abs(p - n) / A[at + 6]
-    if A[at + 7] > 0.0:
-        moved = max(moved, max(abs(q - a), abs(r - b)) / A[at + 7])
+    push_contact(w, k, p - n, q - a, r - b, w.u)
     return float(moved)
 
 
@@ -196,7 +175,7 @@ def put_row_right(w: KernelWorld, k: int) -> float:
         return 0.0
     old = w.x[k]
     w.x[k] = min(w.high[k], max(w.low[k], old - inverse * speed_of(w, k)))
-    give(w, k, w.x[k] - old)
+    push_row(w, k, w.x[k] - old, w.u)
     return float(abs(w.x[k] - old) / inverse)
 
 
@@ -234,7 +213,7 @@ def sweep(w: KernelWorld, root: int, rows: int) -> int:
         w.y[k] = speed_of(w, k)
     for k in range(rows):
         w.x[k] = w.before[k]
-        give(w, k, w.x[k])
+        push_row(w, k, w.x[k], w.u)
     done = 0
     moved = math.inf
     size = 0.0
@@ -254,6 +233,6 @@ def sweep(w: KernelWorld, root: int, rows: int) -> int:
         # Impulses never bring energy: they are all made smaller, and stay in their cones.
         share = max(0.0, -met / brought)
         for k in range(rows):
-            give(w, k, (share - 1.0) * w.x[k])
+            push_row(w, k, (share - 1.0) * w.x[k], w.u)
             w.x[k] *= share
     return done if moved <= STILL else SWEEPS + 1

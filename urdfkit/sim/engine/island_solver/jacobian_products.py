@@ -40,21 +40,29 @@ def row_speed(w: KernelWorld, k: int, x: Any) -> float:
     return total
 
 
+@inlined
+def contact_speeds(w: KernelWorld, k: int, x: Any) -> Any:
+    """Return J·x of the three rows of a contact, x in the order of the blocks."""
+    width = w.sizes[WIDTH]
+    if w.of_a[k] == 6 and (w.of_b[k] == 6 or w.of_b[k] == 0):
+        at, own = k * width, load_six(x, w.at_a[k])
+        first, second = times_six(w.Y, at, own), times_six(w.Y, at + width, own)
+        third = times_six(w.Y, at + 2 * width, own)
+        if w.of_b[k] == 6:
+            at, own = at + 6, load_six(x, w.at_b[k])
+            first, second = first + times_six(w.Y, at, own), second + times_six(w.Y, at + width, own)
+            third += times_six(w.Y, at + 2 * width, own)
+        return first, second, third
+    return row_speed(w, k, x), row_speed(w, k + 1, x), row_speed(w, k + 2, x)
+
+
 @compiled
 def row_speeds(w: KernelWorld, rows: int, x: Any, into: Any, start: int) -> None:
     """Write J·x of all rows, x in the order of the blocks, from `start` on."""
-    width = w.sizes[WIDTH]
     k = 0
     while k < rows:
-        if w.mu[k] > 0.0 and w.of_a[k] == 6 and (w.of_b[k] == 6 or w.of_b[k] == 0):
-            at, own = k * width, load_six(x, w.at_a[k])
-            first, second = times_six(w.Y, at, own), times_six(w.Y, at + width, own)
-            third = times_six(w.Y, at + 2 * width, own)
-            if w.of_b[k] == 6:
-                at, own = at + 6, load_six(x, w.at_b[k])
-                first, second = first + times_six(w.Y, at, own), second + times_six(w.Y, at + width, own)
-                third += times_six(w.Y, at + 2 * width, own)
-            into[start + k], into[start + k + 1], into[start + k + 2] = first, second, third
+        if w.mu[k] > 0.0:
+            into[start + k], into[start + k + 1], into[start + k + 2] = contact_speeds(w, k, x)
             k += 3
             continue
         into[start + k] = row_speed(w, k, x)
