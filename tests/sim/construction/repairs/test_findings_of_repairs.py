@@ -229,7 +229,7 @@ def test_a_robot_without_any_mass_is_one_repair_and_one_finding(tmp_path: Path) 
         (repair,) = repairs_of(path, floating=floating)
         assert (repair.link, repair.joint) == ("a", "j")
         assert ("`base` 6 kg, `a` 6 kg, `b` 6 kg" in repair.message) == floating
-        assert [finding.severity for finding in lint(path) if reports(finding, repair)] == ["warning"]
+        assert [finding.severity for finding in lint(path) if reports(finding, repair)] == ["note"]
         assert [finding.severity for finding in lint(path, target="gz") if reports(finding, repair)] == ["error"]
 
 

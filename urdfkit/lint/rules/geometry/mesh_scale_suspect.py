@@ -1,5 +1,6 @@
 """G604 mesh-scale-suspect."""
 
+import re
 from bisect import bisect_right
 from math import dist, hypot, sqrt
 
@@ -19,6 +20,11 @@ LARGE = 50.0
 MAX_SIZE = 100.0
 """[m] Largest plausible size if the robot has no other size to compare with."""
 
+MAX_BUILDING = 500.0
+"""[m] Largest plausible size of a building or ground."""
+
+_BUILDING = r"(?<![a-z])(?:building|environment|floor|ground|hall|house|map|room|terrain|walls?|warehouse)(?![a-z])"
+
 
 class MeshScaleSuspect(RobotRule):
     """A mesh is about a thousand times larger or smaller than the rest of the robot.
@@ -27,7 +33,8 @@ class MeshScaleSuspect(RobotRule):
     Compares the scaled size of a mesh with the median of the distances between joints and the sizes of the other
     shapes. If all meshes may be wrong alike, a mesh of more than 50 m is compared with sizes that do not depend on
     meshes: distances between joints, boxes, cylinders and spheres, or else the radius of gyration √(I/m) of its link.
-    Without any such size, meshes of more than 100 m are reported.
+    Without any such size, meshes of more than 100 m are reported. Buildings and grounds, by the names of a root link
+    and of its mesh, may be large.
 
     ## Why is this bad?
     CAD programs export millimetres, URDF expects metres: the part is huge, or too small to see.
@@ -81,6 +88,7 @@ class MeshScaleSuspect(RobotRule):
         if not any(size for *_, size in sized_meshes):
             return
         references = _reference_sizes(model)
+        children = {joint.child for joint in model.robot.joints}
         every = sorted([*references, *(size for *_, size in sized_meshes)])
         for mesh, element, link, size in sized_meshes:
             others = every.copy()
@@ -89,6 +97,9 @@ class MeshScaleSuspect(RobotRule):
             median = _median(others)
             if size > LARGE and not _is_other_unit(size, median):
                 median = _median(sorted(references)) or _radius_of_gyration(link)
+            is_fixed = link.name not in children and median < size <= MAX_BUILDING
+            if is_fixed and re.search(_BUILDING, f"{link.name} {mesh.uri}", re.IGNORECASE):
+                continue
             is_alone = not median and size > MAX_SIZE
             if not (is_alone or _is_other_unit(size, median)):
                 continue

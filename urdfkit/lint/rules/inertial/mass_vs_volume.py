@@ -11,6 +11,9 @@ PLACEHOLDER = 0.01
 PLACEHOLDER_SIZE = 0.004
 """[m] Shapes up to this diagonal are placeholders: exporters write spheres of one millimetre."""
 
+SCENERY_SIZE = 20.0
+"""[m] Larger shapes are grounds and buildings, whose mass is a placeholder."""
+
 
 class MassVsVolume(RobotRule):
     """The density of a link is implausible.
@@ -18,7 +21,8 @@ class MassVsVolume(RobotRule):
     ## What it does
     Divides the mass by the volume of the link's shapes. Reports less than 1 kg/m³ (air) for the smaller of the visual
     and collision volumes, and more than 25000 kg/m³ (the heaviest metals have 22600 kg/m³) for the larger one. Masses
-    of at most 10 g are placeholders and are not checked, and neither are links with meshes.
+    of at most 10 g are placeholders and are not checked, and neither are links with meshes, nor light shapes of more
+    than 20 m, such as a ground.
 
     ## Why is this bad?
     Usually the mass was written in grams instead of kilograms, or the size in millimetres instead of metres.
@@ -67,6 +71,8 @@ class MassVsVolume(RobotRule):
             if extent.diagonal <= PLACEHOLDER_SIZE:
                 continue
             lightest, heaviest = mass / max(extent.volumes), mass / min(extent.volumes)
+            if heaviest < MIN_DENSITY and extent.diagonal > SCENERY_SIZE:
+                continue
             if heaviest < MIN_DENSITY or lightest > MAX_DENSITY:
                 density = heaviest if heaviest < MIN_DENSITY else lightest
                 litres = mass / density * 1000.0

@@ -16,8 +16,10 @@ class MovingLinkWithoutInertial(RobotRule):
     Checks for links that move, because a joint moves them or the robot has no root link ``world``, where neither the
     link nor any link fixed to it has a mass and a tensor. The finding is an error for simulators: with ``--target gz``,
     ``classic``, ``mujoco``, ``isaac`` or ``drake``, or if the robot contains Gazebo plugins. For other robots it is a
-    warning. A robot without any ``<inertial>`` is reported once if joints move its shapes, and with these targets also
-    if it has joints that move or shapes; as a note if it has collision shapes. Other robots describe kinematics only.
+    warning. It is a note for a robot without any ``<inertial>``, ``<gazebo>``, ``<transmission>`` and
+    ``<ros2_control>``, which describes kinematics only. A robot without any ``<inertial>`` is reported once if joints
+    move its shapes, and with these targets also if it has joints that move or shapes; as a note if it has collision
+    shapes. Other robots describe kinematics only.
 
     ## Why is this bad?
     Gazebo silently drops the link and all links attached to it; MuJoCo rejects the model. `urdfkit sim` estimates the
@@ -96,6 +98,9 @@ class MovingLinkWithoutInertial(RobotRule):
                 if not any(each.collisions for each in robot.links):
                     return  # It describes kinematics only.
                 severity = "note"
+            is_of_control = robot.gazebo or robot.ros2_control or robot.transmissions
+            if not is_simulator(model) and not is_of_control:
+                severity = "note"  # It describes kinematics only.
             effect = f"joints move `{link.name}` and other links" if joint is not None else "the robot is free to move"
             yield self.at(
                 model,
