@@ -175,7 +175,7 @@ def descend(w: KernelWorld, root: int, rows: int, n: int, balance: float) -> int
     return STEPS
 
 
-@inlined
+@compiled
 def update_multipliers(w: KernelWorld, rows: int) -> float:
     """Set the multipliers to the impulses of this round; return the residual of velocities and friction."""
     x, speeds, stiffness, s = w.x, w.y, w.g, w.before
@@ -196,10 +196,10 @@ def update_multipliers(w: KernelWorld, rows: int) -> float:
         off = max(off, abs(p - x[k]) / D)
         x[k] = p
         k += 1
-    return off
+    return float(off)
 
 
-@inlined
+@compiled
 def prepare_round(w: KernelWorld, rows: int, hardness: float, corrected: bool) -> None:
     """Set one penalty stiffness per contact, and the row velocities, corrected for slip after the first round."""
     speeds, s, stiffness, speed = w.y, w.before, w.g, w.block_v
