@@ -153,6 +153,11 @@ DEFECTS = {
         "</robot>",
         '<ros2_control name="h" type="system">\n<hardware><plugin>a/Motors</plugin></hardware></ros2_control></robot>',
     ),
+    "hardware of a simulator that no plugin runs": (
+        "</robot>",
+        """<ros2_control name="h" type="system"><hardware>
+        <plugin>gz_ros2_control/GazeboSimSystem</plugin></hardware></ros2_control></robot>""",
+    ),
     "empty plugin file": ('filename="libgazebo_ros_joint_state_publisher.so"', 'filename=""'),
 }
 """Defect → the text of the good robot, and its replacement."""

@@ -22,6 +22,7 @@ from urdfkit.sim.plugins.base import Controller, Drive, Sensor
 from urdfkit.sim.plugins.builtin_publishers import JointStates, all_joint_states, joint_states
 from urdfkit.sim.plugins.controllers import CONTROLLERS
 from urdfkit.sim.plugins.controllers.joints.joint_state_broadcaster import JointStatePublisher
+from urdfkit.sim.plugins.controllers.ros2_control import SIMULATED
 from urdfkit.sim.plugins.controllers.simulation_arguments import simulation_hint
 from urdfkit.sim.plugins.drives import DRIVES
 from urdfkit.sim.plugins.sensors import SENSORS
@@ -140,8 +141,11 @@ def install(robot: Robot, setup: Setup, *, seed: int) -> Installed:
                 f"no plugin runs ros2_control `{block.name or ''}`; "
                 f"add gz_ros2_control or gazebo_ros2_control{simulation_hint(robot)}"
             )
-            code = "C718" if any(each.plugins or each.sensors for each in robot.gazebo) else _NOT_SIMULATED
-            _report(LeftOut(message, block.element.origin.position, code), "hardware", setup)
+            hardware = next((each.find("plugin") for each in block.element.find_all("hardware")), None)
+            is_simulated = hardware is not None and hardware.text in SIMULATED
+            is_meant = is_simulated or any(each.plugins or each.sensors for each in robot.gazebo)
+            at = hardware if is_simulated and hardware is not None else block.element
+            _report(LeftOut(message, at.origin.position, "C718" if is_meant else _NOT_SIMULATED), "hardware", setup)
     if not installed.publishes_joint_states:
         installed.joint_states.append(all_joint_states(setup))
     return installed

@@ -351,8 +351,8 @@ def test_a_block_that_no_plugin_runs_is_left_out_with_a_finding(tmp_path: Path) 
     (repair,) = Simulator(path, note=notes.append).repairs
     assert "no plugin runs ros2_control `arm`" in repair.message
     assert str(repair) in notes
-    assert (repair.kind, repair.code) == ("hardware", "Z833")
-    (finding,) = lint(path, target="urdfkit", select=["Z833"])
+    assert (repair.kind, repair.code) == ("hardware", "C718")
+    (finding,) = lint(path, select=["C718"])
     assert repair.position is not None
     assert (finding.span.file, finding.line) == (repair.position.file, repair.position.line)
     assert Simulator(path, note=notes.append, strict=True).repairs == ()
