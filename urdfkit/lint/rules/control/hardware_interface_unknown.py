@@ -6,6 +6,7 @@ from urdfkit.lint.facts.control.hardware_interfaces import (
     INTERFACES,
     PACKAGE,
     has_default_hardware,
+    has_gazebo_ros_control,
     is_old,
     written,
 )
@@ -85,7 +86,10 @@ class HardwareInterfaceUnknown(RobotRule):
                 f"unknown hardware interface `{text}`; did you mean `{qualified}`?",
                 fix=new_text(model, element, qualified, "safe", f"Replace with `{qualified}`"),
             )
-        for transmission in model.robot.transmissions if has_default_hardware(model.robot) else ():
+        is_simulated = has_default_hardware(model.robot) or (
+            model.target == "urdfkit" and has_gazebo_ros_control(model.robot)
+        )
+        for transmission in model.robot.transmissions if is_simulated else ():
             yield from self._not_simulated(model, transmission, misspelt)
 
     def _not_simulated(self, model: Model, transmission: Transmission, misspelt: set[Element]) -> Findings:
@@ -93,7 +97,8 @@ class HardwareInterfaceUnknown(RobotRule):
 
         if is_old(transmission):
             return
-        effect = "the default hardware of gazebo_ros_control does not simulate it"
+        simulator = "the default hardware of gazebo_ros_control" if has_default_hardware(model.robot) else "urdfkit"
+        effect = f"{simulator} does not simulate it"
         if len(transmission.joints) != 1:
             message = f"transmission `{transmission.name}` has {len(transmission.joints)} joints; {effect}"
             yield self.at(model, transmission.element, message, attribute="name", severity="note")
