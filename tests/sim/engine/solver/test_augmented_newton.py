@@ -2,14 +2,54 @@
 
 from __future__ import annotations
 
+import math
+from pathlib import Path
+
 import numpy as np
 import pytest
 
 from tests.bench.contact_rich.models import quadruped
 from tests.bench.contact_rich.scenes import FOLDED
 from tests.sim.engine.conftest import EngineOf
+from urdfkit import Simulator
 from urdfkit.sim.engine import Engine
 from urdfkit.sim.engine.simulation_memory import GUESSES
+
+LINK = (
+    '<link name="{0}"><inertial><origin xyz="{1}"/><mass value="{2}"/>'
+    '<inertia ixx="{3}" ixy="0" ixz="0" iyy="{4}" iyz="0" izz="{5}"/></inertial>{6}</link>'
+)
+JOINT = (
+    '<joint name="{0}_joint" type="revolute"><parent link="{1}"/><child link="{0}"/>'
+    '<origin xyz="{2}"/><axis xyz="{3}"/><limit lower="{4}" upper="{5}" effort="200" velocity="23"/></joint>'
+)
+BOX = '<collision><origin xyz="{0}" rpy="0 1.57 0"/><geometry><box size="{1}"/></geometry></collision>'
+
+
+def leg(name: str, x: float, y: float) -> str:
+    """Return a leg with a shape at its thigh only; its calf begins outside of its limits."""
+    side = math.copysign(1.0, y)
+    hip, thigh, calf, foot = (f"{name}_{part}" for part in ("hip", "thigh", "calf", "foot"))
+    box = BOX.format("-0.025 0 -0.16", "0.32 0.0445 0.054")
+    return (
+        LINK.format(hip, f"0 {0.01 * side} 0", 2.7, 0.005, 0.006, 0.004, "")
+        + JOINT.format(hip, "base", f"{x} {y} 0", "1 0 0", -0.87, 0.87)
+        + LINK.format(
+            thigh,
+            f"-0.01 {-0.02 * side} -0.05",
+            4.5,
+            0.055,
+            0.053,
+            0.01,
+            box,
+        )
+        + JOINT.format(thigh, hip, f"0 {0.12 * side} 0", "0 1 0", -0.94, 4.69)
+        + LINK.format(calf, "0.01 0 -0.14", 2.3, 0.03, 0.03, 0.001, "")
+        + JOINT.format(calf, thigh, "0 0 -0.35", "0 1 0", -2.82, -0.43)
+        + LINK.format(foot, "0 0 0", 1.1, 0.003, 0.005, 0.003, "")
+        + JOINT.format(foot, calf, "0 0 -0.35", "0 1 0", -9, 9)
+    )
+
 
 WEIGHT = (10.0 + 4.0 * 1.8) * 9.81
 
@@ -48,3 +88,18 @@ def test_a_reset_engine_repeats_the_same_bytes(engine_of: EngineOf) -> None:
         engine.step(700)
         states.append(engine.arrays["s"].tobytes() + engine.arrays["x"].tobytes())
     assert states[0] == states[1]
+
+
+def test_thighs_that_jam_on_the_ground_do_not_sink(tmp_path: Path) -> None:
+    """The calves return into their limits and so push the thighs, which slide on their edges with friction 1."""
+    places = {"a": (0.33, 0.07), "b": (0.33, -0.07), "c": (-0.33, 0.07), "d": (-0.33, -0.07)}
+    base = LINK.format("base", "0 0 0", 35.6, 0.4, 1.3, 1.5, BOX.format("0 0 0", "0.15 0.28 0.5"))
+    legs = "".join(leg(name, *place) for name, place in places.items())
+    path = tmp_path / "wheeled.urdf"
+    path.write_text(f'<robot name="wheeled">{base}{legs}</robot>')
+    simulator = Simulator(path)
+    deepest = 0.0
+    for _ in range(100):
+        simulator.run(0.02)
+        deepest = max(deepest, *(contact.depth for contact in simulator.state.contacts), 0.0)
+    assert deepest < 1e-4

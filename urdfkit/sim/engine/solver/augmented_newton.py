@@ -30,17 +30,18 @@ HARDER, SOFTER = 5.0, 0.3
 """Factors of the penalty after a round that converged, and after a round that did not."""
 STEPS = 3
 """Most steps of Newton's method in a round."""
-RESTING, LEAVING, RELAXED, MOVING = range(4)
+RESTING, LEAVING, RELAXED, MOVING, BOUNDED = range(5)
 """Attempts: with a hard penalty, the same without corrections of penetrations, also without slow returns of joints
-beyond their limits, and this with a soft penalty that grows."""
+beyond their limits, this with a soft penalty that grows, and with friction bounded by the normal impulses before each
+round. The rounds of the last one minimise convex functions, so they converge where friction jams a moving robot."""
 LONGEST = 16
 """Most steps in which attempts that failed are skipped."""
 SLOW = 0.5
 """Velocity [rad/s or m/s] of a dof below which `RELAXED` is tried; a robot that falls needs `MOVING` anyway."""
 FIRST_TRY = 4
 """Steps from which on the first try is given up."""
-TOTAL = 45
-"""Steps of all rounds beyond which no other round begins."""
+TOTAL, MORE = 45, 30
+"""Steps of all rounds beyond which no other round begins, and how many more the attempt `BOUNDED` may take."""
 SHORTER = (1.0, 0.3, 0.15, 0.075, 0.0375)
 """Shares of a step that are tried."""
 BALANCE, EXACT = 1e-6, 1e-9
@@ -115,11 +116,12 @@ def descend_tree(
     hardness: float,
     balance: float,
     inertia: Any,
+    bounded: bool,
 ) -> int:
     """Make steps of Newton's method at a penalty; return how many, negative if the momentum is not balanced then."""
     first, beyond = w.tree_dof[tree], w.tree_dof[tree + 1]
     step = w.slope_v
-    here = imbalance(w, tree, stride, joint_rows, contacts, hardness, 0.0)
+    here = imbalance(w, tree, stride, joint_rows, contacts, hardness, 0.0, bounded)
     for done in range(STEPS + 1):
         largest = off = 0.0
         for k in range(rows):
@@ -130,7 +132,7 @@ def descend_tree(
             return done
         if done == STEPS:
             break
-        linearise(w, tree, stride, joint_rows, contacts, hardness, inertia)
+        linearise(w, tree, stride, joint_rows, contacts, hardness, inertia, bounded)
         if not factor_tree(w, tree):
             return -done - 1
         for d in range(first, beyond):
@@ -140,7 +142,7 @@ def descend_tree(
         multiply_inertia(w, tree, inertia, step, w.slope_s)
         share = 1.0
         for share in SHORTER:
-            now = imbalance(w, tree, stride, joint_rows, contacts, hardness, share)
+            now = imbalance(w, tree, stride, joint_rows, contacts, hardness, share, bounded)
             if now < here * (1.0 - 0.1 * share):
                 break
         here = now
@@ -225,6 +227,7 @@ def remember_attempt(w: KernelWorld, tree: int, first: int, last: int) -> None:
         last: last one.
     """
     at = ATTEMPT * tree
+    last = min(last, MOVING)
     if last != w.attempt[at + LAST_ATTEMPT]:
         w.attempt[at + LAST_ATTEMPT] = last
         w.attempt[at + TURNS] = w.attempt[at + SKIPPED] = 0
@@ -278,16 +281,21 @@ def solve_single_tree(w: KernelWorld, tree: int, stride: int, rows: int, contact
     total = 0
     before = math.inf
     met = False
-    while total < TOTAL and not met:
-        taken = descend_tree(w, tree, stride, rows, joint_rows, contacts, hardness, balance, inertia)
+    while total < (TOTAL + MORE if attempt == BOUNDED else TOTAL) and not met:
+        bounded = attempt == BOUNDED
+        taken = descend_tree(w, tree, stride, rows, joint_rows, contacts, hardness, balance, inertia, bounded)
         total += max(1, abs(taken))
         off = take_over(w, rows, hardness)
         if taken >= 0 and (off <= SOLVED or GAIN * before < off <= NEAR):
             met = balance == EXACT
             balance = EXACT
-        elif attempt != MOVING and (taken < 0 or (attempt == RESTING and total >= FIRST_TRY)):
+        elif attempt < MOVING and (taken < 0 or (attempt == RESTING and total >= FIRST_TRY)):
             attempt = next_attempt(w, tree, attempt, joint_rows, rows)
             hardness = SOFT if attempt == MOVING else HARD
+            begin(w, tree, stride, rows, joint_rows, contacts, inertia)
+            off = math.inf
+        elif attempt == MOVING and (total >= TOTAL or (taken == -1 and hardness == SOFTEST)):
+            attempt, hardness, total = BOUNDED, SOFT, TOTAL
             begin(w, tree, stride, rows, joint_rows, contacts, inertia)
             off = math.inf
         elif taken < 0:
@@ -300,7 +308,7 @@ def solve_single_tree(w: KernelWorld, tree: int, stride: int, rows: int, contact
     row_velocities(w, tree, stride, joint_rows, contacts, w.sum_v, 1.0, w.y)
     for d in range(first, beyond):
         w.sum_s[d] = w.slope_s[d] = 0.0
-    brought = 0.5 * imbalance(w, tree, stride, joint_rows, contacts, 0.0, 0.0)
+    brought = 0.5 * imbalance(w, tree, stride, joint_rows, contacts, 0.0, 0.0, False)
     if not met:
         limit_energy(w, tree, rows, brought)
     solve_forward(w, first, beyond)

@@ -110,9 +110,11 @@ def load_contact(w: KernelWorld, contact: int, normal: float, first: float, seco
 
 @compiled
 def imbalance(
-    w: KernelWorld, tree: int, stride: int, joint_rows: int, contacts: int, hardness: float, share: float
+    w: KernelWorld, tree: int, stride: int, joint_rows: int, contacts: int, hardness: float, share: float, bounded: bool
 ) -> float:
     """Find what all rows exert at a share of the step, and write Jᵀ·P - M·(v - v*) into ``block_f``.
+
+    Where friction is `bounded`, its circle is that of the normal impulse x before the round.
 
     Returns:
         Its square, in the metric of M⁻¹.
@@ -133,17 +135,18 @@ def imbalance(
         k = w.contact_row[contact]
         penalty = hardness * w.row_stiffness[k]
         normal = max(0.0, w.x[k] - penalty * (w.y[k] + share * w.velocity[k]))
-        a = b = 0.0
+        a = b = most = 0.0
         if w.mu[k] > 0.0:
-            if normal > 0.0:
+            most = w.mu[k] * (w.x[k] if bounded else normal)
+            if most > 0.0:
                 a = w.x[k + 1] - penalty * (w.y[k + 1] + share * w.velocity[k + 1])
                 b = w.x[k + 2] - penalty * (w.y[k + 2] + share * w.velocity[k + 2])
-                size, most = math.sqrt(a * a + b * b), w.mu[k] * normal
+                size = math.sqrt(a * a + b * b)
                 if size > most:
                     a, b = a * most / size, b * most / size
             w.ahead[k + 1], w.ahead[k + 2] = a, b
         w.ahead[k] = normal
-        if normal > 0.0:
+        if normal > 0.0 or most > 0.0:
             load_contact(w, contact, normal, a, b)
     gather_loads(w, tree, rest)
     for d in range(first, beyond):
@@ -157,9 +160,16 @@ def imbalance(
 
 @compiled
 def linearise(
-    w: KernelWorld, tree: int, stride: int, joint_rows: int, contacts: int, hardness: float, inertia: Any
+    w: KernelWorld,
+    tree: int,
+    stride: int,
+    joint_rows: int,
+    contacts: int,
+    hardness: float,
+    inertia: Any,
+    bounded: bool,
 ) -> None:
-    """Write the derivative of M·v - Jᵀ·P into K."""
+    """Write the derivative of M·v - Jᵀ·P into K; see `imbalance`."""
     first = w.tree_dof[tree]
     for k in range(36 * w.tree_body[tree], 36 * w.tree_body[tree + 1]):
         w.push[k] = 0.0
@@ -168,18 +178,21 @@ def linearise(
         k = w.contact_row[contact]
         penalty = hardness * w.row_stiffness[k]
         z = w.x[k] - penalty * w.y[k]
-        if z <= 0.0:
+        most = w.mu[k] * (w.x[k] if bounded else z)
+        if z <= 0.0 and not (bounded and most > 0.0):
             continue
         body, normal = w.contact_body[contact], direction(w, contact, 2)
         stiff = (scale(penalty, normal[0]), scale(penalty, normal[1]))
-        if w.mu[k] == 0.0:
+        if z > 0.0 and (bounded or w.mu[k] == 0.0):
             add_product(w, body, stiff, normal)
+        if most <= 0.0:
             continue
         first_way, second_way = direction(w, contact, 0), direction(w, contact, 1)
         a, b = w.x[k + 1] - penalty * w.y[k + 1], w.x[k + 2] - penalty * w.y[k + 2]
-        size, most = math.sqrt(a * a + b * b), w.mu[k] * z
+        size = math.sqrt(a * a + b * b)
         if size <= most:
-            add_product(w, body, stiff, normal)
+            if not bounded:
+                add_product(w, body, stiff, normal)
             add_product(w, body, (scale(penalty, first_way[0]), scale(penalty, first_way[1])), first_way)
             add_product(w, body, (scale(penalty, second_way[0]), scale(penalty, second_way[1])), second_way)
             continue
@@ -193,8 +206,9 @@ def linearise(
             add(scale(a, second_way[0]), scale(-b, first_way[0])),
             add(scale(a, second_way[1]), scale(-b, first_way[1])),
         )
-        c = penalty * w.mu[k]
-        add_product(w, body, (add(stiff[0], scale(c, along[0])), add(stiff[1], scale(c, along[1]))), normal)
+        if not bounded:
+            c = penalty * w.mu[k]
+            add_product(w, body, (add(stiff[0], scale(c, along[0])), add(stiff[1], scale(c, along[1]))), normal)
         c = penalty * most / size
         add_product(w, body, (scale(c, across[0]), scale(c, across[1])), across)
     assemble_tree(w, tree, inertia)
