@@ -6,6 +6,8 @@ BIN := $(VENV)/bin
 PIP := $(BIN)/python -m pip --disable-pip-version-check
 SOURCES := pyproject.toml tests/constraints.txt
 CODE := $(CURDIR)/build/machine_code
+# The tests start hundreds of programs, which read bytecode faster than they compile it.
+PYTEST := env -u PYTHONDONTWRITEBYTECODE $(BIN)/python -m pytest
 
 .DEFAULT_GOAL := help
 .PHONY: help run test quick docs docs-serve ros2-nodes bench fidelity soak wheel clean
@@ -32,14 +34,14 @@ test: $(VENV)/.test
 	$(BIN)/lint-imports
 	$(BIN)/urdfkit sim warmup
 ifeq ($(ARGS),)
-	$(BIN)/python -m pytest -n 2 --dist worksteal -m "not browser"
-	$(BIN)/python -m pytest -m browser
+	$(PYTEST) -n 2 --dist worksteal -m "not browser"
+	$(PYTEST) -m browser
 else
-	$(BIN)/python -m pytest $(ARGS)
+	$(PYTEST) $(ARGS)
 endif
 
 quick: $(VENV)/.test
-	$(BIN)/python -m pytest -q -n 2 --dist worksteal -m "not slow and not browser and not catkin and not colcon and not sdformat" $(ARGS)
+	$(PYTEST) -q -n 2 --dist worksteal -m "not slow and not browser and not catkin and not colcon and not sdformat" $(ARGS)
 
 docs: $(VENV)/.test
 	NO_MKDOCS_2_WARNING=1 $(BIN)/mkdocs build --quiet --strict --config-file docs/site/mkdocs.yml
