@@ -10,7 +10,7 @@ import ast
 from collections.abc import Iterator
 from pathlib import Path
 
-from urdfkit.description.launch.python_constants import LaunchReader, name_of
+from urdfkit.description.launch.python_constants import LaunchReader, launch_reader, name_of
 from urdfkit.description.packages.similar_names import near_path
 from urdfkit.description.xml.source import Source, Span
 from urdfkit.errors import did_you_mean
@@ -52,7 +52,7 @@ def wrong_methods(
         folder: the MoveIt package; None if it is not in the workspace.
         model: the linted model.
     """
-    reader = LaunchReader(tree)
+    reader = launch_reader(tree)
     yield from _keywords(source, builder, "MoveItConfigsBuilder")
     for node in ast.walk(tree):
         if not isinstance(node, ast.Call) or not isinstance(node.func, ast.Attribute):
