@@ -91,10 +91,16 @@ def list_contacts(w: KernelWorld, first: int, contacts: int, alone: bool) -> int
 
 
 @inlined
-def begin(w: KernelWorld, tree: int, stride: int, rows: int, joint_rows: int, contacts: int, inertia: Any) -> None:
-    """Start from the velocities of the last step and the impulses ``before``."""
+def begin(
+    w: KernelWorld, tree: int, stride: int, rows: int, joint_rows: int, contacts: int, inertia: Any, attempt: int
+) -> None:
+    """Start from the velocities of the last step and the impulses ``before``.
+
+    How `BOUNDED` shares a load that nothing determines is arbitrary: when the jam ends, impulses start from nothing.
+    """
+    memory = 0.0 if w.attempt[ATTEMPT * tree + LAST_ATTEMPT] == BOUNDED and attempt != BOUNDED else MEMORY
     for k in range(rows):
-        w.x[k] = MEMORY * w.before[k]
+        w.x[k] = memory * w.before[k]
     for d in range(w.tree_dof[tree], w.tree_dof[tree + 1]):
         w.block_v[d] = w.v_start[d]
         w.slope_v[d] = w.v_start[d] - w.sum_v[d]
@@ -227,7 +233,6 @@ def remember_attempt(w: KernelWorld, tree: int, first: int, last: int) -> None:
         last: last one.
     """
     at = ATTEMPT * tree
-    last = min(last, MOVING)
     if last != w.attempt[at + LAST_ATTEMPT]:
         w.attempt[at + LAST_ATTEMPT] = last
         w.attempt[at + TURNS] = w.attempt[at + SKIPPED] = 0
@@ -235,7 +240,7 @@ def remember_attempt(w: KernelWorld, tree: int, first: int, last: int) -> None:
         w.attempt[at + SKIPPED] = max(0, w.attempt[at + SKIPPED] - 1)
     else:
         w.attempt[at + TURNS] += 1
-        w.attempt[at + SKIPPED] = min(w.attempt[at + TURNS], LONGEST) if last != MOVING else 0
+        w.attempt[at + SKIPPED] = min(w.attempt[at + TURNS], LONGEST) if last < MOVING else 0
 
 
 @inlined
@@ -276,7 +281,7 @@ def solve_single_tree(w: KernelWorld, tree: int, stride: int, rows: int, contact
     damped_inertia(w, tree, inertia)
     prepare(w, tree, stride, joint_rows, contacts, inertia)
     attempt = first_try = first_attempt(w, tree, joint_rows, rows)
-    begin(w, tree, stride, rows, joint_rows, contacts, inertia)
+    begin(w, tree, stride, rows, joint_rows, contacts, inertia, attempt)
     hardness, balance = HARD, BALANCE
     total = 0
     before = math.inf
@@ -286,17 +291,17 @@ def solve_single_tree(w: KernelWorld, tree: int, stride: int, rows: int, contact
         taken = descend_tree(w, tree, stride, rows, joint_rows, contacts, hardness, balance, inertia, bounded)
         total += max(1, abs(taken))
         off = take_over(w, rows, hardness)
-        if taken >= 0 and (off <= SOLVED or GAIN * before < off <= NEAR):
+        if taken >= 0 and (off <= (NEAR if bounded else SOLVED) or GAIN * before < off <= NEAR):
             met = balance == EXACT
             balance = EXACT
         elif attempt < MOVING and (taken < 0 or (attempt == RESTING and total >= FIRST_TRY)):
             attempt = next_attempt(w, tree, attempt, joint_rows, rows)
             hardness = SOFT if attempt == MOVING else HARD
-            begin(w, tree, stride, rows, joint_rows, contacts, inertia)
+            begin(w, tree, stride, rows, joint_rows, contacts, inertia, attempt)
             off = math.inf
         elif attempt == MOVING and (total >= TOTAL or (taken == -1 and hardness == SOFTEST)):
             attempt, hardness, total = BOUNDED, SOFT, TOTAL
-            begin(w, tree, stride, rows, joint_rows, contacts, inertia)
+            begin(w, tree, stride, rows, joint_rows, contacts, inertia, attempt)
             off = math.inf
         elif taken < 0:
             hardness = max(SOFTEST, SOFTER * hardness)
