@@ -9,7 +9,7 @@ import re
 from collections.abc import Iterator
 
 from urdfkit.description.xml.source import Source
-from urdfkit.lint.facts.control.ros2_controllers import PARAMETERS, declared
+from urdfkit.lint.facts.control.ros2_controllers import PARAMETERS, DeclaredController, declared
 from urdfkit.lint.facts.control.yaml_tree import Node, documents, walk, yamls
 from urdfkit.lint.model.model import Model
 
@@ -27,13 +27,12 @@ def unmet_needs(source: Source, model: Model) -> Iterator[tuple[Node, str]]:
     if PARAMETERS not in source.text:
         return
     controllers = declared(source)
+    unset = [one for one in controllers if one.settings is None and one.kind.text in _NEEDS]
+    if unset:
+        yield from _renamed(source, unset, {one.name for one in controllers}, model)
     for one in controllers:
-        kind, group = one.kind.text, one.settings
-        if group is None:
-            yield from _renamed(source, one.name, kind, {each.name for each in controllers}, model)
-            continue
-        states = group.find("state_interfaces")
-        if states is not None and kind == "joint_trajectory_controller/JointTrajectoryController":
+        states = one.settings.find("state_interfaces") if one.settings is not None else None
+        if states is not None and one.kind.text == "joint_trajectory_controller/JointTrajectoryController":
             names = states.texts()
             lacking = next((need for name, need in _NEEDED_STATES if name in names and need not in names), None)
             if lacking is not None:
@@ -43,21 +42,31 @@ def unmet_needs(source: Source, model: Model) -> Iterator[tuple[Node, str]]:
 _NEEDED_STATES = (("velocity", "position"), ("acceleration", "velocity"))
 
 
-def _renamed(source: Source, name: str, kind: str, controllers: set[str], model: Model) -> Iterator[tuple[Node, str]]:
-    """Yield the section with the parameters of a controller that has no section, if it belongs to no other node."""
-    needs = _NEEDS.get(kind)
-    texts = [text.text for file, text in model.related_files.items() if not file.endswith((".yaml", ".yml"))]
-    others = [other for other in yamls(model) if other is not source]
-    if needs is None or any(re.search(rf"(?m)^\s*[\"']?/?{re.escape(name)}[\"']?:", other.text) for other in others):
-        return
-    for root in documents(source)[0]:
-        for key, value in (entry for node in walk(root) for entry in node.entries):
-            group = value.find(PARAMETERS)
-            is_started = any(re.search(rf"[\"'\s]{re.escape(key.text)}[\"'\s]", text) for text in texts)
-            if group is None or key.text in controllers or is_started or not _has(group, needs):
-                continue
-            yield key, f"no controller has the name `{key.text}`, and controller `{name}` has no section; rename one"
-
-
-def _has(group: Node, names: tuple[str, ...]) -> bool:
-    return all(group.find(name) is not None for name in names)
+def _renamed(
+    source: Source, unset: list[DeclaredController], controllers: set[str], model: Model
+) -> Iterator[tuple[Node, str]]:
+    """Yield sections with the parameters of a controller that has no section, if they belong to no other node."""
+    others = [text.text for file, text in model.related_files.items() if not file.endswith((".yaml", ".yml"))]
+    started = {word for text in others for word in re.findall(r"(?<=[\"'\s])[\w/-]+(?=[\"'\s])", text)}
+    elsewhere = {
+        name
+        for other in yamls(model)
+        if other is not source
+        for name in re.findall(r"(?m)^\s*[\"']?/?([\w-]+)[\"']?:", other.text)
+    }
+    entries = (entry for root in documents(source)[0] for node in walk(root) for entry in node.entries)
+    sections = [
+        (key, group)
+        for key, value in entries
+        if (group := value.find(PARAMETERS)) is not None and key.text not in controllers and key.text not in started
+    ]
+    by_kind = {
+        kind: [key for key, group in sections if all(group.find(name) is not None for name in names)]
+        for kind, names in _NEEDS.items()
+    }
+    for one in unset:
+        for key in by_kind[one.kind.text][:1] if one.name not in elsewhere else ():
+            yield (
+                key,
+                f"no controller has the name `{key.text}`, and controller `{one.name}` has no section; rename one",
+            )
