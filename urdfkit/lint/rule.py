@@ -131,9 +131,9 @@ class FaultRule(Rule):
     def check(self, fault: Fault, model: Model) -> Findings:
         """Yield the finding for a fault, unless a missing file may define the name and it is similar to no other."""
         if self.may_be_elsewhere and (missing := model.missing_file):
-            near = fault.message.partition("did you mean `")[2].partition("`")[0]
-            is_similar = near and nearest(fault.name or "", (near, near.removeprefix("xacro:")), cutoff=0.85)
-            if not is_similar and model.target != "urdfkit":  # whose repairs are findings
+            if (
+                nearest(fault.name or "", fault.candidates, cutoff=0.85) is None and model.target != "urdfkit"
+            ):  # whose repairs are findings
                 return  # include-not-found reports the missing file.
             help = f"it may be defined in {missing}, which was not found"
             yield self.at(

@@ -66,7 +66,5 @@ def _renamed(
     }
     for one in unset:
         for key in by_kind[one.kind.text][:1] if one.name not in elsewhere else ():
-            yield (
-                key,
-                f"no controller has the name `{key.text}`, and controller `{one.name}` has no section; rename one",
-            )
+            message = f"no controller has the name `{key.text}`, and controller `{one.name}` has no section; rename one"
+            yield key, message

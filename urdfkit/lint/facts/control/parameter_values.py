@@ -10,7 +10,7 @@ from collections.abc import Iterator
 
 from urdfkit.lint.facts.control.controller_settings import ControllerSettings, settings
 from urdfkit.lint.facts.control.ros2_controllers import PARAMETERS, declared
-from urdfkit.lint.facts.control.yaml_tree import Node, documents, not_a_number, walk
+from urdfkit.lint.facts.control.yaml_tree import Node, documents, not_a_number, number_of, walk
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -103,7 +103,7 @@ def value_defects(node: Node, is_ros2: bool) -> Defects:
                 yield inner[1], f"`{inner[0].text}` in `velocity_ff` is {problem}"
     if {"p", "i", "d"} <= values.keys():
         for name in "pid":
-            gain = _number(values[name])
+            gain = number_of(values[name])
             if problem := not_a_number(values[name]):
                 yield values[name], f"gain `{name}` is {problem}"
             elif gain is not None and gain < 0.0:
@@ -113,7 +113,7 @@ def value_defects(node: Node, is_ros2: bool) -> Defects:
         if not last.startswith("min_"):
             continue
         above = f"{prefix}.max_{last[4:]}" if prefix else f"max_{last[4:]}"
-        lower, upper = _number(value), _number(values.get(above))
+        lower, upper = number_of(value), number_of(values.get(above))
         if lower is not None and upper is not None and lower > upper and upper >= 0.0:
             yield value, f"`{name}` {lower:g} is greater than `{above}` {upper:g}"
     for key, value in node.entries:
@@ -139,17 +139,10 @@ def _of_number(name: str, value: Node, is_ros2: bool) -> Defects:
     if problem := not_a_number(value):
         yield value, f"`{name}` is {problem}"
         return
-    number = _number(value) if last not in _OF_ANY_SIGN else None
+    number = number_of(value) if last not in _OF_ANY_SIGN else None
     is_positive = last in _POSITIVE or (is_ros2 and last in _POSITIVE_IN_ROS2)
     if number is not None and (number < 0.0 or (number == 0.0 and is_positive)):
         yield value, f"`{name}` is {number:g}; it must {'be positive' if is_positive else 'not be negative'}"
-
-
-def _number(node: Node | None) -> float | None:
-    try:
-        return float(node.text) if node is not None else None
-    except ValueError:
-        return None
 
 
 def incomplete_controllers(source: Source, is_typed_at_start: bool) -> Defects:
@@ -264,7 +257,7 @@ def contradictions(source: Source, robot: Robot) -> Defects:
     for one in settings(source):
         joint, tolerance = one.group.find("joint"), one.group.find("goal_tolerance")
         moved = robot.joint_by_name.get(joint.text) if joint is not None else None
-        value = _number(tolerance)
+        value = number_of(tolerance)
         if moved is None or moved.limit is None or tolerance is None or value is None or moved.type == "continuous":
             continue
         stroke = (moved.limit.upper or 0.0) - (moved.limit.lower or 0.0)

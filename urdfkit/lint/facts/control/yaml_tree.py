@@ -98,6 +98,14 @@ def not_a_number(node: Node) -> str:
     return "" if node.is_plain else f'"{node.text}", a text in quotes'
 
 
+def number_of(node: Node | None) -> float | None:
+    """Return the number that a value is; None for other values, for `.inf` and for `.nan`."""
+    try:
+        return float(node.text) if node is not None else None
+    except ValueError:
+        return None
+
+
 def walk(node: Node) -> Iterator[Node]:
     """Yield a node and all nodes below it."""
     waiting = [(node, 0)]

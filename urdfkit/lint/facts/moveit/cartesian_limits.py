@@ -10,7 +10,7 @@ from collections.abc import Iterator
 
 from urdfkit.description.xml.source import Source
 from urdfkit.errors import nearest, suggestion
-from urdfkit.lint.facts.control.yaml_tree import Node, documents, not_a_number
+from urdfkit.lint.facts.control.yaml_tree import Node, documents, not_a_number, number_of
 from urdfkit.lint.facts.moveit.settings import unwrapped
 
 _UNITS = {"max_trans_vel": "m/s", "max_trans_acc": "m/s²", "max_trans_dec": "m/s²", "max_rot_vel": "rad/s"}
@@ -40,8 +40,8 @@ def _defects(section: Node, limits: Node) -> Iterator[tuple[Node, str]]:
                 yield key, f"unknown Cartesian limit `{key.text}`{suggestion(near)}"
         elif problem := not_a_number(value):
             yield value, f"`{key.text}` is {problem}"
-        elif value.kind == "text" and value.text and "$" not in value.text and "(" not in value.text:
-            number, is_deceleration = float(value.text), key.text == "max_trans_dec"
+        elif value.kind == "text" and (number := number_of(value)) is not None:
+            is_deceleration = key.text == "max_trans_dec"
             if number == 0.0 or (number > 0.0) is is_deceleration:
                 sign = "negative" if is_deceleration else "positive"
                 yield value, f"`{key.text}` is {number:g} {_UNITS[key.text]}; it must be {sign}"

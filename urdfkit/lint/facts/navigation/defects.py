@@ -12,7 +12,7 @@ from collections.abc import Iterator
 from urdfkit.description.xml.source import Source
 from urdfkit.errors import nearest, suggestion
 from urdfkit.lint.facts.control.ros2_controllers import PARAMETERS
-from urdfkit.lint.facts.control.yaml_tree import Node, documents, not_a_number, walk
+from urdfkit.lint.facts.control.yaml_tree import Node, documents, not_a_number, number_of, walk
 from urdfkit.lint.facts.navigation.tables import (
     DEFAULTS,
     DOUBLES,
@@ -76,10 +76,12 @@ def misspelt_navigation(source: Source) -> Iterator[tuple[Node, str, str]]:
 
     if PARAMETERS not in source.text:
         return
-    written = [key.text.strip("/").rpartition("/")[2] for key, _ in sections(source)]
-    for (key, group), name in zip(list(sections(source)), written, strict=True):
+    valid = DOUBLES | INTEGERS | OTHERS
+    named = [(key, group, key.text.strip("/").rpartition("/")[2]) for key, group in sections(source)]
+    written = {name for _, _, name in named}
+    for key, group, name in named:
         if name not in NODES:
-            near = next((each for each in sorted(NODES - {*written}) if is_slip(name, each)), None)
+            near = next((each for each in sorted(NODES - written) if is_slip(name, each)), None)
             if near is not None:
                 yield key, "node", near
             continue
@@ -97,7 +99,6 @@ def misspelt_navigation(source: Source) -> Iterator[tuple[Node, str, str]]:
                     near = next((each for each in _TOPICS if is_slip(topic, each)), None)
                     if near is not None:
                         yield value, "topic", value.text.removesuffix(topic) + near
-                valid = DOUBLES | INTEGERS | OTHERS
                 if value.kind == "group" or parameter.text in valid or len(parameter.text) < 6:
                     continue
                 near = next((each for each in sorted(valid - names) if is_slip(parameter.text, each)), None)
@@ -164,8 +165,8 @@ def _values(node: Node) -> Defects:
             continue
         if problem := not_a_number(value):
             yield value, f"`{name}` is {problem}"
-        elif "(" not in value.text and float(value.text) <= 0.0 and not (float(value.text) == 0.0 and name in _ZERO):
-            yield value, f"`{name}` is {float(value.text):g}; it must be positive"
+        elif (number := number_of(value)) is not None and (number < 0.0 or (number == 0.0 and name not in _ZERO)):
+            yield value, f"`{name}` is {number:g}; it must be positive"
 
 
 _ZERO = ("robot_radius", "inflation_radius", "width", "height")
@@ -185,10 +186,10 @@ def _velocity_limits(group: Node) -> Defects:
         if len(value.items) not in (3, 6):
             yield value, f"`{name}` has {len(value.items)} values; velocity_smoother requires 3 (x, y, rotation) or 6"
         for item in value.items:
-            is_number = item.is_plain and re.fullmatch(r"[-+]?[\d.]+(?:[eE][-+]?\d+)?", item.text) is not None
-            if is_number and float(item.text) * sign > 0.0:
+            number = number_of(item) if item.is_plain else None
+            if number is not None and number * sign > 0.0:
                 wanted = "negative" if sign > 0 else "positive"
-                yield item, f"`{name}` has {float(item.text):g}; velocity_smoother requires zero or {wanted} values"
+                yield item, f"`{name}` has {number:g}; velocity_smoother requires zero or {wanted} values"
                 break
 
 

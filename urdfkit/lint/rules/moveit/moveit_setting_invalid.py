@@ -105,15 +105,8 @@ def _misspelt(entry: MoveitEntry, names: tuple[str, ...]) -> Iterator[tuple[Node
             yield key, f"unknown parameter `{key.text}` of {entry.kind} `{entry.name.text}`; did you mean `{near}`?"
 
 
-def _number(node: Node | None) -> float | None:
-    try:
-        return float(node.text) if node is not None else None
-    except ValueError:
-        return None
-
-
 def _group(entry: MoveitEntry) -> Iterator[tuple[Node, str]]:
-    from urdfkit.lint.facts.control.yaml_tree import not_a_number
+    from urdfkit.lint.facts.control.yaml_tree import not_a_number, number_of
     from urdfkit.lint.facts.moveit.settings import SOLVER_KEYS, SOLVERS
     from urdfkit.lint.fix_builders import nearest
 
@@ -128,7 +121,7 @@ def _group(entry: MoveitEntry) -> Iterator[tuple[Node, str]]:
         yield only_position, f"`position_only_ik` of group `{entry.name.text}` is {text}; write true or false"
     for name in ("kinematics_solver_timeout", "kinematics_solver_search_resolution"):
         node = entry.settings.find(name)
-        value = _number(node)
+        value = number_of(node)
         if node is not None and (problem := not_a_number(node)):
             yield node, f"`{name}` of group `{entry.name.text}` is {problem}"
         elif node is not None and value is not None and value <= 0.0:
@@ -155,6 +148,7 @@ def _not_boolean(entry: MoveitEntry) -> Iterator[tuple[str, Node, str]]:
 
 
 def _joint(entry: MoveitEntry) -> Iterator[tuple[Node, str]]:
+    from urdfkit.lint.facts.control.yaml_tree import number_of
     from urdfkit.lint.facts.moveit.settings import LIMIT_KEYS
 
     settings, joint = entry.settings, entry.name.text
@@ -166,7 +160,7 @@ def _joint(entry: MoveitEntry) -> Iterator[tuple[Node, str]]:
         is_flag = key.text.startswith("has_") and kind == "limits"
         if is_flag and node.text.lower() in ("true", "yes", "on"):
             limit = settings.find(f"max_{quantity}")
-            value = _number(limit)
+            value = number_of(limit)
             if limit is None and key.text in LIMIT_KEYS and f"max_{quantity}" not in misspelt:
                 yield key, f"`{key.text}` of joint `{joint}` is true, but `max_{quantity}` is missing"
             elif quantity == "position" and settings.find("min_position") is None:
@@ -179,11 +173,11 @@ def _joint(entry: MoveitEntry) -> Iterator[tuple[Node, str]]:
             elif limit is not None and value is not None and value <= 0.0 and quantity not in _SIGNED:
                 yield limit, f"`max_{quantity}` of joint `{joint}` is {value:g}; it must be positive"
         elif key.text.startswith("max_") and settings.find(f"has_{key.text[4:]}_limits") is None:
-            value = _number(node)
+            value = number_of(node)
             if value is not None and value < 0.0 and key.text[4:] not in _SIGNED and key.text in LIMIT_KEYS:
                 yield node, f"`{key.text}` of joint `{joint}` is {value:g}; it must be positive"
     lower, upper = settings.find("min_position"), settings.find("max_position")
-    values = _number(lower), _number(upper)
+    values = number_of(lower), number_of(upper)
     if lower is not None and values[0] is not None and values[1] is not None and values[0] >= values[1]:
         yield lower, f"`min_position` of joint `{joint}` is {values[0]:g}, not less than `max_position` {values[1]:g}"
 
