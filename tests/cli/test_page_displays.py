@@ -13,7 +13,14 @@ import pytest
 pytest.importorskip("meshcat")
 pytest.importorskip("pinocchio")
 
-from tests.app.simulation.displays.test_displays import MARK, Simulation, mesh_marker, package_with_mesh
+from tests.app.simulation.displays.test_displays import (
+    INTERACTIVE,
+    MARK,
+    Simulation,
+    interactive_marker,
+    mesh_marker,
+    package_with_mesh,
+)
 from tests.cli.lab import drawn, panel
 from tests.view.conftest import show
 from urdfkit.app.simulation.displays.displays import Displays
@@ -173,6 +180,71 @@ def test_the_mesh_of_a_marker_is_drawn(shown, visits, until, keep, tmp_path: Pat
     page.evaluate("urdfkit.viewport.fit(urdfkit.scene.bounds(), [-0.3, -1, 0.9], 3)")
     drawn(page)
     keep(page, "marker-mesh")
+    assert visits.problems == []
+
+
+def test_interactive_markers_are_dragged_clicked_and_moved_by_keys(shown, visits, until, keep) -> None:
+    from urdfkit.messages import from_fields
+
+    page = visits.open(shown.server.url, ready=False)
+    simulation, kind = shown.simulation, f"{INTERACTIVE}Update"
+    simulation.transform("map", "base", 1.0, 2.0)
+    feedback: list[Any] = []
+    simulation.bus.subscribe("/tool/feedback", f"{INTERACTIVE}Feedback", feedback.append)
+    simulation.bus.publish(
+        "/tool/update", kind, from_fields(kind, {"type": 1, "markers": [interactive_marker("grip", 1.8, 2.0)]})
+    )
+    until(lambda: shown.tick() or page.locator("#open-displays").is_visible())
+    panel(page, "displays")
+    until(lambda: shown.tick() or page.locator("[data-display='/tool/update']").first.is_visible())
+    page.locator("[data-display='/tool/update'] input[type=checkbox]").check()
+    until(lambda: shown.tick() or page.get_by_role("button", name="Move grip").is_visible())
+    page.evaluate("urdfkit.viewport.fit(urdfkit.scene.bounds(), [-0.5, -1, 0.8], 4)")
+    drawn(page)
+    keep(page, "interactive-markers")
+
+    def point(x: float, y: float, z: float) -> list[float]:
+        """Return the position in the window of a point from the start of the marker, 1.8 2 0.3 in the map."""
+        at = """([x, y, z]) => {
+          const { viewer, pane } = urdfkit.viewport, box = pane.getBoundingClientRect();
+          const p = viewer.scene.localToWorld(new MeshCat.THREE.Vector3(x, y, z)).project(viewer.camera);
+          return [box.left + ((p.x + 1) / 2) * box.width, box.top + ((1 - p.y) / 2) * box.height];
+        }"""
+        found: list[float] = page.evaluate(at, [1.8 + x, 2.0 + y, 0.3 + z])
+        return found
+
+    def drag(start: list[float], end: list[float]) -> Any:
+        feedback.clear()
+        page.mouse.move(*start)
+        page.mouse.down()
+        page.mouse.move(*end, steps=4)
+        until(lambda: shown.tick() or any(each.event_type == 1 for each in feedback))
+        page.mouse.up()
+        until(lambda: shown.tick() or (feedback and feedback[-1].event_type == 5))
+        assert [feedback[0].event_type, feedback[0].marker_name] == [4, "grip"]
+        return feedback[-1]
+
+    last = drag(point(0.55, 0, 0), point(0.85, 0, 0))
+    assert (last.control_name, last.header.frame_id, last.client_id) == ("move x", "map", "urdfkit")
+    assert last.pose.position.x == pytest.approx(2.1, abs=0.02)
+    assert [last.pose.position.y, last.pose.position.z] == pytest.approx([2.0, 0.3], abs=1e-6)
+    c = 0.5 * np.cos(np.pi / 4)
+    last = drag(point(0.3 + c, c, 0), point(0.3 + c, -c, 0))
+    assert last.control_name == "turn z"
+    assert 2 * np.arctan2(last.pose.orientation.z, last.pose.orientation.w) == pytest.approx(-np.pi / 2, abs=0.05)
+    assert last.pose.position.x == pytest.approx(2.1, abs=0.02)
+    feedback.clear()
+    page.mouse.click(*point(0.3, 0, 0))
+    until(lambda: shown.tick() or feedback)
+    assert [feedback[0].event_type, feedback[0].control_name] == [3, "press"]
+    page.get_by_role("button", name="Move grip").press("Shift+ArrowUp")
+    until(lambda: shown.tick() or len(feedback) == 2)
+    assert feedback[1].pose.position.z == pytest.approx(0.35)
+    page.get_by_role("button", name="Home").press("Enter")
+    until(lambda: shown.tick() or len(feedback) == 3)
+    assert [feedback[2].event_type, feedback[2].menu_entry_id] == [2, 7]
+    drawn(page)
+    keep(page, "interactive-markers-moved")
     assert visits.problems == []
 
 

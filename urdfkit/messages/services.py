@@ -11,6 +11,11 @@ SERVICE_MESSAGES: dict[str, str] = {
     "std_srvs/srv/SetBool_Response": "bool success\nstring message",
     "std_srvs/srv/Trigger_Request": _EMPTY,
     "std_srvs/srv/Trigger_Response": "bool success\nstring message",
+    "visualization_msgs/srv/GetInteractiveMarkers_Request": _EMPTY,
+    "visualization_msgs/srv/GetInteractiveMarkers_Response": """
+        uint64 sequence_number
+        visualization_msgs/InteractiveMarker[] markers
+    """,
     "gazebo_msgs/srv/SpawnModel_Response": _REPORT,
     "gazebo_msgs/srv/DeleteModel_Response": _REPORT,
     "gazebo_msgs/srv/SetModelState_Request": "gazebo_msgs/ModelState model_state",

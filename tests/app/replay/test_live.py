@@ -113,6 +113,16 @@ def test_tools_of_the_page_publish_a_goal_and_an_initial_pose_on_the_graph() -> 
     assert estimate.pose.covariance[0] == 0.25
 
 
+def test_a_service_of_the_graph_answers_while_the_page_goes_on_and_a_missing_one_is_silent() -> None:
+    with rosbridge(Simulator("simpleton")) as url:
+        shown, answers = ShownRobot.read(find_model(["simpleton"])), []
+        with following(Page("sim", port=0), shown, url, pytest.fail) as session:
+            session.request_markers("/tool/update", answers.append)
+            session.topics.call("/get_current_world", "simulation_interfaces/srv/GetCurrentWorld", answers.append)
+            until(session, lambda: answers)
+    assert [each.world.name for each in answers] == ["empty"]
+
+
 def test_topic_lists_echoes_and_publishes_on_another_graph(capsys: pytest.CaptureFixture[str]) -> None:
     simulator = Simulator("simpleton")
     speeds: list[float] = []

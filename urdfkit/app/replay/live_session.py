@@ -11,6 +11,7 @@ from urdfkit.app.replay.live_topics import LiveTopics
 from urdfkit.app.replay.observed_robot import MOTION, ObservedRobot
 from urdfkit.app.replay.observed_session import ObservedSession
 from urdfkit.app.simulation.displays.displays import POSES, pose_message
+from urdfkit.app.simulation.displays.interactive_markers import SERVICE
 from urdfkit.app.simulation.features.feature import Done
 from urdfkit.app.simulation.features.topic_panel import ECHO
 from urdfkit.app.viewer.shown_robot import ShownRobot
@@ -101,6 +102,10 @@ class LiveSession(ObservedSession):
             self.sensors.find()
         self._drive()
 
+    def request_markers(self, topic: str, take: Callable[[Any], None]) -> None:
+        """Request all interactive markers of a server, which it publishes on a topic in ROS 1 only."""
+        self.topics.call(f"{topic.rpartition('/')[0]}/get_interactive_markers", SERVICE, take)
+
     def close(self) -> None:
         """Stop a robot that is driven, and leave the graph."""
         if self._driven:
@@ -153,5 +158,5 @@ class LiveSession(ObservedSession):
     def _publish(self, request: Request) -> Done:
         name, type = absolute(request.values["topic"]), full_type_name(request.values["type"])
         self.bus.advertise(name, type)
-        self.topics.publish(name, type, from_fields(type, request.values["message"]))
+        self.topics.publish(name, type, from_fields(type, request.values["message"]), wait=MATCH)
         return None

@@ -11,6 +11,7 @@ from urdfkit.bridges.bridge import CallQueue
 from urdfkit.bridges.node.node import End, Node, UnknownTypeError, Writer, publisher_quality, subscription_quality
 from urdfkit.bus import Bus, Topic
 from urdfkit.errors import ResourceError, UsageError
+from urdfkit.messages import from_fields
 
 SEARCH = 0.5
 """Seconds between two searches for new topics."""
@@ -79,6 +80,18 @@ class LiveTopics:
             while self._clock() < end and not writer.is_matched():
                 time.sleep(0.01)
         self._writers[topic].publish(self.node.encode(message, type))
+
+    def call(self, service: str, type: str, take: Callable[[Any], None]) -> None:
+        """Call a service without values in a thread; `update` gives its response, unless the call fails, to `take`."""
+
+        def work() -> None:
+            try:
+                response = from_fields(f"{type}_Response", self.node.call(service, type, {}))
+            except Exception:  # of a missing server, by several classes
+                return
+            self.calls.add(lambda: take(response))
+
+        Thread(target=work, name=service, daemon=True).start()
 
     def close(self) -> None:
         """End all subscriptions and leave the graph."""

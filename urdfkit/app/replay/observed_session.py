@@ -48,6 +48,11 @@ class ObservedDisplays(Displays):
         found: Array | None = session.frame_pose(frame)
         return found
 
+    def request_markers(self, topic: str, take: Callable[[Any], None]) -> None:
+        """Request all interactive markers of a server for `take`."""
+        session: Any = self.simulator
+        session.request_markers(topic, take)
+
 
 class ObservedPanels(RobotPanels):
     """Properties and joint positions of an observed robot."""
@@ -130,6 +135,9 @@ class ObservedSession:
     def frame_pose(self, frame: str) -> Array | None:
         """Return the pose of a frame on the page, shape (4, 4); None for an unknown frame."""
         return self._robot.frame_pose(frame, self.time_of_poses())
+
+    def request_markers(self, topic: str, take: Callable[[Any], None]) -> None:
+        """Request all interactive markers of a server: nothing answers."""
 
     def close(self) -> None:
         """Close the bridges."""

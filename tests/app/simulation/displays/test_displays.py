@@ -25,6 +25,7 @@ from urdfkit.view.content.mesh_store import GeometryStore
 from urdfkit.view.protocol.page_requests import Request
 
 MARK = "visualization_msgs/msg/Marker"
+INTERACTIVE = "visualization_msgs/msg/InteractiveMarker"
 TURNED = {"x": 0.0, "y": 0.0, "z": np.sin(np.pi / 4), "w": np.cos(np.pi / 4)}
 """90° about z."""
 
@@ -44,6 +45,22 @@ def mesh_marker(id: int, uri: str) -> dict[str, Any]:
     """Return the fields of a red marker with a mesh."""
     half = {"x": 0.5, "y": 0.5, "z": 0.5}
     return {"id": id, "type": 10, "mesh_resource": uri, "scale": half, "color": {"r": 1.0, "a": 1.0}}
+
+
+def interactive_marker(name: str, x: float = 0.5, y: float = 0.0) -> dict[str, Any]:
+    """Return the fields of an interactive marker in the frame of the map with a handle along each axis and a button."""
+    half = np.sqrt(0.5)
+    turns = {"x": {"w": 1.0}, "y": {"z": half, "w": half}, "z": {"y": -half, "w": half}}
+    box = {"type": 1, "scale": {"x": 0.2, "y": 0.2, "z": 0.2}, "color": {"r": 0.9, "g": 0.6, "a": 1.0}}
+    controls: list[dict[str, Any]] = [
+        {"name": "press", "interaction_mode": 2, "always_visible": True, "markers": [box]}
+    ]
+    for axis, turn in turns.items():
+        controls.append({"name": f"move {axis}", "orientation": turn, "interaction_mode": 3})
+        controls.append({"name": f"turn {axis}", "orientation": turn, "interaction_mode": 5})
+    pose = {"position": {"x": x, "y": y, "z": 0.3}, "orientation": {"w": 1.0}}
+    marker = {"header": {"frame_id": "map"}, "name": name, "pose": pose, "scale": 1.0, "controls": controls}
+    return {**marker, "menu_entries": [{"id": 7, "title": "Home"}]}
 
 
 class Simulation:
@@ -207,6 +224,38 @@ def test_a_marker_has_a_mesh_of_a_package_and_no_other_file(made, tmp_path: Path
     simulation.publish("/marks", MARK, "laser", id=2, action=2)
     assert shown(made, "/marks")["fault"] is None
     assert len(page.geometries) == 1
+
+
+def test_interactive_markers_are_kept_as_their_server_sends_them(made) -> None:
+    simulation, _, displays = made
+    simulation.transform("map", "base", 1.0, 2.0)
+
+    def send(kind: str, topic: str, **fields: Any) -> None:
+        simulation.bus.publish(topic, f"{INTERACTIVE}{kind}", from_fields(f"{INTERACTIVE}{kind}", fields))
+
+    def markers() -> dict[str, Any]:
+        return {each["items"][0]["name"]: each["items"][0] for each in shown(made, "/tool/update")["groups"]}
+
+    send("Init", "/tool/update_full", markers=[interactive_marker("a"), interactive_marker("b", 1.5)])
+    send("Update", "/tool/update", type=0)
+    first = markers()
+    assert [each["mode"] for each in first["a"]["controls"]] == [2, 3, 5, 3, 5, 3, 5]
+    assert first["a"]["controls"][0]["items"][0]["shape"] == "cube"
+    assert (first["b"]["pose"][:3], first["b"]["frame"], first["b"]["menu"]) == ([1.5, 0.0, 0.3], "map", [[7, "Home"]])
+    moved = {"name": "b", "header": {"frame_id": "base"}, "pose": {"position": {"y": 2.0}}}
+    send("Update", "/tool/update", type=1, erases=["a"], poses=[moved], markers=[interactive_marker("c")])
+    after = markers()
+    assert after.keys() == {"b", "c"}
+    assert (after["b"]["pose"], after["b"]["frame"]) == ([0.0, 2.0, 0.0, 0, 0, 0, 1], "base")
+    asked: list[Any] = []
+    displays.request_markers = lambda topic, take: asked.append((topic, take))  # that of a graph of ROS 2
+    send("Update", "/other/update", type=0)
+    shown(made, "/other/update")
+    ((topic, take),) = asked
+    assert topic == "/other/update"
+    response = {"sequence_number": 4, "markers": [interactive_marker("d")]}
+    take(from_fields("visualization_msgs/srv/GetInteractiveMarkers_Response", response))
+    assert shown(made, "/other/update")["groups"][0]["items"][0]["name"] == "d"
 
 
 def test_frames_have_their_ages(made) -> None:

@@ -9,10 +9,11 @@ import numpy as np
 
 from urdfkit.app.simulation.displays.drawings import CLOUDS, KINDS, Item, drawing
 from urdfkit.app.simulation.displays.frame_tree import FrameTree, seven_of
+from urdfkit.app.simulation.displays.interactive_markers import INIT, UPDATE, InteractiveMarkerStore, init_topic
 from urdfkit.app.simulation.displays.marker_meshes import MarkerMeshes
 from urdfkit.app.simulation.displays.markers import MARKER, MARKERS, MarkerStore
 from urdfkit.app.simulation.features.feature import Done, Feature, Takes
-from urdfkit.bus import Subscription, Topic
+from urdfkit.bus import Topic
 from urdfkit.description.packages.resolver import Packages
 from urdfkit.errors import UsageError
 from urdfkit.linear_algebra import Array, matmul
@@ -24,7 +25,7 @@ from urdfkit.view.server.server import Server
 
 DISPLAY, FRAMES = "display:", "frames"
 """Key of a display, with its topic and after another colon the field that colours points; key of the frames."""
-TYPES = (*KINDS, *CLOUDS, MARKER, MARKERS)
+TYPES = (*KINDS, *CLOUDS, MARKER, MARKERS, UPDATE)
 """Types of messages that have a display."""
 FIXED = ("nav_msgs/msg/OccupancyGrid", "nav_msgs/msg/GridCells", "nav_msgs/msg/Path")
 """Types whose drawings follow their frame after the message."""
@@ -89,6 +90,14 @@ class Displays(Feature):
             packages = self.simulator.kinematics.robot.packages or Packages()
             self._meshes = MarkerMeshes(packages, self.server.geometries)
         return self._meshes.name(uri)
+
+    def request_markers(self, topic: str, take: Callable[[Any], None]) -> None:
+        """Request all interactive markers of a server for `take`, where the topics come from a graph with services.
+
+        Args:
+            topic: of its updates.
+            take: receives the response.
+        """
 
     def tick(self) -> None:
         """Subscribe to the wanted topics, and send their drawings."""
@@ -161,16 +170,27 @@ class _Display:
     def __init__(self, displays: Displays, key: str, topic: Topic, field: str) -> None:
         self._displays, self._key, self._topic, self._field = displays, key, topic, field
         simulator = displays.simulator
-        is_marker = topic.type in (MARKER, MARKERS)
-        self._markers = MarkerStore(lambda: simulator.t, displays.mesh) if is_marker else None
+        self._markers: MarkerStore | InteractiveMarkerStore | None = None
+        if topic.type in (MARKER, MARKERS):
+            self._markers = MarkerStore(lambda: simulator.t, displays.mesh)
+        elif topic.type == UPDATE:
+            self._markers = InteractiveMarkerStore(displays.mesh)
         self._groups: list[tuple[str, Array | None, list[Item]]] = []
         self._waiting: tuple[Any, Array | None] | None = None
         self._sent: tuple[int, list[Any]] | None = None
         self._due = 0.0
         displays.frames.rows()  # follow the transforms from now on
-        if topic.count and topic.latest is not None:
-            self._take(topic.latest)
-        self._subscription: Subscription = simulator.bus.subscribe(topic.name, topic.type, self._take)
+        topics = [topic]
+        if topic.type == UPDATE:
+            topics = [
+                each for each in simulator.bus.topics if each.name == init_topic(topic.name) and each.type == INIT
+            ]
+            topics.append(topic)
+            displays.request_markers(topic.name, self._take)
+        for each in topics:
+            if each.count and each.latest is not None:
+                self._take(each.latest)
+        self._subscriptions = [simulator.bus.subscribe(each.name, each.type, self._take) for each in topics]
 
     def _take(self, message: Any) -> None:
         if self._markers is not None:
@@ -222,4 +242,5 @@ class _Display:
 
     def close(self) -> None:
         """Unsubscribe."""
-        self._subscription.close()
+        for subscription in self._subscriptions:
+            subscription.close()

@@ -199,10 +199,14 @@ def xyz_of(value: Any) -> list[float]:
 
 def seven(value: Any) -> list[float]:
     """Return a pose as x y z [m] and unit quaternion x y z w."""
-    q = value.orientation
+    return [*xyz_of(value.position), *unit_quaternion(value.orientation)]
+
+
+def unit_quaternion(q: Any) -> list[float]:
+    """Return a quaternion as x y z w of length 1; the identity for one of length 0."""
     turn = [finite(q.x), finite(q.y), finite(q.z), finite(q.w)]
     length = math.sqrt(sum(x * x for x in turn))
-    return [*xyz_of(value.position), *([x / length for x in turn] if length > 1e-9 else [0.0, 0.0, 0.0, 1.0])]
+    return [x / length for x in turn] if length > 1e-9 else [0.0, 0.0, 0.0, 1.0]
 
 
 def finite(value: float) -> float:

@@ -54,7 +54,7 @@ class MarkerStore:
                 self._kept.pop(key, None)
             elif len(self._kept) < MOST or key in self._kept:
                 life = marker.lifetime.sec + 1e-9 * marker.lifetime.nanosec
-                drawn, fault = self._of_mesh(marker) if marker.type == MESH else (items(marker), "")
+                drawn, fault = drawn_marker(marker, self._mesh)
                 ends = self._now() + life if life > 0 else math.inf
                 self._kept[key] = _Kept(marker.header.frame_id, drawn, ends, fault)
 
@@ -72,14 +72,22 @@ class MarkerStore:
         """Why a marker with a mesh is not drawn; empty if all are."""
         return next((kept.fault for kept in self._kept.values() if kept.fault), "")
 
-    def _of_mesh(self, marker: Any) -> tuple[list[Item], str]:
-        """Return the item of a marker with a mesh; no item and a fault if the mesh cannot be read."""
-        try:
-            name = self._mesh(marker.mesh_resource)
-        except UrdfkitError as error:
-            return [], f"a marker is not shown: {error}"
-        look = {"color": _rgba(marker.color), "own": bool(marker.mesh_use_embedded_materials)}
-        return [{"mesh": name, "pose": seven(marker.pose), "scale": xyz_of(marker.scale), **look}], ""
+
+def drawn_marker(marker: Any, mesh: Callable[[str], str]) -> tuple[list[Item], str]:
+    """Return the items of a marker in its frame, and why a mesh cannot be read, empty otherwise.
+
+    Args:
+        marker: the Marker.
+        mesh: function that returns the name of the mesh at a URI for the page; it raises `UrdfkitError`.
+    """
+    if marker.type != MESH:
+        return items(marker), ""
+    try:
+        name = mesh(marker.mesh_resource)
+    except UrdfkitError as error:
+        return [], f"a marker is not shown: {error}"
+    look = {"color": _rgba(marker.color), "own": bool(marker.mesh_use_embedded_materials)}
+    return [{"mesh": name, "pose": seven(marker.pose), "scale": xyz_of(marker.scale), **look}], ""
 
 
 def items(marker: Any) -> list[Item]:

@@ -16,6 +16,8 @@ export class Display {
     Object.assign(this, { page, topic, type, points });
     this.options = { on: false, color: COLOURS[count++ % COLOURS.length], size: 1, decay: 0, field: "", ...options };
     this.drawn = []; // {time, root, groups}
+    this.late = null; // the newest message during a drag
+    this.handles = h("div.handles");
     this.#row();
     if (this.options.on) this.#subscribe(true);
   }
@@ -29,7 +31,7 @@ export class Display {
     this.box = h("input", { type: "checkbox", id, checked: this.options.on });
     this.box.addEventListener("change", () => this.turn(this.box.checked));
     this.fault = h("p.quiet.fault-line", { role: "status", hidden: true });
-    this.more = h("div.display-options", { hidden: !this.options.on }, ...this.#controls());
+    this.more = h("div.display-options", { hidden: !this.options.on }, ...this.#controls(), this.handles);
     const label = h("label.check", { for: id, title: this.type }, this.box, h("span.name", {}, ` ${this.topic} `), h("small.quiet", {}, this.type.split("/").pop()));
     this.item = h("li.display", { "data-display": this.topic }, label, this.fault, this.more);
   }
@@ -71,7 +73,15 @@ export class Display {
     this.page.connection.subscribe(this.key, on);
   }
 
-  take({ groups, poses, fault, time }) {
+  /** Show the last message that arrived during a drag. */
+  release() {
+    if (this.late) this.take(this.late);
+    this.late = null;
+  }
+
+  take(message) {
+    if (this.page.interactive.holds(this)) return (this.late = message);
+    const { groups, poses, fault, time } = message;
     this.fault.hidden = !fault;
     this.fault.textContent = fault ?? "";
     const last = this.drawn.at(-1);
@@ -94,6 +104,7 @@ export class Display {
     root.traverse((object) => (object.userData.display = this.topic));
     this.page.viewport.viewer.scene.add(root);
     this.drawn.push({ time, root, groups, content });
+    if (content.length ? content[0].items[0]?.controls : this.handles.firstChild) this.page.emit("handles", this);
     const fields = content[0]?.items[0]?.fields;
     if (fields && this.field && this.field.options.length <= 2) {
       for (const name of fields) if (![...this.field.options].some(({ value }) => value === name)) this.field.append(h("option", { value: name }, name));

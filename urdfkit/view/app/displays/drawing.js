@@ -1,6 +1,8 @@
 // Three.js objects of the items of a display: lines, arrows, shapes, maps and points.
 /* global MeshCat */
 
+import { COLOURS } from "../handles/gizmo.js";
+
 const THREE = MeshCat.THREE;
 const X = new THREE.Vector3(1, 0, 0);
 const MANY = 40; // arrows beyond this number are lines
@@ -52,6 +54,7 @@ const MAKE = {
   shape: shape,
   text: text,
   mesh: mesh,
+  controls: controls,
   triangles: ({ triangles, ...item }, options) => {
     const geometry = vertices(triangles, item.colors);
     geometry.computeVertexNormals();
@@ -198,6 +201,34 @@ function copies(geometry, flat, size, colors, look) {
   }
   mesh.frustumCulled = false;
   return mesh;
+}
+
+// An interactive marker: a group for each control, with the control as `userData.control`.
+function controls(item, options) {
+  const group = placed(new THREE.Group(), item.pose);
+  for (const control of item.controls) {
+    const part = control.items.length ? build(control.items, options) : new THREE.Group().add(handle(control, item.size));
+    part.userData.control = control;
+    group.add(part);
+  }
+  const fixed = group.children.filter(({ userData }) => userData.control.orientation === 1);
+  group.userData = { marker: item, settle: () => fixed.forEach((part) => part.quaternion.copy(group.quaternion).invert()) };
+  group.userData.settle();
+  return group;
+}
+
+// The handle of a control without markers: two arrows along its x axis, a ring about it, or a ball.
+function handle({ mode, turn: q }, size) {
+  const group = new THREE.Group();
+  group.quaternion.set(...q);
+  const axis = X.clone().applyQuaternion(group.quaternion).toArray().map(Math.abs);
+  const color = mode >= 7 ? 0xf5a524 : COLOURS[axis.indexOf(Math.max(...axis))];
+  const look = new THREE.MeshBasicMaterial({ color, opacity: 0.8, transparent: true, side: THREE.DoubleSide });
+  const add = (geometry) => group.add(new THREE.Mesh(geometry.scale(size, size, size), look));
+  if (mode === 3) for (const side of [1, -1]) add(new THREE.ConeGeometry(0.09, 0.25, 16).rotateZ((-side * Math.PI) / 2).translate(side * 0.55, 0, 0));
+  else if (mode >= 4 && mode <= 6) add(new THREE.TorusGeometry(mode === 5 ? 0.5 : 0.36, 0.025, 8, 48).rotateY(Math.PI / 2));
+  else if (mode >= 7) add(new THREE.SphereGeometry(0.14, 20, 14));
+  return group;
 }
 
 function text(item, options) {

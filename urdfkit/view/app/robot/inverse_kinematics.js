@@ -2,7 +2,7 @@
 /* global MeshCat */
 
 import { check, h, short } from "../page/dom.js";
-import { Gizmo, gizmoKeys, nearest } from "../viewport/gizmo.js";
+import { Gizmo, gizmoKeys, nearest } from "../handles/gizmo.js";
 import { LinkSolver } from "./link_solver.js";
 import { LostMotions } from "./lost_motions.js";
 import { SolutionChoice } from "./solution_choice.js";

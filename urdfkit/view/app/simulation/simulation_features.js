@@ -2,6 +2,7 @@
 
 import { arms } from "./controller_sliders.js";
 import { displays } from "../displays/displays_panel.js";
+import { interactiveMarkers } from "../displays/interactive_markers.js";
 import { poseTools } from "../displays/pose_tools.js";
 import { layout } from "../page/layout.js";
 import { availability } from "../page/availability.js";
@@ -24,7 +25,7 @@ const $ = (id) => document.getElementById(id);
 const WHEEL = "M12 3a9 9 0 1 0 0 18a9 9 0 0 0 0-18zM12 10a2 2 0 1 0 0 4a2 2 0 0 0 0-4zM3.5 10l6.5 1M20.5 10l-6.5 1M12 14v7";
 const EYE = "M2 12s4-7 10-7 10 7 10 7-4 7-10 7-10-7-10-7zM12 9a3 3 0 1 0 0 6a3 3 0 0 0 0-6z";
 
-export const simFeatures = [common, drive, clock, availability, sensing, arms, topics, plots, recorder, objects, walls, liveParameters, push, arrows, trails, displays, poseTools, layout];
+export const simFeatures = [common, drive, clock, availability, sensing, arms, topics, plots, recorder, objects, walls, liveParameters, push, arrows, trails, displays, interactiveMarkers, poseTools, layout];
 
 function common(page) {
   const watched = new Set();

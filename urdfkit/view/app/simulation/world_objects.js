@@ -2,7 +2,7 @@
 /* global MeshCat */
 
 import { h, short } from "../page/dom.js";
-import { Mover } from "./object_gizmo.js";
+import { Mover } from "../handles/object_gizmo.js";
 import { numberField, unitField } from "../page/number_field.js";
 
 const THREE = MeshCat.THREE;

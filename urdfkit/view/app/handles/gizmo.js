@@ -2,7 +2,7 @@
 /* global MeshCat */
 
 const THREE = MeshCat.THREE;
-const COLOURS = [0xe5484d, 0x30a46c, 0x3e7bfa];
+export const COLOURS = [0xe5484d, 0x30a46c, 0x3e7bfa];
 const ARROWS = { ArrowLeft: [0, -1], ArrowRight: [0, 1], ArrowUp: [1, 0], ArrowDown: [-1, 0] };
 const STEEP = 0.3; // of a direction's length parallel to the ground below which it counts as vertical
 const TURN = (5 * Math.PI) / 180; // rad

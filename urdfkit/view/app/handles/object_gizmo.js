@@ -1,7 +1,8 @@
 // Moving an object with the mouse or the arrow keys: a handle with arrows and rings, and a box at the target pose.
 /* global MeshCat */
 
-import { Gizmo, gizmoKeys, nearest } from "../viewport/gizmo.js";
+import { Gizmo, gizmoKeys } from "./gizmo.js";
+import { HandleDrag } from "./handle_drag.js";
 
 const THREE = MeshCat.THREE;
 const SIZE = 0.13; // of the viewport's height
@@ -91,37 +92,23 @@ export class Mover {
     if (!handle) return;
     event.stopImmediatePropagation();
     event.preventDefault();
-    const at = this.viewer.scene.localToWorld(this.ghost.position.clone());
-    const axis = handle.axis?.clone().transformDirection(this.viewer.scene.matrixWorld) ?? null;
     // The ball moves parallel to the ground; rings rotate in their plane.
-    const normal = handle.kind === "about" ? axis : UP.clone().transformDirection(this.viewer.scene.matrixWorld);
-    this.drag = { pointer: event.pointerId, ...handle, at, world: axis, plane: new THREE.Plane().setFromNormalAndCoplanarPoint(normal, at) };
-    Object.assign(this.drag, { from: this.#grip(event), position: this.ghost.position.clone(), turn: this.ghost.quaternion.clone() });
+    const { position, quaternion: turn } = this.ghost;
+    this.drag = new HandleDrag(this.page, event, { kind: handle.kind === "free" ? "plane" : handle.kind, axis: handle.axis ?? UP, position, turn });
     this.ghost.visible = true;
-    this.page.viewport.pane.setPointerCapture(event.pointerId);
-    this.viewer.controls.enabled = false;
-  }
-
-  #grip(event) {
-    const ray = this.page.pick.aim(event);
-    const { kind, world, plane, at } = this.drag;
-    return kind === "along" ? nearest(ray, at, world) : ray.intersectPlane(plane, new THREE.Vector3());
   }
 
   #move(event) {
     const { drag } = this;
     if (!drag || event.pointerId !== drag.pointer) return;
     event.stopImmediatePropagation();
-    const now = this.#grip(event);
-    if (!now || !drag.from) return;
+    const pose = drag.pose(event);
+    if (!pose) return;
     if (drag.kind === "about") {
-      const [a, b] = [drag.from, now].map((point) => this.viewer.scene.worldToLocal(point.clone()).sub(drag.position));
-      const angle = Math.atan2(drag.axis.dot(a.clone().cross(b)), a.dot(b));
-      const step = event.shiftKey ? angle : (Math.round((angle * 180) / Math.PI / 5) * 5 * Math.PI) / 180;
+      const step = event.shiftKey ? pose.angle : (Math.round((pose.angle * 180) / Math.PI / 5) * 5 * Math.PI) / 180;
       this.ghost.quaternion.setFromAxisAngle(drag.axis, step).multiply(drag.turn);
     } else {
-      const shift = this.viewer.scene.worldToLocal(now.clone()).sub(this.viewer.scene.worldToLocal(drag.from.clone()));
-      this.ghost.position.copy(drag.position).add(shift);
+      this.ghost.position.copy(pose.position);
       if (!event.shiftKey) this.#snap(drag.kind === "along" ? drag.axis : null);
     }
     this.#follow();
@@ -157,9 +144,9 @@ export class Mover {
     const { drag } = this;
     if (!drag || event.pointerId !== drag.pointer) return;
     event.stopImmediatePropagation();
+    drag.end();
     this.drag = null;
     this.ghost.visible = false;
-    this.viewer.controls.enabled = true;
     const moved = this.ghost.position.distanceTo(drag.position) > 1e-6 || this.ghost.quaternion.angleTo(drag.turn) > 1e-6;
     if (moved) this.#done();
     this.page.viewport.dirty();
