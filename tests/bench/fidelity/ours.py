@@ -6,9 +6,10 @@ import contextlib
 import io
 import json
 import tempfile
+from dataclasses import replace
 from pathlib import Path
 
-from fidelity.scene import Look, Pose, Run, Scene
+from fidelity.scene import Ground, Look, Pose, Run, Scene
 from urdfkit.cli import main
 from urdfkit.sim import Simulator, Spawn
 
@@ -21,6 +22,7 @@ def runner(dt: float) -> Run:
             world = _world(scene, Path(folder))
             if (
                 scene.every is None
+                and not scene.weighed
                 and not scene.efforts
                 and scene.push is None
                 and (command := arguments(scene, world))
@@ -92,6 +94,9 @@ def _watch(scene: Scene, world: str, dt: float) -> list[Look]:
     for _ in range(round(scene.seconds / dt / steps)):
         simulator.step(steps)
         looks.append(_look(simulator))
+    if scene.weighed:
+        touching = [(contact.position, contact.force) for contact in simulator.state.contacts]
+        looks[-1] = replace(looks[-1], ground=Ground.of(touching))
     return looks
 
 

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import tempfile
 import xml.etree.ElementTree as ET
+from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import pybullet as p
 
-from fidelity.scene import Look, Pose, Run, Scene
+from fidelity.scene import Ground, Look, Pose, Run, Scene
 
 SETTINGS: dict[str, dict[str, Any]] = {
     "default": {},
@@ -107,7 +109,15 @@ class _Bullet:
                 self._drive((k * steps + i) * self.dt)
                 p.stepSimulation(**self.client)
             looks.append(self._look((k + 1) * steps * self.dt))
+        if scene.weighed:
+            looks[-1] = replace(looks[-1], ground=Ground.of(self._contacts()))
         return looks
+
+    def _contacts(self) -> Iterator[tuple[Any, Any]]:
+        """Yield position and force on the robot of each contact."""
+        for contact in p.getContactPoints(self.body, **self.client):
+            normal, size, first, along, second, across = contact[7], *contact[9:14]
+            yield contact[5], [size * n + first * a + second * b for n, a, b in zip(normal, along, across, strict=True)]
 
     def _drive(self, t: float) -> None:
         scene, at = self.scene, self.client

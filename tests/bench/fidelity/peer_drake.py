@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import math
 import xml.etree.ElementTree as ET
+from collections.abc import Iterator
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -29,7 +31,7 @@ from pydrake.systems.analysis import ResetIntegratorFromFlags, Simulator
 from pydrake.systems.framework import DiagramBuilder
 
 from fidelity.row import UnsupportedError
-from fidelity.scene import Look, Pose, Run, Scene, Thing
+from fidelity.scene import Ground, Look, Pose, Run, Scene, Thing
 
 SETTINGS: dict[str, dict[str, Any]] = {
     "default": {},
@@ -176,7 +178,20 @@ class _Drake:
                 self._drive((k * steps + i) * self.dt)
                 self.simulator.AdvanceTo((k * steps + (i + 1 if each_step else steps)) * self.dt)
             looks.append(self._look((k + 1) * steps * self.dt))
+        if scene.weighed:
+            looks[-1] = replace(looks[-1], ground=Ground.of(self._contacts()))
         return looks
+
+    def _contacts(self) -> Iterator[tuple[Any, Any]]:
+        """Yield position and force on the robot of each contact; the ground only pushes up."""
+        found = self.plant.get_contact_results_output_port().Eval(self.context)
+        pairs = [found.point_pair_contact_info(k) for k in range(found.num_point_pair_contacts())]
+        wrenches = [(pair.contact_point(), pair.contact_force()) for pair in pairs]
+        for k in range(found.num_hydroelastic_contacts()):
+            info = found.hydroelastic_contact_info(k)
+            wrenches.append((info.contact_surface().centroid(), info.F_Ac_W().translational()))
+        for position, force in wrenches:
+            yield position, force if force[2] > 0.0 else -force
 
     def _drive(self, t: float) -> None:
         scene, plant, context = self.scene, self.plant, self.context

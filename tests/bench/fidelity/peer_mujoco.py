@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import xml.etree.ElementTree as ET
+from collections.abc import Iterator
+from dataclasses import replace
 from typing import Any
 
 import mujoco
 import numpy as np
 
-from fidelity.scene import Look, Pose, Run, Scene
+from fidelity.scene import Ground, Look, Pose, Run, Scene
 
 SETTINGS: dict[str, dict[str, Any]] = {
     "default": {},
@@ -43,13 +45,15 @@ def runner(dt: float, setting: str) -> Run:
         _start(scene, model, state)
         looks = [_look(scene, model, state)]
         every = scene.every or (0.005 if scene.wheels else scene.seconds)
-        steps, total = round(every / dt), [0.0] * 3
+        steps, total = round(every / dt), [0.0] * len(scene.servos)
         single = bool(scene.servos) or bool(scene.wheels)
         for _ in range(round(scene.seconds / every)):
             for _ in range(steps if single else 1):
                 _drive(scene, model, state, total)
                 mujoco.mj_step(model, state, nstep=1 if single else steps)
             looks.append(_look(scene, model, state))
+        if scene.weighed:
+            looks[-1] = replace(looks[-1], ground=Ground.of(_contacts(model, state)))
         return looks
 
     return run
@@ -71,6 +75,7 @@ def _compile(scene: Scene, dt: float, options: dict[str, Any]) -> Any:
             geom.condim = 1 if slide == 0.0 else 3
             # The robot meets the ground and things, and not itself.
             geom.contype, geom.conaffinity = 2, 1
+            geom.priority = 1  # its friction counts, also against things that have more
             _set(geom, hard)
     if not scene.bolted:
         spec.worldbody.first_body().add_freejoint()
@@ -111,6 +116,15 @@ def _compile(scene: Scene, dt: float, options: dict[str, Any]) -> Any:
     option.impratio = options.get("impratio", 1.0)
     option.noslip_iterations = options.get("noslip_iterations", 0)
     return spec.compile()
+
+
+def _contacts(model: Any, state: Any) -> Iterator[tuple[Any, Any]]:
+    """Yield position and force on the robot of each contact with the ground."""
+    for k in range(state.ncon):
+        contact, wrench = state.contact[k], np.zeros(6)
+        mujoco.mj_contactForce(model, state, k, wrench)
+        force = contact.frame.reshape(3, 3).T @ wrench[:3]
+        yield contact.pos.copy(), force if model.geom_bodyid[contact.geom2] != 0 else -force
 
 
 def _set(geom: Any, hard: dict[str, Any]) -> None:

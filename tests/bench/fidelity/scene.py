@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
@@ -60,6 +60,7 @@ class Scene:
         things: what else is in the world.
         push: a thing, and a force on it along x [N].
         every: how often to look [s]; None: only at the end.
+        weighed: whether looks have the force of the ground on the robot.
     """
 
     model: str
@@ -77,6 +78,7 @@ class Scene:
     things: tuple[Thing, ...] = ()
     push: tuple[str, float] | None = None
     every: float | None = None
+    weighed: bool = False
 
     @property
     def file(self) -> Path:
@@ -106,6 +108,21 @@ class Pose:
 
 
 @dataclass(frozen=True)
+class Ground:
+    """What the ground does to a robot: its force [N] in world axes, and the centre of pressure x, y [m]."""
+
+    force: Vector
+    centre: Vector
+
+    @classmethod
+    def of(cls, contacts: Iterable[tuple[Vector, Vector]]) -> Ground:
+        """Return the sum of contacts, each a position [m] and the force on the robot [N]."""
+        pairs = [(tuple(position), tuple(force)) for position, force in contacts]
+        force = [sum(each[1][k] for each in pairs) for k in range(3)]
+        return cls(force, [sum(each[0][k] * each[1][2] for each in pairs) / (force[2] or math.nan) for k in range(2)])
+
+
+@dataclass(frozen=True)
 class Look:
     """What is seen at a time.
 
@@ -115,6 +132,7 @@ class Look:
         joints: joint → position and velocity.
         things: name → pose.
         odometry: where the wheels say the robot is: x, y [m], yaw [rad].
+        ground: what the ground does to the robot, in scenes that weigh it.
     """
 
     t: float
@@ -122,6 +140,7 @@ class Look:
     joints: Mapping[str, tuple[float, float]]
     things: Mapping[str, Pose] = field(default_factory=dict)
     odometry: tuple[float, float, float] | None = None
+    ground: Ground | None = None
 
 
 Run = Callable[[Scene], list[Look]]
