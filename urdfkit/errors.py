@@ -298,6 +298,13 @@ def suggestion(name: str | None) -> str:
     return f"; did you mean `{name}`?" if name is not None else ""
 
 
+def suggested(message: str) -> str:
+    """Return the name that a message suggests at its end, see `suggestion`; an element as ``<name>``; else empty."""
+    _, separator, name = message.rpartition("did you mean ")
+    is_whole = separator and name.endswith("?") and (name[:1] == "`" == name[-2:-1] or name[:1] + name[-2:-1] == "<>")
+    return name[:-1].strip("`") if is_whole else ""
+
+
 def with_effect(defect: str, effect: str) -> str:
     """Return the description of a defect and its effect, in front of a suggestion at the end of the description.
 

@@ -13,7 +13,7 @@ import pytest
 from urdfkit.lint import RULES, lint
 from urdfkit.lint.catalogue import SECTIONS, page, sections, title
 from urdfkit.lint.fixes.apply import fix
-from urdfkit.lint.project.entry_files import Entry
+from urdfkit.lint.project.entry_files import Entry, find_entries
 from urdfkit.lint.project.options import Options
 from urdfkit.lint.rule import Rule
 
@@ -87,28 +87,46 @@ def test_good_files_are_silent(path):
     assert lint(path, target=target(BY_NAME[path.parent.name])) == []
 
 
+def fixed_texts(bad: Path, options: Options) -> dict[str, bytes]:
+    """Return the new bytes of each file that the rule of a bad file, or folder, fixes; by the path in the folder."""
+    rule = BY_NAME[bad.absolute().parent.name]
+    options = Options(**{**options.__dict__, "target": target(rule)})
+    fixed = fix(find_entries([bad]), options, within=[bad], unsafe=rule.fix == "unsafe" or not options.select)
+    return {change.path.relative_to(bad.absolute()).as_posix(): change.after for change in fixed.changes}
+
+
+def read(path: Path) -> dict[str, bytes]:
+    """Return the bytes of each file that a fixed file, or folder, holds; see `fixed_texts`."""
+    each = [file for file in path.rglob("*") if file.is_file()] if path.is_dir() else [path]
+    return {file.relative_to(path).as_posix(): file.read_bytes() for file in each}
+
+
 @pytest.mark.parametrize("path", files("fixed"))
 def test_fixes_give_the_fixed_file_and_do_nothing_more(path):
-    bad = path.with_stem(path.stem.replace("fixed", "bad"))
-    rule = BY_NAME[path.parent.name]
-    options = Options(select=(rule.code,), target=target(rule))
-    fixed = fix([Entry(bad)], options, within=[bad.parent], unsafe=rule.fix == "unsafe")
-    assert [change.after.decode() for change in fixed.changes] == [path.read_text()]
-    assert fix([Entry(path)], Options(target=target(rule)), within=[path.parent], unsafe=True).changes == ()
+    bad = path.with_name(path.name.replace("fixed", "bad", 1))
+    before = read(bad)
+    changed = {file: content for file, content in read(path).items() if before[file] != content}
+    assert fixed_texts(bad, Options(select=(BY_NAME[path.parent.name].code,))) == changed
+    assert fixed_texts(path, Options()) == {}
 
 
-@pytest.mark.parametrize("end", ["\r\n", "\r"], ids=["CRLF", "CR"])
-@pytest.mark.parametrize("path", [one for one in files("fixed") if one.values[0].suffix in (".urdf", ".xacro")])
+@pytest.mark.parametrize(
+    ("path", "end"),
+    [
+        pytest.param(path, end, id=f"{one.id}-{end!r}")
+        for one in files("fixed")
+        if (path := one.values[0]).is_file()
+        for end in ("\r\n", *(["\r"] if path.suffix in (".urdf", ".xacro") else []))
+    ],
+)
 def test_fixes_keep_to_the_line_ends_of_their_file(path, end, tmp_path, monkeypatch):
     folder = tmp_path / path.parent.name
     shutil.copytree(path.parent, folder)
     monkeypatch.chdir(folder)
-    bad, rule = Path(path.name.replace("fixed", "bad")), BY_NAME[path.parent.name]
-    before = bad.read_bytes()
-    bad.write_bytes(before.replace(b"\n", end.encode()))
-    options = Options(select=(rule.code,), target=target(rule))
-    fixed = fix([Entry(bad)], options, within=[folder], unsafe=rule.fix == "unsafe")
-    assert [change.after for change in fixed.changes] == [path.read_bytes().replace(b"\n", end.encode())]
+    bad = Path(path.name.replace("fixed", "bad", 1))
+    bad.write_bytes(bad.read_bytes().replace(b"\n", end.encode()))
+    fixed = fixed_texts(bad, Options(select=(BY_NAME[path.parent.name].code,)))
+    assert fixed == {".": path.read_bytes().replace(b"\n", end.encode())}
 
 
 @pytest.mark.parametrize("rule", RULES, ids=lambda rule: rule.name)

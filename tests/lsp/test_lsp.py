@@ -439,3 +439,20 @@ def test_renaming_goes_through_the_settings_around(cart):
     finally:
         (cart.folder / "control.yaml").unlink()
         cart.tell("workspace/didChangeWatchedFiles", {"changes": []})
+
+
+@pytest.mark.slow
+def test_a_misspelt_name_in_the_settings_around_is_replaced(cart):
+    written = SETTINGS.replace("mast_joint", "mast_jont", 1)
+    (cart.folder / "control.yaml").write_text(written)
+    try:
+        cart.tell("workspace/didChangeWatchedFiles", {"changes": []})
+        uri = cart.uri("control.yaml")
+        place = {"line": 2, "character": 9}
+        asked = {"textDocument": {"uri": uri}, "range": {"start": place, "end": place}, "context": {"diagnostics": []}}
+        (action,) = cart.ask("textDocument/codeAction", asked)
+        assert action["title"] == "Replace with `mast_joint` (a guess) [K959]"
+        assert applied(written, action["edit"]["changes"][uri]) == SETTINGS
+    finally:
+        (cart.folder / "control.yaml").unlink()
+        cart.tell("workspace/didChangeWatchedFiles", {"changes": []})

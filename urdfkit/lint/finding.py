@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from urdfkit.description.xml.source import Expansion, Span
+from urdfkit.errors import suggested
 from urdfkit.record import record
 
 TYPE_CHECKING = False
@@ -111,6 +112,11 @@ class Finding:
         """The message, the variant and the help in one line."""
         variant = f"with {self.variant}" if self.variant else ""
         return "; ".join(part for part in (self.message, variant, self.help) if part)
+
+    @property
+    def meant(self) -> str:
+        """The valid name nearest to a misspelt one; an element as ``<name>``; empty if the finding suggests none."""
+        return suggested(self.message) or suggested(self.help or "")
 
     @property
     def expansions(self) -> tuple[Expansion, ...]:

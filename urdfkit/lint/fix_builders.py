@@ -16,9 +16,13 @@ if TYPE_CHECKING:
     from collections.abc import Iterable
 
     from urdfkit.description.xml.element import Element
-    from urdfkit.lint.finding import Safety
+    from urdfkit.lint.finding import Finding, Safety
     from urdfkit.lint.model.model import Model
     from urdfkit.lint.model.tags import Document, Tag
+
+
+_SIMILAR_WORDS, _SIMILAR_NAMES = 0.6, 0.75
+"""Least similarities (`difflib.SequenceMatcher.ratio`) of the one word that differs, and of names with another word."""
 
 
 def new_value(model: Model, element: Element, attribute: str, value: str, safety: Safety, title: str) -> Fix | None:
@@ -58,11 +62,13 @@ def new_tag(model: Model, element: Element, name: str, safety: Safety, title: st
     tag = model.tag(element.origin.position)
     if tag is None or tag.name != element.tag:
         return None
-    source = model.document(element.origin.position.file).source
-    edits = [Edit(source.span(tag.start + 1, tag.start + 1 + len(tag.name)), name)]
-    if tag.close is not None:
-        edits.append(Edit(source.span(tag.close + 2, tag.close + 2 + len(tag.name)), name))
-    return Fix(safety, title, tuple(edits))
+    return Fix(safety, title, renamed(model.document(element.origin.position.file), tag, name))
+
+
+def renamed(document: Document, tag: Tag, name: str) -> tuple[Edit, ...]:
+    """Return the edits that rename a tag, and its end tag."""
+    starts = [tag.start + 1, *([tag.close + 2] if tag.close is not None else [])]
+    return tuple(Edit(document.source.span(start, start + len(tag.name)), name) for start in starts)
 
 
 def new_text(model: Model, element: Element, text: str, safety: Safety, title: str) -> Fix | None:
@@ -140,3 +146,50 @@ def meant(name: str, candidates: Iterable[str]) -> tuple[str | None, str]:
     """Return the candidate most similar to a misspelt name (or None), and ``; did you mean …`` (or an empty string)."""
     near = nearest(name, candidates, cutoff=0.7)
     return near, f"; did you mean `{near}`?" if near else ""
+
+
+def nearest_name(finding: Finding, document: Document) -> Fix | None:
+    """Return the fix that writes the name that a finding suggests in place of the misspelt one.
+
+    Only the name is replaced, so that quotes, comments and line ends stay. There is no fix if the place of the name is
+    not certain, or if the two names are names of siblings, such as ``left_wheel`` and ``right_wheel``.
+
+    Args:
+        finding: a finding without fix, in the file of the document.
+        document: a launch, YAML, SRDF or package file.
+    """
+    if not (meant := finding.meant):
+        return None
+    source, span = document.source, finding.span
+    start, end = source.offset(span.line, span.column), source.offset(span.end_line, span.end_column)
+    title = f"Replace with `{meant}`"
+    if meant.startswith("<"):
+        tag = document.tag_at(span.line, span.column) or document.tag_at(span.line, span.column - 1)
+        return Fix("unsafe", title, renamed(document, tag, meant[1:-1])) if tag is not None else None
+    text = source.text[start:end]
+    for name in (*re.findall(r"`([^`]+)`", finding.message.rpartition("; did you mean ")[0]), text):
+        places = [at.start() for at in re.finditer(rf"(?<!\w){re.escape(name)}(?!\w)", text)]
+        if "/" in name and "/" not in meant:
+            before, name = name[: name.rindex("/") + 1], name.rpartition("/")[2]
+            places = [place + len(before) for place in places]
+        elif "." in name and not {".", "/"} & set(meant):
+            name = name.partition(".")[0]
+        if len(places) == 1 and name != meant and is_slip(name, meant):
+            place = start + places[0]
+            return Fix("unsafe", title, (Edit(source.span(place, place + len(name)), meant),))
+    return None
+
+
+def is_slip(name: str, near: str) -> bool:
+    """Return whether one word of a name is misspelt, missing or superfluous; numbers are never misspelt."""
+    from difflib import SequenceMatcher
+
+    words, others = (re.findall(r"\d+|[^\W\d_]+", text) for text in (name, near))
+    if re.findall(r"\d+", name) != re.findall(r"\d+", near):
+        return False
+    if len(words) != len(others):
+        return SequenceMatcher(None, name, near).ratio() >= _SIMILAR_NAMES
+    pairs = [(a, b) for a, b in zip(words, others, strict=True) if a != b]
+    return len(pairs) < 2 and all(
+        sorted(a) == sorted(b) or SequenceMatcher(None, a, b).ratio() >= _SIMILAR_WORDS for a, b in pairs
+    )

@@ -114,7 +114,8 @@ class RuleRunner:
         from urdfkit.errors import UrdfkitError, bug
 
         try:
-            yield from rule().check(*subject)
+            for found in rule().check(*subject):
+                yield _with_fix(rule, found, subject[-1])
         except UrdfkitError:
             raise
         except Exception as error:
@@ -122,6 +123,15 @@ class RuleRunner:
                 raise
             package = rule.__module__.partition(".")[0]
             self.failures.append(f"{file}: {rule.code} {rule.name} could not check this file: {bug(error, package)}")
+
+
+def _with_fix(rule: type[Rule], found: Finding, model: Model) -> Finding:
+    """Return a finding in a launch, YAML, SRDF or package file with the fix that writes the nearest name."""
+    if rule.fix == "none" or found.fix is not None or not found.meant or found.file in model.expanded.sources:
+        return found
+    from urdfkit.lint.fix_builders import nearest_name
+
+    return Finding(**{**found.__dict__, "fix": nearest_name(found, model.document(found.file))})
 
 
 def codes() -> tuple[str, ...]:

@@ -32,8 +32,10 @@ def reason_if_generated(path: Path, text: str, others: Mapping[Path, str] | None
         return f"a comment in line {line} marks it as generated"
     neighbours = _neighbours(path)
     if _MIN_NEIGHBOURS <= len(neighbours) <= _MAX_NEIGHBOURS:
-        structure = _structure(text)
-        if all(_structure((others or {}).get(other) or _read(other)) == structure for other in neighbours):
+        structure = _structure(text)  # empty unless the file is XML
+        if structure and all(
+            _structure((others or {}).get(other) or _read(other)) == structure for other in neighbours
+        ):
             return f"the {len(neighbours)} files next to it have the same structure, as if a program had written them"
     return ""
 

@@ -16,7 +16,6 @@ SMALLEST = 4
 SMALLEST_ALIKE = 10
 """The same for errors of one kind, which may be separate mistakes, and for notes without a named cause."""
 
-_MEANT = "; did you mean "
 _VALUE = r"\d\.\d{2}|[1-9]\d\.\d|[1-9]\d{2}"
 """Matches a number with three digits, which two separate mistakes seldom share."""
 
@@ -69,12 +68,12 @@ def _smallest(group: list[Finding]) -> int:
     if first.cause or first.severity == "warning":
         return SMALLEST
     is_of_copies = re.search(_VALUE, first.message) is not None or len({one.file for one in group}) == len(group)
-    return SMALLEST if is_of_copies and _MEANT not in first.message else SMALLEST_ALIKE
+    return SMALLEST if is_of_copies and not first.meant else SMALLEST_ALIKE
 
 
 def _kind(finding: Finding) -> str:
     """Return the common part of the messages of one kind; misspelt names are separate mistakes."""
-    if finding.severity == "error" and _MEANT in finding.message:
+    if finding.severity == "error" and finding.meant:
         return finding.message
     return kind_of(finding.message)
 

@@ -37,10 +37,14 @@ class ExecutableUnknown(RobotRule):
       <node name="state" pkg="robot_state_publisher" type="robot_state_publisher"/>
     </launch>
     ```
+
+    ## Fix safety
+    Unsafe: the fix writes the nearest name in place of a misspelt one; another name may be meant.
     """
 
     code = "L103"
     name = "executable-unknown"
+    fix = "unsafe"
 
     def check(self, model: Model) -> Findings:
         """Yield a finding for each unknown executable."""

@@ -40,10 +40,14 @@ class LaunchArgumentUndeclared(RobotRule):
       <param name="robot_name" value="$(arg model)"/>
     </launch>
     ```
+
+    ## Fix safety
+    Unsafe: the fix writes the nearest name in place of a misspelt one; another name may be meant.
     """
 
     code = "L101"
     name = "launch-argument-undeclared"
+    fix = "unsafe"
 
     def check(self, model: Model) -> Findings:
         """Yield a finding for each undeclared name."""

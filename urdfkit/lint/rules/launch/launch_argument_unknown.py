@@ -42,6 +42,9 @@ class LaunchArgumentUnknown(RobotRule):
     </launch>
     ```
 
+    ## Fix safety
+    Unsafe: the fix writes the nearest name in place of a misspelt one; another name may be meant.
+
     ## References
     In the package of this example, cart.urdf.xacro has ``<xacro:arg name="length" default="1"/>``.
     """
@@ -49,6 +52,7 @@ class LaunchArgumentUnknown(RobotRule):
     code = "L102"
     name = "launch-argument-unknown"
     severity = "warning"
+    fix = "unsafe"
 
     def check(self, model: Model) -> Findings:
         """Yield a finding for each unknown or missing argument."""

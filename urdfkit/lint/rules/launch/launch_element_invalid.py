@@ -38,6 +38,9 @@ class LaunchElementInvalid(RobotRule):
     </launch>
     ```
 
+    ## Fix safety
+    Unsafe: the fix writes the nearest name in place of a misspelt one; another name may be meant.
+
     ## References
     https://wiki.ros.org/roslaunch/XML, and
     https://docs.ros.org/en/jazzy/How-To-Guides/Migrating-from-ROS1/Migrating-Launch-Files.html.
@@ -45,6 +48,7 @@ class LaunchElementInvalid(RobotRule):
 
     code = "L109"
     name = "launch-element-invalid"
+    fix = "unsafe"
 
     def check(self, model: Model) -> Findings:
         """Yield a finding for each unknown element, attribute and substitution, and for missing attributes."""

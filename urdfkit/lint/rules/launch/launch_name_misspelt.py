@@ -59,10 +59,14 @@ class LaunchNameMisspelt(RobotRule):
       <param name="use_sim_time" value="true"/>
     </launch>
     ```
+
+    ## Fix safety
+    Unsafe: the fix writes the nearest name in place of a misspelt one; another name may be meant.
     """
 
     code = "L104"
     name = "launch-name-misspelt"
+    fix = "unsafe"
 
     def check(self, model: Model) -> Findings:
         """Yield a finding for each misspelt name."""

@@ -46,10 +46,14 @@ class LaunchValueInvalid(RobotRule):
       <node name="rviz" pkg="rviz" type="rviz" if="true"/>
     </launch>
     ```
+
+    ## Fix safety
+    Unsafe: the fix writes the nearest name in place of a misspelt one; another name may be meant.
     """
 
     code = "L110"
     name = "launch-value-invalid"
+    fix = "unsafe"
 
     def check(self, model: Model) -> Findings:
         """Yield a finding for each unusable value."""

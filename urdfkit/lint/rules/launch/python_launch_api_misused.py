@@ -44,10 +44,14 @@ class PythonLaunchApiMisused(RobotRule):
     def generate_launch_description():
         return LaunchDescription([Node(package="rviz2", executable="rviz2")])
     ```
+
+    ## Fix safety
+    Unsafe: the fix writes the nearest name in place of a misspelt one; another name may be meant.
     """
 
     code = "L106"
     name = "python-launch-api-misused"
+    fix = "unsafe"
 
     def check(self, model: Model) -> Findings:
         """Yield a finding for each wrong import, keyword and list."""

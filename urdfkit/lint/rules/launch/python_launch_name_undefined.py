@@ -39,10 +39,14 @@ class PythonLaunchNameUndefined(RobotRule):
     def generate_launch_description():
         return LaunchDescription([])
     ```
+
+    ## Fix safety
+    Unsafe: the fix writes the nearest name in place of a misspelt one; another name may be meant.
     """
 
     code = "L105"
     name = "python-launch-name-undefined"
+    fix = "unsafe"
 
     def check(self, model: Model) -> Findings:
         """Yield a finding for the first use of each undefined name, and for a missing description."""

@@ -44,10 +44,14 @@ class MoveitConfigurationMissing(RobotRule):
         config = MoveItConfigsBuilder("cart", package_name="cart_description").to_moveit_configs()
         return LaunchDescription([config])
     ```
+
+    ## Fix safety
+    Unsafe: the fix writes the nearest name in place of a misspelt one; another name may be meant.
     """
 
     code = "M111"
     name = "moveit-configuration-missing"
+    fix = "unsafe"
 
     def check(self, model: Model) -> Findings:
         """Yield a finding for each package, robot and path that does not exist."""

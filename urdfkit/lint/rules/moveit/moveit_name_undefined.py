@@ -38,11 +38,15 @@ class MoveitNameUndefined(RobotRule):
     arm:
       kinematics_solver: kdl_kinematics_plugin/KDLKinematicsPlugin
     ```
+
+    ## Fix safety
+    Unsafe: the fix writes the nearest name in place of a misspelt one; another name may be meant.
     """
 
     code = "M108"
     name = "moveit-name-undefined"
     severity = "warning"
+    fix = "unsafe"
 
     def check(self, model: Model) -> Findings:
         """Yield a finding for each undefined name."""

@@ -44,11 +44,15 @@ class MoveitSettingInvalid(RobotRule):
         has_velocity_limits: true
         max_velocity: 1.5
     ```
+
+    ## Fix safety
+    Unsafe: the fix writes the nearest name in place of a misspelt one; another name may be meant.
     """
 
     code = "M109"
     name = "moveit-setting-invalid"
     severity = "warning"
+    fix = "unsafe"
 
     def check(self, model: Model) -> Findings:
         """Yield a finding for each invalid parameter."""

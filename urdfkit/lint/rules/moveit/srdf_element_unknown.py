@@ -41,10 +41,14 @@ class SrdfElementUnknown(RobotRule):
       </group>
     </robot>
     ```
+
+    ## Fix safety
+    Unsafe: the fix writes the nearest name in place of a misspelt one; another name may be meant.
     """
 
     code = "M102"
     name = "srdf-element-unknown"
+    fix = "unsafe"
 
     def check(self, model: Model) -> Findings:
         """Yield a finding for each element or attribute that srdfdom does not read."""

@@ -41,10 +41,14 @@ class SrdfNameUndefined(RobotRule):
       </group>
     </robot>
     ```
+
+    ## Fix safety
+    Unsafe: the fix writes the nearest name in place of a misspelt one; another name may be meant.
     """
 
     code = "M104"
     name = "srdf-name-undefined"
+    fix = "unsafe"
 
     def check(self, model: Model) -> Findings:
         """Yield a finding for each undefined name."""

@@ -45,11 +45,15 @@ class BridgeMisspelt(RobotRule):
       gz_type_name: gz.msgs.Twist
       direction: ROS_TO_GZ
     ```
+
+    ## Fix safety
+    Unsafe: the fix writes the nearest name in place of a misspelt one; another name may be meant.
     """
 
     code = "K969"
     name = "bridge-misspelt"
     severity = "warning"
+    fix = "unsafe"
     not_for = NOT_GAZEBO | {"classic", "ros1"}
 
     def check(self, model: Model) -> Findings:

@@ -64,10 +64,14 @@ class BuildFileInconsistent(RobotRule):
     install(DIRECTORY launch urdf DESTINATION share/${PROJECT_NAME})
     ament_package()
     ```
+
+    ## Fix safety
+    Unsafe: the fix writes the nearest name in place of a misspelt one; another name may be meant.
     """
 
     code = "K973"
     name = "build-file-inconsistent"
+    fix = "unsafe"
 
     def check(self, model: Model) -> Findings:
         """Yield a finding for each defect of the build files."""

@@ -39,11 +39,15 @@ class ControllerJointUndefined(RobotRule):
       ros__parameters:
         joints: [elbow]
     ```
+
+    ## Fix safety
+    Unsafe: the fix writes the nearest name in place of a misspelt one; another name may be meant.
     """
 
     code = "K959"
     name = "controller-joint-undefined"
     severity = "warning"
+    fix = "unsafe"
     not_for = NOT_GAZEBO
 
     def check(self, model: Model) -> Findings:

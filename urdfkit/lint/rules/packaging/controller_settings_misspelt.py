@@ -53,11 +53,15 @@ class ControllerSettingsMisspelt(RobotRule):
       ros__parameters:
         joints: [elbow]
     ```
+
+    ## Fix safety
+    Unsafe: the fix writes the nearest name in place of a misspelt one; another name may be meant.
     """
 
     code = "K962"
     name = "controller-settings-misspelt"
     severity = "warning"
+    fix = "unsafe"
     not_for = NOT_GAZEBO
 
     def check(self, model: Model) -> Findings:

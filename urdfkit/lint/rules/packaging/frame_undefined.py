@@ -42,11 +42,15 @@ class FrameUndefined(RobotRule):
       ros__parameters:
         base_frame_id: base_link
     ```
+
+    ## Fix safety
+    Unsafe: the fix writes the nearest name in place of a misspelt one; another name may be meant.
     """
 
     code = "K961"
     name = "yaml-link-undefined"
     severity = "warning"
+    fix = "unsafe"
 
     def check(self, model: Model) -> Findings:
         """Yield a finding for each named link that no description in these packages can define."""

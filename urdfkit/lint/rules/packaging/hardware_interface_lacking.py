@@ -58,6 +58,9 @@ class HardwareInterfaceLacking(RobotRule):
         state_interfaces: [position]
     ```
 
+    ## Fix safety
+    Unsafe: the fix writes the nearest name in place of a misspelt one; another name may be meant.
+
     ## References
     In the robot of this example, the hardware has the command interface ``position`` for ``elbow``.
     """
@@ -65,6 +68,7 @@ class HardwareInterfaceLacking(RobotRule):
     code = "K965"
     name = "hardware-interface-lacking"
     severity = "warning"
+    fix = "unsafe"
     not_for = NOT_GAZEBO | {"ros1"}
 
     def check(self, model: Model) -> Findings:

@@ -35,11 +35,15 @@ class LaunchPathMissing(RobotRule):
       <param name="robot_description" command="xacro $(find cart_description)/urdf/cart.urdf"/>
     </launch>
     ```
+
+    ## Fix safety
+    Unsafe: the fix writes the nearest name in place of a misspelt one; another name may be meant.
     """
 
     code = "K958"
     name = "launch-path-missing"
     severity = "warning"
+    fix = "unsafe"
 
     def check(self, model: Model) -> Findings:
         """Yield a finding for each path that does not exist in its package."""

@@ -60,10 +60,14 @@ class ManifestInvalid(RobotRule):
       </export>
     </package>
     ```
+
+    ## Fix safety
+    Unsafe: the fix writes the nearest name in place of a misspelt one; another name may be meant.
     """
 
     code = "K972"
     name = "manifest-invalid"
+    fix = "unsafe"
 
     def check(self, model: Model) -> Findings:
         """Yield a finding for each defect of a package.xml."""

@@ -55,6 +55,9 @@ class PackageXmlDependency(RobotRule):
     </robot>
     ```
 
+    ## Fix safety
+    Unsafe: the fix writes the nearest name in place of a misspelt one; another name may be meant.
+
     ## References
     In the package of this example, package.xml has ``<exec_depend>mybot_description</exec_depend>``.
     """
@@ -62,6 +65,7 @@ class PackageXmlDependency(RobotRule):
     code = "K956"
     name = "package-xml-dependency"
     severity = "warning"
+    fix = "unsafe"
 
     def check(self, model: Model) -> Findings:
         """Yield a finding at the first use of each package without a dependency."""

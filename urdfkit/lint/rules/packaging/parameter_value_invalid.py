@@ -47,11 +47,15 @@ class ParameterValueInvalid(RobotRule):
         arm_controller:
           type: joint_trajectory_controller/JointTrajectoryController
     ```
+
+    ## Fix safety
+    Unsafe: the fix writes the nearest name in place of a misspelt one; another name may be meant.
     """
 
     code = "K971"
     name = "parameter-value-invalid"
     severity = "warning"
+    fix = "unsafe"
 
     def check(self, model: Model) -> Findings:
         """Yield a finding for each impossible value and each repeated key."""

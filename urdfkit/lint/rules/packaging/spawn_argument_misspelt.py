@@ -58,10 +58,14 @@ class SpawnArgumentMisspelt(RobotRule):
       <node name="spawn" pkg="gazebo_ros" type="spawn_model" args="-urdf -param robot_description -model cart"/>
     </launch>
     ```
+
+    ## Fix safety
+    Unsafe: the fix writes the nearest name in place of a misspelt one; another name may be meant.
     """
 
     code = "K968"
     name = "spawn-argument-misspelt"
+    fix = "unsafe"
     not_for = NOT_GAZEBO
 
     def check(self, model: Model) -> Findings:

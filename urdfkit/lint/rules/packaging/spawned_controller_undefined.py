@@ -36,11 +36,15 @@ class SpawnedControllerUndefined(RobotRule):
       <node name="spawner" pkg="controller_manager" type="spawner" args="arm_controller"/>
     </launch>
     ```
+
+    ## Fix safety
+    Unsafe: the fix writes the nearest name in place of a misspelt one; another name may be meant.
     """
 
     code = "K960"
     name = "spawned-controller-undefined"
     severity = "warning"
+    fix = "unsafe"
     not_for = NOT_GAZEBO
 
     def check(self, model: Model) -> Findings:
