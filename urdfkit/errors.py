@@ -119,11 +119,20 @@ class MissingDependencyError(UrdfkitError):
     """An optional dependency is not installed."""
 
 
+_MAX_MESSAGE = 1_000
+
+
+def shortened(message: str) -> str:
+    """Return a message of at most 1,000 characters, without its middle: names can be as long as a file."""
+    return message if len(message) <= _MAX_MESSAGE else f"{message[: _MAX_MESSAGE - 100]} … {message[-90:]}"
+
+
 def one_line(text: str) -> str:
-    """Return a text with characters that control a terminal as escape sequences.
+    """Return a text, shortened, with characters that control a terminal as escape sequences.
 
     Names of files, links and joints come from others: line ends would forge messages, and escape sequences would run.
     """
+    text = shortened(text)
     if text.isprintable():
         return text
     return "".join(letter if letter.isprintable() else repr(letter)[1:-1] for letter in text)
@@ -133,7 +142,9 @@ def kind_of(message: str) -> str:
     """Return a message without its names, tags and numbers, which is the same for messages with one cause."""
     import re
 
-    return re.sub(r"`[^`]*`|<[^>]*>|-?\d[\d.e+-]*", "…", message.partition("; did you mean ")[0])
+    return re.sub(
+        r"`[^`]*`|<[^>]*>|(?<=\bfile )\S+|(?<=\bmesh )\S+|-?\d[\d.e+-]*", "…", message.partition("; did you mean ")[0]
+    )
 
 
 def bug(error: BaseException, package: str = "urdfkit") -> str:

@@ -69,7 +69,8 @@ def test_many_repairs_of_one_kind_are_one_line_with_their_number(capsys) -> None
     noted = note_repairs([*repairs, *others])
     first, *rest = capsys.readouterr().err.splitlines()
     assert first == (
-        "urdfkit: warning: r.urdf:1:1: no parent `p0`; it is added (and 4999 more of this kind); did you mean `q`?"
+        "urdfkit: warning: r.urdf:1:1: no parent `p0`; it is added "
+        "(and 4999 more of this kind; `urdfkit lint --target urdfkit` lists them); did you mean `q`?"
     )
     assert rest == [f"urdfkit: warning: r.urdf:{i + 1}:1: no child `c{i}`" for i in range(9)]
     assert len(noted) == 5_009

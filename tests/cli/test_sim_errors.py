@@ -61,9 +61,9 @@ def wheels(filename: str, parameters: str = "", *, name: str = "drive") -> str:
 
 
 REFUSED = {
-    "massless": (arm(box()), ":9:3: link `arm` has no <inertial>, but joint `elbow` moves it: add <inertial>"),
-    "no mass": (arm(body("0")), ":9:3: link `arm` has no mass or no moment of inertia, but joint `elbow` moves it"),
-    "no inertia": (arm(body(ixx="0", iyy="0", izz="0")), ":9:3: link `arm` has no mass or no moment of inertia"),
+    "massless": (arm(box()), ":9:3: link `arm` has no <inertial>, but joint `elbow` moves it (refused: strict)"),
+    "no mass": (arm(body("0")), ":9:30: link `arm` has no mass, but joint `elbow` moves it"),
+    "no inertia": (arm(body(ixx="0", iyy="0", izz="0")), ":10:5: link `arm` has no moment of inertia"),
     "negative mass": (arm(body("-1")), ":9:30: link `arm` has a mass of -1 kg; it must be positive"),
     "mass that is no number": (arm(body("nan")), ':9:30: link `arm`: value="nan" of <mass> is not finite'),
     "negative inertia": (

@@ -102,7 +102,7 @@ def test_many_undefined_parents_are_one_warning_in_every_command(capsys: pytest.
     Path("bad.urdf").write_text(f'<robot name="bad"><link name="base">{BODY}</link>\n{parts}</robot>')
     expected = (
         "`j0`: its parent link `gone0` does not exist; an empty link `gone0` is added, fixed to the origin of `base` "
-        "(and 29 more of this kind)"
+        "(and 29 more of this kind; `urdfkit lint --target urdfkit` lists them)"
     )
     for words in (*COMMANDS.values(), ["view", "bad.urdf", "--html", "page.html"]):
         if "hand" in words:

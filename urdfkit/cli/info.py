@@ -13,7 +13,7 @@ from urdfkit.cli.robot_arguments.macro_option import add_macro, with_macro
 from urdfkit.cli.robot_arguments.robot_loading import add_strict, load_robot, print_repairs, repairs_as_json
 from urdfkit.cli.robot_arguments.unused_arguments import note_unused
 from urdfkit.description.urdf.version import RATES
-from urdfkit.errors import MissingDependencyError, UrdfkitError
+from urdfkit.errors import MissingDependencyError, UrdfkitError, shortened
 
 if TYPE_CHECKING:
     from urdfkit.description.urdf.robot import Robot
@@ -225,7 +225,7 @@ def _table(facts: dict[str, Any], robot: Robot) -> str:
         on = f"on {link}" if is_part else f"on `{link}`, which does not exist" if link else "on no link"
         rows.append(("sensor", f"{sensor['name'] or 'without a name'} ({sensor['type'] or 'no type'}) {on}{rate}"))
     width = max(len(name) for name, _ in rows) + 2
-    return "\n".join(f"{name:<{width}}{text}" for name, text in rows)
+    return "\n".join(f"{name:<{width}}{shortened(text)}" for name, text in rows)
 
 
 def _triple(values: list[float]) -> str:

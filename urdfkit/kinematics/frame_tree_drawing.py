@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from unicodedata import east_asian_width
 from xml.sax.saxutils import escape
 
+from urdfkit.errors import shortened
 from urdfkit.kinematics.tf import Edge, TransformTree
 
 _CHAR, _FONT = 7.3, 12  # [px] a monospaced character at that font size; rather too wide than too narrow
@@ -28,12 +29,13 @@ def as_text(tree: TransformTree, *, ascii_only: bool = False) -> str:
     """Return the tree as indented lines, a frame each, with the joint that leads to it."""
     tee, last, bar = ("|-- ", "`-- ", "|   ") if ascii_only else ("├── ", "└── ", "│   ")
     below = _below(tree)
-    lines = [tree.root]
+    lines = [shortened(tree.root)]
     stack = [(edge, "") for edge in reversed(below.get(tree.root, []))]
     while stack:
         edge, indent = stack.pop()
         is_last = edge is below[edge.parent][-1]
-        lines.append(f"{indent}{last if is_last else tee}{edge.child}  [{edge.joint}, {_kind(edge)}]")
+        own = shortened(f"{edge.child}  [{edge.joint}, {_kind(edge)}]")
+        lines.append(f"{indent}{last if is_last else tee}{own}")
         deeper = indent + ("    " if is_last else bar)
         stack += [(child, deeper) for child in reversed(below.get(edge.child, []))]
     return "\n".join(lines) + "\n"

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from urdfkit.description.xml.source import Position
-from urdfkit.errors import nearest
+from urdfkit.errors import nearest, shortened
 from urdfkit.lint.finding import Finding
 from urdfkit.lint.model.model import Model as Model
 
@@ -28,9 +28,6 @@ Findings = Iterator[Finding]
 
 NOT_GAZEBO = frozenset(("mujoco", "isaac", "drake", "moveit"))
 """Targets that read neither ``<gazebo>`` elements nor controller configuration."""
-
-_MAX_MESSAGE = 1_000
-"""Maximum length of a message [characters]; names can be as long as a file."""
 
 SECTIONS = ("What it does", "Why is this bad?", "Example", "Use instead", "Fix safety", "References")
 """The headings a rule's docstring may have, in this order; the first four are required."""
@@ -86,7 +83,7 @@ class Rule:
             severity: overrides the rule's severity.
             cause: see `Finding.cause`.
         """
-        message = message if len(message) <= _MAX_MESSAGE else f"{message[: _MAX_MESSAGE - 100]} … {message[-90:]}"
+        message = shortened(message)
         place: Any = where if isinstance(where, Position) else getattr(where, "origin", where)
         chain = getattr(place, "expansions", ())
         return Finding(

@@ -16,7 +16,7 @@ from urdfkit.cli.robot_arguments.joint_positions import joint_positions, warn_of
 from urdfkit.cli.robot_arguments.macro_option import add_macro, with_macro
 from urdfkit.cli.robot_arguments.robot_loading import add_strict, load_robot, print_repairs, repairs_as_json
 from urdfkit.cli.robot_arguments.unused_arguments import note_unused
-from urdfkit.errors import MissingDependencyError, ResourceError, UsageError, did_you_mean
+from urdfkit.errors import MissingDependencyError, ResourceError, UsageError, did_you_mean, shortened
 
 if TYPE_CHECKING:
     from urdfkit.kinematics.tf import Transform, TransformTree
@@ -118,7 +118,7 @@ def _echo(transform: Transform) -> str:
     """Return a transform as ``tf2_echo`` prints it."""
     degrees = [number * 57.29577951308232 for number in transform.rpy]
     lines = [
-        f"{transform.parent} → {transform.child}",
+        f"{shortened(transform.parent)} → {shortened(transform.child)}",
         f"- Translation: {_row(transform.translation)} m",
         f"- Rotation: in Quaternion (xyzw) {_row(transform.quaternion)}",
         f"- Rotation: in RPY (radian) {_row(transform.rpy)}",
@@ -131,12 +131,13 @@ def _echo(transform: Transform) -> str:
 
 def _table(root: str, transforms: list[Transform]) -> str:
     """Return the transforms as a table with one row per frame."""
-    widest = max(len(transform.child) for transform in transforms)
+    names = [shortened(transform.child) for transform in transforms]
+    widest = max(map(len, names))
     heads = ("x [m]", "y [m]", "z [m]", "roll [rad]", "pitch [rad]", "yaw [rad]")
-    lines = [f"frames in `{root}`", " ".join([" " * widest, *(f"{head:>11}" for head in heads)])]
-    for transform in transforms:
+    lines = [f"frames in `{shortened(root)}`", " ".join([" " * widest, *(f"{head:>11}" for head in heads)])]
+    for name, transform in zip(names, transforms, strict=True):
         numbers = (f"{_number(number):>11}" for number in [*transform.translation, *transform.rpy])
-        lines.append(" ".join([f"{transform.child:<{widest}}", *numbers]))
+        lines.append(" ".join([f"{name:<{widest}}", *numbers]))
     return "\n".join(lines) + "\n"
 
 

@@ -6,6 +6,7 @@ import re
 from typing import TYPE_CHECKING
 
 from urdfkit.cli.sim.repair_options import print_warning
+from urdfkit.description.urdf.repair_record import ALL_PLACES
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -74,5 +75,5 @@ def grouped(texts: list[str]) -> list[str]:
         matches = [_PLACE.match(text) for text in group[1:]]
         places = list(dict.fromkeys(match[2] for match in matches if match is not None))
         shown = f": {', '.join(places[:_SHOWN])}{', …' if len(places) > _SHOWN else ''}" if places else ""
-        found.append(f"{group[0]} ({len(group) - 1} more warnings with this cause{shown})")
+        found.append(f"{group[0]} ({len(group) - 1} more with this cause{shown}; {ALL_PLACES})")
     return found

@@ -16,9 +16,13 @@ if TYPE_CHECKING:
     RepairKind = Literal[
         "xacro", "structure", "inertia", "mass", "shape", "mesh", "joint", "plugin", "hardware", "controller"
     ]
+    Severity = Literal["warning", "note"]
 
 SMALLEST_GROUP = 10
-"""Number of repairs of one kind from which on they are one line in the terminal."""
+"""Number of warnings of one kind from which on they are one line in the terminal; notes of one kind always are."""
+
+ALL_PLACES = "`urdfkit lint --target urdfkit` lists them"
+"""End of a message about several repairs: the command that lists the places of all."""
 
 
 @record
@@ -42,7 +46,7 @@ class Repair:
     position: Position | None
     link: str | None = None
     joint: str | None = None
-    severity: Literal["warning", "note"] = "warning"
+    severity: Severity = "warning"
     attribute: str | None = None
 
     def __str__(self) -> str:
@@ -68,6 +72,8 @@ class Repair:
 def grouped(repairs: Iterable[Repair]) -> list[Repair]:
     """Return the repairs for the terminal: from `SMALLEST_GROUP` on, repairs of one kind are one, with their number.
 
+    The line names the command that lists all places.
+
     Repairs are of one kind if they have the same code and severity, and messages that differ in names and numbers only.
     """
     groups: dict[tuple[str | None, str, str], list[Repair]] = {}
@@ -75,11 +81,10 @@ def grouped(repairs: Iterable[Repair]) -> list[Repair]:
         groups.setdefault((repair.code, repair.severity, kind_of(repair.message)), []).append(repair)
     found: list[Repair] = []
     for group in groups.values():
-        if len(group) < SMALLEST_GROUP:
+        if len(group) < (SMALLEST_GROUP if group[0].severity == "warning" else 2):
             found += group
             continue
         before, separator, suggestion = group[0].message.partition("; did you mean ")
-        found.append(
-            replace(group[0], message=f"{before} (and {len(group) - 1} more of this kind){separator}{suggestion}")
-        )
+        more = f" (and {len(group) - 1} more of this kind; {ALL_PLACES})"
+        found.append(replace(group[0], message=f"{before}{more}{separator}{suggestion}"))
     return found

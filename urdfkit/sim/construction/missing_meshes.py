@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from urdfkit.description.sdf import WorldLink, WorldModel, WorldShape
 from urdfkit.description.urdf.repair_record import Repair
@@ -13,28 +14,36 @@ from urdfkit.errors import ResourceError, SimulationError, with_effect
 from urdfkit.scene import MeshLoader, Scene
 from urdfkit.sim.construction.repairs.collector import Repairs
 
+if TYPE_CHECKING:
+    from urdfkit.description.urdf.repair_record import Severity
+    from urdfkit.description.urdf.robot import Robot
 
-def report_omitted_shapes(scene: Scene, repairs: Repairs, note: Callable[[str], None]) -> None:
-    """Report every omitted shape of a robot by name; robots with such shapes are never refused.
+
+_SEEING = ("camera", "gpu", "depth")
+"""Parts of the types of sensors that see visual shapes."""
+
+
+def report_omitted_shapes(robot: Robot, scene: Scene, repairs: Repairs) -> None:
+    """Report every omitted shape of a robot by name; without a sensor that sees them, they are notes.
 
     Args:
+        robot: the robot.
         scene: the shapes of the robot.
-        repairs: collects the repairs, unless it is strict.
-        note: reports a warning to the user.
+        repairs: collects the repairs.
 
     Raises:
         ResourceError: a mesh of a collision shape cannot be read.
+        SimulationError: a sensor sees visual shapes, one is omitted, and robots that need a repair are refused.
     """
+    types = [sensor.type or "" for block in robot.gazebo for sensor in block.sensors]
+    severity: Severity = "warning" if any(part in kind for kind in types for part in _SEEING) else "note"
+    found = []
     for each in scene.problems:
         if each.role == "collision":
             raise each.error
-    for each in scene.problems:
         message = with_effect(each.error.message, f"shape `{each.name}` is left out: it is invisible")
-        repair = Repair("mesh", each.code, message, each.error.position, each.body)
-        if repairs.strict:
-            note(str(repair))
-        else:
-            repairs.add(repair)
+        found.append(Repair("mesh", each.code, message, each.error.position, each.body, severity=severity))
+    repairs.add(*found)
 
 
 def without_broken(model: WorldModel, meshes: MeshLoader, note: Callable[[str], None]) -> WorldModel:

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from urdfkit import entry_points
+from urdfkit.description.control.simulation_arguments import hardware_plugin, not_run
 from urdfkit.description.plugins import PluginSpec, match
 from urdfkit.description.plugins.gazebo_libraries import meant_library
 from urdfkit.description.plugins.lookup import stem
@@ -22,8 +23,6 @@ from urdfkit.sim.plugins.base import Controller, Drive, Sensor
 from urdfkit.sim.plugins.builtin_publishers import JointStates, all_joint_states, joint_states
 from urdfkit.sim.plugins.controllers import CONTROLLERS
 from urdfkit.sim.plugins.controllers.joints.joint_state_broadcaster import JointStatePublisher
-from urdfkit.sim.plugins.controllers.ros2_control import SIMULATED
-from urdfkit.sim.plugins.controllers.simulation_arguments import simulation_hint
 from urdfkit.sim.plugins.drives import DRIVES
 from urdfkit.sim.plugins.sensors import SENSORS
 from urdfkit.sim.plugins.setup import Setup
@@ -137,15 +136,9 @@ def install(robot: Robot, setup: Setup, *, seed: int) -> Installed:
         spec is not None and spec.kind == "ros2_control" for spec in specs
     ):  # its own repair reports a plugin that is left out
         for block in robot.ros2_control:
-            message = (
-                f"no plugin runs ros2_control `{block.name or ''}`; "
-                f"add gz_ros2_control or gazebo_ros2_control{simulation_hint(robot)}"
-            )
-            hardware = next((each.find("plugin") for each in block.element.find_all("hardware")), None)
-            is_simulated = hardware is not None and hardware.text in SIMULATED
-            is_meant = is_simulated or any(each.plugins or each.sensors for each in robot.gazebo)
-            at = hardware if is_simulated and hardware is not None else block.element
-            _report(LeftOut(message, at.origin.position, "C718" if is_meant else _NOT_SIMULATED), "hardware", setup)
+            hardware = hardware_plugin(block)
+            at, code = (block.element, "C717") if hardware is None else (hardware, "C718")
+            _report(LeftOut("; ".join(not_run(block, robot)), at.origin.position, code), "hardware", setup)
     if not installed.publishes_joint_states:
         installed.joint_states.append(all_joint_states(setup))
     return installed
@@ -221,11 +214,12 @@ def _configure(made: Drive | Sensor | Controller | JointStates, setup: Setup) ->
 
 
 def _report(part: LeftOut, kind: RepairKind, setup: Setup) -> None:
-    """Report a part that is not simulated; robots with such a part are never refused."""
-    if setup.repairs.strict:
-        setup.note(f"{part.position}: {part.message}")
-    else:
-        setup.repairs.add(Repair(kind, part.code, part.message, part.position, attribute=part.attribute))
+    """Record a part that is not simulated.
+
+    Raises:
+        SimulationError: robots that need a repair are refused.
+    """
+    setup.repairs.add(Repair(kind, part.code, part.message, part.position, attribute=part.attribute))
 
 
 def _leave_out(plugin: Plugin, error: UrdfkitError, setup: Setup) -> Needless:

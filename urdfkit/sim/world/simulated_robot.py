@@ -100,7 +100,7 @@ class SimulatedRobot:
         floating = not (fixed_base or on_world)
         robot, self.scene = repaired(robot, scene, repairs, floating=floating)
         self.kinematics = Kinematics(robot, floating_base=floating)
-        report_omitted_shapes(self.scene, repairs, note)
+        report_omitted_shapes(robot, self.scene, repairs)
         self.spawn = spawn or Spawn(z=0.0 if on_world else None)
         self.base = self.spawn.place(self.kinematics, self.scene, ground)
         self._raised = raised_joints(self.kinematics, self.scene, self.base, ground) if spawn is None else {}

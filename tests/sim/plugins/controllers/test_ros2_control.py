@@ -13,11 +13,11 @@ import pytest
 from tests.sim import arm_package
 from tests.suggestions import contains
 from urdfkit.description import load
+from urdfkit.description.control.simulation_arguments import simulation_hint
 from urdfkit.errors import SimulationError, UrdfkitError
 from urdfkit.lint import lint
 from urdfkit.messages import FLOATS, JOINT_STATE, TRAJECTORY, TRAJECTORY_STATE, from_fields
 from urdfkit.sim import Simulator, Spawn
-from urdfkit.sim.plugins.controllers.simulation_arguments import simulation_hint
 
 GZ = ("gz_ros2_control-system", "gz_ros2_control::GazeboSimROS2ControlPlugin", "gz_ros2_control/GazeboSimSystem")
 CLASSIC = ("libgazebo_ros2_control.so", "gazebo_ros2_control", "gazebo_ros2_control/GazeboSystem")
@@ -355,7 +355,8 @@ def test_a_block_that_no_plugin_runs_is_left_out_with_a_finding(tmp_path: Path) 
     (finding,) = lint(path, select=["C718"])
     assert repair.position is not None
     assert (finding.span.file, finding.line) == (repair.position.file, repair.position.line)
-    assert Simulator(path, note=notes.append, strict=True).repairs == ()
+    with pytest.raises(SimulationError, match=r"no plugin runs ros2_control `arm` .*; add <gazebo><plugin filename="):
+        Simulator(path, note=notes.append, strict=True)
 
 
 def test_the_controller_manager_takes_requests(make: Make) -> None:

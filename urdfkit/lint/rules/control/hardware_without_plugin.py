@@ -1,15 +1,8 @@
 """C718 gazebo-hardware-without-plugin."""
 
+from urdfkit.description.control.simulation_arguments import GAZEBO_PLUGINS, hardware_plugin, not_run
 from urdfkit.lint.facts.gazebo.plugins import is_simulated, plugins, simulated_hardware
 from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
-
-_PLUGINS = {
-    "gz_ros2_control/GazeboSimSystem": ("gz_ros2_control-system", "gz_ros2_control::GazeboSimROS2ControlPlugin"),
-    "ign_ros2_control/IgnitionSystem": ("ign_ros2_control-system", "ign_ros2_control::IgnitionROS2ControlPlugin"),
-    "gazebo_ros2_control/GazeboSystem": ("libgazebo_ros2_control.so", "gazebo_ros2_control"),
-}
-"""Hardware → file and name of the plugin that loads it (the READMEs of gz_ros2_control and gazebo_ros2_control)."""
-
 
 _PLUGIN_OR_HARDWARE = r"<(?:gazebo|plugin|ros2_control|xacro:(?!if|unless|property|arg)\w)"
 """Matches elements that may add the plugin or the hardware."""
@@ -21,7 +14,8 @@ class HardwareWithoutPlugin(RobotRule):
     ## What it does
     Checks for robots whose ``<hardware>`` is that of gz_ros2_control, ign_ros2_control or gazebo_ros2_control and that
     include none of the corresponding plugins. Other hardware is a note if the robot has plugins or sensors for Gazebo.
-    Nothing is reported if another file of the package names such a plugin.
+    Nothing is reported if another file of the package names such a plugin. With ``--target urdfkit``, every hardware
+    that no plugin of the robot runs is a warning, as ``urdfkit sim`` reports it.
 
     ## Why is this bad?
     The plugin runs the controller manager inside Gazebo. Without it, spawners wait for ``/controller_manager`` forever
@@ -57,30 +51,31 @@ class HardwareWithoutPlugin(RobotRule):
     not_for = NOT_GAZEBO
 
     def check(self, model: Model) -> Findings:
-        """Yield a finding for the first Gazebo hardware that no plugin loads."""
+        """Yield a finding for each hardware that no plugin loads."""
         if model.is_incomplete or any(
             "ros2_control" in (plugin.filename or "") for plugin, _, _ in plugins(model.robot)
         ):
             return
+        is_loaded = model.target != "urdfkit" and _is_loaded_elsewhere(model)
         for block in model.robot.ros2_control:
-            hardware = block.element.find("hardware")
-            element = hardware.find("plugin") if hardware is not None else None
-            if element is None or element.text not in _PLUGINS:
-                if element is not None and model.target != "urdfkit" and is_simulated(model):  # see Z833
+            element = hardware_plugin(block)
+            if element is None or is_loaded:
+                continue  # A missing <plugin> is reported by C717.
+            supported = simulated_hardware(model)
+            name = element.text.strip()
+            if model.target == "urdfkit":
+                message, help = not_run(block, model.robot)
+                yield self.at(model, element, message, help=help)
+            elif name not in GAZEBO_PLUGINS:
+                if is_simulated(model):
                     label = f" `{block.name}`" if block.name else ""
                     message = f"no Gazebo plugin runs ros2_control{label}: its controllers do not run in Gazebo"
-                    if not _is_loaded_elsewhere(model):
-                        yield self.at(model, block.element, message, severity="note")
-                continue
-            supported = simulated_hardware(model)
-            if supported is not None and element.text.partition("/")[0] not in supported:
-                continue  # The hardware belongs to another Gazebo generation: reported by C709.
-            if not _is_loaded_elsewhere(model):
-                file, name = _PLUGINS[element.text]
-                message = f"missing Gazebo plugin for the hardware `{element.text}`"
-                help = f'add <gazebo><plugin filename="{file}" name="{name}">…</plugin></gazebo>'
+                    yield self.at(model, element, message, severity="note")
+            elif supported is None or name.partition("/")[0] in supported:  # Other hardware is reported by C709.
+                file, plugin = GAZEBO_PLUGINS[name]
+                message = f"missing Gazebo plugin for the hardware `{name}`"
+                help = f'add <gazebo><plugin filename="{file}" name="{plugin}">…</plugin></gazebo>'
                 yield self.at(model, element, message, help=help)
-            return
 
 
 def _is_loaded_elsewhere(model: Model) -> bool:

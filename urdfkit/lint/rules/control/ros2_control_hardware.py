@@ -101,7 +101,13 @@ class HardwareMismatch(RobotRule):
                 if suggestion is None or is_exported_plugin(model, text):
                     if is_run:
                         message = f"hardware `{text}` is not simulated; its joints are not controlled in Gazebo"
-                        yield self.at(model, element, message, help=_ARGUMENT, severity="note")
+                        yield self.at(
+                            model,
+                            element,
+                            message,
+                            help=_ARGUMENT,
+                            severity="warning" if model.target == "urdfkit" else "note",
+                        )
                     continue
                 expected, message = suggestion, f"unknown hardware `{text}`"
             yield self.at(

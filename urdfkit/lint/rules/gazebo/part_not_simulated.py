@@ -1,6 +1,6 @@
 """Z833 part-not-simulated."""
 
-from urdfkit.lint.facts.gazebo.plugins import plugins, runs_ros2_control
+from urdfkit.lint.facts.gazebo.plugins import plugins
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
 
@@ -8,12 +8,11 @@ class PartNotSimulated(RobotRule):
     """A simulation with urdfkit leaves out a part of the robot.
 
     ## What it does
-    With ``--target urdfkit``, checks for plugins and sensors of types that urdfkit does not simulate, for
-    ``<ros2_control>`` that no plugin runs, and for controllers of types that urdfkit does not simulate.
+    With ``--target urdfkit``, checks for plugins, sensors and controllers of types that urdfkit does not simulate.
 
     ## Why is this bad?
-    The simulation runs, but without the part. In Gazebo, or on the real robot, the part may work, so this is a note,
-    and only for urdfkit.
+    The simulation runs, but without the part, and with ``--strict`` it refuses the robot. In Gazebo, or on the real
+    robot, the part may work, so it is reported only for urdfkit.
 
     ## Example
     ```xml
@@ -38,16 +37,13 @@ class PartNotSimulated(RobotRule):
 
     code = "Z833"
     name = "part-not-simulated"
-    severity = "note"
+    severity = "warning"
     only_for = ("urdfkit",)
 
     def check(self, model: Model) -> Findings:
         """Yield a finding for each part that a simulation leaves out."""
         yield from self._plugins(model)
         yield from self._sensors(model)
-        if not runs_ros2_control(model.robot):
-            for block in model.robot.ros2_control:
-                yield self.at(model, block.element, f"no plugin runs ros2_control `{block.name or ''}`")
         yield from self._controllers(model)
 
     def _plugins(self, model: Model) -> Findings:

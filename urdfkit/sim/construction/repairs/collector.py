@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from urdfkit.description.repair_positions import at_attributes
 from urdfkit.description.urdf.repair_record import Repair, grouped
-from urdfkit.errors import with_effect
+from urdfkit.errors import SimulationError, with_effect
 
 if TYPE_CHECKING:
     from urdfkit.description.urdf.repair_record import RepairKind
@@ -39,8 +39,15 @@ class Repairs:
         self._recorded: set[Repair] = set()
 
     def add(self, *repairs: Repair) -> None:
-        """Record and report repairs that were not recorded before; see `grouped`."""
+        """Record and report repairs that were not recorded before; see `grouped`.
+
+        Raises:
+            SimulationError: a repair is a warning, and robots that need one are refused.
+        """
         new = [repair for repair in dict.fromkeys(at_attributes(repairs)) if repair not in self._recorded]
+        if self.strict and (refused := next((one for one in new if one.severity == "warning"), None)) is not None:
+            defect = refused.message.partition("; simulated with ")[0]
+            raise SimulationError(f"{defect} (refused: strict)", position=refused.position, code=refused.code)
         self._recorded.update(new)
         self.found += new
         for repair in grouped(new):

@@ -9,7 +9,6 @@ from urdfkit.description.urdf.massless_links import first_massless, massless
 from urdfkit.description.urdf.repair_record import Repair
 from urdfkit.description.urdf.robot import Robot
 from urdfkit.description.value_defects import repaired_values, require_valid_values
-from urdfkit.errors import ModelError
 from urdfkit.kinematics.mimic import without_impossible_mimics
 from urdfkit.scene import Scene, scene_of
 from urdfkit.scene.placeholders import require_valid_shapes
@@ -27,8 +26,7 @@ _SHOWN = 6
 def repaired(robot: Robot, scene: Scene | None, repairs: Repairs, *, floating: bool) -> tuple[Robot, Scene]:
     """Return a robot that can be simulated, and its shapes.
 
-    Defects that no repair removes, such as negative masses, stay. If `repairs` is strict, only limits that lint reports
-    as a note are repaired: limits of -1 on every joint.
+    Defects that no repair removes, such as negative masses, stay.
 
     Args:
         robot: the robot, one tree.
@@ -37,21 +35,17 @@ def repaired(robot: Robot, scene: Scene | None, repairs: Repairs, *, floating: b
         floating: whether the base of the robot moves.
 
     Raises:
-        ModelError: the structure of the robot was repaired, and `repairs` is strict.
+        UrdfkitError: a repair is a warning, and `repairs` is strict.
     """
+    repairs.add(*robot.repairs)
     if repairs.strict:
-        for repair in robot.repairs:
-            if repair.severity == "warning":
-                raise ModelError(repair.message, position=repair.position)
         require_valid_values(robot)
         require_valid_shapes(robot)
-        robot, notes = repaired_values(robot)
-        repairs.add(*notes)
-        return robot, scene or scene_of(robot, strict=False)
     written = robot = without_impossible_mimics(robot)
     repairs.add(*robot.repairs)
     robot, found = without_empty_shapes(robot)
-    scene, missing = with_substitutes(scene_of(robot, strict=False) if scene is None or found else scene)
+    scene = scene_of(robot, strict=False) if scene is None or found else scene
+    scene, missing = with_substitutes(scene) if not repairs.strict else (scene, [])
     bodies = AttachedBodies(robot)
     pairs = [possible(link, bodies) for link in robot.links]
     found += missing + [repair for _, repair in pairs if repair is not None]

@@ -161,15 +161,10 @@ class ControlLoop:
             return True
         controller = load_ros_controller(name, self.configured[name], self.hardware)
         if controller is None:
-            kind, setup = self.configured[name].text("type", ""), self.hardware.setup
-            place, message = (
-                self.configured[name].group("type").position,
-                f"controller `{name}`: {kind} is not simulated",
-            )
-            if kind in NOT_SIMULATED or setup.repairs.strict:
-                setup.note(f"{place}: {message}")
-            else:
-                setup.repairs.add(Repair("controller", "K962", f"{message}; the controller is left out", place))
+            kind, place = self.configured[name].text("type", ""), self.configured[name].group("type").position
+            message = f"controller `{name}`: {kind} is not simulated; the controller is left out"
+            code = "Z833" if kind in NOT_SIMULATED else "K962"
+            self.hardware.setup.repairs.add(Repair("controller", code, message, place))
             return False
         if unknown := unknown_parameters(self.configured[name]):
             names = ", ".join(f"`{each.name}`" for each in unknown)

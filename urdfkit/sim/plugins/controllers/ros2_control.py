@@ -8,6 +8,7 @@ from pathlib import Path
 from urdfkit.description.control import Settings, node_settings, read_settings
 from urdfkit.description.control.parameter_files import parameter_file
 from urdfkit.description.control.ros2_controllers import configured_controllers
+from urdfkit.description.control.simulation_arguments import simulation_hint
 from urdfkit.description.plugins.controller_plugins import GAZEBO_ROS2_CONTROL
 from urdfkit.description.xml.element import Element
 from urdfkit.description.xml.numbers import number
@@ -26,7 +27,6 @@ from urdfkit.sim.plugins.controllers.control_loop_plugin import ControlLoopPlugi
 from urdfkit.sim.plugins.controllers.controller import Hardware
 from urdfkit.sim.plugins.controllers.controller_manager import serve
 from urdfkit.sim.plugins.controllers.joint_handle import JointHandle
-from urdfkit.sim.plugins.controllers.simulation_arguments import simulation_hint
 from urdfkit.sim.plugins.parameters import Parameters
 from urdfkit.sim.plugins.setup import Setup
 from urdfkit.sim.plugins.topic_names import Topics

@@ -1,0 +1,58 @@
+"""Hardware of a robot that a simulation does not run: the message, and the xacro arguments that select another."""
+
+from __future__ import annotations
+
+import re
+from typing import TYPE_CHECKING
+
+from urdfkit.description.xacro.declared_arguments import declared_arguments
+from urdfkit.description.xml.reader import read_source
+
+if TYPE_CHECKING:
+    from urdfkit.description.urdf.robot import Robot, Ros2Control
+    from urdfkit.description.xml.element import Element
+
+_FALSE = ("false", "False", "0")
+_SIMULATION = re.compile(r"(^|_)(sim|simulation|gazebo|gz|ignition|ign|mock|fake)(_|$)")
+
+
+def simulation_hint(robot: Robot) -> str:
+    """Return the end of a message that lists the arguments that enable the simulated hardware; empty without any.
+
+    All files of the robot are searched. The end is empty, too, if the robot was loaded with such an argument.
+    """
+    defaults = declared_arguments([read_source(file) for file in robot.files if file.is_file()])
+    enabling = [name for name, value in defaults.items() if value in _FALSE and _SIMULATION.search(name)]
+    if not enabling or any(name in robot.arguments for name in enabling):
+        return ""
+    return f"; pass {' or '.join(f'{name}:=true' for name in enabling)}"
+
+
+GAZEBO_PLUGINS = {
+    "gz_ros2_control/GazeboSimSystem": ("gz_ros2_control-system", "gz_ros2_control::GazeboSimROS2ControlPlugin"),
+    "ign_ros2_control/IgnitionSystem": ("ign_ros2_control-system", "ign_ros2_control::IgnitionROS2ControlPlugin"),
+    "gazebo_ros2_control/GazeboSystem": ("libgazebo_ros2_control.so", "gazebo_ros2_control"),
+}
+"""Hardware → file and name of the plugin that loads it (the READMEs of gz_ros2_control and gazebo_ros2_control)."""
+
+
+def hardware_plugin(block: Ros2Control) -> Element | None:
+    """Return the ``<plugin>`` in the ``<hardware>`` of a ``<ros2_control>``; None if it has none."""
+    return next((each.find("plugin") for each in block.element.find_all("hardware")), None)
+
+
+def not_run(block: Ros2Control, robot: Robot) -> tuple[str, str]:
+    """Return the message about a ``<ros2_control>`` that no plugin runs, and what to pass or to add."""
+    plugin = hardware_plugin(block)
+    name = "" if plugin is None else plugin.text.strip()
+    of = f" with the hardware `{name}`" if name else ""
+    message = f"no plugin runs ros2_control `{block.name or ''}`{of}: its joints are not controlled"
+    if hint := simulation_hint(robot):
+        return message, hint.removeprefix("; ")
+    if name in GAZEBO_PLUGINS:
+        return message, f'add <gazebo><plugin filename="{GAZEBO_PLUGINS[name][0]}" name="{GAZEBO_PLUGINS[name][1]}"/>'
+    meant = next(iter(GAZEBO_PLUGINS))
+    return (
+        message,
+        f'to simulate it, write the hardware `{meant}` and add <plugin filename="{GAZEBO_PLUGINS[meant][0]}">',
+    )
