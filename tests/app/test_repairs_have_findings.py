@@ -1,4 +1,4 @@
-"""Each repair that `sim`, `view` and `info` report has a finding of its code in its line, over robots with one defect.
+"""Each repair that `sim`, `view` and `info` report has a finding of its code at its place, over robots with one defect.
 
 A defect is a replacement in one good robot, and each must be repaired. The codes of all repairs must be those of rules,
 so a new repair without a rule fails here.
@@ -158,6 +158,25 @@ DEFECTS = {
         """<ros2_control name="h" type="system"><hardware>
         <plugin>gz_ros2_control/GazeboSimSystem</plugin></hardware></ros2_control></robot>""",
     ),
+    "two hardwares that no plugin runs": (
+        "</robot>",
+        """<ros2_control name="h" type="system"><hardware>
+        <plugin>gz_ros2_control/GazeboSimSystem</plugin></hardware></ros2_control>
+        <ros2_control name="g" type="system"><hardware>
+        <plugin>gz_ros2_control/GazeboSimSystem</plugin></hardware></ros2_control></robot>""",
+    ),
+    "two without hardware": (
+        "</robot>",
+        """<ros2_control name="h" type="system"><joint name="wrist"/></ros2_control>
+        <ros2_control name="g" type="system"><hardware><param name="a">1</param></hardware></ros2_control></robot>""",
+    ),
+    "two with empty hardware": (
+        "</robot>",
+        """<ros2_control name="h" type="system"><hardware><plugin/></hardware></ros2_control>
+        <ros2_control name="g" type="system"><hardware/></ros2_control></robot>""",
+    ),
+    "mass that is not a number": ('<mass value="1"/>', '<mass value="nan"/>'),
+    "visual mesh": ('<box size="0.2 0.2 0.2"/>', '<mesh filename="gone.dae"/>'),
     "empty plugin file": ('filename="libgazebo_ros_joint_state_publisher.so"', 'filename=""'),
 }
 """Defect → the text of the good robot, and its replacement."""
@@ -182,14 +201,30 @@ def repairs_of(path: Path) -> dict[str, list[Repair]]:
 
 
 def unreported(path: Path) -> tuple[int, list[str]]:
-    """Return the number of repairs, and those without a finding of their code in their line."""
-    lines = {(one.code, place.line) for one in lint(path) for place in (one.span, *(each.span for each in one.related))}
+    """Return the number of repairs, and those without a finding of their code in their line and column.
+
+    A robot whose repairs are warnings is refused with ``strict``, and only such a robot.
+    """
+    found = [*lint(path), *lint(path, target="urdfkit")]
+    spans = [(one.code, span) for one in found for span in (one.span, *(each.span for each in one.related))]
+    places = {(code, span.line, span.column) for code, span in spans}
+    warned = {one.line for one in found if one.severity != "note"}
     count, missing = 0, []
     for command, repairs in repairs_of(path).items():
         for repair in repairs:
             count += 1
-            if repair.code not in CODES or repair.position is None or (repair.code, repair.position.line) not in lines:
+            at = repair.position
+            if repair.code not in CODES or at is None or (repair.code, at.line, at.column) not in places:
                 missing.append(f"{command}: {repair.code} {repair}")
+            elif repair.severity == "warning" and at.line not in warned:
+                missing.append(f"{command}: {repair.code} is only a note of lint: {repair}")
+        is_refused = False
+        try:
+            ShownRobot.read(model_argument(path), strict=True) if command == "view" else Simulator(path, strict=True)
+        except UrdfkitError:
+            is_refused = True
+        if is_refused is not any(repair.severity == "warning" for repair in repairs):
+            missing.append(f"{command}: {'refused' if is_refused else 'accepted'} with strict: {repairs}")
     return count, missing
 
 

@@ -109,8 +109,8 @@ CASES: list[tuple[str, str, dict[str, str]]] = [
     # inertia-not-positive-definite: up to 1e-9 of the largest moment
     ("I502", link(inertial("1", "1 1 @")), {"1e-8": "", "1e-10": "warning", "0": "warning", "-1": "error"}),
     ("I502", link(inertial("@", "1 1 -1")), {"0": "error", "-1": "", "0.5": "error"}),
-    # inertia-triangle-inequality: notes for rounded numbers, 1e-6 to 1e-3 of the largest moment
-    ("I503", link(inertial("1", "1 1 @")), {"2": "", "2.000001": "", "2.00001": "note", "2.00019": "note"}),
+    # inertia-triangle-inequality: notes for rounded numbers, 1e-9 to 1e-4 of the largest moment
+    ("I503", link(inertial("1", "1 1 @")), {"2": "", "2.000000001": "", "2.000001": "note", "2.00019": "note"}),
     ("I503", link(inertial("1", "1 1 @")), {"2.00021": "warning", "2.001": "warning", "2.003": "error", "5": "error"}),
     # inertia-decimal-slip: the other moments within 1.7, the scaled one within 1.5, at most a factor of 1000
     ("I506", slip(ixx="@"), {"0.081": "", "0.072": "warning", "0.028": "warning", "0.025": ""}),

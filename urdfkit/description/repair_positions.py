@@ -1,4 +1,4 @@
-"""Positions of repairs: the lines in which the linter reports the same defects."""
+"""Positions of repairs: the lines and columns in which the linter reports the same defects."""
 
 from __future__ import annotations
 
@@ -14,6 +14,7 @@ if TYPE_CHECKING:
 
 _ATTRIBUTES = {
     **dict.fromkeys(("C701", "C703", "I511", "T203", "T204", "T206", "T207"), "name"),
+    **dict.fromkeys(("G601", "G602", "G606", "G607"), "filename"),
     **dict.fromkeys(("T201", "T202", "T205"), "link"),
     "E023": "quat_xyzw",
     "I501": "value",
@@ -26,7 +27,7 @@ _ATTRIBUTES = {
 
 
 def at_attributes(repairs: Iterable[Repair]) -> list[Repair]:
-    """Return repairs with the position of the attribute that has the defect, if it is in another line than its tag."""
+    """Return repairs with the position of the attribute that has the defect, if its tag has it."""
     sources = WrittenAttributes()
     return [_at_attribute(repair, sources) for repair in repairs]
 
@@ -36,6 +37,4 @@ def _at_attribute(repair: Repair, sources: WrittenAttributes) -> Repair:
     if attribute is None or repair.position is None:
         return repair
     written = sources.at(repair.position, attribute)
-    if written is None or written.name.start.line == repair.position.line:
-        return repair
-    return replace(repair, position=written.name.start)
+    return repair if written is None else replace(repair, position=written.name.start)

@@ -28,7 +28,7 @@ def add_strict(parser: argparse.ArgumentParser, example: str) -> None:
     parser.add_argument(
         "--strict",
         action="store_true",
-        help=f"refuse robots that need a repair, such as {example} (default: repair and warn)",
+        help=f"refuse robots whose repair is a warning, such as {example} (default: repair and warn)",
     )
 
 

@@ -136,8 +136,9 @@ def install(robot: Robot, setup: Setup, *, seed: int) -> Installed:
         spec is not None and spec.kind == "ros2_control" for spec in specs
     ):  # its own repair reports a plugin that is left out
         for block in robot.ros2_control:
-            hardware = hardware_plugin(block)
-            at, code = (block.element, "C717") if hardware is None else (hardware, "C718")
+            plugin, hardware = hardware_plugin(block), block.element.find("hardware")
+            at = next(each for each in (plugin, hardware, block.element) if each is not None)
+            code = "C717" if plugin is None else "C718"
             _report(LeftOut("; ".join(not_run(block, robot)), at.origin.position, code), "hardware", setup)
     if not installed.publishes_joint_states:
         installed.joint_states.append(all_joint_states(setup))

@@ -65,7 +65,7 @@ def link(folder: Path, ixx: float, mass: float = 1.0) -> tuple[Link, AttachedBod
 
 
 @pytest.mark.parametrize(
-    ("excess", "severity"), [(0.0, None), (5e-7, None), (5e-6, "note"), (9e-5, "note"), (1.1e-4, "warning")]
+    ("excess", "severity"), [(0.0, None), (5e-10, None), (5e-7, "note"), (9e-5, "note"), (1.1e-4, "warning")]
 )
 def test_slips_within_rounding_errors_are_notes(tmp_path: Path, excess: float, severity: str | None) -> None:
     written, bodies = link(tmp_path, 1.0 / (1.0 - excess))

@@ -134,7 +134,7 @@ def test_the_command_says_it_in_one_line_and_goes_on(robot, capsys: Any) -> None
     assert main(["sim", "run", str(file), "--world", "void", "--for", "0.01"]) == 0
     reported = capsys.readouterr().err.splitlines()
     assert [line for line in reported if "raay" in line] == [
-        f"urdfkit: warning: {file}:4:25: unknown sensor type `raay`; sensor `lidar` is left out; did you mean `ray`?"
+        f"urdfkit: warning: {file}:4:46: unknown sensor type `raay`; sensor `lidar` is left out; did you mean `ray`?"
     ]
 
 

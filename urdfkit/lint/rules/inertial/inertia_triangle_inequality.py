@@ -10,8 +10,8 @@ TOLERANCE = 1e-3
 SLIP = 1e-4
 """Violations up to this fraction are notes, here and in the repairs of a simulation."""
 
-NOISE = 1e-6
-"""Violations up to this fraction are not reported: many CAD programs write only six digits."""
+NOISE = 1e-9
+"""Violations up to this fraction are not reported: the principal moments are computed."""
 
 
 class InertiaTriangleInequality(RobotRule):

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import replace
-from math import pi
+from math import isfinite, pi
 
+from urdfkit.description.repair_positions import at_attributes
 from urdfkit.description.urdf.geometry import rotation_of, rpy_of
 from urdfkit.description.urdf.massless_links import first_of, has_inertia, has_mass, moving_bodies
 from urdfkit.description.urdf.repair_record import Repair
@@ -101,18 +102,18 @@ def mass_repair(link: Link, inertials: list[Inertial], joint: Joint | None, basi
         basis: where the values come from.
     """
     why = f"joint `{joint.name}` moves it" if joint is not None else "the robot is free to move"
-    written, element, code = link.inertial, link.element, "I511"
+    written, element, code, attribute = link.inertial, link.element, "I511", None
     if written is None:
         problem = "has no <inertial>"
         code = {"parent": "T201", "child": "T202"}.get(element.tag, code)  # The link was added for a joint.
     elif not has_mass(link):
         problem = "has no mass"
-        element, code = _unread(written.element, "mass", ("value",))
+        element, code, attribute = _unread(written.element, "mass", ("value",))
         if written.mass is not None:
             element, code = written.element.find("mass") or element, "I501"
     else:
         problem = "has no moment of inertia"
-        element, code = _unread(written.element, "inertia", ("ixx", "ixy", "ixz", "iyy", "iyz", "izz"))
+        element, code, attribute = _unread(written.element, "inertia", ("ixx", "ixy", "ixz", "iyy", "iyz", "izz"))
         if written.inertia is not None:
             element, code = written.inertia.element, "I504"
     amount = f"{sum(inertial.mass or 0.0 for inertial in inertials):.4g} kg"
@@ -121,18 +122,40 @@ def mass_repair(link: Link, inertials: list[Inertial], joint: Joint | None, basi
     elif (i := inertials[0].inertia) is not None:
         amount += f" and {i.ixx:.4g}, {i.iyy:.4g}, {i.izz:.4g} kg·m²"
     message = f"link `{link.name}` {problem}, but {why}; simulated with {amount} ({basis})"
-    return repair_at(element, "mass", code, message, link=link.name, joint=None if joint is None else joint.name)
+    repair = repair_at(element, "mass", code, message, link=link.name, joint=None if joint is None else joint.name)
+    return replace(repair, attribute=attribute)
 
 
-def _unread(inertial: Element, tag: str, attributes: tuple[str, ...]) -> tuple[Element, str]:
-    """Return the element without which an inertial has no mass or inertia, and the code of its defect."""
+def with_causes(repairs: Iterable[Repair], masses: Iterable[Repair]) -> list[Repair]:
+    """Return repairs of a description and of masses, in which the repair of an unreadable mass or inertia is one.
+
+    Args:
+        repairs: repairs of the description, such as an ignored mass.
+        masses: the estimates, such as that of the same mass.
+    """
+    estimates = {(each.code, each.position): each for each in at_attributes(masses)}
+    found = []
+    for each in repairs:
+        if (estimate := estimates.pop((each.code, each.position), None)) is not None:
+            effect = f"simulated with {estimate.message.partition('; simulated with ')[2]}"
+            each = replace(estimate, message=each.message.replace("the value is ignored", effect))
+        found.append(each)
+    return [*found, *estimates.values()]
+
+
+def _unread(inertial: Element, tag: str, attributes: tuple[str, ...]) -> tuple[Element, str, str | None]:
+    """Return the element without which an inertial has no mass or inertia, and code and attribute of its defect."""
     element = inertial.find(tag)
     if element is None:
-        return inertial, "E014"
-    texts = [element.get(name) for name in attributes]
-    if None in texts:
-        return element, "E014"
-    return element, "E010" if any(number(text or "") is None for text in texts) else "E012"
+        return inertial, "E014", None
+    texts = {name: element.get(name) for name in attributes}
+    if None in texts.values():
+        return element, "E014", None
+    numbers = {name: number(text or "") for name, text in texts.items()}
+    unread = next((name for name, value in numbers.items() if value is None), None)
+    if unread is not None:
+        return element, "E010", unread
+    return element, "E012", next((name for name, value in numbers.items() if not isfinite(value or 0.0)), None)
 
 
 def _volume(scene: Scene, link: str) -> Moments:

@@ -26,8 +26,8 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 
-ROUNDING = 1e-6
-"""Largest violation that is not repaired, relative to the largest moment: CAD programs write six digits (I503)."""
+ROUNDING = 1e-9
+"""Largest violation that is not repaired, relative to the largest moment: that of the computed moments (I503)."""
 
 ZERO = 1e-9
 """Smallest principal moment that is not a zero, relative to the largest moment (I502)."""

@@ -14,7 +14,7 @@ from urdfkit.scene import Scene, scene_of
 from urdfkit.scene.placeholders import require_valid_shapes
 from urdfkit.sim.construction.repairs.collector import Repairs
 from urdfkit.sim.construction.repairs.collision_shapes import with_substitutes, without_empty_shapes
-from urdfkit.sim.construction.repairs.estimated_masses import with_estimates
+from urdfkit.sim.construction.repairs.estimated_masses import with_causes, with_estimates
 from urdfkit.sim.construction.repairs.inertia_tensors import possible, repair_at
 from urdfkit.sim.construction.repairs.least_masses import with_least_masses
 from urdfkit.sim.construction.repairs.line_masses import with_thickness
@@ -37,12 +37,11 @@ def repaired(robot: Robot, scene: Scene | None, repairs: Repairs, *, floating: b
     Raises:
         UrdfkitError: a repair is a warning, and `repairs` is strict.
     """
-    repairs.add(*robot.repairs)
     if repairs.strict:
+        repairs.add(*robot.repairs)
         require_valid_values(robot)
         require_valid_shapes(robot)
     written = robot = without_impossible_mimics(robot)
-    repairs.add(*robot.repairs)
     robot, found = without_empty_shapes(robot)
     scene = scene_of(robot, strict=False) if scene is None or found else scene
     scene, missing = with_substitutes(scene) if not repairs.strict else (scene, [])
@@ -57,7 +56,7 @@ def repaired(robot: Robot, scene: Scene | None, repairs: Repairs, *, floating: b
     robot, least = with_least_masses(robot, floating=floating)
     robot, thick = with_thickness(robot, floating=floating)
     masses = _of_whole_robot(written, robot, [*estimated, *least], repairs.density, floating=floating)
-    repairs.add(*found, *masses, *thick)
+    repairs.add(*with_causes(written.repairs, masses), *found, *thick)
     return robot, scene
 
 
