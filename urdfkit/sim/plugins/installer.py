@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from urdfkit import entry_points
-from urdfkit.description.control.simulation_arguments import hardware_plugin, not_run
+from urdfkit.description.hardware_defects import hardware_plugin, not_run
 from urdfkit.description.plugins import PluginSpec, match
 from urdfkit.description.plugins.gazebo_libraries import meant_library
 from urdfkit.description.plugins.lookup import stem
@@ -136,9 +136,9 @@ def install(robot: Robot, setup: Setup, *, seed: int) -> Installed:
         spec is not None and spec.kind == "ros2_control" for spec in specs
     ):  # its own repair reports a plugin that is left out
         for block in robot.ros2_control:
-            plugin, hardware = hardware_plugin(block), block.element.find("hardware")
-            at = next(each for each in (plugin, hardware, block.element) if each is not None)
-            code = "C717" if plugin is None else "C718"
+            written, hardware = hardware_plugin(block), block.element.find("hardware")
+            at = next(each for each in (written, hardware, block.element) if each is not None)
+            code = "C717" if written is None else "C718"
             _report(LeftOut("; ".join(not_run(block, robot)), at.origin.position, code), "hardware", setup)
     if not installed.publishes_joint_states:
         installed.joint_states.append(all_joint_states(setup))

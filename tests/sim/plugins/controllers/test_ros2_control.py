@@ -13,7 +13,7 @@ import pytest
 from tests.sim import arm_package
 from tests.suggestions import contains
 from urdfkit.description import load
-from urdfkit.description.control.simulation_arguments import simulation_hint
+from urdfkit.description.hardware_defects import simulation_hint
 from urdfkit.errors import SimulationError, UrdfkitError
 from urdfkit.lint import lint
 from urdfkit.messages import FLOATS, JOINT_STATE, TRAJECTORY, TRAJECTORY_STATE, from_fields

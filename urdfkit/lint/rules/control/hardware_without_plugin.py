@@ -1,6 +1,6 @@
 """C718 gazebo-hardware-without-plugin."""
 
-from urdfkit.description.control.simulation_arguments import GAZEBO_PLUGINS, hardware_plugin, not_run
+from urdfkit.description.hardware_defects import GAZEBO_PLUGINS, hardware_plugin, not_run
 from urdfkit.lint.facts.gazebo.plugins import is_simulated, plugins, simulated_hardware
 from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
 

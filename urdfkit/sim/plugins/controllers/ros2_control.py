@@ -8,7 +8,7 @@ from pathlib import Path
 from urdfkit.description.control import Settings, node_settings, read_settings
 from urdfkit.description.control.parameter_files import parameter_file
 from urdfkit.description.control.ros2_controllers import configured_controllers
-from urdfkit.description.control.simulation_arguments import simulation_hint
+from urdfkit.description.hardware_defects import simulation_hint
 from urdfkit.description.plugins.controller_plugins import GAZEBO_ROS2_CONTROL
 from urdfkit.description.xml.element import Element
 from urdfkit.description.xml.numbers import number
