@@ -256,3 +256,11 @@ def test_a_file_in_utf_16_is_a_repair_and_strict_refuses_it(tmp_path: Path) -> N
     assert unreported(path) == (2, [])
     with pytest.raises(UrdfkitError, match="UTF-16"):
         Simulator(path, strict=True)
+
+
+@pytest.mark.parametrize("kind", ["fixed", "continuous"])
+def test_a_robot_of_visual_shapes_only_has_a_finding_for_its_mass(tmp_path: Path, kind: str) -> None:
+    link = '<link name="{}"><visual><geometry><box size="1 1 1"/></geometry></visual></link>\n'
+    joint = f'<joint name="j" type="{kind}"><parent link="a"/><child link="b"/><axis xyz="0 0 1"/></joint>'
+    text = f'<robot name="r">\n{link.format("a")}{link.format("b")}{joint}</robot>'
+    assert unreported(write(tmp_path, text)) == (1, [])

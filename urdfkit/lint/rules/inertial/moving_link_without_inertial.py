@@ -18,7 +18,7 @@ class MovingLinkWithoutInertial(RobotRule):
     ``classic``, ``mujoco``, ``isaac`` or ``drake``, or if the robot contains Gazebo plugins. For other robots it is a
     warning. It is a note for a robot without any ``<inertial>``, ``<gazebo>``, ``<transmission>`` and
     ``<ros2_control>``, which describes kinematics only. A robot without any ``<inertial>`` is reported once if joints
-    move its shapes, and with these targets also if it has joints that move or shapes; as a note if it has
+    move its shapes, and with these targets also if it has joints that move or shapes; as a note if it has collision
     shapes. Other robots describe kinematics only.
 
     ## Why is this bad?
@@ -95,7 +95,7 @@ class MovingLinkWithoutInertial(RobotRule):
                 link, joint = (shaped[0], moved[shaped[0].name]) if shaped else (link, joint)
             is_shaped = bool(link.visuals or link.collisions)
             if sum((is_shaped, joint is not None, is_simulator(model))) < 2:
-                if not any(each.collisions or each.visuals for each in robot.links):
+                if not any(each.collisions for each in robot.links):
                     return  # It describes kinematics only.
                 severity = "note"
             is_of_control = robot.gazebo or robot.ros2_control or robot.transmissions
