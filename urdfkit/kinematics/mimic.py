@@ -3,6 +3,7 @@
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
+from urdfkit.description.repair_positions import at_attributes
 from urdfkit.description.urdf.repair_record import Repair
 from urdfkit.description.urdf.robot import Joint, Robot
 from urdfkit.errors import KinematicsError, did_you_mean, with_effect
@@ -61,7 +62,7 @@ def without_impossible_mimics(robot: Robot) -> Robot:
     if not repairs:
         return robot
     kept = tuple([joints[joint.name] for joint in robot.joints])
-    return replace(robot, joints=kept, repairs=(*robot.repairs, *repairs))
+    return replace(robot, joints=kept, repairs=(*robot.repairs, *at_attributes(repairs)))
 
 
 def _follow(joints: Mapping[str, Joint], joint: Joint, resolved: dict[str, Coupling]) -> Coupling:
