@@ -89,3 +89,10 @@ def test_without_the_package_one_line_names_it(tmp_path: Path, monkeypatch: pyte
     monkeypatch.setattr("urdfkit.robot_descriptions_cache.find_spec", lambda name: None)
     with pytest.raises(ResourceError, match="`pip install robot_descriptions`"):
         find_model(["panda_description"])
+    with pytest.raises(ResourceError, match=r"pull panda_description`; did you mean `panda_description`\?"):
+        find_model(["panda_descripton"])
+
+
+def test_a_misspelt_end_of_a_name_is_compared_with_all_robots(cache: Path) -> None:
+    with pytest.raises(ResourceError, match=r"pull toy_description`; did you mean `toy_description`\?"):
+        find_model(["tpy_descripton"])

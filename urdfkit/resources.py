@@ -187,11 +187,10 @@ def _find(word: str) -> Path:
     here = [p.name for p in _children(Path.cwd()) if p.is_dir() or p.suffix.lower() in MODEL_SUFFIXES]
     names = robot_names()
     hint = did_you_mean(word, [*names, *here])
-    if not hint and _DESCRIPTION.fullmatch(word):
-        hint = (
-            f"; for robots of the package robot_descriptions run `pip install robot_descriptions` "
-            f"and `python -m robot_descriptions pull {word}`"
-        )
+    if not hint:
+        from urdfkit.robot_descriptions_cache import how_to_get
+
+        hint = how_to_get(word)
     raise ResourceError(f"no robot, file or folder `{word}`{hint or '; bundled robots: ' + ', '.join(names)}")
 
 

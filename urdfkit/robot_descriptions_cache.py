@@ -11,7 +11,7 @@ import os
 from importlib.util import find_spec
 from pathlib import Path
 
-from urdfkit.errors import ResourceError, did_you_mean
+from urdfkit.errors import ResourceError, did_you_mean, nearest, suggestion
 from urdfkit.record import record
 
 _MAX_DEPTH = 20
@@ -41,15 +41,14 @@ def cached_description(name: str) -> CachedDescription | None:
     Raises:
         ResourceError: the package has no such robot, no URDF of it, or it is not in the cache.
     """
-    spec = find_spec("robot_descriptions")
-    folders = [Path(folder) for folder in (spec.submodule_search_locations if spec else None) or ()]
-    if not folders or not (folders[0] / "_repositories.py").is_file():  # another folder of that name
+    folder = _package()
+    if folder is None:
         return None
-    module = folders[0] / f"{name}.py"
+    module = folder / f"{name}.py"
     if not module.is_file():
-        hint = did_you_mean(name, sorted(path.stem for path in folders[0].glob("*_description.py")))
+        hint = did_you_mean(name, description_names())
         raise ResourceError(f"no robot `{name}` in the package robot_descriptions{hint}")
-    constants = _Constants(module, folders[0] / "_repositories.py")
+    constants = _Constants(module, folder / "_repositories.py")
     text = constants.text("URDF_PATH") or constants.text("XACRO_PATH")
     if text is None:
         raise ResourceError(f"`{name}` of robot_descriptions has no URDF; name a description that has one")
@@ -62,6 +61,32 @@ def cached_description(name: str) -> CachedDescription | None:
     arguments = {} if constants.text("URDF_PATH") else constants.mapping("XACRO_ARGS")
     packages = tuple(Path(folder) for folder in constants.mapping("XACRO_PACKAGE_PATHS").values())
     return CachedDescription(path, arguments, packages)
+
+
+def how_to_get(word: str) -> str:
+    """Return the end of a message about an unknown robot: how to get it from robot_descriptions, if it may be one."""
+    stem, _, end = word.rpartition("_")
+    if not stem or nearest(end, ["description"], cutoff=0.8) is None:
+        return ""
+    meant = nearest(word, description_names()) or f"{stem}_description"
+    return (
+        f"; for robots of the package robot_descriptions run `pip install robot_descriptions` "
+        f"and `python -m robot_descriptions pull {meant}`{suggestion(meant) if meant != word else ''}"
+    )
+
+
+def description_names() -> list[str]:
+    """Return the names of the robots of robot_descriptions; none if the package is not installed."""
+    folder = _package()
+    return [] if folder is None else sorted(path.stem for path in folder.glob("*_description.py"))
+
+
+def _package() -> Path | None:
+    """Return the folder of the package; None if it is not installed."""
+    spec = find_spec("robot_descriptions")
+    folders = [Path(folder) for folder in (spec.submodule_search_locations if spec else None) or ()]
+    # Another folder may have that name.
+    return folders[0] if folders and (folders[0] / "_repositories.py").is_file() else None
 
 
 def _cache() -> Path:

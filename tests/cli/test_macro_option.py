@@ -68,6 +68,11 @@ def test_what_cannot_be_called(macros: str, macro: str, message: str) -> None:
         urdfkit.load(macros, macro=macro)
 
 
+def test_an_unknown_parameter_is_named_with_the_nearest(macros: str) -> None:
+    with pytest.raises(UsageError, match=r"pass prefix:=VALUE; it has no parameter `prefx`; did you mean `prefix`\?"):
+        urdfkit.load(macros, macro="tool", arguments={"prefx": "a", "length": "2"})
+
+
 def test_tf_of_a_macro(macros: str, capsys: pytest.CaptureFixture[str]) -> None:
     words = ["tf", macros, "prefix:=a_", "mount", "a_arm", "--macro", "arm", "--json"]
     assert main(words) == 0

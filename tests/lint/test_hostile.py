@@ -62,7 +62,7 @@ HOSTILE = {
         f"<robot {XACRO} name='r'><xacro:property name='p0' value='lol'/>{LAUGHS}<a b='${{p12}}'/></robot>",
         "a text of more than 100,000 characters",
     ),
-    "tags.urdf": (f"<robot name='r'>{'<a/>' * 300_000}</robot>", "tags and comments: more than 100000 are refused"),
+    "tags.urdf": (f"<robot name='r'>{'<a/>' * 300_000}</robot>", "tags.urdf:1:400013: E001 the file has 300002 tags"),
     "a bomb of entities.urdf": (f"<!DOCTYPE r [{ENTITIES}]><robot name='r'>&a9;</robot>", "declares the entity `a0`"),
     "an external entity.urdf": ('<!DOCTYPE r SYSTEM "file:///etc/passwd"><robot/>', "external entities are refused"),
     "nesting.urdf": (f"<robot name='r'>{'<a>' * 10_000}{'</a>' * 10_000}</robot>", "nested deeper than 200"),

@@ -17,6 +17,7 @@ TYPE_CHECKING = False
 if TYPE_CHECKING:
     from urdfkit.position import Position
 
+NOT_READ = "is not read, as --confined hides the environment"
 OUTSIDE = "outside of the package, its workspace and the package path"
 
 _LONGEST_NAME = 255
@@ -49,6 +50,8 @@ class Packages:
         self.near = None if near is None else absolute(near)
         self.variables: Mapping[str, str] = os.environ if permits is None else {}
         """The environment variables that ``$(env …)`` finds."""
+        self.hides_variables = permits is not None
+        """Whether ``$(env …)`` finds none."""
         self._found: dict[str, Path] = {}
         self._package_search = PackageSearch(
             self.search, self.near, os.environ if environment is None else environment, permits, {}

@@ -11,7 +11,7 @@ from urdfkit.description.xacro.expand import expand_leniently
 from urdfkit.description.xml.extended_text import ExtendedText
 from urdfkit.description.xml.reader import read_source, shown_path
 from urdfkit.description.xml.source import absolute
-from urdfkit.errors import UsageError, did_you_mean
+from urdfkit.errors import UsageError, did_you_mean, nearest, suggestion
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -48,7 +48,10 @@ def text_with_call(path: Path, macro: str, arguments: Mapping[str, str], package
     names = [name for name in definition.parameters if not name.startswith("*")]
     if missing := [name for name in names if name not in arguments and name not in definition.defaults]:
         words = " ".join(f"{name}:=VALUE" for name in missing)
-        raise UsageError(f"macro `{macro}` requires {', '.join(f'`{name}`' for name in missing)}: pass {words}")
+        unknown = {name: nearest(name, missing) for name in arguments if name not in definition.parameters}
+        typo = next((name for name, near in unknown.items() if near is not None), None)
+        hint = "" if typo is None else f"; it has no parameter `{typo}`{suggestion(unknown[typo])}"
+        raise UsageError(f"macro `{macro}` requires {', '.join(f'`{name}`' for name in missing)}: pass {words}{hint}")
     values = "".join(f" {name}={quoteattr(arguments[name])}" for name in names if name in arguments)
     blocks = "".join(_block(name) for name in definition.parameters if name.startswith("*"))
     call = f"<xacro:{macro}{values}>{blocks}</xacro:{macro}>"

@@ -9,6 +9,7 @@ from __future__ import annotations
 import os
 import re
 from collections.abc import Callable, Collection, Mapping
+from itertools import islice
 from pathlib import Path
 from xml.parsers import expat
 
@@ -118,8 +119,11 @@ def parse_with(parser: Any, source: Source, open_tags: Callable[[], list[tuple[s
     if not source.text.strip():
         raise XmlError("the file is empty", position=Position(source.file, 1, 1))
     if (tags := source.text.count("<")) > MAX_TAGS:
-        message = f"the file has {tags} tags and comments: more than {MAX_TAGS} are refused"
-        raise XmlError(message, position=Position(source.file, 1, 1))
+        message = (
+            f"the file has {tags} tags and comments: more than {MAX_TAGS} are refused, those from here on; "
+            "no option raises the limit: split the file"
+        )
+        raise XmlError(message, position=source.position(_start_of(source.text, MAX_TAGS)))
     try:
         parser.Parse(source.text, True)
     except expat.ExpatError as error:
@@ -128,6 +132,11 @@ def parse_with(parser: Any, source: Source, open_tags: Callable[[], list[tuple[s
         raise XmlError(_explain(cause, source, position, open_tags()), position=position, cause=cause) from None
     except UnicodeEncodeError as error:
         raise XmlError("the text contains an unpaired surrogate", position=source.position(error.start)) from None
+
+
+def _start_of(text: str, number: int) -> int:
+    """Return the offset of a tag or comment, counted from 0."""
+    return next(islice(re.finditer("<", text), number, None)).start()
 
 
 def _explain(text: str, source: Source, position: Position, opened: list[tuple[str, int]]) -> str:

@@ -22,7 +22,7 @@ from urdfkit.lint.project.unrelated_packages import WITHOUT_ROBOT
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping
+    from collections.abc import Iterable, Iterator, Mapping
 
     from urdfkit.description.urdf.robot import Robot
     from urdfkit.description.xacro.memory import Memory
@@ -82,6 +82,26 @@ def model_of(
     return Model(expanded, robot, target, as_written, release, options.texts, extents if extents is not None else {})
 
 
+_OPTIONAL = re.compile(r"<!--.*?(?:-->|\Z)|\$\(optenv\s+([^\s)]+)", re.DOTALL)
+
+
+def _hidden_variables(sources: Iterable[Source]) -> Iterator[Finding]:
+    """Yield a note for each environment variable with a default that the confinement hides."""
+    from urdfkit.description.packages.resolver import NOT_READ
+    from urdfkit.description.xml.source import Span
+    from urdfkit.lint.rules.xacro.expansion_error import ExpansionError
+
+    places: dict[str, Position] = {}
+    for source in sources:
+        for match in _OPTIONAL.finditer(source.text):
+            if match[1] and match[1] not in places:
+                places[match[1]] = source.position(match.start(1))
+    for name, at in places.items():
+        span = Span(at.file, at.line, at.column, at.line, at.column + len(name))
+        message = f"environment variable '{name}' {NOT_READ}; its default is used"
+        yield Finding(ExpansionError.code, ExpansionError.name, "note", message, span)
+
+
 class Checker:
     """One lint run over several entry files.
 
@@ -114,7 +134,8 @@ class Checker:
                 found, others = with_variants(found, model, lambda passed: self.examine(entry, passed), own)
             if self.options.confinement is not None:
                 refused = self._refused_reads(entry, self.options.confinement.take_refused())
-                return EntryResult(**{**found.__dict__, "findings": (*found.findings, *refused)})
+                hidden = _hidden_variables(model.expanded.sources.values())
+                return EntryResult(**{**found.__dict__, "findings": (*found.findings, *refused, *hidden)})
             if self.cache is not None and not found.refused:
                 self.cache.put(entry, found, *(each.expanded for each in (model, *others)))
         except CostError as error:

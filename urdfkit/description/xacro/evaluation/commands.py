@@ -35,6 +35,7 @@ class Commands:
         variable: returns the value of an environment variable; None if it is not set.
 
     Attributes:
+        unset: why an environment variable has no value, for messages.
         log: evaluated command → its value, None if the command has no value or a value that may change.
     """
 
@@ -46,6 +47,7 @@ class Commands:
         variable: Callable[[str], str | None],
     ) -> None:
         self._expressions, self.arguments, self._find, self._read_variable = expressions, arguments, find, variable
+        self.unset = "is not set"
         self.log: dict[str, Any] = {}
         self._names: dict[str, Any] | None = None
         self._builtins: dict[str, Any] = {}
@@ -105,7 +107,7 @@ class Commands:
     def _variable(self, name: str) -> str:
         value = self._read_variable(name)
         if value is None:
-            raise ValueError(f"environment variable '{name}' is not set")
+            raise ValueError(f"environment variable '{name}' {self.unset}")
         return value
 
     def _optional(self, name: str, default: str = "") -> str:

@@ -8,7 +8,7 @@ import re
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 
-from urdfkit.description.packages.resolver import OUTSIDE
+from urdfkit.description.packages.resolver import NOT_READ, OUTSIDE
 from urdfkit.description.xacro.evaluation.expressions.functions import Functions
 from urdfkit.description.xacro.evaluation.expressions.limits import (
     MAX_INCLUDE_DEPTH,
@@ -51,6 +51,8 @@ class Files(Texts):
         self, path: str, arguments: Mapping[str, str], packages: Packages, *, texts: Mapping[str, str] | None = None
     ) -> None:
         super().__init__(arguments, self._find, packages.variable)
+        if packages.hides_variables:
+            self.commands.unset = NOT_READ
         self.path, self.packages = path, packages
         self._texts = texts
         self.files: dict[Path, None] = {}
