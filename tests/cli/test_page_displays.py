@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 from collections.abc import Iterator
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -23,9 +24,11 @@ from tests.app.simulation.displays.test_displays import (
 )
 from tests.cli.lab import drawn, panel
 from tests.view.conftest import show
+from urdfkit.app.replay.recorded_sensors import RecordedSensors
 from urdfkit.app.simulation.displays.displays import Displays
 from urdfkit.app.simulation.features.topic_panel import TopicPanel
 from urdfkit.description.urdf.robot import Box
+from urdfkit.messages.vision import DETECTIONS_2D
 from urdfkit.scene import Scene, Shape
 from urdfkit.view.server.server import Server
 
@@ -245,6 +248,53 @@ def test_interactive_markers_are_dragged_clicked_and_moved_by_keys(shown, visits
     assert [feedback[2].event_type, feedback[2].menu_entry_id] == [2, 7]
     drawn(page)
     keep(page, "interactive-markers-moved")
+    assert visits.problems == []
+
+
+def test_an_image_is_enlarged_with_boxes_and_another_image_over_it(shown, visits, until, keep) -> None:
+    simulation = shown.simulation
+    sensors = RecordedSensors(simulation.bus, SimpleNamespace(frame_pose=lambda *_: None), shown.server, shown._now)  # type: ignore[arg-type]
+
+    def tick() -> bool:
+        pixels = np.full((300, 400, 3), 90, dtype=np.uint8)
+        pixels[100:200, 150:250] = 200
+        for topic, values in (("/eye/image", pixels), ("/eye/labels", np.where(pixels > 90, pixels, 0))):
+            fields = {"height": 300, "width": 400, "step": 1200, "encoding": "rgb8", "data": values.ravel()}
+            simulation.publish(topic, "sensor_msgs/msg/Image", "eye", **fields)
+        simulation.publish("/eye/camera_info", "sensor_msgs/msg/CameraInfo", "eye", width=400, height=300)
+        box = {"center": {"position": {"x": 200.0, "y": 150.0}}, "size_x": 100.0, "size_y": 100.0}
+        results = [{"hypothesis": {"class_id": "crate", "score": 0.93}}]
+        simulation.publish("/boxes", DETECTIONS_2D, "eye", detections=[{"results": results, "bbox": box}])
+        sensors.find()
+        sensors.tick(simulation.t)
+        return shown.tick()
+
+    page = visits.open(shown.server.url, ready=False)
+    until(lambda: tick() or page.locator("#open-sensors").is_visible())
+    if not page.locator("#sensors").is_visible():
+        panel(page, "sensors")
+    overlay = page.get_by_label("Overlay of /eye/image")
+    until(lambda: tick() or overlay.locator("option").all_inner_texts() == ["no overlay", "/boxes", "/eye/labels"])
+    overlay.select_option(label="/boxes")
+    until(lambda: tick() or page.locator(".boxes rect").count() == 1)
+    assert page.locator(".boxes text").text_content() == "crate 0.93"
+    page.get_by_role("button", name="Enlarge /eye/image").press("Enter")
+    dialog = page.get_by_role("dialog", name="Image of /eye/image")
+    image = dialog.locator("img").first
+    until(lambda: tick() or image.evaluate("(it) => it.naturalWidth") == 400)
+    frame, rect = image.bounding_box(), page.locator(".boxes rect").bounding_box()
+    assert [rect["x"] - frame["x"], rect["y"] - frame["y"]] == pytest.approx(
+        [frame["width"] * 0.375, frame["height"] / 3], abs=2
+    )
+    assert [rect["width"], rect["height"]] == pytest.approx([frame["width"] / 4, frame["height"] / 3], abs=3)
+    keep(page, "boxes")
+    overlay.select_option(label="/eye/labels")
+    until(lambda: tick() or dialog.locator("img.over").is_visible())
+    assert page.locator(".boxes rect").count() == 0
+    keep(page, "labels")
+    dialog.press("Escape")
+    assert dialog.count() == 0
+    assert page.locator("#sensors img").first.is_visible()
     assert visits.problems == []
 
 

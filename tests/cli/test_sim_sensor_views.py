@@ -14,7 +14,7 @@ pytest.importorskip("meshcat")
 
 from PIL import Image
 
-from urdfkit.app.simulation.features.sensor_views import MOST_POINTS, OPTICAL, SensorViews, picture, points
+from urdfkit.app.simulation.features.sensor_views import ENLARGED, MOST_POINTS, OPTICAL, SensorViews, picture, points
 from urdfkit.description import load
 from urdfkit.scene.camera_model import Lens
 from urdfkit.sim import Simulator
@@ -41,7 +41,7 @@ class Page:
     """A server that keeps what it is told."""
 
     def __init__(self) -> None:
-        self.hub = SimpleNamespace(accepts=lambda key: key in self.wanted)
+        self.hub = SimpleNamespace(accepts=lambda key: key in self.wanted, subscribed_keys=frozenset())
         self.wanted: set[str] = set()
         self.sensed: list[tuple[int, float, int, bytes]] = []
         self.declared: list[dict[str, Any]] = []
@@ -145,6 +145,15 @@ def test_what_one_camera_publishes_comes_of_one_small_look(monkeypatch: pytest.M
     for *_, jpeg in page.sensed[:2]:
         with Image.open(io.BytesIO(jpeg)) as found:
             assert found.size == (320, 240)
+    page.hub.subscribed_keys = frozenset({f"{ENLARGED}{names[0]}"})  # until the page reduces it again
+    simulator.run(0.2)
+    sights._free = float("-inf")
+    for view in sights._views:
+        view.due = 0.0
+    sights.show()
+    assert looks == [320, 800]
+    with Image.open(io.BytesIO(page.sensed[3][3])) as found:
+        assert found.size == (800, 600)
     whole = simulator.bus.latest(names[0])
     assert (whole.width, whole.height) == (800, 600)  # who subscribes gets it as it is written
 

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from urdfkit.app.replay.observed_robot import ObservedRobot
-from urdfkit.app.simulation.features.sensor_views import WIDTH, picture, points
+from urdfkit.app.simulation.features.sensor_views import ENLARGED, LARGE, WIDTH, picture, points
 from urdfkit.bus import Bus, Topic
 from urdfkit.errors import UrdfkitError
 from urdfkit.view.protocol.websocket_messages import COLORED, PICTURE, POINTS
@@ -89,7 +89,7 @@ class RecordedSensors:
             if message is None:
                 continue
             try:
-                content = self._content(view.kind, message, time)
+                content = self._content(view, message, time)
             except (UrdfkitError, LookupError, ValueError, TypeError, AttributeError, OSError) as error:
                 text = f"{view.topic.name} cannot be shown: {error}"
                 self._server.broadcast("notice", text=text, tone="warning")
@@ -97,20 +97,23 @@ class RecordedSensors:
                 continue
             self._server.sense(view.key, index, time, view.kind, content)
 
-    def _content(self, kind: int, message: Any, time: float) -> bytes:
+    def _content(self, view: _View, message: Any, time: float) -> bytes:
+        kind = view.kind
         if kind == PICTURE:
-            return picture(message) if hasattr(message, "encoding") else _compressed(message)
+            is_large = f"{ENLARGED}{view.topic.name}" in self._server.hub.subscribed_keys
+            width = LARGE if is_large else WIDTH
+            return picture(message, width=width) if hasattr(message, "encoding") else _compressed(message, width)
         frame = self._robot.frame_pose(message.header.frame_id, time)
         return points(message, np.eye(4) if frame is None else frame, colored=kind == COLORED)
 
 
-def _compressed(message: Any) -> bytes:
-    """Return a CompressedImage as a small JPEG."""
+def _compressed(message: Any, width: int) -> bytes:
+    """Return a CompressedImage as a JPEG of at most this width [px]."""
     from PIL import Image
 
     with Image.open(io.BytesIO(bytes(message.data))) as whole:
         small = whole.convert("RGB")
-        small.thumbnail((WIDTH, 10 * WIDTH))
+        small.thumbnail((width, 10 * width))
         file = io.BytesIO()
         small.save(file, format="JPEG", quality=80)
     return file.getvalue()

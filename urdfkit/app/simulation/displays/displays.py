@@ -9,6 +9,7 @@ import numpy as np
 
 from urdfkit.app.simulation.displays.drawings import CLOUDS, KINDS, Item, drawing
 from urdfkit.app.simulation.displays.frame_tree import FrameTree, seven_of
+from urdfkit.app.simulation.displays.image_boxes import CAMERA_INFO, IMAGE, boxes, camera_info_topic
 from urdfkit.app.simulation.displays.interactive_markers import INIT, UPDATE, InteractiveMarkerStore, init_topic
 from urdfkit.app.simulation.displays.marker_meshes import MarkerMeshes
 from urdfkit.app.simulation.displays.markers import MARKER, MARKERS, MarkerStore
@@ -18,6 +19,7 @@ from urdfkit.description.packages.resolver import Packages
 from urdfkit.errors import UsageError
 from urdfkit.linear_algebra import Array, matmul
 from urdfkit.messages import from_fields
+from urdfkit.messages.vision import DETECTIONS_2D
 from urdfkit.scene.pose_matrices import pose_matrices
 from urdfkit.sim.simulator import Simulator
 from urdfkit.view.protocol.page_requests import Request, Schema, choice, number, numbers
@@ -112,7 +114,7 @@ class Displays(Feature):
         topics = {topic.name: topic for topic in self.simulator.bus.topics} if wanted - self._shown.keys() else {}
         for key in wanted - self._shown.keys():
             name, _, field = key.removeprefix(DISPLAY).partition(":")
-            if (topic := topics.get(name)) is not None and topic.type in TYPES:
+            if (topic := topics.get(name)) is not None and topic.type in (*TYPES, DETECTIONS_2D):
                 self._shown[key] = _Display(self, key, topic, field)
         if (now := self.clock()) >= self._free:
             for display in self._shown.values():
@@ -178,6 +180,7 @@ class _Display:
         self._groups: list[tuple[str, Array | None, list[Item]]] = []
         self._waiting: tuple[Any, Array | None] | None = None
         self._sent: tuple[int, list[Any]] | None = None
+        self._size: tuple[int, int] | None = None  # of the image of boxes, whose topic is the field
         self._due = 0.0
         displays.frames.rows()  # follow the transforms from now on
         topics = [topic]
@@ -191,13 +194,22 @@ class _Display:
             if each.count and each.latest is not None:
                 self._take(each.latest)
         self._subscriptions = [simulator.bus.subscribe(each.name, each.type, self._take) for each in topics]
+        if topic.type == DETECTIONS_2D:
+            sources = ((camera_info_topic(field), CAMERA_INFO), (field, IMAGE))
+            image = next((each for each in simulator.bus.topics if (each.name, each.type) in sources), None)
+            if image is not None:
+                self._subscriptions.append(simulator.bus.subscribe(image.name, image.type, self._measure))
+
+    def _measure(self, message: Any) -> None:
+        self._size = int(message.width), int(message.height)
 
     def _take(self, message: Any) -> None:
         if self._markers is not None:
             self._markers.take(message)
             return
         frame = message.header.frame_id
-        self._waiting = message, self._displays.pose(frame, self._displays.links())
+        is_flat = self._topic.type == DETECTIONS_2D
+        self._waiting = message, np.eye(4) if is_flat else self._displays.pose(frame, self._displays.links())
 
     def send(self, now: float) -> None:
         """Send the drawing, if it has changed."""
@@ -215,7 +227,9 @@ class _Display:
             (message, pose), self._waiting, changed = self._waiting, None, True
             frame = message.header.frame_id
             try:
-                self._groups = [(frame, pose, drawing(message, self._topic.type, self._field))]
+                is_flat = self._topic.type == DETECTIONS_2D
+                drawn = boxes(message, self._size) if is_flat else drawing(message, self._topic.type, self._field)
+                self._groups = [(frame, pose, drawn)]
             except (ArithmeticError, LookupError, TypeError, ValueError) as error:  # its sizes contradict its data
                 self._groups, fault = [], f"a message cannot be drawn: {error}"
         elif self._topic.type in FIXED:

@@ -33,6 +33,10 @@ SHARE = 0.25
 """Maximum share of the time for views."""
 WIDTH = 320
 """Maximum width of an image on the page [px]."""
+LARGE = 1280
+"""Maximum width of an enlarged image [px]."""
+ENLARGED = "large:"
+"""Key of an enlarged image, with its topic."""
 MOST_POINTS = 20_000
 """Maximum points of a scan on the page; larger scans are subsampled."""
 CLOUDS = ("sensor_msgs/msg/PointCloud2", "sensor_msgs/msg/PointCloud")
@@ -47,6 +51,7 @@ class SensorView:
     Attributes:
         topic: topic of the sensor.
         sensor: the sensor.
+        large: the sensor for enlarged images.
         kind: `POINTS`, `COLORED` or `PICTURE`.
         exact: whether the colours are labels, which a JPEG would blur.
         due: earliest time of the next view [s of the clock].
@@ -55,6 +60,7 @@ class SensorView:
 
     topic: Topic
     sensor: SceneSensor
+    large: SceneSensor
     kind: int
     exact: bool = False
     due: float = 0.0
@@ -68,7 +74,7 @@ class SensorView:
     def content(self, message: Any) -> bytes:
         """Return the view of a message."""
         if self.kind == PICTURE:
-            return picture(message, exact=self.exact)
+            return picture(message, exact=self.exact, width=LARGE)
         frame = self.sensor.viewpoint
         if isinstance(self.sensor, Camera) and not isinstance(self.sensor, GzDepthCamera):
             frame = frame @ OPTICAL
@@ -102,9 +108,10 @@ class SensorViews:
         for robot in self._simulator.world.robots.values():
             for sensor in robot.plugins.sensors:
                 if isinstance(sensor, SceneSensor):
-                    shown = smaller(sensor) if isinstance(sensor, Camera) else sensor
+                    sizes = (WIDTH, LARGE)
+                    shown, large = [smaller(sensor, size) if isinstance(sensor, Camera) else sensor for size in sizes]
                     exact = isinstance(sensor, GzSegmentationCamera)
-                    self._views += [SensorView(topic, shown, kind, exact) for topic, kind in _shown(sensor)]
+                    self._views += [SensorView(topic, shown, large, kind, exact) for topic, kind in _shown(sensor)]
         names = [
             {"topic": view.topic.name, "picture": view.kind == PICTURE, "camera": isinstance(view.sensor, Camera)}
             for view in self._views
@@ -140,9 +147,11 @@ class SensorViews:
         first = min(waiting, key=lambda pair: pair[1].due)[1]
         together = [(k, each) for k, each in waiting if each.sensor is first.sensor]  # they share one rendering
         messages: dict[str, Callable[[], Any]] = {}
-        if isinstance(first.sensor, Camera):
-            names = (topic.name for topic in first.sensor.topics)
-            messages = dict(zip(names, first.sensor.glimpse(self._simulator.t), strict=False))
+        enlarged = {f"{ENLARGED}{view.topic.name}" for _, view in together} & self._server.hub.subscribed_keys
+        sensor = first.large if enlarged else first.sensor
+        if isinstance(sensor, Camera):
+            names = (topic.name for topic in sensor.topics)
+            messages = dict(zip(names, sensor.glimpse(self._simulator.t), strict=False))
         for index, view in together:
             view.shown = view.topic.count
             message = messages[view.topic.name]() if messages else view.topic.latest
@@ -155,13 +164,13 @@ class SensorViews:
         return cost
 
 
-def smaller(camera: Camera) -> Camera:
-    """Return a copy of a camera with the image size of the page."""
+def smaller(camera: Camera, width: int) -> Camera:
+    """Return a copy of a camera with images of at most this width [px]."""
     smaller_camera = copy(camera)
     smaller_camera.imagers = []
     for imager in camera.imagers:
         lens = imager.optics.lens
-        part = min(1.0, WIDTH / lens.width)
+        part = min(1.0, width / lens.width)
         small = replace(lens, width=round(part * lens.width), height=max(1, round(part * lens.height)))
         smaller_camera.imagers.append(replace(imager, optics=replace(imager.optics, lens=small)))
     smaller_camera.optics = smaller_camera.imagers[0].optics
@@ -214,12 +223,13 @@ def points(message: Any, viewpoint: Array, *, colored: bool = False) -> bytes:
     return bytes(np.concatenate([found.view(np.uint8).reshape(-1, 12), colors[finite][::every]], axis=1).tobytes())
 
 
-def picture(message: Any, *, exact: bool = False) -> bytes:
+def picture(message: Any, *, exact: bool = False, width: int = WIDTH) -> bytes:
     """Return an Image as a small JPEG; depths in grey, near ones bright.
 
     Args:
         message: the Image.
         exact: return a lossless WebP instead.
+        width: maximum width [px].
     """
     from PIL import Image
 
@@ -232,7 +242,7 @@ def picture(message: Any, *, exact: bool = False) -> bytes:
             valid = depth[depth > 0]
             far = float(valid.max()) if len(valid) else 1.0
             small = Image.fromarray(np.where(depth > 0, 255 - 215 * depth / far, 0).astype(np.uint8))
-        size = min(WIDTH, whole.width), max(1, round(whole.height * min(1.0, WIDTH / whole.width)))
+        size = min(width, whole.width), max(1, round(whole.height * min(1.0, width / whole.width)))
         file = io.BytesIO()
         if exact:
             small.resize(size, Image.Resampling.NEAREST).save(file, format="WEBP", lossless=True, quality=0, method=0)

@@ -2,11 +2,13 @@
 
 import { check, h } from "../page/dom.js";
 import { Cloud } from "./point_cloud.js";
+import { ImageOverlay } from "./image_overlay.js";
 
 const HEADER = 16;
 const POINTS = 0;
 const PICTURE = 1;
 const COLORED = 3;
+const DETECTIONS = "vision_msgs/msg/Detection2DArray";
 const COLOURS = [0xe0399b, 0x0aa37f, 0xe08a00, 0x7a5cff];
 
 export class Sensors {
@@ -14,6 +16,22 @@ export class Sensors {
     this.page = page;
     this.list = list;
     this.shown = [];
+    this.detections = []; // topics with boxes for images
+    page.on("topics", ({ rows }) => {
+      this.detections = rows.filter(([, type]) => type === DETECTIONS).map(([topic]) => topic);
+      this.#offer();
+    });
+    page.on("display", (message) => this.#overlays.forEach((overlay) => overlay.take(message)));
+    page.on("picture", (picture) => this.#overlays.forEach((overlay) => overlay.follow(picture)));
+  }
+
+  get #overlays() {
+    return this.shown.map(({ overlay }) => overlay).filter(Boolean);
+  }
+
+  #offer() {
+    const images = this.shown.filter(({ overlay }) => overlay).map(({ topic }) => topic);
+    for (const overlay of this.#overlays) overlay.offer(this.detections, images);
   }
 
   /** @param sensors [{topic, picture, camera}], in the order of the numbers of their frames */
@@ -21,6 +39,7 @@ export class Sensors {
     const before = new Map(this.shown.map((each) => [each.topic, each]));
     this.shown = sensors.map((sensor, i) => before.get(sensor.topic) ?? this.#make(sensor, i));
     for (const [topic, each] of before) if (!this.shown.some((kept) => kept.topic === topic)) each.remove();
+    this.#offer();
   }
 
   #make(sensor, i) {
@@ -130,13 +149,14 @@ class Picture extends Sight {
     super(page, list, topic, options);
     this.image = h("img", { alt: `image of ${topic}` });
     this.url = null;
-    this.item.append(this.image);
+    this.overlay = new ImageOverlay(page, topic, this.image);
+    this.item.append(this.overlay.home);
     this.tick(options.on);
     this.show(options.on);
   }
 
   show(on) {
-    this.image.hidden = !on || !this.received;
+    this.overlay.show(on && this.received);
   }
 
   take(buffer, kind, shown) {
@@ -147,10 +167,12 @@ class Picture extends Sight {
       shown();
     };
     this.image.src = this.url;
+    this.page.emit("picture", this);
   }
 
   remove() {
     super.remove();
+    this.overlay.remove();
     if (this.url) URL.revokeObjectURL(this.url);
   }
 }

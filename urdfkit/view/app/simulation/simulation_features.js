@@ -71,6 +71,7 @@ function sensing(page) {
     sensors.use(message.sensors);
     page.panels.available("sensors", message.sensors.length > 0);
   });
+  page.on("hello", () => page.whileOpen(page.panels.all.get("sensors"), "topics"));
   page.on("sensed", (frame) => sensors.frame(frame));
   page.expose("sensors", sensors);
 }
