@@ -501,6 +501,9 @@ def test_walls_are_drawn_and_moved_by_the_keyboard_alone(page, keep, until) -> N
     page.locator("#wall-number").fill("2")
     page.locator("#wall-door-at").fill("1.5")
     page.get_by_role("button", name="Add door").press("Enter")
+    page.locator(".walls button", has_text="Undo").press("Enter")
+    assert page.evaluate("[urdfkit.walls.doors.length, urdfkit.walls.corners.length]") == [0, 3]
+    page.get_by_role("button", name="Add door").press("Enter")
     assert page.evaluate("urdfkit.walls.corners") == [[-1.5, -1.2], [1.75, -1.2], [1.75, 1.5]]
     assert page.evaluate("urdfkit.walls.doors") == [{"segment": 1, "at": 1.5, "width": 0.9}]
     keep(page, "walls-typed")

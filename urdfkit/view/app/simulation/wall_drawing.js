@@ -15,6 +15,7 @@ export class Walls {
     this.page = page;
     this.corners = [];
     this.doors = [];
+    this.steps = []; // the list that each step has extended
     this.door = false;
     this.line = new THREE.Line(new THREE.BufferGeometry(), new THREE.LineBasicMaterial({ color: 0xf5a524, depthTest: false }));
     this.dots = new THREE.Points(new THREE.BufferGeometry(), new THREE.PointsMaterial({ color: 0xf5a524, size: 9, sizeAttenuation: false, depthTest: false }));
@@ -90,8 +91,7 @@ export class Walls {
     const last = this.corners.at(-1);
     if (last && Math.hypot(last[0] - corner[0], last[1] - corner[1]) < 0.02) return;
     if (this.corners.length >= MOST) return this.page.toast(`at most ${MOST} corners; build these walls first`, "error");
-    this.corners.push(corner);
-    this.#draw();
+    this.#push(this.corners, corner);
   }
 
   #addDoor(x, y) {
@@ -116,20 +116,24 @@ export class Walls {
     const at = Math.min(length - width / 2, Math.max(width / 2, along));
     const taken = this.doors.some((door) => door.segment === segment && Math.abs(door.at - at) < (door.width + width) / 2);
     if (taken) return this.page.toast("there is already a door", "error");
-    this.doors.push({ segment, at, width });
+    this.#push(this.doors, { segment, at, width });
+  }
+
+  #push(list, entry) {
+    list.push(entry);
+    this.steps.push(list);
     this.#draw();
   }
 
   undo() {
-    if (this.door && this.doors.length) this.doors.pop();
-    else this.corners.pop();
-    this.doors = this.doors.filter(({ segment }) => segment < this.corners.length - 1);
+    this.steps.pop()?.pop();
     this.#draw();
   }
 
   clear() {
     this.corners = [];
     this.doors = [];
+    this.steps = [];
     this.#mode(false);
     this.#draw();
   }
