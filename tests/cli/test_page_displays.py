@@ -22,6 +22,7 @@ from tests.app.simulation.displays.test_displays import (
     mesh_marker,
     package_with_mesh,
 )
+from tests.cli.accessibility import violations
 from tests.cli.lab import drawn, panel
 from tests.view.conftest import show
 from urdfkit.app.replay.recorded_sensors import RecordedSensors
@@ -247,6 +248,7 @@ def test_interactive_markers_are_dragged_clicked_and_moved_by_keys(shown, visits
     until(lambda: shown.tick() or len(feedback) == 3)
     assert [feedback[2].event_type, feedback[2].menu_entry_id] == [2, 7]
     drawn(page)
+    assert violations(page) == {"light": [], "dark": []}
     keep(page, "interactive-markers-moved")
     assert visits.problems == []
 
@@ -287,6 +289,7 @@ def test_an_image_is_enlarged_with_boxes_and_another_image_over_it(shown, visits
         [frame["width"] * 0.375, frame["height"] / 3], abs=2
     )
     assert [rect["width"], rect["height"]] == pytest.approx([frame["width"] / 4, frame["height"] / 3], abs=3)
+    assert violations(page) == {"light": [], "dark": []}
     keep(page, "boxes")
     overlay.select_option(label="/eye/labels")
     until(lambda: tick() or dialog.locator("img.over").is_visible())
