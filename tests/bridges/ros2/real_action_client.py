@@ -1,6 +1,6 @@
-"""Client of real rclpy, run by the Python of its own environment: goals for a trajectory controller; prints their ends.
+"""Client of real rclpy, run by the Python of its own environment: goals for two controllers; prints their ends.
 
-real_action_client.py ACTION JOINT: control_msgs is on Python's path.
+real_action_client.py ACTION JOINT GRIPPER: control_msgs is on Python's path.
 """
 
 import json
@@ -9,11 +9,11 @@ import time
 
 import rclpy
 from builtin_interfaces.msg import Duration
-from control_msgs.action import FollowJointTrajectory
+from control_msgs.action import FollowJointTrajectory, GripperCommand
 from rclpy.action import ActionClient, get_action_names_and_types
 from trajectory_msgs.msg import JointTrajectoryPoint
 
-action, joint = sys.argv[1:]
+action, joint, gripper = sys.argv[1:]
 rclpy.init()
 node = rclpy.create_node("mover")
 client = ActionClient(node, FollowJointTrajectory, action)
@@ -38,6 +38,7 @@ def send(joint, position, seconds):
     goal = FollowJointTrajectory.Goal()
     goal.trajectory.joint_names = [joint]
     goal.trajectory.points = [JointTrajectoryPoint(positions=[position], time_from_start=Duration(sec=seconds))]
+    goal.multi_dof_trajectory.joint_names = ["base"]  # urdfkit lacks this field
     return done(client.send_goal_async(goal, feedback_callback=followed))
 
 
@@ -65,4 +66,10 @@ replaced = send(joint, 1.0, 60)
 moved(replaced)
 seen["last"] = ended(send(joint, 0.1, 1))
 seen["replaced"] = ended(replaced)
+grip = GripperCommand.Goal()
+grip.command.position, grip.command.max_effort = 0.3, 50.0
+hand = ActionClient(node, GripperCommand, gripper)
+assert hand.wait_for_server(60.0), "no server of the gripper"
+response = done(done(hand.send_goal_async(grip)).get_result_async())
+seen["gripped"] = [response.status, response.result.reached_goal, response.result.position]
 print(json.dumps(seen))

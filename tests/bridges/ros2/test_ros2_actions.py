@@ -19,7 +19,19 @@ from tests.processes import running
 from tests.time_limit import PATIENCE
 
 HERE = Path(__file__).parent
-NAME = "/arm_controller/follow_joint_trajectory"
+NAME, GRIPPER = "/arm_controller/follow_joint_trajectory", "/gripper_controller/gripper_cmd"
+CONTROLLERS = """controller_manager:
+  ros__parameters:
+    update_rate: 100
+    arm_controller: {type: joint_trajectory_controller/JointTrajectoryController}
+    gripper_controller: {type: position_controllers/GripperActionController}
+
+arm_controller:
+  ros__parameters: {joints: [elbow], command_interfaces: [position], state_interfaces: [position, velocity]}
+
+gripper_controller:
+  ros__parameters: {joint: shoulder}
+"""
 ENVIRONMENT = {name: value for name, value in os.environ.items() if not name.startswith("PYTHON")} | LOCAL
 
 pytestmark = pytest.mark.slow
@@ -46,17 +58,26 @@ def urdfkit(messages: Path) -> list[str | Path]:
 
 
 def test_an_action_client_of_rclpy_moves_an_arm(control_msgs: Path, tmp_path: Path) -> None:
-    words: list[str | Path] = [node_python("kilted"), HERE / "real_action_client.py", NAME, "elbow"]
-    with simulated(str(ros2_arm_file(tmp_path)), 64, urdfkit(control_msgs), library="rclpy") as simulation:
+    words: list[str | Path] = [node_python("kilted"), HERE / "real_action_client.py", NAME, "elbow", GRIPPER]
+    robot = str(ros2_arm_file(tmp_path))
+    (tmp_path / "arm_bringup" / "config" / "arm.yaml").write_text(CONTROLLERS)
+    with simulated(robot, 64, urdfkit(control_msgs), library="rclpy") as simulation:
         environment = ENVIRONMENT | {"ROS_DOMAIN_ID": "64", "PYTHONPATH": str(control_msgs)}
         done = subprocess.run(words, capture_output=True, text=True, env=environment, timeout=PATIENCE, check=False)
         assert done.returncode == 0, done.stderr
         assert simulation.poll() is None
+        simulation.terminate()
+        assert simulation.stderr is not None
+        lines = [line for line in simulation.stderr.read().splitlines() if "fields of a goal" in line]
+    (line,) = lines  # one, of several goals
+    assert line.endswith("are ignored, because urdfkit lacks them: multi_dof_trajectory")
+    assert NAME in line
     seen = json.loads(done.stdout)
     assert [NAME, [FOLLOW]] in seen["actions"]
     assert seen["publishers"] == 1  # the action server, not the topic of the simulation too
-    assert seen["joints"] == ["shoulder", "elbow"]
-    assert seen["positions"] == 2
+    assert seen["joints"] == ["elbow"]
+    assert seen["positions"] == 1
+    assert seen["gripped"] == [4, True, pytest.approx(0.3, abs=0.01)]  # the default tolerance
     assert seen["states"] == [2, 2, 2]  # executing
     assert seen["reached"] == [4, 0]
     assert seen["rejected"]
@@ -106,3 +127,12 @@ def test_the_command_sends_goals_to_a_real_server(control_msgs: Path) -> None:
             assert "elbow" in sending.stdout.readline()
             sending.send_signal(signal.SIGINT)
             assert arm.stdout.readline() == "canceled\n"
+        pipe = subprocess.PIPE
+        with running(words, env=environment, stdout=pipe, stderr=pipe, text=True) as sending:
+            assert sending.stdout is not None
+            assert "elbow" in sending.stdout.readline()
+            arm.kill()
+            _, errors = sending.communicate(timeout=PATIENCE)
+            said_then = [line for line in errors.splitlines() if line.startswith("urdfkit")]
+            assert said_then == [f"urdfkit: the goal is aborted: the server of {name} has left the graph"]
+            assert sending.returncode == 1

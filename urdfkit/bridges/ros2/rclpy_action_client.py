@@ -6,7 +6,7 @@ import time
 from collections.abc import Callable
 from typing import Any
 
-from urdfkit.bridges.actions import REJECTED, ActionServer
+from urdfkit.bridges.actions import ABORTED, REJECTED, ActionServer
 from urdfkit.bridges.json_messages import from_json
 from urdfkit.bridges.node.node import UnknownTypeError
 from urdfkit.bridges.ros2.rclpy_messages import rclpy_message, rclpy_type
@@ -15,6 +15,9 @@ from urdfkit.bus import absolute, nearest_topic
 from urdfkit.errors import ResourceError, UsageError, suggestion
 from urdfkit.messages import typestore
 from urdfkit.messages.conversion import converted
+
+CHECKED = 1.0
+"""Seconds between two checks whether the server of a goal is still on the graph."""
 
 
 class RclpyActions:
@@ -55,14 +58,19 @@ class RclpyActions:
         client = self._clients[full]
         if not client.wait_for_server(timeout_sec=DISCOVERY):
             raise ResourceError(f"{full} has no server")
-        goal = RclpyGoal(action, self._post, feedback, ended)
+        goal = RclpyGoal(action, self._post, feedback, ended, client.server_is_ready)
+        goal.unwatch = self._node.repeat(CHECKED, goal.check_server)
         sending = client.send_goal_async(message, feedback_callback=goal.take_feedback)
         sending.add_done_callback(goal.take_response)
         return goal
 
 
 class RclpyGoal:
-    """A goal that was sent to an action; its callbacks run in the thread of the executor."""
+    """A goal that was sent to an action; its callbacks run in the thread of the executor.
+
+    Attributes:
+        unwatch: ends the calls of `check_server`.
+    """
 
     def __init__(
         self,
@@ -70,7 +78,10 @@ class RclpyGoal:
         post: Callable[[Callable[[], None]], object],
         feedback: Callable[[Any], None],
         ended: Callable[[int, Any, str], None],
+        is_served: Callable[[], bool],
     ) -> None:
+        self.unwatch: Callable[[], object] = lambda: None
+        self._name, self._is_served, self._is_open = action.name, is_served, True
         self._post, self._feedback, self._ended = post, feedback, ended
         self._part = action.goal.removesuffix("Goal")
         self._handle: Any = None
@@ -84,6 +95,7 @@ class RclpyGoal:
 
     def close(self) -> None:
         """Forget the goal, which is still executed."""
+        self.unwatch()
         self._feedback, self._ended = (lambda message: None), (lambda state, result, reason: None)
 
     def take_feedback(self, message: Any) -> None:
@@ -95,7 +107,7 @@ class RclpyGoal:
         """Wait for the result of an accepted goal."""
         handle = future.result()
         if not handle.accepted:
-            self._post(lambda: self._ended(REJECTED, None, ""))
+            self._end(REJECTED, None)
             return
         self._handle = handle
         handle.get_result_async().add_done_callback(self._take_result)
@@ -105,4 +117,15 @@ class RclpyGoal:
     def _take_result(self, future: Any) -> None:
         response = future.result()
         result = converted(response.result, f"{self._part}Result", typestore())
-        self._post(lambda: self._ended(response.status, result, ""))
+        self._end(response.status, result)
+
+    def check_server(self) -> None:
+        """End the goal if its server has left the graph: by itself, or as DDS notices some seconds after it died."""
+        if not self._is_served():
+            self._end(ABORTED, None, f"the server of {self._name} has left the graph")
+
+    def _end(self, state: int, result: Any, reason: str = "") -> None:
+        if self._is_open:
+            self._is_open = False
+            self.unwatch()
+            self._post(lambda: self._ended(state, result, reason))

@@ -8,7 +8,7 @@ from typing import Any
 
 from urdfkit.bridges.actions import CANCELED, EXECUTING, REJECTED, SUCCEEDED, ActionServer
 from urdfkit.bridges.node.node import Begin
-from urdfkit.bridges.ros2.rclpy_messages import rclpy_message
+from urdfkit.bridges.ros2.rclpy_messages import further_fields, rclpy_message
 from urdfkit.messages import typestore
 from urdfkit.messages.conversion import converted
 
@@ -69,7 +69,9 @@ class ServedGoal:
         return self._kind.Result() if self._result is None else rclpy_message(self._kind.Result, self._result)
 
 
-def serve_action(node: Any, kind: Any, name: str, action: ActionServer, begin: Begin) -> Any:
+def serve_action(
+    node: Any, kind: Any, name: str, action: ActionServer, begin: Begin, report: Callable[[str], None]
+) -> Any:
     """Serve an action of a simulation, and return the server of rclpy.
 
     Args:
@@ -78,12 +80,14 @@ def serve_action(node: Any, kind: Any, name: str, action: ActionServer, begin: B
         name: on the graph.
         action: of the simulation.
         begin: sends a goal to the simulation.
+        report: receives a line about fields of goals that urdfkit lacks, once for the same fields.
     """
     from rclpy.action import ActionServer as Server
     from rclpy.action import CancelResponse, GoalResponse
 
     waiting: dict[int, ServedGoal] = {}  # by request: rclpy accepts it and makes its handle in the same call
     goals: dict[bytes, ServedGoal] = {}
+    reported: set[str] = set()
 
     class GoalServer(Server):  # type: ignore[misc]
         """Calls what ends a goal when the simulation has ended it, instead of what executes it."""
@@ -101,6 +105,10 @@ def serve_action(node: Any, kind: Any, name: str, action: ActionServer, begin: B
 
     def take(request: Any) -> Any:
         """Wait until the simulation has accepted or rejected a goal."""
+        further = ", ".join(further_fields(request, action.goal))
+        if further and further not in reported:
+            reported.add(further)
+            report(f"{name}: fields of a goal are ignored, because urdfkit lacks them: {further}")
         goal = ServedGoal(kind)
         goal.cancel = begin(converted(request, action.goal, typestore()), goal.feedback, goal.ended)
         if goal.state == REJECTED:

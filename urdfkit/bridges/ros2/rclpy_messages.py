@@ -7,6 +7,8 @@ from typing import Any
 
 import numpy as np
 
+from urdfkit.messages import typestore
+
 
 def rclpy_type(name: str) -> Any:
     """Return the class of a message, service or action such as ``std_srvs/srv/Empty``; None without its package."""
@@ -29,6 +31,29 @@ def rclpy_message(kind: Any, source: Any) -> Any:
         if hasattr(source, name):
             setattr(made, name, _value(slot, getattr(source, name)))
     return made
+
+
+def further_fields(message: Any, type: str) -> list[str]:
+    """Return the fields of a message of rclpy that urdfkit's type lacks, if they are not zero or empty.
+
+    Args:
+        message: of rclpy.
+        type: of urdfkit, e.g. ``control_msgs/msg/FollowJointTrajectoryGoal``.
+    """
+    layouts, found = dict(typestore().fielddefs[type][1]), []
+    for name in message.get_fields_and_field_types():
+        value = getattr(message, name)
+        if name not in layouts:
+            if not np.array_equal(value, getattr(message.__class__(), name)):
+                found.append(name)
+            continue
+        node, details = layouts[name]
+        is_array = int(node) > 2
+        inner, kind = details[0] if is_array else (node, details)
+        if int(inner) == 2:
+            for each in value if is_array else [value]:
+                found += [f"{name}.{field}" for field in further_fields(each, kind)]
+    return list(dict.fromkeys(found))
 
 
 def _value(slot: Any, value: Any) -> Any:

@@ -133,7 +133,7 @@ class RclpyNode:
         """Serve an action, if its type is installed."""
         if (kind := rclpy_type(action.type)) is None:
             raise UnknownTypeError(f"rclpy lacks {action.type}: source its ROS package, or send goals over --rosbridge")
-        serve_action(self._node, kind, name, action, begin)
+        serve_action(self._node, kind, name, action, begin, self._report)
         self._executor.wake()
 
     def actions(self) -> dict[str, str]:
@@ -149,6 +149,17 @@ class RclpyNode:
         client = ActionClient(self._node, kind, name)
         self._executor.wake()
         return client
+
+    def repeat(self, period: float, call: Callable[[], None]) -> End:
+        """Call a function in the thread of the executor, again and again; return what ends that.
+
+        Args:
+            period: time between two calls [s].
+            call: the function.
+        """
+        timer = self._node.create_timer(period, call)
+        self._executor.wake()
+        return lambda: self._node.destroy_timer(timer)
 
     def services(self) -> list[str]:
         """Return the names of the services of the graph."""
