@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from urdfkit.lint.model.tags import Document, Tag
 
 
+_WORD = r"\d+|[A-Z]?[a-z]+|[A-Z]+(?![a-z])|[^\W\d_]"
 _SIMILAR_WORDS, _SIMILAR_NAMES = 0.6, 0.75
 """Least similarities (`difflib.SequenceMatcher.ratio`) of the one word that differs, and of names with another word."""
 
@@ -149,7 +150,7 @@ def meant(name: str, candidates: Iterable[str]) -> tuple[str | None, str]:
 
 
 def nearest_name(finding: Finding, document: Document) -> Fix | None:
-    """Return the fix that writes the name that a finding suggests in place of the misspelt one.
+    """Return the fix that writes the name that a finding suggests in place of the misspelt one; none for notes.
 
     Only the name is replaced, so that quotes, comments and line ends stay. There is no fix if the place of the name is
     not certain, or if the two names are names of siblings, such as ``left_wheel`` and ``right_wheel``.
@@ -158,7 +159,7 @@ def nearest_name(finding: Finding, document: Document) -> Fix | None:
         finding: a finding without fix, in the file of the document.
         document: a launch, YAML, SRDF or package file.
     """
-    if not (meant := finding.meant):
+    if not (meant := finding.meant) or finding.severity == "note":
         return None
     source, span = document.source, finding.span
     start, end = source.offset(span.line, span.column), source.offset(span.end_line, span.end_column)
@@ -184,7 +185,7 @@ def is_slip(name: str, near: str) -> bool:
     """Return whether one word of a name is misspelt, missing or superfluous; numbers are never misspelt."""
     from difflib import SequenceMatcher
 
-    words, others = (re.findall(r"\d+|[^\W\d_]+", text) for text in (name, near))
+    words, others = (re.findall(_WORD, text) for text in (name, near))
     if re.findall(r"\d+", name) != re.findall(r"\d+", near):
         return False
     if len(words) != len(others):

@@ -87,7 +87,7 @@ def cause_in_text(
     names = {name for inside in re.findall(_EXPRESSION, text) for name in re.findall(_NAME, inside)}
     found: dict[Place, str] = {}
     for name in names:
-        value, place, outer = _value(model, name, calls)
+        value, place, outer = value_of(model, name, calls)
         if place is None:
             continue
         if "${" in value:
@@ -101,7 +101,7 @@ def cause_in_text(
     return next(iter(found)) if len(found) == 1 else None
 
 
-def _value(model: Model, name: str, calls: Sequence[Expansion]) -> tuple[str, Place | None, Sequence[Expansion]]:
+def value_of(model: Model, name: str, calls: Sequence[Expansion]) -> tuple[str, Place | None, Sequence[Expansion]]:
     """Return the source text that a name stands for, its position, and the macro calls around it."""
     macro = model.expanded.macros.get(calls[0].macro) if calls else None
     if macro is not None and name in macro.parameters:

@@ -1,0 +1,47 @@
+"""Findings on values that macros hand on: at the call where the value is written."""
+
+import pytest
+
+from urdfkit.lint import lint
+
+PARTS = """<robot xmlns:xacro="http://www.ros.org/wiki/xacro">
+  <xacro:macro name="ball" params="name parent mass">
+    <link name="${name}">
+      <inertial><mass value="${mass}"/><inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial>
+    </link>
+    <joint name="${name}_joint" type="fixed"><parent link="${parent}"/><child link="${name}"/></joint>
+  </xacro:macro>
+  <xacro:macro name="part" params="name parent m:=2"><xacro:ball name="${name}" parent="${parent}" mass="${m}"/>
+  </xacro:macro>
+</robot>
+"""
+ROBOT = """<robot name="r" xmlns:xacro="http://www.ros.org/wiki/xacro">
+  <xacro:include filename="parts.xacro"/>
+  <link name="base"/>
+  <xacro:part name="a" parent="base" m="1"/>
+  <xacro:part name="b" parent="base" m="1"/>
+</robot>
+"""
+HELP = "set a mass greater than 0 kg; macro `ball` uses it at parts.xacro:4:17"
+
+
+@pytest.mark.parametrize(
+    ("parts", "robot", "code", "place"),
+    [
+        ("", ('b" parent="base" m="1"', 'b" parent="base" m="-2.0"'), "I501", ("r.urdf.xacro", 5, 38)),
+        ("", ('b" parent="base"', 'b" parent="bse"'), "T201", ("r.urdf.xacro", 5, 24)),
+        ("", (' m="1"', ' m="-2.0"'), "I501", ("parts.xacro", 4, 17)),
+        ("default", (' m="1"', ""), "I501", ("parts.xacro", 4, 17)),
+        ("comment", ('b" parent="base" m="1"', 'b" parent="base" m="-2.0"'), "I501", ("parts.xacro", 4, 17)),
+    ],
+    ids=["value", "name", "several-calls", "default", "suppressions"],
+)
+def test_a_value_that_a_macro_hands_on_is_found_at_its_call(parts, robot, code, place, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    text = {"": PARTS, "default": PARTS.replace("m:=2", "m:=-2"), "comment": f"{PARTS}<!-- urdfkit: ignore I514 -->"}
+    (tmp_path / "parts.xacro").write_text(text[parts])
+    (tmp_path / "r.urdf.xacro").write_text(ROBOT.replace(*robot))
+    (found,) = lint("r.urdf.xacro", select=(code,))
+    assert (found.file, found.line, found.column) == place
+    assert found.chains
+    assert (found.help == HELP) is (code == "I501" and place[0] == "r.urdf.xacro")

@@ -1,0 +1,69 @@
+"""Findings on a value that a macro only hands on, at the macro call where a person wrote it."""
+
+from __future__ import annotations
+
+import re
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from urdfkit.description.xml.source import Span
+    from urdfkit.lint.finding import Finding
+    from urdfkit.lint.model.model import Model
+
+_HANDED_ON = r"\s*\$\{\s*([A-Za-z_]\w*)\s*\}\s*"
+_ATTRIBUTE = rf"(?:<[\w:.-]+\s+)?[\w:.-]+\s*=\s*[\"']{_HANDED_ON}[\"'](?:\s*/?>)?"
+"""Matches an attribute, or a tag with one attribute."""
+
+
+def at_calls(findings: list[Finding], model: Model) -> list[Finding]:
+    """Return the findings; those on ``${parameter}`` in a macro are moved to the value in the macro call.
+
+    A finding stays where it is if its message does not name the value, if several values cause it, perhaps by one slip
+    in the macro, or if the file of the macro suppresses findings by comments. The help names the place in the macro.
+    """
+    groups: dict[tuple[str, Span], list[Span | None]] = {}
+    written = [_written(finding, model) if finding.chains else None for finding in findings]
+    for finding, span in zip(findings, written, strict=True):
+        groups.setdefault((finding.code, finding.span), []).append(span)
+    return [
+        finding if span is None or len(set(groups[finding.code, finding.span])) > 1 else _moved(finding, span)
+        for finding, span in zip(findings, written, strict=True)
+    ]
+
+
+def _moved(finding: Finding, span: Span) -> Finding:
+    used = f"macro `{finding.chains[0][0].macro}` uses it at {finding.file}:{finding.line}:{finding.column}"
+    help = f"{finding.help}; {used}" if finding.help else used
+    return type(finding)(**{**finding.__dict__, "span": span, "help": help})
+
+
+def _written(finding: Finding, model: Model) -> Span | None:
+    """Return the span of the attribute of a macro call whose literal value a finding is about, if there is one."""
+    from urdfkit.lint.facts.root_cause import value_of
+
+    if finding.file not in model.expanded.sources or len(finding.chains) != 1:
+        return None
+    document, calls, span = model.document(finding.file), finding.chains[0], finding.span
+    if "urdfkit:" in document.source.text:
+        return None
+    start, end = (document.source.offset(*at) for at in ((span.line, span.column), (span.end_line, span.end_column)))
+    handed_on = re.fullmatch(_ATTRIBUTE, document.source.text[start:end])
+    found: Span | None = None
+    while handed_on is not None and calls:
+        value, place, outer = value_of(model, handed_on[1], calls)
+        if place is None or place[0] != calls[0].position:
+            return None  # a property or a default value
+        handed_on = re.fullmatch(_HANDED_ON, value)
+        if handed_on is None and "$" not in value and _is_named(value.strip(), finding.message):
+            found = model.span(*place)
+        calls = tuple(outer)
+    return found
+
+
+def _is_named(value: str, message: str) -> bool:
+    """Return whether a message contains a name, or a number as text or rounded."""
+    from urdfkit.description.xml.numbers import number
+
+    value_read = number(value)
+    forms = {value} if value_read is None else {value, f"{value_read:g}"}
+    return any(re.search(rf"(?<![\w.-]){re.escape(form)}(?![\w-]|\.\d)", message) for form in forms if form)
