@@ -181,6 +181,12 @@ def test_a_neighbour_that_misspells_its_dependency_belongs_to_the_robot(tmp_path
         ("(ament_cmake R", "(ament_cmakes R", "3: unknown package `ament_cmakes`; did you mean `ament_cmake`?"),
         ("urdf\n  DESTINATION", "urdf\n ", "4: install(DIRECTORY) has no DESTINATION"),
         ("share/${PROJECT_NAME}", "share/${PROJECT}", "5: variable `PROJECT` does not exist"),
+        ("share/${PROJECT_NAME}", "share/cart_files", "5: folder `launch` is installed to `share/cart_files`, but its"),
+        (
+            "share/${PROJECT_NAME}",
+            "${CATKIN_PACKAGE_SHARE_DESTINATION}",
+            "5: variable `CATKIN_PACKAGE_SHARE_DESTINATION` is",
+        ),
         ("share/${PROJECT_NAME}", "share", "5: folder `launch` is installed to `share`, but its files are searched in"),
         ("share/${PROJECT_NAME}", "lib/cart", "5: folder `launch` is installed to `lib/cart`, but its files are"),
         ("install(PROGRAMS scripts/wait.py DESTINATION lib/${PROJECT_NAME})\n", "", "4: `scripts/wait.py` is not"),

@@ -78,6 +78,13 @@ velocity_smoother:
     feedback: "OPEN_LOOP"
     max_velocity: [0.5, 0.0, 1.0]
     max_decel: [-2.5, 0.0, -3.2]
+
+amcl:
+  ros__parameters:
+    min_particles: 500
+    max_particles: 2000
+    laser_model_type: likelihood_field
+    global_frame_id: map
 """
 FILES = {"controllers": CONTROLLERS, "filter": FILTER, "navigation": NAVIGATION}
 
@@ -111,12 +118,27 @@ BAD = [
     ("navigation", '"OPEN_LOOP"', '"OPENLOOP"', "K971", 26, "did you mean `OPEN_LOOP`?"),
     ("navigation", "[0.5, 0.0, 1.0]", "[0.5, 1.0]", "K971", 27, "has 2 values"),
     ("navigation", "[-2.5, 0.0, -3.2]", "[2.5, 0.0, 3.2]", "K971", 28, "requires zero or negative values"),
+    (
+        "navigation",
+        "pursuit_controller::",
+        "pursuit::",
+        "L104",
+        10,
+        "`nav2_regulated_pure_pursuit_controller::Regulated",
+    ),
+    ("navigation", "  local_costmap:\n    r", "  local_costmaps:\n    r", "L104", 13, "did you mean `local_costmap`?"),
+    ("navigation", ": 500", ": 5000", "K971", 32, "`min_particles` is 5000, more than `max_particles`, 2000"),
+    ("navigation", "likelihood", "likelyhood", "K971", 34, "did you mean `likelihood_field`?"),
+    ("navigation", "_id: map", "_id: mpa", "K971", 35, "unknown frame `mpa`; did you mean `map`?"),
+    ("filter", "imu0_differential", "imu_differential", "K971", 9, "did you mean `imu0_differential`?"),
 ]
 
 GOOD = [
     ("navigation", "/scan", "/front/points"),
     ("navigation", "nav2_costmap_2d::ObstacleLayer", "my_layers::ObstaclesLayer"),
     ("navigation", '["FollowPath"]', "$(var plugins)"),
+    ("navigation", "nav2_costmap_2d::ObstacleLayer", "nav2_recoveries::Spin"),
+    ("navigation", "likelihood_field", "beam"),
     ("navigation", "local_costmap:\n  local_costmap", "rear_costmap:\n  rear_costmap"),
     ("navigation", "max_velocity: [0.5, 0.0, 1.0]", "max_velocity: [0.5, 0.0, 0.0, 0.0, 0.0, 1.0]"),
     ("filter", "world_frame: odom", "world_frame: $(var world)"),

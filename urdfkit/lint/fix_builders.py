@@ -175,13 +175,13 @@ def nearest_name(finding: Finding, document: Document) -> Fix | None:
             places = [place + len(before) for place in places]
         elif "." in name and not {".", "/"} & set(meant):
             name = name.partition(".")[0]
-        if len(places) == 1 and name != meant and is_slip(name, meant):
+        if len(places) == 1 and name != meant and is_misspelling(name, meant):
             place = start + places[0]
             return Fix("unsafe", title, (Edit(source.span(place, place + len(name)), meant),))
     return None
 
 
-def is_slip(name: str, near: str) -> bool:
+def is_misspelling(name: str, near: str) -> bool:
     """Return whether one word of a name is misspelt, missing or superfluous; numbers are never misspelt."""
     from difflib import SequenceMatcher
 

@@ -103,9 +103,13 @@ def _variables(source: Source, every: list[CMakeCommand]) -> Iterator[BuildDefec
 
     is_whole = not any(command.name == "include" for command in every)
     assigned = re.findall(r"(?i)\b(?:set|foreach|option|list\s*\(\s*\w+|file\s*\(\s*\w+)\s*\(?\s*(\w+)", source.text)
+    packages = {command.words[0][0] for command in every if command.name == "find_package" and command.words}
     defined = {*_VARIABLES, *_CATKIN, *assigned}
     for use in re.finditer(r"\$\{(\w+)\}", source.text):
         name = use[1]
+        is_destination = re.search(r"DESTINATION\s+[^\s()]*\Z", source.text[: use.start()]) is not None
+        if name in _CATKIN and is_whole and is_destination and "catkin" not in packages and name not in assigned:
+            yield BuildDefect(source, use.start(1), name, f"variable `{name}` is empty without find_package(catkin)")
         if name in defined or re.fullmatch(_PROJECT, name):
             continue
         near = nearest(name, _VARIABLES, cutoff=0.85)
@@ -113,7 +117,6 @@ def _variables(source: Source, every: list[CMakeCommand]) -> Iterator[BuildDefec
             message = f"unknown variable `{name}`; did you mean `{near}`?"
             yield BuildDefect(source, use.start(1), name, message)
             continue
-        is_destination = re.search(r"DESTINATION\s+[^\s()]*\Z", source.text[: use.start()]) is not None
         if is_whole and is_destination and re.fullmatch(r"PROJECT(_\w+)?|CATKIN_(PACKAGE|GLOBAL)_\w+", name):
             yield BuildDefect(source, use.start(1), name, f"variable `{name}` does not exist")
 
@@ -165,7 +168,14 @@ def misplaced(files: BuildFiles, source: Source, every: list[CMakeCommand], used
         if place is None or place == share or place.startswith((f"{share}/", "/")):
             right.update(folders)
             continue
-        is_elsewhere = place == "share" or place.partition("/")[0] in ("lib", "bin", "include", "etc", "launch")
+        is_share = re.fullmatch(r"share(/\w+)?", place) is not None
+        is_elsewhere = is_share or place.partition("/")[0] in (
+            "lib",
+            "bin",
+            "include",
+            "etc",
+            "launch",
+        )
         for folder in folders if is_elsewhere else ():
             if folder.partition("/")[0] in {*used, *_FOLDERS}:
                 message = f"folder `{folder}` is installed to `{place}`, but its files are searched in `{share}`"

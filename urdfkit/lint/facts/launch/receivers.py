@@ -24,14 +24,18 @@ _CLASSIC = (
     " params_file server_required gui_required version lockstep profile initial_sim_time recording use_sim_time debug"
     " worldfile iters minimal_comms seed play ros_network lite log output"
 )
+_NAV2 = "namespace use_sim_time params_file autostart use_composition container_name use_respawn log_level graph"
 OUTSIDE = {
+    ("nav2_bringup", "bringup_launch.py"): f"{_NAV2} use_namespace slam map use_localization keepout_mask speed_mask",
+    ("nav2_bringup", "localization_launch.py"): f"{_NAV2} map",
+    ("nav2_bringup", "navigation_launch.py"): _NAV2,
     ("gazebo_ros", "empty_world.launch"): _EMPTY_WORLD,
     ("gazebo_ros", "gazebo.launch.py"): _CLASSIC,
     ("ros_gz_sim", "gz_sim.launch.py"): _GZ,
     ("ros_gz_sim", "ros_gz_sim.launch.py"): _GZ,
     ("ros_ign_gazebo", "ign_gazebo.launch.py"): _GZ,
 }
-"""Package and file of launch files from outside → their arguments (gazebo_ros Noetic and Humble, ros_gz Jazzy)."""
+"""Launch files from outside → their arguments (gazebo_ros Noetic and Humble, ros_gz Jazzy, Nav2 Humble to Jazzy)."""
 
 _FILES = {
     "gazebo_ros": "empty_world.launch gazebo.launch.py gzserver.launch.py gzclient.launch.py mud_world.launch"
@@ -71,7 +75,8 @@ def misspelt_file(call: Call) -> str | None:
     files, written = _FILES.get(call.package, "").split(), call.path.rpartition("/")[2]
     is_whole = call.package in _WHOLE and written.endswith((".launch", ".py"))
     near = nearest(written, files, cutoff=0.6 if is_whole else 0.8) if written and written not in files else None
-    return near if near is not None and (is_whole or is_slip(written, near)) else None
+    is_near = near is not None and (is_whole or is_slip(written.replace(".", "_"), near.replace(".", "_")))
+    return near if is_near else None
 
 
 def actions_at(path: Path, model: Model) -> LaunchActions | None:

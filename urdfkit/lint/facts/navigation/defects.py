@@ -14,8 +14,10 @@ from urdfkit.errors import nearest, suggestion
 from urdfkit.lint.facts.control.ros2_controllers import PARAMETERS
 from urdfkit.lint.facts.control.yaml_tree import Node, documents, not_a_number, number_of, walk
 from urdfkit.lint.facts.navigation.tables import (
+    CHOICES,
     DEFAULTS,
     DOUBLES,
+    FRAMES,
     INTEGERS,
     NODES,
     OTHERS,
@@ -27,6 +29,7 @@ from urdfkit.lint.facts.navigation.tables import (
 Defects = Iterator[tuple[Node, str]]
 
 _LISTS = ("plugins", "filters", "navigators")
+_COSTMAPS = ("local_costmap", "global_costmap")
 _INPUT = r"((?:odom|imu|pose|twist)\d+)(?:_(\w+))?"
 _OF_INPUTS = (
     *("config", "differential", "relative", "queue_size", "remove_gravitational_acceleration", "nodelay"),
@@ -60,6 +63,8 @@ def navigation_defects(source: Source, controllers: frozenset[str]) -> Defects:
         return
     for key, group in sections(source):
         name = key.text.strip("/").rpartition("/")[2]
+        if name in (*NODES, "slam_toolbox"):
+            yield from _choices(group)
         if name in NODES:
             for node in walk(group):
                 yield from _plugins(node)
@@ -79,6 +84,9 @@ def misspelt_navigation(source: Source) -> Iterator[tuple[Node, str, str]]:
     valid = DOUBLES | INTEGERS | OTHERS
     named = [(key, group, key.text.strip("/").rpartition("/")[2]) for key, group in sections(source)]
     written = {name for _, _, name in named}
+    for outer, value in (entry for root in documents(source)[0] for entry in root.entries):
+        if outer.text in _COSTMAPS and not {outer.text, PARAMETERS} & {key.text for key, _ in value.entries}:
+            yield from ((key, "node", outer.text) for key, inner in value.entries if inner.find(PARAMETERS) is not None)
     for key, group, name in named:
         if name not in NODES:
             near = next((each for each in sorted(NODES - written) if is_slip(name, each)), None)
@@ -90,8 +98,8 @@ def misspelt_navigation(source: Source) -> Iterator[tuple[Node, str, str]]:
             for parameter, value in node.entries:
                 if parameter.text == "plugin" and value.kind == "text":
                     written_type = value.text.replace("/", "::")
-                    near = nearest(written_type, PLUGINS, cutoff=0.93) if written_type not in PLUGINS else None
-                    if near is not None and is_slip(written_type.rpartition("::")[2], near.rpartition("::")[2]):
+                    near = _meant_plugin(written_type)
+                    if near is not None:
                         yield value, "plugin", near.replace("::", "/" if "/" in value.text else "::")
                     continue
                 topic = value.text.rpartition("/")[2]
@@ -106,6 +114,21 @@ def misspelt_navigation(source: Source) -> Iterator[tuple[Node, str, str]]:
                     yield parameter, "parameter", near
 
 
+def _meant_plugin(name: str) -> str | None:
+    """Return the plugin of Nav2 that a misspelt class stands for, or one with its class in another package of Nav2."""
+    from urdfkit.lint.facts.ros_packages import is_slip
+
+    package, _, kind = name.rpartition("::")
+    if name in PLUGINS:
+        return None
+    same = min((each for each in PLUGINS if each.endswith(f"::{kind}")), default=None)
+    if same is not None and package.startswith("nav2_") and nearest(package, [same.rpartition("::")[0]], cutoff=0.8):
+        return same
+    near = nearest(name, PLUGINS, cutoff=0.93)
+    meant = near.rpartition("::")[2] if near is not None else ""
+    return near if meant and (is_slip(kind, meant) or is_slip(kind.lower(), meant.lower())) else None
+
+
 def wrong_numbers(source: Source) -> Iterator[tuple[Node, str, str]]:
     """Yield integers in parameters of the type double, and the reverse: value, parameter, the right text."""
     for key, group in sections(source) if PARAMETERS in source.text else ():
@@ -115,6 +138,8 @@ def wrong_numbers(source: Source) -> Iterator[tuple[Node, str, str]]:
             doubles, integers = frozenset[str](), frozenset(("update_rate",))
         elif name in NODES:
             doubles, integers = DOUBLES, INTEGERS
+        elif name == "slam_toolbox":
+            doubles, integers = frozenset(), frozenset(("throttle_scans", "scan_buffer_size"))
         elif is_filter:
             doubles, integers = frozenset(("frequency", "sensor_timeout")), frozenset()
         else:
@@ -152,6 +177,25 @@ def _plugins(node: Node) -> Defects:
             elif near is not None or (word not in DEFAULTS and key.text != "observation_sources" and others):
                 what = "topic" if key.text == "observation_sources" else "plugin"
                 yield item, f"`{key.text}` lists `{word}`, which has no section with its `{what}`{suggestion(near)}"
+
+
+def _choices(group: Node) -> Defects:
+    """Yield unknown values of parameters with few values, misspelt frames, and a minimum above its maximum."""
+    from urdfkit.lint.facts.ros_packages import is_slip
+
+    for key, value in group.entries:
+        choices = CHOICES.get(key.text, ())
+        if choices and value.kind == "text" and value.text and "$" not in value.text and value.text not in choices:
+            hint = suggestion(nearest(value.text, choices)) or f"; write one of {', '.join(choices)}"
+            yield value, f"unknown `{key.text}` `{value.text}`{hint}"
+        near = next((one for one in ("odom", "map") if is_slip(value.text, one)), None)
+        if key.text in FRAMES and near is not None and value.text not in ("odom", "map"):
+            yield value, f"unknown frame `{value.text}`; did you mean `{near}`?"
+    least, most = group.find("min_particles"), group.find("max_particles")
+    if least is not None and most is not None:
+        low, high = number_of(least), number_of(most)
+        if low is not None and high is not None and low > high:
+            yield least, f"`min_particles` is {low:g}, more than `max_particles`, {high:g}"
 
 
 def _values(node: Node) -> Defects:
@@ -203,10 +247,18 @@ def _filter(group: Node, controllers: frozenset[str]) -> Defects:
     if world is not None and is_literal and world.text not in names:
         hint = suggestion(nearest(world.text, names)) or f"; write `{names[0]}` or `{names[1]}`"
         yield world, f"`world_frame` is `{world.text}`, which is neither `map_frame` nor `odom_frame`{hint}"
+    inputs = {key.text for key, _ in group.entries}
     for key, value in group.entries:
         at = re.fullmatch(_INPUT, key.text)
         if at is None:
+            unnumbered = re.fullmatch(r"(odom|imu|pose|twist)(?:_(\w+))?", key.text)
+            if unnumbered is not None and unnumbered[2] in (None, *_OF_INPUTS):
+                first = next((f"{unnumbered[1]}{i}" for i in range(9) if f"{unnumbered[1]}{i}" in inputs), None)
+                right = key.text.replace(unnumbered[1], first or f"{unnumbered[1]}0", 1)
+                yield key, f"unknown parameter `{key.text}` of robot_localization; did you mean `{right}`?"
             continue
+        if at[2] == "config" and value.items and all(each.text == "false" for each in value.items):
+            yield value, f"`{key.text}` is false for each value, so the filter does not use `{at[1]}`"
         if at[2] is not None and at[2] not in _OF_INPUTS:
             near = next((each for each in _OF_INPUTS if is_slip(at[2], each)), None)
             if near is not None:

@@ -71,5 +71,14 @@ tf_broadcast track_unknown_space use_astar yaml_filename
 OTHERS = frozenset(_OTHERS.split())
 """Further parameters, for which a similar name is a misspelt one."""
 
+CHOICES = {
+    "laser_model_type": ("beam", "likelihood_field", "likelihood_field_prob"),
+    "solver_plugin": ("solver_plugins::CeresSolver", "solver_plugins::G2oSolver", "solver_plugins::SpaSolver"),
+}
+"""Parameters of amcl and slam_toolbox: their values (nav2_amcl: amcl_node.cpp; slam_toolbox: solver_plugins.xml)."""
+
+FRAMES = ("global_frame", "global_frame_id", "local_frame", "map_frame", "odom_frame", "odom_frame_id", "world_frame")
+"""Parameters whose values are usually ``map`` or ``odom``."""
+
 VELOCITY_LIMITS = {"max_velocity": -1, "min_velocity": 1, "max_accel": -1, "max_decel": 1}
 """List of velocity_smoother → the sign that its values must not have."""

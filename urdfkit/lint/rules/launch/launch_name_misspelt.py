@@ -71,6 +71,7 @@ class LaunchNameMisspelt(RobotRule):
     def check(self, model: Model) -> Findings:
         """Yield a finding for each misspelt name."""
         from urdfkit.description.packages.related_files import LAUNCH
+        from urdfkit.lint.facts.control.exported_plugins import is_exported_plugin
         from urdfkit.lint.facts.control.launch_package_paths import uncommented
         from urdfkit.lint.facts.control.yaml_tree import span_of
         from urdfkit.lint.facts.launch.actions import actions_of
@@ -95,6 +96,8 @@ class LaunchNameMisspelt(RobotRule):
                 message = f"unknown parameter `{key.text}` of node `{node}`; did you mean `{near}`?"
                 yield Finding(self.code, self.name, "warning", message, span_of(source, key))
             for key, kind, near in () if is_launch else misspelt_navigation(source):
+                if kind == "plugin" and is_exported_plugin(model, key.text):
+                    continue
                 message = f"unknown {kind} `{key.text}` in the parameters of Nav2; did you mean `{near}`?"
                 yield Finding(self.code, self.name, "warning", message, span_of(source, key))
             for parameter, package, near in misspelt_in_launch(source) if is_launch else ():

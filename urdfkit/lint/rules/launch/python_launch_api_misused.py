@@ -102,6 +102,13 @@ class PythonLaunchApiMisused(RobotRule):
                 yield self._at(source, (start, end), "`items` is not called; write `items()`")
             elif word.arg == "launch_arguments" and isinstance(word.value, ast.Dict) and word.value.keys:
                 yield self._at(source, (end - 1, end), "`launch_arguments` is a dictionary; write `.items()` after it")
+            if word.arg == "launch_arguments":
+                for value in _not_text(word.value):
+                    message = "values of `launch_arguments` are texts; write it in quotes"
+                    yield self._at(source, place(source, value), message)
+            elif word.arg == "condition" and (other := _no_condition(word.value, reader)):
+                message = f"`condition` is a {other}; write `IfCondition(...)` around it"
+                yield self._at(source, (start, end), message)
             if near is not None:
                 message = f"`{kind}` has no argument `{word.arg}`; did you mean `{near}`?"
                 yield self._at(source, (before, before + len(word.arg)), message)
@@ -110,6 +117,29 @@ class PythonLaunchApiMisused(RobotRule):
 
     def _at(self, source: Source, place: tuple[int, int], message: str) -> Finding:
         return Finding(self.code, self.name, self.severity, message, source.span(*place))
+
+
+def _not_text(node: ast.expr) -> list[ast.expr]:
+    """Return the numbers and truth values among the arguments of an include."""
+    import ast
+
+    if isinstance(node, ast.Call) and isinstance(node.func, ast.Attribute) and node.func.attr == "items":
+        node = node.func.value
+    values = node.values if isinstance(node, ast.Dict) else []
+    return [each for each in values if isinstance(each, ast.Constant) and isinstance(each.value, (bool, int, float))]
+
+
+def _no_condition(node: ast.expr, reader: LaunchReader) -> str:
+    """Return the class or type of an expression that is no condition; empty for others."""
+    import ast
+
+    from urdfkit.description.launch.python_constants import name_of
+
+    node = reader.assigned.get(node.id) or node if isinstance(node, ast.Name) else node
+    if isinstance(node, ast.Call):
+        kind = name_of(node.func)
+        return kind if kind in ("LaunchConfiguration", "PythonExpression", "EqualsSubstitution") else ""
+    return "text" if isinstance(node, ast.Constant) and isinstance(node.value, str) else ""
 
 
 def _has_lists(kind: str) -> bool:
