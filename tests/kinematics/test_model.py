@@ -108,6 +108,8 @@ def test_reduced_dynamics_are_those_of_pinocchios_mimic_model(kinematics: Kinema
         )
         M = pin.crba(kinematics.model, kinematics.data, q)
         np.testing.assert_allclose(G.T @ M @ G, pin.crba(reference, data, reduced), rtol=0, atol=1e-12)
+        weights = pin.computeGeneralizedGravity(reference, data, reduced)
+        np.testing.assert_allclose(G.T @ kinematics.gravity(q), weights, rtol=0, atol=1e-12 * abs(weights).max())
         pin.framesForwardKinematics(reference, data, reduced)
         pin.framesForwardKinematics(kinematics.model, kinematics.data, q)
         for frame in kinematics.link_names:

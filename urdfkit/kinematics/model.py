@@ -283,6 +283,18 @@ class Kinematics:
         placements: Sequence[Any] = self.data.oMf
         return placements
 
+    # Dynamics
+
+    def gravity(self, q: Array) -> Array:
+        """Return the efforts that hold the robot at rest against gravity [N·m] or [N], as v orders them; shape (nv,).
+
+        A mimic joint has an effort of its own; ``mimic_matrix.T @ gravity(q)`` are those of the joints that lead.
+
+        Raises:
+            KinematicsError: the robot has more than `LARGE` degrees of freedom.
+        """
+        return np.array(pin.computeGeneralizedGravity(self.model, self.data, q))
+
     # Errors for unknown names
 
     def _joint_id(self, joint: str) -> int:

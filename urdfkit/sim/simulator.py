@@ -173,7 +173,9 @@ class Simulator:
         for each in builder.robot_list:
             each.publish_fixed()
         self.requests = listen(self.bus, self.world, self.at, self.note)
-        note_overlaps(builder.engine, self.kinematics.link_names, self.note)
+        note_overlaps(
+            builder.engine, self.kinematics.link_names, self.note, models={model.name for model in found.models}
+        )
 
     def __deepcopy__(self, memo: dict[int, Any]) -> Simulator:
         """Return a simulator in the same state, with its own bus and without subscriptions and scheduled calls."""

@@ -38,6 +38,21 @@ def test_below_the_ground() -> None:
     assert " starts 50 mm inside `ground_plane`" in note
 
 
+def test_models_of_the_world(tmp_path: Path) -> None:
+    crates = "".join(
+        f"<include><uri>model://crate</uri><name>crate_{k}</name><pose>{x} 0 {z} 0 0 0</pose></include>"
+        for k, (x, z) in enumerate([(3, -0.2), (3, 5), (5, 0), (5, 0.002)])
+    )
+    path = tmp_path / "w.world"
+    path.write_text(WALL.replace("</world>", f"{crates}</world>"))
+    notes = deep(path, Spawn())
+    assert len(notes) == 1
+    pattern = r"model `crate_\d` starts \d+ mm inside `crate_\d`; .*<pose> \(other overlapping pairs: 1\)"
+    assert re.fullmatch(pattern, notes[0])
+    path.write_text(WALL.replace("</world>", f"{crates[: crates.index('</include>') + 10]}</world>"))
+    assert deep(path, Spawn()) == ["model `crate_0` starts 200 mm inside `ground_plane`; change its <pose>"]
+
+
 def test_nothing_is_reported_of_a_robot_that_stands_or_touches(world: Path) -> None:
     assert deep(world, Spawn(x=0.0)) == []
     assert deep("empty", Spawn(z=-0.001)) == []
