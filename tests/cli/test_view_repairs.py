@@ -36,7 +36,7 @@ def test_repairs_are_warnings_with_their_place(robot: Path, tmp_path: Path, capf
     assert main(["view", str(robot), "--html", str(page)]) == 0
     *warnings, last = capfd.readouterr().err.splitlines()
     places = [line.removeprefix("urdfkit: warning: ").split(": ")[0] for line in warnings]
-    assert places == [f"{robot}:7:3", f"{robot}:4:23"]
+    assert places == [f"{robot}:7:9", f"{robot}:4:29"]
     assert "2 root links" in warnings[0]
     assert warnings[1].endswith("a placeholder is shown")
     assert last.startswith("wrote ")
