@@ -64,8 +64,8 @@ SCENES = {
 }
 
 
-def run(name: str, seconds: float, nudge: float) -> str:
-    """Return the line of a scene."""
+def nudged(name: str, nudge: float) -> Engine:
+    """Return a scene after a second, in which the top layer has just got a speed along x [m/s]."""
     bodies = SCENES[name]()
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "post.urdf"
@@ -76,6 +76,17 @@ def run(name: str, seconds: float, nudge: float) -> str:
     for body in bodies:
         if body.pose[2] > top - 0.01:
             engine.bodies[body.name].place(engine.bodies[body.name].pose, (nudge, 0.0, 0.0, 0.0, 0.0, 0.0))
+    return engine
+
+
+def displacement(name: str, engine: Engine) -> float:
+    """Return how far the worst body is from its place [m]."""
+    return max(float(np.linalg.norm(engine.bodies[b.name].pose[:3] - np.array(b.pose[:3]))) for b in SCENES[name]())
+
+
+def run(name: str, seconds: float, nudge: float) -> str:
+    """Return the line of a scene."""
+    engine = nudged(name, nudge)
     slept, times, speeds = math.inf, [], []
     while engine.t < 1.0 + seconds:
         start = time.process_time()
@@ -85,7 +96,7 @@ def run(name: str, seconds: float, nudge: float) -> str:
         if all(each.asleep for each in engine.bodies.values()):
             slept = engine.t - 1.0
             break
-    off = max(float(np.linalg.norm(engine.bodies[body.name].pose[:3] - np.array(body.pose[:3]))) for body in bodies)
+    off = displacement(name, engine)
     mean = float(np.mean(times))
     return (
         f"{name:20s} {slept:6.2f} {1e3 * max(speeds[-20:]):10.3f} {1e3 * off:10.3f} "

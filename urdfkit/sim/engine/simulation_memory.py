@@ -38,6 +38,8 @@ FOLLOWS_ARC, LAST_UPDATE, BEFORE, NEXT_UPDATE, FIRST_COORDINATE = range(1, 6)
 """Places in ``odometer`` of a tree after the number of its encoders, zero for none: whether displacements follow an
 arc, the steps of the last updates and of the next, and the coordinates of its encoders, relative to its first one."""
 ODOMETER = FIRST_COORDINATE + ENCODERS
+BLOCK_WORDS = 4
+"""Words of 32 bits in which ``block_after`` has the trees that one shares a block with."""
 ATTEMPT = 3
 LAST_ATTEMPT, TURNS, SKIPPED = range(ATTEMPT)
 """Places in ``attempt`` of a tree, see `augmented_newton`: which attempt solved the last step, how often in turn it was
@@ -83,14 +85,14 @@ FLOATS = _sizes(
 INTEGERS = _sizes(
     "tree_body:t+1 tree_dof:t+1 tree_s:t+1 tree_shape:t+1 tree_mimic:t+1 tree_floats:t tree_meets:t near:t",
     "sleeps:t asleep:t tree_order:t tree_meet:t+1 meet_a:f meet_b:f meet_tree:f still_near:k island:t",
-    "island_next:t island_contact:t block_tree:t tree_block:t block_first:t+1 block_after:t pair_a:f pair_b:f",
+    "island_next:t island_contact:t block_tree:t tree_block:t block_first:t+1 pair_a:f pair_b:f",
     f"last_a:c last_b:c last_feature:c last_at:c pair_indices:i pair_work_indices:{memory.WORK_INDICES}",
     "found_feature:8 body_tree:b kind:b parent:b first_s:b first_v:b+1 body_last_dof:b dof_parent:d dof_s:d",
     "dof_row:d mimic_dof:m mimic_master:m shape_kind:k shape_body:k shape_feature:k shape_vertex:k+1",
     "shape_owner:k shape_meets:k shape_data:k contact_body:c contact_other:c contact_shape:c contact_against:c",
     "contact_next:c contact_feature:c contact_row:c slot:r row_a:r row_b:r at_a:r at_b:r of_a:r of_b:r state:r",
     "index:r redundant:r extreme_vertex:9 saturated:d pressed:d motor_row:d counts:12 along_body:k",
-    f"odometer:t,{ODOMETER} tree_link:t+1 link_body:l attempt:t,{ATTEMPT}",
+    f"block_after:t,{BLOCK_WORDS} block_near:t odometer:t,{ODOMETER} tree_link:t+1 link_body:l attempt:t,{ATTEMPT}",
 )
 
 # Where in the head of the block of integers the kernel finds sizes and the start of each field.

@@ -7,6 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from tests.bench import towers
 from tests.sim.engine.worlds import cube, rover, slab
 from urdfkit.sim import Simulator
 from urdfkit.sim.engine.island_solver.augmented_lagrangian import BALANCE, HARDNESS, HEAP_ROUNDS, MORE_ROUNDS
@@ -50,6 +51,15 @@ def test_a_knocked_stack_is_never_only_nearly_solved(engine_of):
         assert min(guesses) > IN_VAIN
         assert sum(each < 0 for each in guesses) <= 6
         assert set(guesses[15:]) == {1}
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", ["tower-24", "tower-24-turned-10", "wall-8x8"])
+def test_a_nudged_tower_or_wall_comes_to_rest_and_sleeps(name):
+    engine = towers.nudged(name, 0.02)
+    engine.step(700)
+    assert all(body.asleep for body in engine.bodies.values())
+    assert towers.displacement(name, engine) < 1e-4
 
 
 @pytest.mark.slow

@@ -113,7 +113,7 @@ def test_a_heap_of_boxes_balls_and_cans_sleeps_within_six_seconds(engine_of, see
 
 @pytest.mark.slow
 def test_a_heap_that_stays_awake_does_not_sink(engine_of):
-    engine = rover(engine_of, bodies=tray(MOST_TREES + 3, 0.4), sleep=False)
+    engine = rover(engine_of, bodies=tray(MOST_TREES + 3, 0.55), sleep=False)
     engine.step(2500)
     before = heights(engine)
     for _ in range(10):

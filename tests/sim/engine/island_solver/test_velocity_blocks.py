@@ -5,6 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from urdfkit.sim.engine.island_solver.augmented_lagrangian import HEAP
+from urdfkit.sim.engine.island_solver.block_matrix import MOST_TREES
 from urdfkit.sim.engine.island_solver.velocity_blocks import hold
 from urdfkit.sim.engine.kernel_cache import load_compiled, world_digest
 from urdfkit.sim.engine.kernel_world import world
@@ -21,8 +23,11 @@ def solve():
     return load_compiled(held, ("floats", "integers", "count", "count"), digest=world_digest())
 
 
-def problem(rng, sizes, touching, points=4, mu=5.0):
-    """Return arrays of trees of so many dofs, each pair of `touching` with some contacts, and the answer."""
+def problem(rng, sizes, touching, points=4, mu=5.0, *, rests=False):
+    """Return arrays of trees of so many dofs, each pair of `touching` with some contacts, and the answer.
+
+    Velocities and forces are random, unless all rests.
+    """
     trees, dofs = len(sizes), sum(sizes)
     rows = 3 * points * len(touching)
     width = 2 * max(sizes)
@@ -72,12 +77,13 @@ def problem(rng, sizes, touching, points=4, mu=5.0):
     x = 0.1 * rng.normal(size=rows)
     x[normal] = rng.uniform(1.0, 2.0, len(normal))
     a["v_start"][:], a["u"][:] = rng.normal(size=dofs), rng.normal(size=dofs)
-    free = np.zeros(dofs)
+    free, change = np.zeros(dofs), np.linalg.solve(M, J.T @ x)
     for start, n in zip(first, sizes, strict=False):
         part = slice(start, start + n)
         L = np.linalg.cholesky(M[part, part][::-1, ::-1])[::-1, ::-1].T
+        if rests:
+            a["v_start"][part], a["u"][part] = 0.0, -L @ change[part]
         free[part] = np.linalg.solve(L, a["u"][part])
-    change = np.linalg.solve(M, J.T @ x)
     a["row_bias"][:] = -J @ (a["v_start"] + free + change)
     return a, J, x, free + change
 
@@ -103,13 +109,29 @@ def test_velocities_and_what_each_tree_feels_are_those_of_the_equations(solve, n
     assert a["x"] @ J == pytest.approx(x @ J, rel=1e-8, abs=1e-8)
 
 
+def pile(rng, count):
+    """Return bodies of six dofs that each lie on another or on the ground, some on two."""
+    touching = [(0, -1), *((k, int(rng.integers(-1, k))) for k in range(1, count))]
+    touching += [(k, int(rng.integers(0, k))) for k in range(2, count) if rng.random() < 0.25]
+    return [6] * count, touching
+
+
 @pytest.mark.parametrize("seed", range(8))
 def test_random_piles(solve, seed):
     rng = np.random.default_rng(seed)
-    count = int(rng.integers(8, 40))
-    touching = [(0, -1), *((k, int(rng.integers(-1, k))) for k in range(1, count))]
-    touching += [(k, int(rng.integers(0, k))) for k in range(2, count) if rng.random() < 0.3]
-    a, J, x, change = problem(rng, [6] * count, touching, points=2)
+    a, J, x, change = problem(rng, *pile(rng, int(rng.integers(8, 25))), points=1)
+    assert len(x) <= HEAP
+    a["before"][:] = x
+    assert solve(a.floats, a.integers, 0, len(x)) == 1
+    assert a["u"] == pytest.approx(change, abs=1e-8)
+    assert a["x"] @ J == pytest.approx(x @ J, rel=1e-7, abs=1e-7)
+
+
+@pytest.mark.parametrize("count", [40, 70, MOST_TREES])
+def test_a_heap_at_rest_stays_where_it_is(solve, count):
+    rng = np.random.default_rng(count)
+    a, J, x, change = problem(rng, *pile(rng, count), points=2, rests=True)
+    assert len(x) > HEAP
     a["before"][:] = x
     assert solve(a.floats, a.integers, 0, len(x)) == 1
     assert a["u"] == pytest.approx(change, abs=1e-8)
@@ -156,7 +178,7 @@ def test_what_slides_obeys_coulomb(solve, name, mu):
 
 
 def test_an_island_of_too_many_trees_is_left_alone(solve):
-    count = 70
+    count = MOST_TREES + 1
     touching = [(0, -1), *((k, k - 1) for k in range(1, count))]
     a, _, x, _ = problem(np.random.default_rng(7), [6] * count, touching, points=1)
     a["before"][:] = x

@@ -34,7 +34,7 @@ OFF = 1e-4
 HEAP = 100
 """Rows beyond which an island is a heap."""
 HEAP_ROUNDS = 2
-"""Most rounds of a heap: the next step continues from there."""
+"""Rounds of a heap, after which only rounds follow that gain: the next step continues from there."""
 GROSS = 1e-3
 """Velocity [m/s or rad/s] by which rounds may violate the law in a heap: beyond it, loaded bodies sink.
 
@@ -93,16 +93,18 @@ def go_round(w: KernelWorld, root: int, rows: int, n: int, tiny: float, most: fl
         for k in range(rows):
             w.x[k] = start[k]
     off, least, stuck = math.inf, math.inf, 0
-    for done in range(HEAP_ROUNDS if heap else MORE_ROUNDS):
-        if done == TRIED_AFTER and try_from_here(w, root, rows, n, tiny, most):
+    for done in range(MORE_ROUNDS):
+        if done == TRIED_AFTER and not heap and try_from_here(w, root, rows, n, tiny, most):
             return done
         row = min(done, len(HARDNESS) - 1)
         prepare_round(w, rows, HARDNESS[row], done > 0)
         descend(w, root, rows, n, BALANCE[row])
         was = off
         off = update_multipliers(w, rows)
-        if off <= max(tiny, SOLVED) or GAIN * was < off <= NEAR:
+        if off <= max(tiny, SOLVED) or (off <= NEAR and (heap or GAIN * was < off)):
             return done + 1
+        if heap and done + 1 >= HEAP_ROUNDS and (off > GROSS or (done > 3 and off > GAIN * was)):
+            break
         limit_corrections(w, rows)
         if done + 1 < len(HARDNESS):
             least = off

@@ -4,6 +4,7 @@ import math
 from typing import Any
 
 from urdfkit.sim.engine.compilation import compiled, inlined
+from urdfkit.sim.engine.island_solver.block_matrix import list_after
 from urdfkit.sim.engine.kernel_world import KernelWorld
 from urdfkit.sim.engine.math.simd import load6, store
 from urdfkit.sim.engine.simulation_memory import WIDTH
@@ -67,6 +68,23 @@ def add_row(w: KernelWorld, k: int, n: int, Y: Any, at: int, d: float) -> None:
             add_block(K, n, j, i, nj, ni, Y, at + ni, at, d)
 
 
+@inlined
+def clear(w: KernelWorld, n: int) -> None:
+    """Set the blocks that are written or fill in to zero."""
+    K, first = w.B, w.block_first
+    k = 0
+    while first[k] < n:
+        neighbours = list_after(w, k, n)
+        for i in range(first[k] * n, first[k + 1] * n, n):
+            for j in range(i + first[k], i + first[k + 1]):
+                K[j] = 0.0
+            for each in range(neighbours):
+                b = w.block_near[each]
+                for j in range(i + first[b], i + first[b + 1]):
+                    K[j] = 0.0
+        k += 1
+
+
 @compiled
 def assemble(w: KernelWorld, root: int, rows: int, n: int, coned: bool) -> None:
     """Write M, of each tree from its factor, and add what rows do to it: the upper triangle of K in B.
@@ -75,8 +93,7 @@ def assemble(w: KernelWorld, root: int, rows: int, n: int, coned: bool) -> None:
     """
     width = w.sizes[WIDTH]
     near, made, K, stiffness = w.near_x, w.A, w.B, w.g
-    for k in range(n * n):
-        K[k] = 0.0
+    clear(w, n)
     tree = root
     while tree >= 0:
         first, size = w.tree_dof[tree], w.tree_dof[tree + 1] - w.tree_dof[tree]

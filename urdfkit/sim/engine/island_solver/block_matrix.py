@@ -11,70 +11,105 @@ from urdfkit.sim.engine.compilation import compiled, inlined
 from urdfkit.sim.engine.island_solver.jacobian_products import load_six, times_six
 from urdfkit.sim.engine.kernel_world import KernelWorld
 from urdfkit.sim.engine.math.simd import load6, store
+from urdfkit.sim.engine.simulation_memory import BLOCK_WORDS as WORDS
+from urdfkit.sim.engine.simulation_memory import MATRIX
 
-MOST_TREES = 62
-"""Most trees of an island: as many as a number has bits."""
+MOST_TREES = 32 * WORDS
+"""Most trees of an island."""
 
 
 @inlined
-def bits(mask: int) -> int:
-    """Return how many bits are set."""
-    count = 0
-    while mask != 0:
-        mask &= mask - 1
-        count += 1
-    return count
+def bits(word: int) -> int:
+    """Return how many of 32 bits are set, by sums of pairs, of fours and of bytes."""
+    word -= (word >> 1) & 0x55555555
+    word = (word & 0x33333333) + ((word >> 2) & 0x33333333)
+    return (((word + (word >> 4)) & 0x0F0F0F0F) * 0x01010101 >> 24) & 0xFF
+
+
+@inlined
+def is_neighbour(after: Any, k: int, b: int) -> bool:
+    """Return whether the bit of tree b is set for tree k."""
+    return bool((after[WORDS * k + (b >> 5)] >> (b & 31)) & 1)
+
+
+@inlined
+def flip(after: Any, k: int, b: int) -> None:
+    """Change the bit of tree b for tree k."""
+    after[WORDS * k + (b >> 5)] ^= 1 << (b & 31)
+
+
+@inlined
+def list_after(w: KernelWorld, k: int, n: int) -> int:
+    """List the trees after k that it shares a block with in ``block_near``; return how many."""
+    found, b = 0, k + 1
+    while w.block_first[b] < n:
+        if is_neighbour(w.block_after, k, b):
+            w.block_near[found] = b
+            found += 1
+        b += 1
+    return found
 
 
 @compiled
 def arrange(w: KernelWorld, root: int, rows: int) -> int:
-    """Order the trees of an island for elimination; return how many dofs they have, 0 if there are too many trees.
+    """Order the trees of an island for elimination; return how many dofs they have, 0 if there are too many.
 
     Afterwards ``block_tree`` lists the trees in order, ``tree_block`` their places in it, ``block_first`` where their
-    dofs start, and ``block_after`` those after each that it shares a block with, as bits. For each row ``at_a`` and
-    ``at_b`` are where the dofs of its trees start, ``of_a`` and ``of_b`` how many these are: none where there is but
-    one tree.
+    dofs start, and ``block_after`` those after each that it shares a block with, as bits of `WORDS` words. For each
+    row ``at_a`` and ``at_b`` are where the dofs of its trees start, ``of_a`` and ``of_b`` how many these are: none
+    where there is but one tree.
     """
-    block_after = w.block_after
+    after = w.block_after
     count = 0
     tree = root
     while tree >= 0:
         if count == MOST_TREES:
             return 0
-        w.block_tree[count], w.tree_block[tree], block_after[count] = tree, count, 0
+        w.block_tree[count], w.tree_block[tree] = tree, count
         count += 1
         tree = w.island_next[tree]
-    one = 1
+    words = (count + 31) >> 5
+    for k in range(WORDS * count):
+        after[k] = 0
     for k in range(rows):
         if w.row_b[k] >= 0:
             a, b = w.tree_block[w.row_a[k]], w.tree_block[w.row_b[k]]
-            block_after[a] |= one << b
-            block_after[b] |= one << a
+            if not is_neighbour(after, a, b):
+                flip(after, a, b)
+                flip(after, b, a)
     # Of those left, the one with the fewest neighbours goes next, and its neighbours become each other's.
     first = 0
     for k in range(count):
         best, fewest = k, MOST_TREES + 1
         for j in range(k, count):
-            degree = bits(block_after[j])
+            degree = 0
+            for i in range(words):
+                degree += bits(after[WORDS * j + i])
             if degree < fewest:
                 best, fewest = j, degree
         if best != k:
             # They exchange places, and so do their bits.
             w.block_tree[k], w.block_tree[best] = w.block_tree[best], w.block_tree[k]
-            block_after[k], block_after[best] = block_after[best], block_after[k]
+            for i in range(words):
+                here, there = WORDS * k + i, WORDS * best + i
+                after[here], after[there] = after[there], after[here]
             for j in range(count):
-                mask = block_after[j]
-                differ = ((mask >> k) ^ (mask >> best)) & one
-                block_after[j] = mask ^ ((differ << k) | (differ << best))
-        mask = block_after[k]
+                if is_neighbour(after, j, k) != is_neighbour(after, j, best):
+                    flip(after, j, k)
+                    flip(after, j, best)
         for j in range(k + 1, count):
-            if (mask >> j) & one:
-                block_after[j] = (block_after[j] | mask) & ~((one << j) | (one << k))
+            if is_neighbour(after, k, j):
+                for i in range(words):
+                    after[WORDS * j + i] |= after[WORDS * k + i]
+                flip(after, j, j)
+                flip(after, j, k)
         tree = w.block_tree[k]
         w.tree_block[tree] = k
         w.block_first[k] = first
         first += w.tree_dof[tree + 1] - w.tree_dof[tree]
     w.block_first[count] = first
+    if first * first > w.sizes[MATRIX]:
+        return 0
     for k in range(rows):
         a, b = w.row_a[k], w.row_b[k]
         w.at_a[k], w.of_a[k] = w.block_first[w.tree_block[a]], w.tree_dof[a + 1] - w.tree_dof[a]
@@ -97,10 +132,10 @@ def take_six(K: Any, n: int, i: int, first: int, start: int) -> None:
 def eliminate(w: KernelWorld, n: int) -> bool:
     """Factor K = UᵀU in B block by block, its diagonal inverted; return whether it was positive."""
     block_first, K = w.block_first, w.B
-    one = 1
     k = 0
     while block_first[k] < n:
-        first, beyond, mask = block_first[k], block_first[k + 1], w.block_after[k]
+        first, beyond = block_first[k], block_first[k + 1]
+        neighbours = list_after(w, k, n)
         for d in range(first, beyond):
             pivot = K[d * n + d]
             if not pivot > 0.0:
@@ -113,12 +148,8 @@ def eliminate(w: KernelWorld, n: int) -> bool:
                 c = K[d * n + i]
                 for j in range(i, beyond):
                     K[i * n + j] -= c * K[d * n + j]
-            left, b = mask, k
-            while left != 0:
-                b += 1
-                while not (mask >> b) & one:
-                    b += 1
-                left &= left - 1
+            for at in range(neighbours):
+                b = w.block_near[at]
                 start, size = block_first[b], block_first[b + 1] - block_first[b]
                 if size == 6:
                     own = inverse * load6(K, d * n + start)
@@ -133,19 +164,10 @@ def eliminate(w: KernelWorld, n: int) -> bool:
                     c = K[d * n + i]
                     for j in range(start, start + size):
                         K[i * n + j] -= c * K[d * n + j]
-        left, b = mask, k
-        while left != 0:
-            b += 1
-            while not (mask >> b) & one:
-                b += 1
-            rest = left
-            left &= left - 1
-            e = b - 1
-            while rest != 0:
-                e += 1
-                while not (mask >> e) & one:
-                    e += 1
-                rest &= rest - 1
+        for at in range(neighbours):
+            b = w.block_near[at]
+            for to in range(at, neighbours):
+                e = w.block_near[to]
                 start, size = block_first[e], block_first[e + 1] - block_first[e]
                 for i in range(block_first[b], block_first[b + 1]):
                     if size == 6 and beyond - first == 6:
@@ -201,10 +223,9 @@ def take_product(K: Any, at: int, start: int, n: int, x: Any, d: int) -> None:
 def substitute(w: KernelWorld, n: int, x: Any) -> None:
     """Turn x into K⁻¹·x."""
     block_first, K = w.block_first, w.B
-    one = 1
     k = 0
     while block_first[k] < n:
-        first, beyond, mask = block_first[k], block_first[k + 1], w.block_after[k]
+        first, beyond = block_first[k], block_first[k + 1]
         sixes = beyond - first == 6
         if sixes:
             a, c, e, f, g, h = forward_six(K, n, first, x)
@@ -216,11 +237,8 @@ def substitute(w: KernelWorld, n: int, x: Any) -> None:
                 x[d] = c
                 for j in range(d + 1, beyond):
                     x[j] -= c * K[d * n + j]
-        b = k
-        while mask >> (b + 1) != 0:
-            b += 1
-            if not (mask >> b) & one:
-                continue
+        for i in range(list_after(w, k, n)):
+            b = w.block_near[i]
             start, size = block_first[b], block_first[b + 1] - block_first[b]
             if sixes and size == 6:
                 at = first * n + start
@@ -234,13 +252,10 @@ def substitute(w: KernelWorld, n: int, x: Any) -> None:
         k += 1
     while k > 0:
         k -= 1
-        first, beyond, mask = block_first[k], block_first[k + 1], w.block_after[k]
+        first, beyond = block_first[k], block_first[k + 1]
         sixes = beyond - first == 6
-        b = k
-        while mask >> (b + 1) != 0:
-            b += 1
-            if not (mask >> b) & one:
-                continue
+        for i in range(list_after(w, k, n)):
+            b = w.block_near[i]
             start, size = block_first[b], block_first[b + 1] - block_first[b]
             if sixes and size == 6:
                 take_product(K, first * n + start, start, n, x, first)

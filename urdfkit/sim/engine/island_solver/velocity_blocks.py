@@ -5,9 +5,10 @@ fewer unknowns than rows: a box on four points has six against twelve, and boxes
 nothing to do with each other. With the rows taken for stiff dampers the matrix M + Jᵀ·D·J has a block for each tree and
 for each pair of trees that touch. It is factored in the order in which the fewest blocks fill in.
 
-`active_set` tries what rows do, from what they did in the last step. Where that leads nowhere, a tree alone is
-tried once more with tiny penetrations and gaps left as they are: they contradict rows that hold, of friction too, as at
-a robot that is jammed. Where that leads nowhere either, `augmented_lagrangian` gets there from anywhere.
+`active_set` tries what rows do, from what they did in the last step; in heaps only at rest, since elsewhere they change
+in too many places. If that fails, a tree alone is tried once more with tiny penetrations and gaps left as they are:
+they contradict rows that hold, of friction too, as at a robot that is jammed. If that fails as well,
+`augmented_lagrangian` gets there from anywhere.
 """
 
 import math
@@ -16,7 +17,7 @@ from urdfkit.sim.engine.compilation import compiled, inlined
 from urdfkit.sim.engine.dynamics.mass_matrix import solve_forward
 from urdfkit.sim.engine.island_solver.active_set import try_states
 from urdfkit.sim.engine.island_solver.active_set_revision import first_hold
-from urdfkit.sim.engine.island_solver.augmented_lagrangian import go_round
+from urdfkit.sim.engine.island_solver.augmented_lagrangian import HEAP, go_round
 from urdfkit.sim.engine.island_solver.block_matrix import arrange
 from urdfkit.sim.engine.island_solver.coulomb_direction import STIFFNESS, compute_row_stiffness, stiffen
 from urdfkit.sim.engine.island_solver.jacobian_products import row_speeds
@@ -24,6 +25,8 @@ from urdfkit.sim.engine.kernel_world import KernelWorld
 
 WILD = 30.0
 """Ratio of impulses that mean nothing to the largest of the last step, or that stops what moves."""
+CALM = 1e-5
+"""Velocity [m/s or rad/s] of loaded rows up to which a heap is at rest, and what its rows do is guessed."""
 LEAST = 2e-5
 """Velocity [m/s or rad/s] up to which penetrations and gaps are left where nothing else will do: 20 nm in 1 ms."""
 
@@ -49,6 +52,21 @@ def leave(w: KernelWorld, rows: int) -> bool:
 
 
 @inlined
+def is_calm(w: KernelWorld, rows: int) -> bool:
+    """Return whether no row with a load moves at the velocities of ``block_v``; their speeds are in ``slip``."""
+    row_speeds(w, rows, w.block_v, w.slip, 0)
+    k = 0
+    while k < rows:
+        size = 3 if w.mu[k] > 0.0 else 1
+        if w.before[k] != 0.0:
+            for j in range(k, k + size):
+                if abs(w.slip[j]) > CALM:
+                    return False
+        k += size
+    return True
+
+
+@inlined
 def take_up(w: KernelWorld, rows: int) -> None:
     """Take back again what `leave` left."""
     left = w.ahead
@@ -70,6 +88,16 @@ def hold(w: KernelWorld, root: int, rows: int) -> int:
     n = arrange(w, root, rows)
     if n == 0:
         return 0
+    guessed = rows <= HEAP
+    if not guessed:
+        tree = root
+        while tree >= 0:
+            first = w.tree_dof[tree]
+            at = w.block_first[w.tree_block[tree]]
+            for d in range(first, w.tree_dof[tree + 1]):
+                speed[at + d - first] = w.v_start[d]
+            tree = w.island_next[tree]
+        guessed = is_calm(w, rows)
     tree = root
     while tree >= 0:
         first, beyond = w.tree_dof[tree], w.tree_dof[tree + 1]
@@ -94,9 +122,9 @@ def hold(w: KernelWorld, root: int, rows: int) -> int:
     for k in range(rows):
         most = max(most, max(abs(w.before[k]), abs(g[k]) * stiffness[k] / STIFFNESS))
     most *= WILD
-    done = try_states(w, root, rows, n, tiny, most)
+    done = try_states(w, root, rows, n, tiny, most) if guessed else 0
     # Between trees, biases are more than penetrations: see `correct_contact_point`.
-    if done == 0 and w.island_next[root] < 0 and leave(w, rows):
+    if done == 0 and guessed and w.island_next[root] < 0 and leave(w, rows):
         first_hold(w, rows)
         again = try_states(w, root, rows, n, tiny, most)
         done = 1 + again if again > 0 else 0

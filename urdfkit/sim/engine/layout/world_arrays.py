@@ -52,7 +52,7 @@ def fill(
     meets = meets or sum(mimics) + 2 * sum(dofs) + 3 * contacts > MOST_DENSE
     places = [_add(geometry, touch) if meets else 0 for touch in touches]
     pairs = min(max(PAIRS, PAIRS_EACH * len(moving)), len(moving) * len(touches)) if meets else 0
-    contacts += min(pairs * MOST, 64 + 16 * len(moving)) if meets else 0
+    contacts += min(pairs * MOST, 64 + 24 * len(moving)) if meets else 0
     rows = sum(mimics) + 2 * sum(dofs) + 3 * contacts
     slots = 2 * sum(dofs) + sum(mimics) + 3 * (sum(features) + contacts)
     vertices = sum(len(touch.vertices) for touch in touches)
