@@ -32,6 +32,13 @@ def test_a_repair_joins_the_finding_of_its_rule_in_its_line() -> None:
     assert all("repair" not in each for each in others)
 
 
+def test_a_repair_joins_the_finding_that_stands_at_a_macro_call() -> None:
+    chains = [[{"macro": "wheel"}]]
+    rows = [row("G601", 9, link="b", chains=chains), row("G601", 8, link="a", chains=chains), row("G601", 7, link="c")]
+    found = with_repairs(rows, [repair("gone; a box", 3, link="a"), repair("gone", 3, link="c")])
+    assert [each.get("repair") for each in found] == [None, "gone; a box", None, "gone"]
+
+
 def test_equal_repairs_share_one_row_with_all_links() -> None:
     repairs = [repair("gone", 3, link="a"), repair("gone", 5, link="b"), repair("broken", 7, code=None)]
     rows = with_repairs([], repairs, first=8)

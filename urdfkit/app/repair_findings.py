@@ -39,7 +39,8 @@ def note_repairs(repairs: Iterable[Repair], noted: Collection[str] = ()) -> set[
 def with_repairs(rows: list[Row], repairs: Iterable[Repair], *, first: int = 1) -> list[Row]:
     """Return the findings of the page with the repairs.
 
-    A repair is added to the finding of the same rule in the same line. Equal repairs without a finding share a row.
+    A repair is added to the finding of the same rule in the same line, or in a macro call, where values that a macro
+    only hands on are reported, to the one with the same link or joint. Equal repairs without a finding share a row.
 
     Args:
         rows: findings, one row each, as `FindingsPanel.lint` returns them; changed in place.
@@ -50,12 +51,15 @@ def with_repairs(rows: list[Row], repairs: Iterable[Repair], *, first: int = 1) 
     for repair in repairs:
         groups.setdefault(repair.message, []).append(repair)
     by_place = {(row["code"], _real(row["file"]), row["line"]): row for row in reversed(rows)}
+    by_name = {(row["code"], row["link"] or row["joint"]): row for row in reversed(rows) if row.get("chains")}
     added: list[Row] = []
     source = cache(_source)
     for message, group in groups.items():
         places = ((repair.code, repair.position) for repair in group if repair.position is not None)
         findings = (by_place.get((code, _real(at.file), at.line)) for code, at in places)
         row = next((row for row in findings if row is not None), None)
+        if row is None and (name := group[0].link or group[0].joint):
+            row = by_name.get((group[0].code or "", name))
         if row is None:
             row = _row(group[0], first + len(added), source)
             added.append(row)

@@ -2,6 +2,7 @@
 
 import pytest
 
+from urdfkit import Simulator
 from urdfkit.lint import lint
 
 PARTS = """<robot xmlns:xacro="http://www.ros.org/wiki/xacro">
@@ -45,3 +46,13 @@ def test_a_value_that_a_macro_hands_on_is_found_at_its_call(parts, robot, code, 
     assert (found.file, found.line, found.column) == place
     assert found.chains
     assert (found.help == HELP) is (code == "I501" and place[0] == "r.urdf.xacro")
+
+
+def test_with_urdfkit_as_the_target_findings_stay_where_repairs_are_reported(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "parts.xacro").write_text(PARTS)
+    (tmp_path / "r.urdf.xacro").write_text(ROBOT.replace('b" parent="base"', 'b" parent="bse"'))
+    (found,) = lint("r.urdf.xacro", select=("T201",), target="urdfkit")
+    position = Simulator("r.urdf.xacro", note=lambda text: None).repairs[0].position
+    assert (found.file, found.line, found.column) == (position.file, position.line, position.column)
+    assert found.file == "parts.xacro"

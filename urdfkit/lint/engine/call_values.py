@@ -20,6 +20,7 @@ def at_calls(findings: list[Finding], model: Model) -> list[Finding]:
 
     A finding stays where it is if its message does not name the value, if several values cause it, perhaps by one slip
     in the macro, or if the file of the macro suppresses findings by comments. The help names the place in the macro.
+    With urdfkit as the target all stay, since the repairs of the simulator and viewer are reported there.
     """
     groups: dict[tuple[str, Span], list[Span | None]] = {}
     written = [_written(finding, model) if finding.chains else None for finding in findings]

@@ -204,7 +204,7 @@ class Checker:
         findings += self.runner.fault_findings(model, entry)
         if model.expanded.root is not None and not entry.is_library:
             findings += self.runner.findings_of_robot(model, entry)
-        if any(finding.chains for finding in findings):
+        if model.target != "urdfkit" and any(finding.chains for finding in findings):
             from urdfkit.lint.engine.call_values import at_calls
 
             findings = at_calls(findings, model)
