@@ -7,6 +7,7 @@ import os
 import shutil
 import signal
 import subprocess
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
@@ -38,31 +39,45 @@ pytestmark = pytest.mark.slow
 
 
 @pytest.fixture(scope="module")
-def control_msgs(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """Return a folder with control_msgs for rclpy of Kilted."""
-    python = node_python("kilted")
+def distribution() -> str:
+    """Return the distribution of ROS 2 whose rclpy is used."""
+    return "kilted"
+
+
+@pytest.fixture(scope="module")
+def control_msgs(distribution: str, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Path]:
+    """Yield a folder with control_msgs for rclpy; programs that are started find its libraries."""
+    python = node_python(distribution)
     if shutil.which("g++") is None or not (python.parents[1] / "share" / "trajectory_msgs").exists():
         pytest.skip("needs g++ and trajectory_msgs: make ros2-nodes")
     folder = tmp_path_factory.mktemp("messages")
     words: list[str | Path] = [python, HERE / "message_package.py", HERE / "control_msgs", folder]
     done = subprocess.run(words, capture_output=True, text=True, env=ENVIRONMENT, check=False)
     assert done.returncode == 0, done.stderr
-    return folder
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("LD_LIBRARY_PATH", str(folder))
+        yield folder
 
 
-def urdfkit(messages: Path) -> list[str | Path]:
+def environment_of(messages: Path, domain: int) -> dict[str, str]:
+    """Return the variables of a program on a domain."""
+    return ENVIRONMENT | {"ROS_DOMAIN_ID": str(domain), "LD_LIBRARY_PATH": str(messages)}
+
+
+def urdfkit(messages: Path, distribution: str) -> list[str | Path]:
     """Return the command that runs urdfkit with rclpy and control_msgs."""
     return urdfkit_by(
-        "kilted", f"sys.path.insert(0, {str(messages)!r}); from urdfkit.cli import main; sys.exit(main())"
+        distribution, f"sys.path.insert(0, {str(messages)!r}); from urdfkit.cli import main; sys.exit(main())"
     )
 
 
-def test_an_action_client_of_rclpy_moves_an_arm(control_msgs: Path, tmp_path: Path) -> None:
-    words: list[str | Path] = [node_python("kilted"), HERE / "real_action_client.py", NAME, "elbow", GRIPPER]
+@pytest.mark.parametrize("distribution", ["kilted", "jazzy"], scope="module")
+def test_an_action_client_of_rclpy_moves_an_arm(distribution: str, control_msgs: Path, tmp_path: Path) -> None:
+    words: list[str | Path] = [node_python(distribution), HERE / "real_action_client.py", NAME, "elbow", GRIPPER]
     robot = str(ros2_arm_file(tmp_path))
     (tmp_path / "arm_bringup" / "config" / "arm.yaml").write_text(CONTROLLERS)
-    with simulated(robot, 64, urdfkit(control_msgs), library="rclpy") as simulation:
-        environment = ENVIRONMENT | {"ROS_DOMAIN_ID": "64", "PYTHONPATH": str(control_msgs)}
+    with simulated(robot, 64, urdfkit(control_msgs, distribution), library="rclpy") as simulation:
+        environment = environment_of(control_msgs, 64) | {"PYTHONPATH": str(control_msgs)}
         done = subprocess.run(words, capture_output=True, text=True, env=environment, timeout=PATIENCE, check=False)
         assert done.returncode == 0, done.stderr
         assert simulation.poll() is None
@@ -85,9 +100,9 @@ def test_an_action_client_of_rclpy_moves_an_arm(control_msgs: Path, tmp_path: Pa
     assert (seen["last"][0], seen["replaced"][0]) == (4, 6)
 
 
-def test_the_command_sends_goals_to_a_real_server(control_msgs: Path) -> None:
-    command = [*urdfkit(control_msgs), "action"]
-    environment = ENVIRONMENT | {"ROS_DOMAIN_ID": "65"}
+def test_the_command_sends_goals_to_a_real_server(distribution: str, control_msgs: Path) -> None:
+    command = [*urdfkit(control_msgs, distribution), "action"]
+    environment = environment_of(control_msgs, 65)
     name = "/arm/follow_joint_trajectory"
 
     def action(*words: str) -> subprocess.CompletedProcess[str]:
@@ -102,7 +117,7 @@ def test_the_command_sends_goals_to_a_real_server(control_msgs: Path) -> None:
         points = f"[{{positions: [{position}], time_from_start: {seconds}}}]"
         return ["send", name, f"{{trajectory: {{joint_names: [{joint}], points: {points}}}}}"]
 
-    server = [str(node_python("kilted")), str(HERE / "real_action_server.py")]
+    server = [str(node_python(distribution)), str(HERE / "real_action_server.py")]
     environment_of_server = environment | {"PYTHONPATH": str(control_msgs)}
     with running(server, env=environment_of_server, stdout=subprocess.PIPE, text=True) as arm:
         assert arm.stdout is not None
