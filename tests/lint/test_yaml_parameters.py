@@ -350,6 +350,11 @@ def test_a_correct_file_of_ros2_is_silent(ros2, file, old, new):
             "2: controller `joint_state_controller` has no `type`",
         ),
         ("    joints: [shoulder, elbow]\n", "", "5: controller `arm_controller` has no `joints`"),
+        (
+            "    type: velocity_controllers/JointTrajectoryController\n    joints: [shoulder, elbow]\n",
+            "    type: effort_controllers/JointPositionController\n    joints: elbow\n",
+            "7: `effort_controllers/JointPositionController` reads `joint`, not `joints`",
+        ),
         ("    publish_rate: 50", "  publish_rate: 50", "4: `publish_rate` is next to the controllers, not in one"),
         ("  elbow: 1.0", '  elbow: "1.0"', '13: `elbow` in `velocity_ff` is "1.0", a text in quotes'),
         ("  elbow: 1.0", "  elbwo: 1.0", "13: unknown name `elbwo` in `velocity_ff` of controller `arm_controller`"),

@@ -7,4 +7,5 @@ def generate_launch_description():
     return LaunchDescription([
         Node(package="robot_state_publisher", executable="robot_state_publisher", parameters=[description]),  # <!-- expect: L103 -->
         Node(package="controller_manager", executable="controller_group", arguments=["arm"]),  # <!-- expect: L103 -->
+        Node(package="robot_localization", executable="ekf_localization_node"),  # <!-- expect: L103 -->
     ])

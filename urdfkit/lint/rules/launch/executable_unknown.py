@@ -11,6 +11,13 @@ if TYPE_CHECKING:
 
 _RELEASES = {1: "ROS 1", 2: "this release of ROS 2"}
 
+_RENAMED = {
+    ("robot_localization", "ekf_localization_node"): "ekf_node",
+    ("robot_localization", "ukf_localization_node"): "ukf_node",
+    ("ros_gz_sim", "spawn_entity.py"): "create",
+}
+"""Package and executable of ROS 1 or Gazebo Classic → the executable that replaces it."""
+
 
 class ExecutableUnknown(RobotRule):
     """A launch file starts an executable that its package does not have.
@@ -84,7 +91,9 @@ class ExecutableUnknown(RobotRule):
                 if program not in others and (program in found.names or program in found.words):
                     continue
                 names = [name for name in found.names if name not in others]
-                meant = nearest(program, names, cutoff=0.6 if program in others else 0.7)
+                meant = _RENAMED.get((package, program))
+                if meant not in names:
+                    meant = nearest(program, names, cutoff=0.6 if program in others else 0.7)
                 if meant is None and not found.is_complete and program not in others:
                     continue
                 release = f" in {_RELEASES[version]}" if program in others else ""

@@ -76,7 +76,8 @@ class SpawnArgumentMisspelt(RobotRule):
             if not any(package in source.text for package in _PACKAGES):
                 continue
             for node in started(source):
-                if node.package in _PACKAGES and node.program in _OPTIONS:
+                is_own = (node.package == "gazebo_ros") == (node.program != "create")
+                if node.package in _PACKAGES and node.program in _OPTIONS and is_own:
                     invalid = (*_invalid_arguments(node, model), *_unknown_joints(node, model), *_without_source(node))
                     for start, text, message in invalid:
                         span = source.span(start, start + len(text))
