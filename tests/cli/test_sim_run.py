@@ -273,7 +273,7 @@ MASS = "<inertial><mass value='1'/><inertia ixx='1' iyy='1' izz='1' ixy='0' ixz=
 @pytest.mark.parametrize(
     ("content", "reported"),
     [
-        ("<link name='a'/>", "2:1: link `a` has no <inertial>, but the robot is free to move"),
+        ("<link name='a'/>", "2:7: link `a` has no <inertial>, but the robot is free to move"),
         ("<link", "3:1: "),
         (
             f"<link name='a'><collision><geometry>\n<mesh filename='gone.stl'/></geometry></collision>{MASS}</link>",

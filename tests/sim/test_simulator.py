@@ -340,7 +340,7 @@ def test_a_link_without_mass_may_carry_one_about_another_axis(tmp_path: Path) ->
     assert [note.split(": ", 1)[1] for note in notes] == [
         f"link `l{n}` has no mass; it moves with its child links" for n in (0, 1)
     ]
-    with pytest.raises(SimulationError, match=r"r\.urdf:3:7: link `l1` has no <inertial>, but joint `j1` moves it"):
+    with pytest.raises(SimulationError, match=r"r\.urdf:2:7: link `l0` has no <inertial>, but joint `j0` moves it"):
         Simulator(chain(tmp_path / "s.urdf", "zxx").rename(tmp_path / "r.urdf"), strict=True)
 
 

@@ -29,6 +29,6 @@ def test_a_plugin_that_nobody_knows_is_told_from_one_of_gazebo(tmp_path) -> None
     notes: list[str] = []
     Simulator(path, note=notes.append)
     assert [note.removeprefix(f"{tmp_path}/") for note in notes if not note.startswith("compiling")] == [
-        "robot.urdf:2:9: unknown plugin `libmy_stuff.so`: urdfkit does not simulate it",
-        "robot.urdf:3:1: plugin `libgazebo_ros_elevator.so` is not simulated yet",
+        "robot.urdf:2:26: unknown plugin `libmy_stuff.so`: urdfkit does not simulate it",
+        "robot.urdf:3:18: plugin `libgazebo_ros_elevator.so` is not simulated yet",
     ]
