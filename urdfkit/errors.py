@@ -127,6 +127,11 @@ def shortened(message: str) -> str:
     return message if len(message) <= _MAX_MESSAGE else f"{message[: _MAX_MESSAGE - 100]} … {message[-90:]}"
 
 
+def short_lines(text: str) -> str:
+    """Return a text of several lines, each shortened."""
+    return "\n".join(map(shortened, text.split("\n")))
+
+
 def one_line(text: str) -> str:
     """Return a text, shortened, with characters that control a terminal as escape sequences.
 

@@ -102,7 +102,7 @@ def test_files_around_a_fragment_are_read_in_part(folder, monkeypatch) -> None:
     assert Path("large.urdf").stat().st_size > 10_000
 
 
-@pytest.mark.parametrize("words", [["tf"], ["tf", "a", "unknown"], ["tf", "a", "LONG"], ["info"], ["lint"]])
+@pytest.mark.parametrize("words", [["tf"], ["tf", "a", "unknown"], ["tf", "a", "LONG"], ["info"], ["lint"], ["inertia"]])
 def test_names_as_long_as_a_file_are_shortened(words: list[str], folder: Path, capsys) -> None:
     name = "x" * 90_000
     joint = f'<joint name="j" type="fixed"><parent link="{name}"/><child link="a"/></joint>'

@@ -6,7 +6,7 @@ import sys
 from pathlib import Path
 
 from urdfkit.cli.parser import add_package_path
-from urdfkit.errors import UrdfkitError, UsageError
+from urdfkit.errors import UrdfkitError, UsageError, short_lines
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -110,7 +110,7 @@ def run(arguments: argparse.Namespace) -> int:
 
         print(json.dumps(rows[0] if name is not None else rows, ensure_ascii=False))
     else:
-        print("\n\n".join(map(_text, rows)))
+        print(short_lines("\n\n".join(map(_text, rows))))
     for row in rows:
         if row["written"] and not arguments.quiet:
             print(f"urdfkit: wrote the inertia of `{row['link']}` into {', '.join(row['written'])}", file=sys.stderr)

@@ -11,6 +11,7 @@ from urdfkit.app.page import require_packages
 from urdfkit.cli.robot_arguments.joint_positions import joint_positions, warn_of_limits
 from urdfkit.cli.robot_arguments.robot_loading import repairs_as_json
 from urdfkit.cli.robot_arguments.tip_link import add_tip, announce, robot_and_tip
+from urdfkit.errors import short_lines
 
 if TYPE_CHECKING:
     from urdfkit.kinematics.jacobian_analysis import JacobianAnalysis
@@ -74,7 +75,7 @@ def run(arguments: argparse.Namespace) -> int:
         }
         print(json.dumps(values | repairs_as_json(robot)))
     else:
-        print(_text(chain.joint_names, jacobian, analysis, lost, f"{tip} in {chain.base}"))
+        print(short_lines(_text(chain.joint_names, jacobian, analysis, lost, f"{tip} in {chain.base}")))
     return 0
 
 

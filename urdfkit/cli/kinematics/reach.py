@@ -17,7 +17,7 @@ from urdfkit.cli.page_options import add_page_options
 from urdfkit.cli.robot_arguments.robot_loading import repairs_as_json
 from urdfkit.cli.robot_arguments.tip_link import add_tip, announce, model_of_tip, robot_and_tip
 from urdfkit.cli.sim.option_values import positive, seed
-from urdfkit.errors import UsageError
+from urdfkit.errors import UsageError, short_lines
 
 if TYPE_CHECKING:
     from urdfkit.kinematics.chain import Chain
@@ -144,7 +144,7 @@ def run(arguments: argparse.Namespace) -> int:
         values = _values(found) | ({} if base is None else {"base_for": _place(base, chain)})
         print(json.dumps(values | repairs_as_json(robot)), flush=True)
     elif not arguments.view:
-        print(_text(found, base), flush=True)
+        print(short_lines(_text(found, base)), flush=True)
     elif not arguments.quiet:
         note(_text(found, base))  # the address of the page is alone on standard output
     if arguments.html is not None or arguments.view:

@@ -23,6 +23,7 @@ from urdfkit.cli.sim.run_options import (
     run_options_of,
 )
 from urdfkit.cli.sim.warnings import GroupedWarnings, note_lint_target
+from urdfkit.errors import short_lines
 
 if TYPE_CHECKING:
     from urdfkit.app.simulation.runs.run_options import RunOptions
@@ -103,7 +104,7 @@ def run(arguments: argparse.Namespace) -> int:
         write_bytes(file, content)
     if arguments.save_world is not None:
         simulator.world.save(arguments.save_world)
-    print(json.dumps(as_json(simulator, spent), indent=1) if arguments.json else as_text(simulator, spent))
+    print(json.dumps(as_json(simulator, spent), indent=1) if arguments.json else short_lines(as_text(simulator, spent)))
     return 0
 
 

@@ -18,6 +18,7 @@ from urdfkit.cli.robot_arguments.joint_positions import warn_of_limits
 from urdfkit.cli.robot_arguments.robot_loading import repairs_as_json
 from urdfkit.cli.robot_arguments.tip_link import announce
 from urdfkit.description import Robot
+from urdfkit.errors import short_lines
 from urdfkit.kinematics.chain import Chain
 from urdfkit.kinematics.serial.serial_chain import SerialChain
 from urdfkit.kinematics.serial.serial_solver import SerialSolver, Solution, SolverOptions
@@ -73,7 +74,7 @@ def solve_poses(
         values = {"base": chain.base, "tip": tip, "joints": list(chain.joint_names), "targets": len(poses)}
         print(json.dumps(values | {"reached": reached, "solutions": listed} | repairs_as_json(robot)))
     else:
-        print(f"{tip} in {chain.base}: {reached} of {len(poses)} poses reached")
+        print(short_lines(f"{tip} in {chain.base}: {reached} of {len(poses)} poses reached"))
         missed = [k for k, solution in enumerate(solutions) if not solution.reached]
         reasons = Counter(
             solver.reason(poses[k].ravel().tolist(), solutions[k], options).partition(" by ")[0].partition(":")[0]

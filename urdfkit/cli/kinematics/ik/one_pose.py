@@ -10,6 +10,7 @@ from urdfkit.cli.kinematics.ik.printing import solution_as_json, table
 from urdfkit.cli.robot_arguments.joint_positions import warn_of_limits
 from urdfkit.cli.robot_arguments.robot_loading import repairs_as_json
 from urdfkit.cli.robot_arguments.tip_link import announce
+from urdfkit.errors import short_lines
 from urdfkit.kinematics.serial.serial_chain import SerialChain
 from urdfkit.kinematics.serial.serial_solver import SerialSolver, SolverOptions
 
@@ -66,5 +67,5 @@ def solve_pose(
         values = {"base": chain.base, "tip": tip, "joints": names, "targets": 1, "reached": int(best.reached)}
         print(json.dumps(values | {"solutions": listed} | repairs_as_json(robot)))
     else:
-        print(table(chain, solver, solutions, reason, position_only=options.position_only), end="")
+        print(short_lines(table(chain, solver, solutions, reason, position_only=options.position_only)), end="")
     return 0 if best.reached else 1

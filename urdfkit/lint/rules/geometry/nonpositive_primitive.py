@@ -95,9 +95,11 @@ class NonpositivePrimitive(RobotRule):
 
 
 def _severity(model: Model, link: Link, shape: Visual | Collision, element: Element, values: list[float]) -> Severity:
-    """Return ``error`` for a size that a reader of the target rejects."""
+    """Return ``error`` for a size that a reader of the target rejects; urdfkit leaves out shapes of size zero."""
     if model.target == "mujoco" or (element.tag != "mesh" and any(value < 0.0 for value in values)):
         return "error"
+    if model.target == "urdfkit":
+        return "warning"
     geometries = [each.geometry for each in link.collisions]
     is_placeholder = any(isinstance(geometry, Sphere) and geometry.radius == 0.0 for geometry in geometries)
     return "note" if element.tag == "sphere" and (shape.element.tag == "collision" or is_placeholder) else "warning"

@@ -100,8 +100,10 @@ class Ros2Control(ControlLoopPlugin):
             if name not in (*SIMULATED, *MOCKS):
                 place = (plugin or parts or block.element).origin.position
                 near = next(iter(similar(name, SIMULATED, cutoff=0.85)), None)
-                error = SimulationError(f"hardware `{name}` is not the simulator's{suggestion(near)}", position=place)
-                effect = f"its joints are not controlled{simulation_hint(setup.kinematics.robot)}"
+                hint = simulation_hint(setup.kinematics.robot)
+                defect = f"hardware `{name}` is not the simulator's{suggestion(near)}"
+                error = SimulationError(f"{defect}{hint}" if setup.repairs.strict else defect, position=place)
+                effect = f"its joints are not controlled{hint}"
                 setup.repairs.leave_out(error, effect, "hardware", "C717" if plugin is None else "C709")
                 names = (element.get("name") or "" for element in block.element.find_all("joint"))
                 hardware.left_out.update(dict.fromkeys(names, f"hardware `{name}`"))

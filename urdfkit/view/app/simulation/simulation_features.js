@@ -70,8 +70,9 @@ function sensing(page) {
   page.on("sensors", (message) => {
     sensors.use(message.sensors);
     page.panels.available("sensors", message.sensors.length > 0);
+    // Images offer the topics that can be drawn over them.
+    if (message.sensors.some(({ picture }) => picture)) page.whileOpen(page.panels.all.get("sensors"), "topics");
   });
-  page.on("hello", () => page.whileOpen(page.panels.all.get("sensors"), "topics"));
   page.on("sensed", (frame) => sensors.frame(frame));
   page.expose("sensors", sensors);
 }
