@@ -104,7 +104,7 @@ class PythonLaunchApiMisused(RobotRule):
                 yield self._at(source, (end - 1, end), "`launch_arguments` is a dictionary; write `.items()` after it")
             if word.arg == "launch_arguments":
                 for value in _not_text(word.value):
-                    message = "values of `launch_arguments` are texts; write it in quotes"
+                    message = "a value of `launch_arguments` is not a text; write it in quotes"
                     yield self._at(source, place(source, value), message)
             elif word.arg == "condition" and (other := _no_condition(word.value, reader)):
                 message = f"`condition` is a {other}; write `IfCondition(...)` around it"
