@@ -32,8 +32,10 @@ def test_a_simulation_starts_from_the_viewer_has_its_panels_and_returns(lab_serv
     assert bend.is_disabled()
     page.get_by_role("button", name="Pause").click()
     until(lambda: bend.is_enabled())
-    page.locator("#panel-joints [data-joint=bend] input:not([type=range])").fill("-1.5")
-    page.keyboard.press("Enter")
+    number = page.locator("#panel-joints [data-joint=bend] input:not([type=range])")
+    number.select_text()
+    number.press_sequentially("-1.5", delay=200)  # slower than the positions that the simulation sends
+    number.press("Enter")
     until(lambda: page.evaluate("urdfkit.page.values.bend") == pytest.approx(-1.5))
     keep(page, "posed")
 

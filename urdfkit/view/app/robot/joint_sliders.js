@@ -91,7 +91,7 @@ export class Joints {
     this.#filter();
   }
 
-  /** Show positions from the server, except for a slider that the user is moving. */
+  /** Show positions from the server, except for a joint whose slider the user is moving or whose number is being typed. */
   update(positions) {
     for (const [name, value] of Object.entries(positions)) {
       const row = this.rows.get(name);
@@ -166,6 +166,9 @@ export class Joints {
     this.#enable(row);
     slider.addEventListener("pointerdown", () => (row.held = true));
     for (const end of ["pointerup", "pointercancel"]) slider.addEventListener(end, () => (row.held = false));
+    // A text that is not complete must survive the positions that a simulation sends ten times per second.
+    number.addEventListener("input", () => (row.held = true));
+    for (const end of ["change", "blur"]) number.addEventListener(end, () => (row.held = false));
     slider.addEventListener("input", () => this.#move(name, slider.valueAsNumber));
     slider.addEventListener("dblclick", () => this.#move(name, 0));
     slider.addEventListener("keydown", (event) => this.#keys(event, row));
