@@ -5,6 +5,8 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING
 
+from urdfkit.description.plugins import match
+from urdfkit.description.plugins.drives.table import DRIVES
 from urdfkit.description.xacro.declared_arguments import declared_arguments
 from urdfkit.description.xml.reader import read_source
 
@@ -28,12 +30,30 @@ def simulation_hint(robot: Robot) -> str:
     return f"; pass {' or '.join(f'{name}:=true' for name in enabling)}"
 
 
+_CONTROLLERS = ("ros2_control", "gazebo_ros_control", "joint_controller", "joint_position_controller")
+
 GAZEBO_PLUGINS = {
     "gz_ros2_control/GazeboSimSystem": ("gz_ros2_control-system", "gz_ros2_control::GazeboSimROS2ControlPlugin"),
     "ign_ros2_control/IgnitionSystem": ("ign_ros2_control-system", "ign_ros2_control::IgnitionROS2ControlPlugin"),
     "gazebo_ros2_control/GazeboSystem": ("libgazebo_ros2_control.so", "gazebo_ros2_control"),
 }
 """Hardware → file and name of the plugin that loads it (the READMEs of gz_ros2_control and gazebo_ros2_control)."""
+
+
+MOCKS = ("mock_components/GenericSystem", "fake_components/GenericSystem")
+"""Hardware plugins without a simulator, whose joints take the commanded values; simulated as ideal actuators."""
+
+
+def mock_blocks(robot: Robot) -> tuple[Ros2Control, ...]:
+    """Return the blocks with mock hardware of a robot that no Gazebo plugin drives; empty for every other robot.
+
+    In ROS, ``ros2_control_node`` runs them without Gazebo, so that the description names no plugin.
+    """
+    specs = [match(plugin) for block in robot.gazebo for plugin in block.plugins]
+    if any(spec is not None and (spec in DRIVES or spec.kind in _CONTROLLERS) for spec in specs):
+        return ()
+    plugins = [(block, hardware_plugin(block)) for block in robot.ros2_control]
+    return tuple(block for block, plugin in plugins if plugin is not None and plugin.text.strip() in MOCKS)
 
 
 def hardware_plugin(block: Ros2Control) -> Element | None:

@@ -79,7 +79,7 @@ def find_configuration(robot: Robot, namespace: str, named: tuple[Path, ...] = (
             found = read if found is None else found.merged(read)
         root = found or Settings("", read.position)
         return Configuration(root.group(namespace), named, root=root)
-    near, others = _packages_around(robot)
+    near, others = packages_around(Path(robot.files[0])) if robot.files else ([], [])
     folders = [*near, *others]
     packages = robot.packages or Packages(near=folders[0] if folders else None)
     launched = [launch for folder in near for launch in _launches(folder, packages, namespace)]
@@ -142,11 +142,9 @@ def controllers(settings: Settings) -> dict[str, Settings]:
     return found
 
 
-def _packages_around(robot: Robot) -> tuple[list[Path], list[Path]]:
-    """Return the robot's package with similarly named neighbours, and the other neighbouring packages."""
-    if not robot.files:
-        return [], []
-    file = Path(robot.files[0]).resolve()
+def packages_around(description: Path) -> tuple[list[Path], list[Path]]:
+    """Return the package of a description with similarly named neighbours, and the other neighbouring packages."""
+    file = description.resolve()
     own = next((folder for folder in file.parents if (folder / "package.xml").is_file()), None)
     if own is None:
         return [file.parent, *([file.parent.parent] if file.parent.name in ("urdf", "xacro", "robots") else [])], []

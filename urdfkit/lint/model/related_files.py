@@ -5,6 +5,8 @@ from __future__ import annotations
 from pathlib import Path
 
 from urdfkit.description.control.parameter_files import parameter_file
+from urdfkit.description.control.ros2_controllers import manager_files
+from urdfkit.description.hardware_defects import mock_blocks
 from urdfkit.description.packages.related_files import SRDF, package_of
 from urdfkit.description.xml.reader import document_of, read_source, shown_path
 from urdfkit.errors import ResourceError, UrdfkitError, XmlError
@@ -38,7 +40,7 @@ def related_files(
     files = dict.fromkeys(packages.around(package or expanded.path.absolute().parent))
     if package is not None:
         packages.watch(package)
-    configured = _parameter_files(robot, packages, expanded.path.absolute().parent)
+    configured = _parameter_files(robot, packages, expanded.path.absolute())
     for other in _neighbours(configured, package) if package is not None else ():
         files.update(dict.fromkeys(packages.around(other)))
         packages.watch(other)
@@ -76,14 +78,14 @@ def _semantic_description(
     return (None if expanded.faults else expanded.root), expanded.sources
 
 
-def _parameter_files(robot: Robot, packages: Packages, folder: Path) -> list[Path]:
-    """Return the existing files that the plugins of a robot read parameters from."""
-    found: dict[Path, None] = {}
+def _parameter_files(robot: Robot, packages: Packages, description: Path) -> list[Path]:
+    """Return the existing files that the plugins of a robot, or its mock hardware, read parameters from."""
+    found: dict[Path, None] = dict.fromkeys(manager_files(description)) if mock_blocks(robot) else {}
     for block in robot.gazebo:
         for plugin in block.plugins:
             for child in plugin.element.find_all("parameters"):
                 try:
-                    found[parameter_file(child.text, packages, folder)] = None
+                    found[parameter_file(child.text, packages, description.parent)] = None
                 except ResourceError:
                     continue
     return list(found)

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from urdfkit import entry_points
-from urdfkit.description.hardware_defects import hardware_plugin, not_run
+from urdfkit.description.hardware_defects import hardware_plugin, mock_blocks, not_run
 from urdfkit.description.plugins import PluginSpec, match
 from urdfkit.description.plugins.gazebo_libraries import meant_library
 from urdfkit.description.plugins.lookup import stem
@@ -23,6 +23,7 @@ from urdfkit.sim.plugins.base import Controller, Drive, Sensor
 from urdfkit.sim.plugins.builtin_publishers import JointStates, all_joint_states, joint_states
 from urdfkit.sim.plugins.controllers import CONTROLLERS
 from urdfkit.sim.plugins.controllers.joints.joint_state_broadcaster import JointStatePublisher
+from urdfkit.sim.plugins.controllers.ros2_control import mock_control
 from urdfkit.sim.plugins.drives import DRIVES
 from urdfkit.sim.plugins.sensors import SENSORS
 from urdfkit.sim.plugins.setup import Setup
@@ -135,7 +136,11 @@ def install(robot: Robot, setup: Setup, *, seed: int) -> Installed:
     if not any(
         spec is not None and spec.kind == "ros2_control" for spec in specs
     ):  # its own repair reports a plugin that is left out
-        for block in robot.ros2_control:
+        if run := mock_blocks(robot):
+            decision = _configure(mock_control(robot), setup)
+            if isinstance(decision, Simulated):
+                installed.add(decision.made)
+        for block in (each for each in robot.ros2_control if each not in run):
             written, hardware = hardware_plugin(block), block.element.find("hardware")
             at = next(each for each in (written, hardware, block.element) if each is not None)
             code = "C717" if written is None else "C718"

@@ -444,3 +444,59 @@ def test_goals_are_cancelled_replaced_aborted_and_refused(make: Make) -> None:
     goals.send((1.0, [float("nan"), 0.0]), number=5)
     assert (len(goals.states), len(goals.results)) == told
     assert any("refused a goal" in note for note in notes)
+
+
+def mock_arm(folder: Path, *files: tuple[str, str], gazebo: str = "") -> Path:
+    """Write an arm with mock hardware and no plugin that runs it, in a package with parameter files."""
+    block = BLOCK.format(
+        filename="", name="", more="", path="", hardware="mock_components/GenericSystem",
+        commands=command("position"), initial='<param name="initial_value">0.4</param>',
+    )  # fmt: skip
+    path = arm_package.write_arm(folder, block[: block.index("<gazebo>")] + gazebo)
+    config = next(each for each in path.parents if (each / "package.xml").is_file()) / "config"
+    config.mkdir(exist_ok=True)
+    for name, text in files:
+        (config / name).write_text(text)
+    return path
+
+
+def test_mock_hardware_needs_no_plugin(tmp_path: Path) -> None:
+    notes: list[str] = []
+    path = mock_arm(tmp_path, ("arm.yaml", TRAJECTORIES), ("other.yaml", "node: {ros__parameters: {a: 1}}"))
+    simulator = Simulator(path, note=notes.append, strict=True)
+    assert positions(simulator) == pytest.approx((0.4, 0.0))
+    assert [note for note in notes if "controllers of ros2_control `arm`: " in note and note.endswith("arm.yaml")]
+    Goals(simulator).send((1.0, [0.5, -0.5]))
+    simulator.run(1.5)
+    assert positions(simulator) == pytest.approx((0.5, -0.5), abs=1e-3)
+    assert lint(path, select=["C718"], target="urdfkit") == []
+
+
+def test_mock_joints_without_controllers_stay_where_they_start(tmp_path: Path) -> None:
+    notes: list[str] = []
+    simulator = Simulator(mock_arm(tmp_path), note=notes.append, strict=True)
+    simulator.run(1.0)
+    assert positions(simulator) == pytest.approx((0.4, 0.0), abs=1e-6)
+    assert any("no controllers: no YAML file" in note and "--controllers" in note for note in notes)
+
+
+def test_of_several_parameter_files_of_mock_hardware_none_is_guessed(tmp_path: Path) -> None:
+    notes: list[str] = []
+    path = mock_arm(tmp_path, ("a.yaml", TRAJECTORIES), ("b.yaml", TRAJECTORIES))
+    Simulator(path, note=notes.append, strict=True)
+    assert any("2 files configure some" in note and "a.yaml or " in note for note in notes)
+    chosen = path.parents[1] / "config" / "b.yaml"
+    simulator = Simulator(path, note=notes.append, controllers=[chosen])
+    Goals(simulator).send((1.0, [0.5, -0.5]))
+    simulator.run(1.5)
+    assert positions(simulator) == pytest.approx((0.5, -0.5), abs=1e-3)
+
+
+def test_mock_hardware_beside_a_drive_of_gazebo_is_left_out(tmp_path: Path) -> None:
+    drive = '<gazebo><plugin name="move" filename="libgazebo_ros_planar_move.so"/></gazebo>'
+    path = mock_arm(tmp_path, gazebo=drive)
+    (repair,) = Simulator(path, note=lambda _: None).repairs
+    assert repair.code == "C718"
+    (finding,) = lint(path, select=["C718"], target="urdfkit")
+    assert repair.position is not None
+    assert (finding.span.file, finding.line) == (repair.position.file, repair.position.line)

@@ -6,19 +6,22 @@ from urdfkit.description.control import Settings, find_configuration, node_setti
 from urdfkit.description.control.parameter_files import parameter_file
 from urdfkit.description.control.parameter_yaml import parse_settings
 from urdfkit.description.control.ros1_controllers import controllers
-from urdfkit.description.control.ros2_controllers import configured_controllers
+from urdfkit.description.control.ros2_controllers import configured_controllers, manager_files
+from urdfkit.description.hardware_defects import mock_blocks
 from urdfkit.description.plugins import match
 from urdfkit.description.urdf.robot import Plugin
 from urdfkit.description.xml.reader import shown_path
+from urdfkit.description.xml.source import Source
 from urdfkit.errors import UrdfkitError
 from urdfkit.lint.facts.gazebo.plugins import plugins
 from urdfkit.lint.model.model import Model
 
 
 def loaded_controllers(model: Model) -> list[tuple[str, Settings, int]]:
-    """Return name, parameters and version of ROS of each controller that the Gazebo plugins of a robot load.
+    """Return name, parameters and version of ROS of each controller that a simulation of the robot loads.
 
-    Files that cannot be read have no controllers.
+    They are those of its Gazebo plugins, or of the only file that configures controllers of its mock hardware. Files
+    that cannot be read have no controllers.
     """
     found: list[tuple[str, Settings, int]] = []
     for plugin, _, _ in plugins(model.robot):
@@ -27,7 +30,21 @@ def loaded_controllers(model: Model) -> list[tuple[str, Settings, int]]:
             found += [(name, settings, 2) for name, settings in _of_manager(model, plugin).items()]
         elif spec is not None and spec.kind == "gazebo_ros_control":
             found += [(name, settings, 1) for name, settings in _of_namespace(model, plugin).items()]
+    if mock_blocks(model.robot):
+        files = manager_files(model.expanded.path)
+        source = model.related_files.get(shown_path(files[0])) if len(files) == 1 else None
+        root = _read(source) if source is not None else None
+        if root is not None:
+            configured = configured_controllers(root, "", node_settings(root, "", "controller_manager"))
+            found += [(name, settings, 2) for name, settings in configured.items()]
     return found
+
+
+def _read(source: Source) -> Settings | None:
+    try:
+        return parse_settings(source, separator=".")
+    except UrdfkitError:
+        return None
 
 
 def _of_manager(model: Model, plugin: Plugin) -> dict[str, Settings]:
@@ -37,7 +54,7 @@ def _of_manager(model: Model, plugin: Plugin) -> dict[str, Settings]:
         try:
             path = parameter_file(element.text, model.expanded.packages, model.expanded.path.absolute().parent)
             source = model.related_files.get(shown_path(path))
-            read = parse_settings(source, separator=".") if source is not None else None
+            read = None if source is None else _read(source)
         except UrdfkitError:
             continue
         root = read if root is None or read is None else root.merged(read)

@@ -1,6 +1,6 @@
 """C718 gazebo-hardware-without-plugin."""
 
-from urdfkit.description.hardware_defects import GAZEBO_PLUGINS, hardware_plugin, not_run
+from urdfkit.description.hardware_defects import GAZEBO_PLUGINS, hardware_plugin, mock_blocks, not_run
 from urdfkit.lint.facts.gazebo.plugins import is_simulated, plugins, simulated_hardware
 from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
 
@@ -15,7 +15,8 @@ class HardwareWithoutPlugin(RobotRule):
     Checks for robots whose ``<hardware>`` is that of gz_ros2_control, ign_ros2_control or gazebo_ros2_control and that
     include none of the corresponding plugins. Other hardware is a note if the robot has plugins or sensors for Gazebo.
     Nothing is reported if another file of the package names such a plugin. With ``--target urdfkit``, every hardware
-    that no plugin of the robot runs is a warning, as ``urdfkit sim`` reports it.
+    that no plugin of the robot runs is a warning, as ``urdfkit sim`` reports it, except for mock hardware, which is
+    an ideal actuator there.
 
     ## Why is this bad?
     The plugin runs the controller manager inside Gazebo. Without it, spawners wait for ``/controller_manager`` forever
@@ -64,6 +65,8 @@ class HardwareWithoutPlugin(RobotRule):
             supported = simulated_hardware(model)
             name = element.text.strip()
             if model.target == "urdfkit":
+                if block in mock_blocks(model.robot):
+                    continue  # An ideal actuator.
                 message, help = not_run(block, model.robot)
                 yield self.at(model, element, message, help=help)
             elif name not in GAZEBO_PLUGINS:

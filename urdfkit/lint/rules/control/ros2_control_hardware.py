@@ -1,5 +1,6 @@
 """C709 ros2-control-plugin-vs-distro."""
 
+from urdfkit.description.hardware_defects import MOCKS
 from urdfkit.lint.facts.control.exported_plugins import is_exported_plugin
 from urdfkit.lint.facts.gazebo.plugins import plugins, runs_ros2_control, simulated_hardware
 from urdfkit.lint.fix_builders import nearest, new_text
@@ -12,9 +13,6 @@ HARDWARE = {
     "ign_ros2_control": "ign_ros2_control/IgnitionSystem",
 }
 """Package of the plugin → its hardware (the plugin descriptions of gazebo_ros2_control and gz_ros2_control)."""
-
-MOCKS = ("mock_components/GenericSystem", "fake_components/GenericSystem")
-"""The hardware that simulates any other, under its names since Iron and before."""
 
 _ARGUMENT = "pass the xacro argument that selects the hardware of the simulator, if the robot has one"
 

@@ -7,11 +7,13 @@ from pathlib import Path
 
 from urdfkit.description.control import Settings, node_settings, read_settings
 from urdfkit.description.control.parameter_files import parameter_file
-from urdfkit.description.control.ros2_controllers import configured_controllers
-from urdfkit.description.hardware_defects import simulation_hint
+from urdfkit.description.control.ros2_controllers import configured_controllers, manager_files
+from urdfkit.description.hardware_defects import MOCKS, mock_blocks, simulation_hint
 from urdfkit.description.plugins.controller_plugins import GAZEBO_ROS2_CONTROL
+from urdfkit.description.urdf.robot import Plugin, Robot
 from urdfkit.description.xml.element import Element
 from urdfkit.description.xml.numbers import number
+from urdfkit.description.xml.reader import shown_path
 from urdfkit.description.xml.source import Position
 from urdfkit.errors import ResourceError, SimulationError, similar, suggestion
 from urdfkit.sim.plugins.controllers.command_output import (
@@ -38,17 +40,19 @@ SIMULATED = (
 )
 """Hardware plugins of the simulators."""
 
-MOCKS = ("mock_components/GenericSystem", "fake_components/GenericSystem")
-"""Hardware plugins without a simulator, whose joints take the commanded values; simulated as ideal actuators."""
-
 UPDATE_RATE = 100.0
 """Default update rate of the controller manager [Hz]."""
 
 
 class Ros2Control(ControlLoopPlugin):
-    """Plugin that runs the controllers of the parameter files on the joints of the ``<ros2_control>`` blocks."""
+    """Plugin that runs the controllers of the parameter files on the joints of the ``<ros2_control>`` blocks.
+
+    Attributes:
+        is_mock: no plugin of the description runs the blocks; see `mock_control`.
+    """
 
     kind = "ros2_control"
+    is_mock = False
 
     def configure(self, setup: Setup) -> None:
         """Read the joints and the controllers, and start the controllers.
@@ -73,13 +77,15 @@ class Ros2Control(ControlLoopPlugin):
         configured = configured_controllers(root, namespace, boss)
         hold = self.spec.generation != "gz" or read.flag("hold_joints")
         loop = self.loop = ControlLoop(namespace, configured, hardware, hold=hold)
-        if not configured:
+        if not configured and (setup.parameter_files or not self.is_mock):
             setup.note(f"{self.plugin.element.origin.position}: no controllers: `controller_manager` configures none")
         loop.start_all()
         serve(loop, read.text("controller_manager") or "controller_manager")
 
     def _parameters(self, setup: Setup, read: Parameters) -> Settings:
         position = read.place("configuration")
+        if self.is_mock and not setup.parameter_files:
+            return _mock_parameters(setup, self.plugin)
         found = Settings("", position)
         paths = setup.parameter_files or tuple(
             _path(text, setup, read.place("configuration", index))
@@ -93,14 +99,15 @@ class Ros2Control(ControlLoopPlugin):
     def _joints(self, setup: Setup, hardware: Hardware, gain: float | None) -> list[str]:
         """Fill the outputs of the hardware; return the joints of the simulator's blocks."""
         joints: list[str] = []
-        for block in setup.kinematics.robot.ros2_control:
+        robot = setup.kinematics.robot
+        for block in mock_blocks(robot) if self.is_mock else robot.ros2_control:
             parts = block.element.find("hardware")
             plugin = parts.find("plugin") if parts is not None else None
             name = plugin.text.strip() if plugin is not None else ""
             if name not in (*SIMULATED, *MOCKS):
                 place = (plugin or parts or block.element).origin.position
                 near = next(iter(similar(name, SIMULATED, cutoff=0.85)), None)
-                hint = simulation_hint(setup.kinematics.robot)
+                hint = simulation_hint(robot)
                 defect = f"hardware `{name}` is not the simulator's{suggestion(near)}"
                 error = SimulationError(f"{defect}{hint}" if setup.repairs.strict else defect, position=place)
                 effect = f"its joints are not controlled{hint}"
@@ -110,7 +117,7 @@ class Ros2Control(ControlLoopPlugin):
                 continue
             of_block = None if name in MOCKS else gain
             for element in block.element.find_all("joint"):
-                written = setup.kinematics.robot.joint_by_name.get(element.get("name") or "")
+                written = robot.joint_by_name.get(element.get("name") or "")
                 command = element.find("command_interface") if written and written.type == "fixed" else None
                 try:
                     own = setup.joint(element.get("name") or "", (command or element).origin.position, "C707")
@@ -157,6 +164,37 @@ class Ros2Control(ControlLoopPlugin):
                     elif joint not in setup.kinematics.mimic_names:
                         self.initial_positions[joint] = value
         return sorted(found, key=lambda output: INTERFACES.index(output.interface))
+
+
+def mock_control(robot: Robot) -> Ros2Control:
+    """Return the controller manager of a robot with mock hardware, which no plugin of its description runs.
+
+    Its parameter files are those of ``--controllers``, otherwise the file of the robot's packages that configures
+    controllers, if there is only one.
+
+    Args:
+        robot: a robot with `mock_blocks`.
+    """
+    element = mock_blocks(robot)[0].element
+    made = Ros2Control(Plugin(element.get("name"), None, element), GAZEBO_ROS2_CONTROL)
+    made.is_mock = True
+    return made
+
+
+def _mock_parameters(setup: Setup, plugin: Plugin) -> Settings:
+    position = plugin.element.origin.position
+    robot = setup.kinematics.robot
+    files = manager_files(Path(robot.files[0])) if robot.files else ()
+    if len(files) == 1:
+        setup.note(f"note: controllers of ros2_control `{plugin.name or ''}`: {shown_path(files[0])}")
+        return read_settings(files[0], separator=".")
+    if files:
+        names = " or ".join(shown_path(file) for file in files)
+        setup.note(f"{position}: no controllers: {len(files)} files configure some; pass {names} with --controllers")
+    else:
+        missing = "no YAML file in `config` of its package configures any; pass a file with --controllers"
+        setup.note(f"{position}: no controllers: {missing}")
+    return Settings("", position)
 
 
 def _path(text: str, setup: Setup, position: Position) -> Path:

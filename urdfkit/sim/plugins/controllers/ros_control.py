@@ -61,7 +61,7 @@ class GazeboRosControl(ControlLoopPlugin):
             defect = f"no controllers for {namespace or '/'}: no launch file or YAML configures any; see --controllers"
             setup.note(f"{self.plugin.element.origin.position}: {defect}")
         else:
-            setup.note(f"controllers of {namespace or '/'}: {found.source}")
+            setup.note(f"note: controllers of {namespace or '/'}: {found.source}")
         if found is not None and found.started is not None:
             for name in found.started:
                 loop.start(name)
