@@ -84,6 +84,10 @@ def test_white_space_is_not_added_around_an_inserted_text() -> None:
     assert '<p><xacro:if value="1">a<q>\n<r/></q></xacro:if></p>' in form(text)
 
 
+def test_a_tab_in_kept_text_counts_as_the_columns_it_fills() -> None:
+    form('<a><a> <e\tn="1"/><![CDATA[x]]></a><!-- one\n  two -->\n</a>')
+
+
 _NAMES = st.sampled_from(["a", "b", "xacro:if", "xacro:macro", "xacro:m"])
 _GAPS = st.sampled_from(
     ["", " ", "\n", "\n\n\n", "\t\n  ", " text ", "<!-- c -->", "<!-- one\n  two -->\n", "<![CDATA[x]]>"]

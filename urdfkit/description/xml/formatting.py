@@ -119,7 +119,8 @@ class _Writer:
     def _write(self, text: str) -> None:
         self._parts.append(text)
         line_start = text.rfind("\n")
-        self._column = self._column + len(text) if line_start < 0 else len(text) - line_start - 1
+        line = " " * self._column + text if line_start < 0 else text[line_start + 1 :]
+        self._column = len(line.expandtabs(self._indent))
 
     def _element(self, node: _Node, level: int) -> None:
         self._start_tag(node, level)
