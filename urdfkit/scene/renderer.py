@@ -2,7 +2,7 @@
 
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor, wait
-from typing import Literal, Protocol, get_args
+from typing import Any, Literal, Protocol, get_args
 
 from numpy.typing import ArrayLike
 
@@ -29,6 +29,13 @@ class ImageRenderer(Protocol):
         """Render an image, see `RayRenderer.take`."""
         ...
 
+
+LARGE = 150_000
+"""Pixels from which on a software driver is faster than rays, with shadows.
+
+CPU time per image of a driving robot: rays 60 µs per 1,000 pixels, a driver 6.5 ms and 13 µs per 1,000 pixels
+(`tests/bench/bench_latency.py` has the effect).
+"""
 
 PATIENCE = 1.5
 """Seconds of waiting for a driver before a message to the user."""
@@ -64,8 +71,8 @@ def renderer_of(
 ) -> ImageRenderer:
     """Return a renderer for the shapes of a table.
 
-    With ``auto`` it is OpenGL on a graphics card, or if no light casts shadows; otherwise ray casting, which with
-    shadows is faster than a software driver and needs 60 MB less memory (`tests/bench/bench_pictures.py`).
+    With ``auto`` it is OpenGL on a graphics card, or if no light casts shadows; otherwise OpenGL for images of `LARGE`
+    pixels or more, and ray casting for smaller ones, which need no driver and its 100 MB of memory then.
 
     Args:
         table: the shapes.
@@ -82,7 +89,33 @@ def renderer_of(
             note(f"OpenGL does not work here ({found.name}); images are rendered by ray casting")
         return RayRenderer(table, lighting)
     if renderer == "auto" and on_processor(found.name) and lighting.has_shadows:
-        return RayRenderer(table, lighting)
+        return RendererBySize(RayRenderer(table, lighting), lambda: _with_driver(table, lighting, found, note))
+    return _with_driver(table, lighting, found, note)
+
+
+class RendererBySize:
+    """Renders small images by ray casting and large ones with a driver, which is started for the first of them.
+
+    Args:
+        rays: renderer of small images.
+        start: returns the renderer of large images.
+    """
+
+    def __init__(self, rays: RayRenderer, start: Callable[[], ImageRenderer]) -> None:
+        self.table = rays.table
+        self._rays, self._start = rays, start
+        self._driver: ImageRenderer | None = None
+
+    def take(self, lens: Lens, frame: ArrayLike, **options: Any) -> Picture:
+        """Render an image, see `RayRenderer.take`."""
+        if lens.width * lens.height < LARGE:
+            return self._rays.take(lens, frame, **options)
+        if self._driver is None:
+            self._driver = self._start()
+        return self._driver.take(lens, frame, **options)
+
+
+def _with_driver(table: RayTable, lighting: Lighting, found: Found, note: Callable[[str], None]) -> ImageRenderer:
     from urdfkit.scene.gl.gl_renderer import GlRenderer
 
     try:

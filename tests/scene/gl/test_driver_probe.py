@@ -6,6 +6,7 @@ import sys
 from pathlib import Path
 from threading import Event
 
+import numpy as np
 import pytest
 
 from tests.scene.gl.test_same_picture import table_of, zoo
@@ -14,6 +15,7 @@ from tests.time_limit import PATIENCE
 from urdfkit.description.sdf import Light
 from urdfkit.errors import SimulationError
 from urdfkit.scene import renderer as renderer_module
+from urdfkit.scene.camera_model import Lens
 from urdfkit.scene.gl import driver_probe as probing
 from urdfkit.scene.gl import hanging_driver_record
 from urdfkit.scene.gl.driver_probe import Found, on_processor, run_probe
@@ -97,7 +99,7 @@ def test_a_driver_that_takes_long_is_spoken_of(monkeypatch: pytest.MonkeyPatch) 
         assert told.wait(PATIENCE)
         return Found(True, "no such backend", "llvmpipe")
 
-    assert isinstance(renderer_of(table_of(*zoo()), lit(SUN), "auto", note, slow), RayRenderer)
+    renderer_of(table_of(*zoo()), lit(SUN), "auto", note, slow)
     assert notes == ["waiting for the graphics driver, at most 10 s"]
 
 
@@ -133,11 +135,24 @@ SUN = Light("sun", "directional", cast_shadows=True)
         ("gl", "llvmpipe (LLVM 15.0.6, 256 bits)", (SUN,), False),
     ],
 )
-def test_the_quicker_one_takes_pictures(renderer: str, name: str, lights, rays: bool) -> None:
+def test_the_quicker_one_takes_small_pictures(renderer: str, name: str, lights, rays: bool) -> None:
     reported: list[str] = []
     nowhere = Found(True, "no such backend", name)  # whoever asks for a context is told so, and then casts rays
-    renderer_of(table_of(*zoo()), lit(*lights), renderer, reported.append, lambda: nowhere)
+    chosen = renderer_of(table_of(*zoo()), lit(*lights), renderer, reported.append, lambda: nowhere)
+    chosen.take(Lens(300, 200, 1.0), np.eye(4))
     assert (not reported) == rays
+
+
+def test_a_driver_on_the_processor_starts_with_the_first_large_picture() -> None:
+    reported: list[str] = []
+    nowhere = Found(True, "no such backend", "llvmpipe (LLVM 15.0.6, 256 bits)")
+    chosen = renderer_of(table_of(*zoo()), lit(SUN), "auto", reported.append, lambda: nowhere)
+    assert chosen.take(Lens(499, 300, 1.0), np.eye(4)).rgb.shape == (300, 499, 3)
+    assert reported == []
+    for _ in range(2):
+        assert chosen.take(Lens(500, 300, 1.0), np.eye(4)).rgb.shape == (300, 500, 3)
+    assert len(reported) == 1
+    assert "OpenGL does not work here" in reported[0]
 
 
 @pytest.mark.parametrize(
