@@ -545,6 +545,94 @@ def test_parameters_are_changed_while_it_runs(page, keep, until) -> None:
     until(lambda: page.get_by_label("gravity along z").input_value() == "-9.81")
 
 
+SLOW = 200
+"""Time between two keys of a person who types slowly [ms]; the page gets several messages meanwhile."""
+
+
+def test_a_text_that_is_typed_survives_messages(page, until) -> None:
+    put_down(page)
+    order(page, "spawn", model="crate", pose=[2, 2, 0], name="first")
+
+    # Parameters: a message of another change arrives; it is shown when the focus leaves the table.
+    page.locator("#open-physics").click()
+    page.locator("#parameter-filter").fill("")
+    mass = page.get_by_role("textbox", name="mass of first")
+    mu = page.get_by_role("textbox", name="mu of first")
+    friction, typed = mu.input_value(), "12.5"
+    mass.select_text()
+    mass.press_sequentially(typed[:2], delay=SLOW)
+    order(page, "mu", name="first", mu=0.25)
+    mass.press_sequentially(typed[2:], delay=SLOW)
+    assert (mass.input_value(), mu.input_value()) == (typed, friction)
+    mass.blur()
+    until(lambda: mu.input_value() == "0.25")
+    until(lambda: mass.input_value() == typed)
+
+    # A choice of links is not replaced while it is open.
+    page.locator("#open-push").click()
+    link = page.locator("#push-link")
+    link.select_option(label="first")
+    link.focus()
+    before = link.locator("option").count()
+    order(page, "spawn", model="crate", pose=[-2, 2, 0], name="second")
+    until(lambda: "second" in names(page))
+    assert (link.locator("option").count(), link.input_value()) == (before, "first")
+    link.blur()
+    until(lambda: link.locator("option").count() == before + 1)
+    assert link.input_value() == "first"
+
+    # The pose of an object: the first number is sent while the second one is typed.
+    page.locator("#open-world").click()
+    page.locator("[data-object=first] button").click()
+    x, y = page.get_by_label("x of first"), page.get_by_label("y of first")
+    x.select_text()
+    x.press_sequentially("1.5")
+    x.press("Tab")
+    y.press_sequentially("-1.25", delay=SLOW)
+    assert y.input_value() == "-1.25"
+    y.press("Enter")
+    until(lambda: order(page, "get_pose", name="first")["pose"][:2] == pytest.approx([1.5, -1.25], abs=0.01))
+    assert y.evaluate("(field) => field === document.activeElement")
+
+    # Joints of a paused simulation: an insertion sends the model again.
+    page.locator("#pause").click()
+    page.locator("#open-joints").click()
+    number = page.locator("#panel-joints li[data-joint] input.number:enabled").first
+    number.select_text()
+    number.press_sequentially("0.", delay=SLOW)
+    order(page, "remove", name="second")
+    until(lambda: "second" not in names(page))
+    number.press_sequentially("75", delay=SLOW)
+    assert number.input_value() == "0.75"
+    number.press("Enter")
+    joint = number.evaluate("(field) => field.closest('li').dataset.joint")
+    until(lambda: page.evaluate("(joint) => urdfkit.page.values[joint]", joint) == pytest.approx(0.75))
+    page.locator("#pause").click()
+    put_down(page)
+
+
+TYPED = """async (text) => {
+  const joint = { name: "j", lower: -1, upper: 1, unit: "rad", value: 0 };
+  const arms = (running) => urdfkit.page.emit("arms", { arms: [{ name: "r/c", type: "t", running, joints: [joint] }] });
+  const panel = document.getElementById("panel-arms");
+  arms(true);
+  urdfkit.page.panels.open("arms");
+  const field = panel.querySelector("input.number");
+  field.focus();
+  field.value = text;
+  arms(false);
+  const seen = [document.activeElement === field && field.value];
+  field.blur();
+  seen.push(panel.querySelector("[data-controller]").dataset.running);
+  urdfkit.page.emit("arms", { arms: [] });
+  return seen;
+}"""
+
+
+def test_the_target_of_a_joint_that_is_typed_survives_a_change_of_its_controller(page) -> None:
+    assert page.evaluate(TYPED, "0.") == ["0.", "false"]
+
+
 def test_a_link_is_pushed_with_the_mouse(page, keep, until) -> None:
     page.locator("#open-push").click()
     page.locator("#push-hold").click()

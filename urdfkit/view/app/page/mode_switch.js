@@ -1,6 +1,7 @@
 // The buttons that lead from the viewer to a simulation of the robot, and back.
 
 import { h, icon } from "./dom.js";
+import { offer } from "./edited_fields.js";
 
 const PLAY = "M8 5l11 7-11 7z";
 const BACK = "M10 6l-6 6 6 6M4 12h16";
@@ -13,7 +14,7 @@ export function modes(page) {
 
   page.on("modes", (message) => {
     other = message.other;
-    world.replaceChildren(...message.worlds.map((name) => h("option", { value: name, selected: name === message.world }, name)));
+    offer(world, message.worlds.map((name) => [name, name]), () => message.worlds.includes(message.world) && (world.value = message.world));
     world.hidden = other !== "sim";
     go.hidden = false;
     const [words, title, path] = other === "sim" ? ["Simulate", "Simulate the robot in this world", PLAY] : ["Viewer", "Return to the viewer", BACK];

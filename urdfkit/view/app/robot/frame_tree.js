@@ -1,6 +1,7 @@
 // The frame tree with the live transform of every frame in a selected frame.
 
 import { h, icon, short } from "../page/dom.js";
+import { offer } from "../page/edited_fields.js";
 import { copyText } from "./inspector.js";
 import { IDENTITY, compose, inverse, toRpy, turnOf } from "./pose.js";
 
@@ -20,12 +21,10 @@ export function tf(page) {
   let due = null;
 
   page.on("robot", ({ kinematics }) => {
-    const before = choice.value;
-    const world = page.mode === "sim" ? [h("option", { value: WORLD }, "world")] : [];
-    choice.replaceChildren(h("option", { value: PARENT }, "parent frame"), ...world, ...kinematics.links.map((link) => h("option", { value: link }, link)));
-    choice.value = [...choice.options].some(({ value }) => value === before) ? before : PARENT;
+    const world = page.mode === "sim" ? [[WORLD, "world"]] : [];
     rows = [...walk(kinematics, kinematics.root, 0)].map(row);
     list.replaceChildren(...rows.map(({ item }) => item));
+    offer(choice, [[PARENT, "parent frame"], ...world, ...kinematics.links.map((link) => [link, link])], update);
     update();
     mark(page.selected);
   });

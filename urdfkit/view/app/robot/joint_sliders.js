@@ -1,7 +1,8 @@
 // The joint panel: a slider and a number for every joint, in radians or degrees, with or without limits.
 
-import { check, h, short } from "../page/dom.js";
+import { check, fixed, h, short } from "../page/dom.js";
 import { jointGroups } from "./robot_model.js";
+import { redraw } from "../page/edited_fields.js";
 import { numberField } from "../page/number_field.js";
 
 const SLIDERS = "M4 7h9M17 7h3M15 5v4M4 17h3M11 17h9M9 15v4";
@@ -58,8 +59,11 @@ export class Joints {
     panel.body.append(this.paused, h("div.row.wrap.joint-all", {}, all), h("div.row.wrap", {}, free.label, h("span.space"), h("label.inline", {}, "Angles in ", unit)), this.filter, this.list, this.none);
   }
 
-  /** Create the rows of a robot; the filter is kept. */
+  /** Create the rows of a robot; the filter is kept, and rows of the same joints are. A model is sent for each change of the world. */
   show(joints) {
+    const kinds = JSON.stringify(joints, (key, value) => (key === "position" ? undefined : value));
+    if (kinds === this.kinds) return this.update(Object.fromEntries(joints.map(({ name, position }) => [name, position])));
+    Object.assign(this, { kinds, groups: null });
     this.rows.clear();
     for (const joint of joints) this.#row(joint);
     this.filter.hidden = joints.length < 6;
@@ -69,9 +73,12 @@ export class Joints {
 
   /** Show the rows in groups. */
   group() {
+    const groups = jointGroups([...this.rows.keys()], this.page.robot?.kinematics);
+    if (JSON.stringify(groups) === this.groups) return;
+    this.groups = JSON.stringify(groups);
     this.headings.clear();
     this.list.replaceChildren();
-    for (const { title, names } of jointGroups([...this.rows.keys()], this.page.robot?.kinematics)) {
+    for (const { title, names } of groups) {
       for (const name of names) this.rows.get(name).group = title;
       if (title) this.list.append(this.#heading(title, names.length));
       this.list.append(...names.map((name) => this.rows.get(name).item));
@@ -91,11 +98,11 @@ export class Joints {
     this.#filter();
   }
 
-  /** Show positions from the server, except for a joint whose slider the user is moving or whose number is being typed. */
+  /** Show positions from the server, except for a slider that the user is moving; a number that is typed is kept. */
   update(positions) {
     for (const [name, value] of Object.entries(positions)) {
       const row = this.rows.get(name);
-      if (row && !row.held && !(name in this.moved)) this.#put(row, value);
+      if (row && !row.held && !(name in this.moved)) this.#put(row, value, redraw);
     }
   }
 
@@ -166,19 +173,12 @@ export class Joints {
     this.#enable(row);
     slider.addEventListener("pointerdown", () => (row.held = true));
     for (const end of ["pointerup", "pointercancel"]) slider.addEventListener(end, () => (row.held = false));
-    // A text that is not complete must survive the positions that a simulation sends ten times per second.
-    number.addEventListener("input", () => (row.held = true));
-    for (const end of ["change", "blur"]) number.addEventListener(end, () => (row.held = false));
     slider.addEventListener("input", () => this.#move(name, slider.valueAsNumber));
     slider.addEventListener("dblclick", () => this.#move(name, 0));
     slider.addEventListener("keydown", (event) => this.#keys(event, row));
-    number.addEventListener("change", () => this.#typed(row));
+    number.addEventListener("change", () => this.#move(name, number.valueAsNumber / this.#factor(joint)));
     label.addEventListener("click", () => this.page.select({ joint: name.split("/")[0] }));
     return item;
-  }
-
-  #typed(row) {
-    this.#move(row.joint.name, row.number.valueAsNumber / this.#factor(row.joint));
   }
 
   #factor(joint) {
@@ -261,12 +261,12 @@ export class Joints {
     this.page.send("joints", { positions: moved });
   }
 
-  #put(row, value) {
+  #put(row, value, how = (_, draw) => draw()) {
     row.value = value;
     row.slider.value = value;
-    const shown = value * this.#factor(row.joint);
-    const text = shown.toFixed(this.#factor(row.joint) === 1 ? 3 : 1);
-    row.number.value = Number(text) === 0 ? text.replace("-", "") : text;
+    const factor = this.#factor(row.joint);
+    const shown = value * factor;
+    how(row.number, () => (row.number.value = fixed(shown, factor === 1 ? 3 : 1)));
     const beyond = row.joint.limited && (value < row.joint.lower - 1e-9 || value > row.joint.upper + 1e-9);
     row.item.toggleAttribute("data-beyond", beyond);
     row.slider.setAttribute("aria-valuetext", `${short(shown)} ${row.unit.textContent}`);

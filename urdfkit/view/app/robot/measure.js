@@ -3,6 +3,7 @@
 
 import { h, icon, short } from "../page/dom.js";
 import { copyText } from "./inspector.js";
+import { offer } from "../page/edited_fields.js";
 import { numberForm, unitField } from "../page/number_field.js";
 
 const THREE = MeshCat.THREE;
@@ -71,7 +72,7 @@ export function measure(page) {
   });
   page.on("draw", update);
   page.on("robot", () => page.viewport.dirty());
-  page.on("model", () => [from, to].forEach(offer));
+  page.on("model", () => [from, to].forEach(offerFrames));
   page.expose("measures", { get items() { return items; } });
 
   function measured(point) {
@@ -92,11 +93,8 @@ export function measure(page) {
     return { frame, inputs: fields.map(([input]) => input), element };
   }
 
-  function offer({ frame }) {
-    const before = frame.value;
-    const names = [...page.scene.byLink.keys()];
-    frame.replaceChildren(h("option", { value: "" }, "ground"), ...names.map((link) => h("option", { value: link }, link.replace(/^world\//, ""))));
-    frame.value = names.includes(before) ? before : "";
+  function offerFrames({ frame }) {
+    offer(frame, [["", "ground"], ...[...page.scene.byLink.keys()].map((link) => [link, link.replace(/^world\//, "")])]);
   }
 
   function typed({ frame, inputs }) {

@@ -1,6 +1,7 @@
 // Time controls: pause, step, speed and reset, and the readout of the state.
 
 import { fixed, h, icon } from "../page/dom.js";
+import { edited } from "../page/edited_fields.js";
 import { numberField } from "../page/number_field.js";
 
 const $ = (id) => document.getElementById(id);
@@ -75,7 +76,7 @@ export function clock(page) {
     $("pause").setAttribute("aria-label", message.paused ? "Continue" : "Pause");
     $("pause").setAttribute("aria-pressed", message.paused);
     step.hidden = steps.hidden = !message.paused || !page.accepts("step");
-    if (document.activeElement !== speed) speed.value = message.factor ?? "";
+    if (!edited(speed)) speed.value = message.factor ?? "";
     const other = message.driver !== null && message.driver !== me;
     document.body.dataset.watching = other;
     const permitted = (permission) => !other || (page.settings.watchers_may ?? []).includes(permission);

@@ -1,6 +1,7 @@
 // Drive sliders that keep their value, gamepad input, and the selection of the driven robot.
 
 import { h } from "../page/dom.js";
+import { offer } from "../page/edited_fields.js";
 
 const DEAD = 0.12; // dead zone of a stick, as a fraction of its range
 
@@ -83,9 +84,7 @@ export function chooser(page, drive, host) {
   });
   page.on("teleop", (message) => {
     robots = message.robots.filter((robot) => robot.drives);
-    const before = select.value;
-    select.replaceChildren(...robots.map(({ name }) => h("option", { value: name }, name)));
-    if (robots.some(({ name }) => name === before)) select.value = before;
+    offer(select, robots.map(({ name }) => [name, name]), take);
     field.hidden = robots.length < 2;
     take();
   });

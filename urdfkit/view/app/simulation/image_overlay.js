@@ -1,6 +1,7 @@
 // Overlays of an image, which are the boxes of a detector or another image, and a larger window.
 
 import { h } from "../page/dom.js";
+import { offer } from "../page/edited_fields.js";
 
 const SVG = "http://www.w3.org/2000/svg";
 
@@ -23,12 +24,8 @@ export class ImageOverlay {
   /** Offer these topics: of detections, and of other images. */
   offer(detections, images) {
     const names = [...detections.map((name) => [`boxes ${name}`, name]), ...images.filter((name) => name !== this.topic).map((name) => [`image ${name}`, name])];
-    const present = [...this.choice.options].slice(1).map(({ value }) => value);
-    if (present.join() === names.map(([value]) => value).join()) return;
     const chosen = this.choice.value;
-    this.choice.replaceChildren(this.choice.options[0], ...names.map(([value, name]) => h("option", { value }, name)));
-    if (names.some(([value]) => value === chosen)) this.choice.value = chosen;
-    else if (chosen) this.choose("");
+    offer(this.choice, [["", "no overlay"], ...names], () => chosen !== this.choice.value && this.choose(""));
   }
 
   choose(value) {

@@ -1,6 +1,7 @@
 // Parameters that can be changed during the simulation: gravity, friction, masses, gains.
 
 import { h, short } from "../page/dom.js";
+import { redraw } from "../page/edited_fields.js";
 import { numberField } from "../page/number_field.js";
 
 const SCREW = "M12 3v6M9 3h6M9 9h6l-1 9-2 3-2-3zM9.4 12h5.2M9.8 15h4.4";
@@ -87,15 +88,16 @@ export function liveParameters(page) {
     if (!state) return;
     const words = filter.value.toLowerCase();
     const fits = (text) => text.toLowerCase().includes(words);
-    if (!gravity.contains(document.activeElement)) gravityRow();
-    if (!table.contains(document.activeElement)) {
+    redraw(gravity, gravityRow);
+    redraw(table, () => {
       const head = h("thead", {}, h("tr", {}, h("th", {}, "body"), h("th", {}, "mass [kg]"), h("th", {}, "mu")));
       const rows = state.rows.filter(({ name, link }) => fits(`${name} ${link}`));
       table.replaceChildren(head, h("tbody", {}, ...rows.map(row)));
-    }
-    if (gains.contains(document.activeElement)) return;
-    const shown = state.gains.filter(({ path }) => fits(path));
-    gains.replaceChildren(...(shown.length ? [h("h3", {}, "Gains"), ...shown.map(gain)] : []));
+    });
+    redraw(gains, () => {
+      const shown = state.gains.filter(({ path }) => fits(path));
+      gains.replaceChildren(...(shown.length ? [h("h3", {}, "Gains"), ...shown.map(gain)] : []));
+    });
   }
 
   filter.addEventListener("input", draw);

@@ -2,6 +2,7 @@
 /* global MeshCat */
 
 import { h, short } from "../page/dom.js";
+import { offer } from "../page/edited_fields.js";
 import { numberForm, unitField } from "../page/number_field.js";
 
 const THREE = MeshCat.THREE;
@@ -69,11 +70,9 @@ export class Push {
 
   // The links and bodies that move, by the names of the simulation.
   #offer(rows) {
-    const before = this.choice.value;
     const moved = rows.filter(({ mass }) => mass !== null);
     const names = moved.map(({ name, link }) => (!link ? name : name === rows[0].name ? link : `${name}::${link}`));
-    this.choice.replaceChildren(...names.map((name) => h("option", { value: name }, name)));
-    if (names.includes(before)) this.choice.value = before;
+    offer(this.choice, names.map((name) => [name, name]));
   }
 
   // Default: accelerates a robot of this mass with 4 m/s² per metre.

@@ -3,6 +3,7 @@
 
 import { h, short } from "../page/dom.js";
 import { Mover } from "../handles/object_gizmo.js";
+import { redraw } from "../page/edited_fields.js";
 import { numberField, unitField } from "../page/number_field.js";
 
 const THREE = MeshCat.THREE;
@@ -140,9 +141,10 @@ export class Objects {
 
   #show(name, pose) {
     const object = this.objects.find((each) => each.name === name);
+    const words = (i) => short(i > 2 ? (pose[i] * 180) / Math.PI : pose[i], 3);
     const inputs = FIELDS.map((field, i) => {
       const angle = i > 2;
-      const input = numberField({ step: angle ? 5 : 0.1, value: short(angle ? (pose[i] * 180) / Math.PI : pose[i], 3), "aria-label": `${field} of ${name} [${angle ? "°" : "m"}]` });
+      const input = numberField({ step: angle ? 5 : 0.1, value: words(i), "aria-label": `${field} of ${name} [${angle ? "°" : "m"}]` });
       input.addEventListener("change", () => {
         const values = inputs.map(({ valueAsNumber }, k) => valueAsNumber * (k > 2 ? Math.PI / 180 : 1));
         this.#place(values);
@@ -160,15 +162,15 @@ export class Objects {
       else this.mover.take(this.#links(name), pose);
       hold.setAttribute("aria-pressed", this.mover.held);
     });
+    this.moveTo = (now) => {
+      pose = now;
+      inputs.forEach((input, i) => redraw(input, () => (input.value = words(i))));
+      if (!this.mover.held) return;
+      this.mover.drop();
+      this.mover.take(this.#links(name), pose);
+    };
     this.detail.hidden = false;
     this.detail.replaceChildren(h("h3", {}, name), grid, h("div.row.wrap", {}, hold, twin, h("span.space"), away));
-  }
-
-  // A selector of the control that has the focus, which is created again.
-  #focus() {
-    const { activeElement: element } = document;
-    if (!this.detail.contains(element)) return null;
-    return element.id ? `#${element.id}` : `[aria-label="${CSS.escape(element.getAttribute("aria-label"))}"]`;
   }
 
   #links(name) {
@@ -184,12 +186,7 @@ export class Objects {
     this.page.history.add({ words: `moved ${name}`, undo: put(before.pose), redo: put(pose) });
     const now = await this.#request("get_pose", { name });
     if (!now || this.picked !== name || this.moves !== number || this.mover.moving) return; // a later move is on its way
-    const held = this.mover.held;
-    const focus = this.#focus();
-    this.mover.drop();
-    this.#show(name, now.pose);
-    if (held) document.getElementById("move-object").click();
-    if (focus) this.detail.querySelector(focus)?.focus();
+    this.moveTo(now.pose);
   }
 
   /** Delete the selected object. */

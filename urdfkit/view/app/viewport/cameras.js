@@ -2,6 +2,7 @@
 /* global MeshCat */
 
 import { h } from "../page/dom.js";
+import { offer } from "../page/edited_fields.js";
 import { FirstPerson } from "./first_person_camera.js";
 
 const THREE = MeshCat.THREE;
@@ -199,9 +200,7 @@ function frames(words, id, chosen) {
   const label = h("label.stacked", {}, h("span", {}, words), select);
   function fill(links, none = "none") {
     const before = select.value;
-    select.replaceChildren(h("option", { value: "" }, none), ...links.map((link) => h("option", { value: link }, link)));
-    select.value = links.includes(before) ? before : "";
-    if (select.value !== before) chosen(select.value);
+    offer(select, [["", none], ...links.map((link) => [link, link])], () => select.value !== before && chosen(select.value));
   }
   return { label, fill };
 }

@@ -1,0 +1,35 @@
+// Fields that the user edits while messages arrive: a message must not replace a text that is not complete.
+
+import { h } from "./dom.js";
+
+const waiting = new Map(); // element → its newest drawing that is not done yet
+
+/** Whether a field in an element, or the element itself, has the focus. Checkboxes have no incomplete state. */
+export function edited(element) {
+  const { activeElement: field } = document;
+  return element.contains(field) && field.matches("select, textarea, input:not([type=checkbox], [type=radio])");
+}
+
+/** Draw what a message changed in an element: now or, while the user edits it, when the focus leaves it. */
+export function redraw(element, draw) {
+  waiting.delete(element);
+  if (edited(element)) waiting.set(element, draw);
+  else draw();
+}
+
+/** Offer choices in a select, [[value, words]]. The value is kept if it is among them. `done` is called after a change. */
+export function offer(select, choices, done = null) {
+  redraw(select, () => {
+    const { value: before, options } = select;
+    if (choices.length === options.length && choices.every(([value, words], i) => value === options[i].value && words === options[i].text)) return;
+    select.replaceChildren(...choices.map(([value, words]) => h("option", { value }, words)));
+    if (choices.some(([value]) => value === before)) select.value = before;
+    done?.();
+  });
+}
+
+// A typed number is newer than the messages before it.
+addEventListener("change", ({ target }) => waiting.delete(target), { capture: true });
+addEventListener("focusout", ({ relatedTarget: next }) => {
+  for (const [element, draw] of waiting) if (!element.contains(next)) waiting.delete(element), draw();
+});
