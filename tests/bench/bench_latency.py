@@ -105,7 +105,7 @@ class Rosbridge:
                 return "odometry", message["msg"]["twist"]["twist"]["linear"]["x"]
 
 
-CLIENTS = {"foxglove": Foxglove, "rosbridge": Rosbridge}
+CLIENTS: dict[str, type[Foxglove | Rosbridge]] = {"foxglove": Foxglove, "rosbridge": Rosbridge}
 
 
 @contextmanager
@@ -116,10 +116,11 @@ def simulated(option: str, renderer: str) -> Iterator[int]:
         for file in robot.glob("*/urdf/gazebo.xacro"):
             file.write_text(file.read_text().replace("<updateRate>100<", "<updateRate>1000<"))
         command = [sys.executable, "-m", "urdfkit", "sim", "teleop", str(robot / "simpleton_description")]
-        pipes: Any = {"stdout": subprocess.PIPE, "stderr": subprocess.STDOUT, "text": True}
+        pipes: dict[str, Any] = {"stdout": subprocess.PIPE, "stderr": subprocess.STDOUT, "text": True}
         with running(
             [*command, "--no-browser", "--port", "0", option, "0", "--renderer", renderer], **pipes
         ) as process:
+            assert process.stdout is not None
             for line in process.stdout:
                 if found := re.search(r"ws://127\.0\.0\.1:(\d+)", line):
                     yield int(found[1])
