@@ -169,7 +169,7 @@ def test_everything_has_a_name_and_the_keyboard_reaches_it_and_shows_where_it_is
             """() => [...document.querySelectorAll("button, input, select, summary, textarea, img, [tabindex='0']")]
                 .filter((e) => e.checkVisibility())
                 .filter((e) => !(e.getAttribute("aria-label") || e.alt || e.labels?.length
-                                 || (e.matches("button, summary") && e.textContent.trim())))
+                                 || e.closest("button, summary")?.textContent.trim()))
                 .map((e) => e.outerHTML)"""
         )
         assert nameless == [], name
@@ -371,7 +371,18 @@ def test_objects_are_inserted_moved_turned_and_deleted(page, keep, until) -> Non
 def test_objects_are_inserted_by_the_keyboard_alone(page, until) -> None:
     put_down(page)
     page.locator("#open-world").press("Enter")
+    page.locator("#library-filter").fill("b")
+    entries = page.locator(".library-entry")
+    entries.first.focus()
+    shown = entries.all_inner_texts()
+    columns = entries.evaluate_all("(all) => all.filter(({ offsetTop }) => offsetTop === all[0].offsetTop).length")
+    assert columns > 1
+    for key, place in (("ArrowRight", 1), ("ArrowDown", 1 + columns), ("ArrowUp", 1), ("ArrowLeft", 0), ("End", -1)):
+        page.keyboard.press(key)
+        assert page.evaluate("document.activeElement.innerText") == shown[place]
+        assert page.evaluate("urdfkit.drive.axes().every((axis) => axis === 0)")  # the arrow keys drive elsewhere
     page.locator("#library-filter").fill("crate")
+    until(lambda: entries.first.locator("img").evaluate("(picture) => picture.naturalWidth") == 96)
     page.locator(".library-entry").first.press("Enter")
     for field, value in (("x", "1,5"), ("y", "-1"), ("yaw", "90")):
         page.locator(f"#insert-{field}").fill(value)

@@ -20,7 +20,13 @@ PING = 5.0
 """Seconds between pings; a browser that has not answered one before the next is disconnected."""
 
 APP = Path(__file__).parents[1] / "app"
-TYPES = {".html": "text/html", ".css": "text/css", ".js": "text/javascript", ".svg": "image/svg+xml"}
+TYPES = {
+    ".css": "text/css",
+    ".html": "text/html",
+    ".js": "text/javascript",
+    ".svg": "image/svg+xml",
+    ".webp": "image/webp",
+}
 MESHCAT = "meshcat.js"
 OFFLINE = "connection/offline.js"
 """The module that only a page in a single file loads first."""

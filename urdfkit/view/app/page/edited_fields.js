@@ -10,7 +10,7 @@ export function edited(element) {
   return element.contains(field) && field.matches("select, textarea, input:not([type=checkbox], [type=radio])");
 }
 
-/** Draw what a message changed in an element: now or, while the user edits it, when the focus leaves it. */
+/** Draw the change of a message in an element: now or, while the user edits it, when the focus leaves it. */
 export function redraw(element, draw) {
   waiting.delete(element);
   if (edited(element)) waiting.set(element, draw);

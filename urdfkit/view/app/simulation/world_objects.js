@@ -21,7 +21,8 @@ export class Objects {
     this.panel = page.panels.add({ id: "world", title: "World", icon: WORLD, modes: ["sim"], order: 30 });
     this.filter = h("input", { type: "search", id: "library-filter", placeholder: "Filter the library", "aria-label": "Filter the library", autocomplete: "off" });
     this.filter.addEventListener("input", () => this.#library());
-    this.library = h("div.library", { role: "listbox", "aria-label": "Library" });
+    this.library = h("div.library", { role: "listbox", "aria-label": "Library", onkeydown: (event) => this.#keys(event) });
+    this.entries = new Map(); // name → its button, with a picture
     this.hint = h("p.quiet", {}, "Select a model, then click its position.");
     this.form = this.#typed();
     this.list = h("ul.bare-list.objects", { "aria-label": "In the world" });
@@ -62,14 +63,36 @@ export class Objects {
 
   #library() {
     const words = this.filter.value.toLowerCase();
-    const entry = (name, kind) => {
-      const button = h("button.library-entry", { type: "button", role: "option", "aria-selected": String(name === this.chosen), "data-kind": kind }, name.replaceAll("_", " "));
-      button.addEventListener("click", () => this.#choose(name === this.chosen ? null : name));
-      return button;
-    };
-    const fits = (name) => name.replaceAll("_", " ").toLowerCase().includes(words);
-    const rows = [...(this.models ?? []).filter(fits).map((name) => entry(name, "model")), ...(this.robots ?? []).filter(fits).map((name) => entry(name, "robot"))];
-    this.library.replaceChildren(...rows);
+    const rows = [];
+    for (const [kind, names] of [["model", this.models], ["robot", this.robots]]) {
+      for (const name of names ?? []) {
+        const title = name.replaceAll("_", " ");
+        if (!title.toLowerCase().includes(words)) continue;
+        if (!this.entries.has(name)) this.entries.set(name, this.#entry(name, title, kind));
+        rows.push(this.entries.get(name));
+      }
+    }
+    for (const [name, entry] of this.entries) entry.setAttribute("aria-selected", name === this.chosen);
+    const { children: shown } = this.library;
+    if (rows.length !== shown.length || rows.some((entry, i) => entry !== shown[i])) this.library.replaceChildren(...rows);
+  }
+
+  // Pictures are requested when they are scrolled into view.
+  #entry(name, title, kind) {
+    const picture = h("img", { src: `/app/library/${name}.webp`, alt: "", width: 64, height: 64, loading: "lazy", onerror: () => (picture.style.visibility = "hidden") });
+    const choose = () => this.#choose(name === this.chosen ? null : name);
+    return h("button.library-entry", { type: "button", role: "option", "data-kind": kind, title, onclick: choose }, picture, h("span", {}, title));
+  }
+
+  // The arrow keys go through the pictures.
+  #keys(event) {
+    const all = [...this.library.children];
+    const columns = all.filter(({ offsetTop }) => offsetTop === all[0].offsetTop).length;
+    const step = { ArrowLeft: -1, ArrowRight: 1, ArrowUp: -columns, ArrowDown: columns, Home: -all.length, End: all.length }[event.key];
+    if (!step) return;
+    event.preventDefault();
+    event.stopPropagation(); // they would drive the robot
+    all[Math.min(all.length - 1, Math.max(0, all.indexOf(document.activeElement) + step))].focus();
   }
 
   #choose(name) {
