@@ -34,7 +34,7 @@ LARGE = 150_000
 """Pixels from which on a software driver is faster than rays, with shadows.
 
 CPU time per image of a driving robot: rays 60 µs per 1,000 pixels, a driver 6.5 ms and 13 µs per 1,000 pixels
-(`tests/bench/bench_latency.py` has the effect).
+(`tests/bench/latency` shows the effect).
 """
 
 PATIENCE = 1.5

@@ -1,22 +1,23 @@
 """Time from a velocity command to the odometry that shows it, over a bridge, with and without camera images.
 
-Run it as ``python -m tests.bench.bench_latency [foxglove] [rosbridge] [--commands N]``; it starts the simulation of a
+Run it as ``python -m tests.bench.latency [foxglove] [rosbridge] [ros2] [--commands N]``; it starts the simulation of a
 copy of simpleton, whose odometry is published in every step instead of 100 times per second: otherwise the time until
 the next message, up to 10 ms, is most of what is measured. One client drives and receives the images of the camera of
-800 × 800 pixels, 30 per second.
+800 × 800 pixels, 30 per second. For ROS 2 it is a real node of rclpy: ``make ros2-nodes``, or ``--rclpy PYTHON``.
 """
 
 from __future__ import annotations
 
 import argparse
 import json
+import os
+import random
 import re
 import shutil
 import struct
 import subprocess
 import sys
 import tempfile
-import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -26,17 +27,16 @@ import cbor2
 import numpy as np
 import websocket
 
+from tests.bench.latency.measurement import measured
 from tests.processes import running
 from urdfkit.messages import from_fields, typestore
 
-ROBOT = Path(__file__).parents[2] / "robots" / "simpleton"
+ROBOT = Path(__file__).parents[3] / "robots" / "simpleton"
 COMMAND, ODOMETRY, IMAGE = "/simpleton/cmd_vel", "/simpleton/odom", "/simpleton/camera1/image_raw"
 TWIST = "geometry_msgs/msg/Twist"
-SPEEDS = (0.5, 0.2)
-"""Commanded in turn [m/s]; the odometry of encoders has no sign, as in Gazebo."""
-
-CHANGE = 0.01
-"""Change of the velocity that shows a command [m/s]; the wheels accelerate by twice as much in one step."""
+LOCAL = {"ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST"}
+NODE = Path(__file__).parent / "ros2_node.py"
+RCLPY = Path(__file__).parents[3] / ".venv" / "ros2-kilted" / "bin" / "python"
 
 
 class Foxglove:
@@ -109,8 +109,8 @@ CLIENTS: dict[str, type[Foxglove | Rosbridge]] = {"foxglove": Foxglove, "rosbrid
 
 
 @contextmanager
-def simulated(option: str, renderer: str) -> Iterator[int]:
-    """Start the simulation with a bridge; yield the port of the bridge."""
+def simulated(*options: str, ready: str) -> Iterator[str]:
+    """Start the simulation with options; yield the first group of the pattern of the line that says it is ready."""
     with tempfile.TemporaryDirectory() as folder:
         robot = Path(shutil.copytree(ROBOT, Path(folder) / "simpleton"))
         for file in robot.glob("*/urdf/gazebo.xacro"):
@@ -118,54 +118,49 @@ def simulated(option: str, renderer: str) -> Iterator[int]:
         command = [sys.executable, "-m", "urdfkit", "sim", "teleop", str(robot / "simpleton_description")]
         pipes: dict[str, Any] = {"stdout": subprocess.PIPE, "stderr": subprocess.STDOUT, "text": True}
         with running(
-            [*command, "--no-browser", "--port", "0", option, "0", "--renderer", renderer], **pipes
+            [*command, "--no-browser", "--port", "0", *options], **pipes, env={**os.environ, **LOCAL}
         ) as process:
             assert process.stdout is not None
             for line in process.stdout:
-                if found := re.search(r"ws://127\.0\.0\.1:(\d+)", line):
-                    yield int(found[1])
+                if found := re.search(ready, line):
+                    yield found[1]
                     return
             raise SystemExit("the simulation did not start")
 
 
-def measured(client: Any, commands: int) -> tuple[list[float], float]:
-    """Drive quickly and slowly in turn; return the times to the odometry [ms] and the images per second."""
-    times: list[float] = []
-    random = np.random.default_rng(1)
-    begin, images, speed = time.perf_counter(), 0, 0.0
-    while len(times) < commands:
-        rest = time.perf_counter() + float(random.uniform(0.05, 0.15))
-        while time.perf_counter() < rest:
-            kind, x = client.receive()
-            images += kind == "image"
-            speed = x if kind == "odometry" else speed
-        wanted = SPEEDS[len(times) % 2]
-        sent = time.perf_counter()
-        client.command(wanted)
-        while True:
-            kind, x = client.receive()
-            images += kind == "image"
-            if kind == "odometry" and abs(x - wanted) < abs(speed - wanted) - CHANGE:
-                break
-        times.append((time.perf_counter() - sent) * 1e3)
-    return times, images / (time.perf_counter() - begin)
+def measured_by_node(python: Path, domain: str, commands: int, *, images: bool) -> tuple[list[float], float]:
+    """Return the measurement of a real node of rclpy, run by the Python of its own environment."""
+    environment = {name: value for name, value in os.environ.items() if not name.startswith("PYTHON")}
+    environment |= {**LOCAL, "ROS_DOMAIN_ID": domain}
+    words = [python, NODE, commands, int(images), COMMAND, ODOMETRY, IMAGE]
+    with running(words, stdout=subprocess.PIPE, text=True, env=environment) as process:
+        times, rate = json.loads(process.communicate()[0].splitlines()[-1])
+    return times, rate
+
+
+def measurement(name: str, options: argparse.Namespace, *, images: bool) -> tuple[list[float], float]:
+    """Return the times from a command to the odometry [ms], and the images per second, over a bridge."""
+    renderer = ("--renderer", options.renderer)
+    if name == "ros2":
+        domain = str(random.randrange(60, 100))
+        with simulated("--ros2", "--ros-domain", domain, *renderer, ready="(ros2): topics are published"):
+            return measured_by_node(options.rclpy, domain, options.commands, images=images)
+    kind = CLIENTS[name]
+    with simulated(kind.option, "0", *renderer, ready=r"ws://127\.0\.0\.1:(\d+)") as port:
+        return measured(kind(int(port), images=images), options.commands)
 
 
 def main() -> None:
     """Measure and print."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("bridges", nargs="*", choices=[[], *CLIENTS], default=[])
+    parser.add_argument("bridges", nargs="*", choices=[[], *CLIENTS, "ros2"], default=[])
     parser.add_argument("--commands", type=int, default=300)
     parser.add_argument("--renderer", choices=("auto", "ray", "gl"), default="auto")
+    parser.add_argument("--rclpy", type=Path, default=RCLPY, help="Python that has rclpy")
     options = parser.parse_args()
-    for name in options.bridges or CLIENTS:
-        kind = CLIENTS[name]
+    for name in options.bridges or [*CLIENTS, "ros2"]:
         for images in (False, True):
-            with simulated(kind.option, options.renderer) as port:
-                client = kind(port, images=images)
-                for _ in range(20 if not images else 30):
-                    client.receive()
-                times, rate = measured(client, options.commands)
+            times, rate = measurement(name, options, images=images)
             p50, p99, worst = np.percentile(times, [50, 99, 100])
             label = f"{name:10s} {'with' if images else 'without'} images"
             print(f"{label}: p50 {p50:.1f} p99 {p99:.1f} largest {worst:.1f} ms · images {rate:.1f} Hz", flush=True)

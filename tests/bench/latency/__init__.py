@@ -1,0 +1,1 @@
+"""Time from a command to the odometry that shows it, over the bridges."""
