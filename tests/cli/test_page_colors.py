@@ -149,3 +149,15 @@ def test_lit_surfaces_keep_their_colour_and_are_not_burnt_to_white(serve, visits
     assert np.abs(found - rgb).max() < 0.25
     assert list(np.argsort(found, kind="stable")) == list(np.argsort(rgb, kind="stable"))
     assert visits.problems == []
+
+
+@pytest.mark.slow
+def test_the_page_has_the_materials_of_a_camera_of_the_same_pose(serve, visits) -> None:
+    from tests.bench.bench_page_camera import measure
+
+    page = visits.open(serve("sim", "teleop", "heterogeneous").url, viewport={"width": 480, "height": 360})
+    page.locator("#pause").click()
+    page.wait_for_selector("#pause[aria-pressed=true]")
+    rows = measure(page, "heterogeneous")
+    assert len(rows) > 10
+    assert {link: materials for link, _, materials, _ in rows if materials > 5.0} == {}
