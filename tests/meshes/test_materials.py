@@ -150,3 +150,70 @@ def test_a_urdf_texture_fills_what_the_file_leaves_open(tmp_path: Path) -> None:
     assert sorted(mesh.face_textures.tolist()) == [-1, 0]
     obj(tmp_path, "newmtl red\nKd 1 0 0\n", f"usemtl red\n{FACE}")
     assert shape_of(tmp_path, MESH + texture).mesh.textures == ()
+
+
+DAE = """<?xml version="1.0"?>
+<COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">
+<asset><unit meter="1"/><up_axis>Z_UP</up_axis></asset>
+<library_effects><effect id="e"><profile_COMMON><technique sid="c">{effect}</technique></profile_COMMON></effect>
+</library_effects>
+<library_materials><material id="m"><instance_effect url="#e"/></material></library_materials>
+<library_geometries><geometry id="g"><mesh><source id="p"><float_array id="a" count="9">0 0 0 1 0 0 0 1 0</float_array>
+<technique_common><accessor source="#a" count="3" stride="3"><param name="X" type="float"/>
+<param name="Y" type="float"/><param name="Z" type="float"/></accessor></technique_common></source>
+<vertices id="v"><input semantic="POSITION" source="#p"/></vertices>
+<triangles count="1" material="s"><input semantic="VERTEX" source="#v" offset="0"/><p>0 1 2</p>
+</triangles></mesh></geometry></library_geometries>
+<library_visual_scenes><visual_scene id="w"><node><instance_geometry url="#g"><bind_material><technique_common>
+<instance_material symbol="s" target="#m"/></technique_common></bind_material></instance_geometry></node></visual_scene>
+</library_visual_scenes><scene><instance_visual_scene url="#w"/></scene></COLLADA>
+"""
+
+
+def dae_color(folder: Path, effect: str) -> tuple[int, ...]:
+    (folder / "a.dae").write_text(DAE.format(effect=effect))
+    (color,) = corner_colors(MeshLoader().load(folder / "a.dae"))
+    return tuple(color)
+
+
+@pytest.mark.parametrize(
+    ("mode", "color", "factor", "alpha"),
+    [
+        ("", "1 1 1 1", "0.3", 76),
+        (' opaque="A_ONE"', "1 1 1 0.5", "0.5", 64),
+        (' opaque="A_ZERO"', "1 1 1 1", "0.7", 77),
+        (' opaque="RGB_ZERO"', "1 1 1 1", "0.7", 76),
+        (' opaque="RGB_ZERO"', "0 0 0 1", "1", 255),
+        (' opaque="RGB_ZERO"', "1 1 1 1", "0", 255),
+        (' opaque="RGB_ONE"', "0 1 0 1", "1", 182),
+        ("", "0 0 0 1", "1", 255),
+        ("", "1 1 1 1", "0", 255),  # written by exporters for opaque parts
+    ],
+)
+def test_the_opacity_of_a_collada_effect_by_its_mode(
+    tmp_path: Path, mode: str, color: str, factor: str, alpha: int
+) -> None:
+    written = (
+        f"<transparent{mode}><color>{color}</color></transparent><transparency><float>{factor}</float></transparency>"
+    )
+    found = dae_color(tmp_path, f"<lambert><diffuse><color>1 0.2 0 1</color></diffuse>{written}</lambert>")
+    assert found[:3] == (255, 51, 0)
+    assert found[3] == pytest.approx(alpha, abs=1)
+
+
+@pytest.mark.parametrize(
+    ("effect", "color"),
+    [
+        ("<constant><emission><color>0 0.2 1 1</color></emission></constant>", (0, 51, 255)),
+        (
+            "<phong><emission><color>0.2 0 0 1</color></emission><diffuse><color>0 0.4 0 1</color></diffuse></phong>",
+            (51, 102, 0),
+        ),
+        (
+            "<phong><emission><color>0 0 0 1</color></emission><diffuse><color>1 0.4 0 1</color></diffuse></phong>",
+            (255, 102, 0),
+        ),
+    ],
+)
+def test_the_emission_of_a_collada_effect_is_seen(tmp_path: Path, effect: str, color: tuple[int, ...]) -> None:
+    assert dae_color(tmp_path, effect)[:3] == color

@@ -29,6 +29,7 @@ from urdfkit.description.urdf.robot import Vector
 from urdfkit.errors import MissingDependencyError, ResourceError, did_you_mean
 from urdfkit.linear_algebra import matmul
 from urdfkit.meshes.collada_checks import metres_per_unit, rejection_reason
+from urdfkit.meshes.collada_effects import plain_effects
 from urdfkit.meshes.mesh_appearance import colors_in, gloss_in, normals_in, places_in, texture_in
 from urdfkit.meshes.simplification import CHUNK, MOST_TRIANGLES, clustered, simplified
 from urdfkit.meshes.stl import corners_of
@@ -162,7 +163,8 @@ def _parse(path: Path, content: bytes, scale: Vector, beside: Beside, places: bo
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
             logging.getLogger("trimesh").setLevel(logging.CRITICAL)
-            scene = trimesh.load_scene(io.BytesIO(content), file_type=suffix[1:], resolver=beside, process=False)
+            plain = plain_effects(content) if suffix == ".dae" else content
+            scene = trimesh.load_scene(io.BytesIO(plain), file_type=suffix[1:], resolver=beside, process=False)
             factor = metres_per_unit(content) if suffix == ".dae" else 1.0
             mesh = _merge(path, list(_parts(scene)), np.array(scale, dtype=float) * factor, places)
     except ResourceError:
