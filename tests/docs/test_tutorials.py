@@ -28,6 +28,7 @@ def test_stop_on_white_drives_up_to_the_barrier_and_stops(capsys: pytest.Capture
     assert float(reported.split()[0]) < 3.2
 
 
+@pytest.mark.slow
 def test_wander_drives_about_and_touches_nothing(capsys: pytest.CaptureFixture[str]) -> None:
     simulator = runpy.run_path(str(TUTORIALS / "wander.py"))["simulator"]
     x, y, *_ = simulator.state.base_pose

@@ -119,6 +119,7 @@ DEEP_LAUNCH_FILES = {
 }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", DEEP_LAUNCH_FILES)
 def test_deeply_nested_launch_files_cause_no_error_of_ours(name, tmp_path, capsys):
     (tmp_path / "package.xml").write_text("<package format='3'><name>deep</name></package>")

@@ -43,6 +43,7 @@ def test_missing_files_of_one_folder_are_one_finding_from_four_on(count: int, tm
     assert places == [(n + 2, f"l{n}", f"mesh `meshes/part_{n}.stl` not found") for n in range(1, count)]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("count", [1, 2, 100])
 def test_meshes_of_one_missing_package_are_one_finding_with_every_place(count: int, tmp_path: Path) -> None:
     meshes = [f"package://{package}/part_{n}.stl" for package in ("nowhere", "gone") for n in range(count)]

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import ast
 import os
 import re
 import shutil
 from collections import Counter
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
@@ -72,6 +74,48 @@ def test_findings_have_their_place_message_help_and_fix(path, monkeypatch):
     """After an intended change, write the expected files with ``python -m tests.lint.test_rules`` and read the diff."""
     monkeypatch.chdir(path.parent)
     assert report(path) == path.with_name(f"findings.{path.name}.txt").read_text()
+
+
+NOT_HELD = HERE.parent / "texts_not_held.txt"
+"""Texts of rules without a bad file of their own: file and text."""
+
+
+def message_texts(path: Path) -> Iterator[tuple[str, str]]:
+    """Yield the texts with a blank in the functions of a rule, `…` for values, each with its regular expression."""
+    tree = ast.parse(path.read_bytes())
+    skipped: set[ast.AST] = set()  # parts of f-strings, docstrings, regular expressions, comparisons, causes
+    for node in ast.walk(tree):
+        if isinstance(node, ast.JoinedStr):
+            skipped.update(node.values)
+        elif isinstance(node, ast.Expr):
+            skipped.add(node.value)
+        elif isinstance(node, ast.Call) and ast.unparse(node.func).startswith("re."):
+            skipped.update(node.args)
+        elif isinstance(node, ast.Compare) or (isinstance(node, ast.keyword) and node.arg == "cause"):
+            skipped.update(ast.walk(node))
+    for function in ast.walk(tree):
+        if not isinstance(function, ast.FunctionDef):
+            continue
+        for node in ast.walk(function):
+            if node in skipped or not isinstance(node, (ast.JoinedStr, ast.Constant)):
+                continue
+            parts = node.values if isinstance(node, ast.JoinedStr) else [node]
+            text = "".join(str(part.value) if isinstance(part, ast.Constant) else "…" for part in parts)
+            if re.search(r"[a-z`>] .*[a-z]{2}", text):
+                yield text, ".*".join(map(re.escape, text.strip("…").split("…")))
+
+
+def test_every_text_of_a_rule_is_held():
+    """Each message, help and title of a fix occurs in an expected file of a rule or in a test of the linter."""
+    expected = "\n".join(path.read_text() for path in HERE.glob("*/findings.*.txt"))
+    tests = "\n".join(path.read_text() for path in HERE.parent.rglob("test_*.py"))
+    found = sorted(
+        f"{path.relative_to(FOLDER)}: {text}"
+        for path in FOLDER.rglob("[!_]*.py")
+        for text, pattern in set(message_texts(path))
+        if not re.search(pattern, expected) and not re.search(pattern, tests)
+    )
+    assert found == NOT_HELD.read_text().splitlines(), "write a bad file for a new text; remove a text that is held now"
 
 
 @pytest.mark.parametrize("rule", [rule for rule in RULES if rule.only_for or rule.not_for], ids=lambda rule: rule.name)

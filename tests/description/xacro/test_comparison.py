@@ -48,6 +48,7 @@ def test_the_working_folder_cannot_replace_modules(write: Write) -> None:
     assert "<link" in text_of_xacro(write("m.xacro", 'HEAD<link name="a"/></robot>'), {}, Packages())
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("body", "message"),
     [
