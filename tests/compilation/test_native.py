@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -73,48 +74,56 @@ def run(folder: Path, check: str = "0") -> list[str]:
     return done.stdout.splitlines()
 
 
+@pytest.fixture(scope="module")
+def _compiled_once(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    folder = tmp_path_factory.mktemp("compiled")
+    (folder / "source.py").write_text(SOURCE)
+    assert run(folder)[0] == "compiled"
+    return folder
+
+
+@pytest.fixture
+def compiled(_compiled_once: Path, tmp_path: Path) -> Path:
+    """Return a folder of the test with the source and its machine code."""
+    return shutil.copytree(_compiled_once, tmp_path, dirs_exist_ok=True)
+
+
 RESULT = ["20 40 7", "13 13 {}", "refused", "True 14"]
 
 
 @pytest.mark.slow
-def test_code_is_loaded_without_numba_until_the_syntax_of_its_sources_changes(tmp_path: Path) -> None:
-    source = tmp_path / "source.py"
-    source.write_text(SOURCE)
+def test_code_is_loaded_without_numba_until_the_syntax_of_its_sources_changes(compiled: Path) -> None:
+    source = compiled / "source.py"
     without = [line.format(False) for line in RESULT]
-    assert run(tmp_path)[0] == "compiled"
-    assert run(tmp_path, '"numba" in sys.modules') == without
+    assert run(compiled, '"numba" in sys.modules') == without
     source.write_text(f'"""Documented."""\n# a comment\n{SOURCE}\n')
-    assert run(tmp_path, '"numba" in sys.modules') == without
-    files = sorted((tmp_path / "cache").iterdir())
+    assert run(compiled, '"numba" in sys.modules') == without
+    files = sorted((compiled / "cache").iterdir())
     assert [path.suffix for path in files].count(".o") == 1
     source.write_text(SOURCE.replace("7.0", "70.0"))
-    assert run(tmp_path)[0] == "compiled"
-    assert [path.suffix for path in (tmp_path / "cache").iterdir()].count(".o") == 1
+    assert run(compiled)[0] == "compiled"
+    assert [path.suffix for path in (compiled / "cache").iterdir()].count(".o") == 1
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize(
     "damage", [lambda content: content[:-20], lambda _: b"", lambda _: b"{}\ncode", lambda _: b"[]\n"]
 )
-def test_damaged_code_is_compiled_again(tmp_path: Path, damage) -> None:
-    (tmp_path / "source.py").write_text(SOURCE)
-    run(tmp_path)
-    (code,) = (tmp_path / "cache").glob("*.o")
+def test_damaged_code_is_compiled_again(compiled: Path, damage) -> None:
+    (code,) = (compiled / "cache").glob("*.o")
     code.write_bytes(damage(code.read_bytes()))
-    assert run(tmp_path)[0] == "compiled"
-    assert run(tmp_path)[0] == RESULT[0]
+    assert run(compiled)[0] == "compiled"
+    assert run(compiled)[0] == RESULT[0]
 
 
 @pytest.mark.slow
-def test_code_of_a_wheel_is_used_without_being_copied(tmp_path: Path) -> None:
-    (tmp_path / "source.py").write_text(SOURCE)
-    run(tmp_path)
-    (tmp_path / "cache").rename(tmp_path / "bundled")
-    assert run(tmp_path)[0] == RESULT[0]
-    assert not (tmp_path / "cache").exists()
-    (tmp_path / "source.py").write_text(SOURCE.replace("7.0", "70.0"))
-    assert run(tmp_path)[0] == "compiled"
-    assert len(list((tmp_path / "bundled").iterdir())) == 2
+def test_code_of_a_wheel_is_used_without_being_copied(compiled: Path) -> None:
+    (compiled / "cache").rename(compiled / "bundled")
+    assert run(compiled)[0] == RESULT[0]
+    assert not (compiled / "cache").exists()
+    (compiled / "source.py").write_text(SOURCE.replace("7.0", "70.0"))
+    assert run(compiled)[0] == "compiled"
+    assert len(list((compiled / "bundled").iterdir())) == 2
 
 
 def test_folders_for_machine_code(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
