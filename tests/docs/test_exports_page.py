@@ -8,10 +8,6 @@ from typing import Any
 
 import pytest
 
-pytest.importorskip("numba")
-pytest.importorskip("yourdfpy")
-torch: Any = pytest.importorskip("torch")
-
 PAGE = Path(__file__).parents[2] / "docs" / "exports.md"
 
 pytestmark = pytest.mark.slow
@@ -23,6 +19,9 @@ def blocks(kind: str) -> list[str]:
 
 @pytest.fixture
 def _restored() -> Any:
+    pytest.importorskip("numba")
+    pytest.importorskip("yourdfpy")
+    torch: Any = pytest.importorskip("torch")  # here, because each collection of tests would import it
     before = torch.get_default_dtype()
     yield
     torch.set_default_dtype(before)

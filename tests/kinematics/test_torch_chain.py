@@ -16,10 +16,17 @@ from urdfkit.description.urdf.robot import Robot
 from urdfkit.errors import KinematicsError, MissingDependencyError
 from urdfkit.kinematics import Chain
 
-torch: Any = pytest.importorskip("torch")
-pytest.importorskip("pytorch_kinematics")
+torch: Any = None
 
 pytestmark = pytest.mark.slow  # the import of PyTorch
+
+
+@pytest.fixture(scope="module", autouse=True)
+def _import_torch() -> None:
+    """Import PyTorch when a test runs, not when tests are collected."""
+    global torch
+    torch = pytest.importorskip("torch")
+    pytest.importorskip("pytorch_kinematics")
 
 
 def jacobians_by_autograd(forward: Callable[[Any], Any], q: np.ndarray) -> np.ndarray:
