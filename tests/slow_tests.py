@@ -1,16 +1,17 @@
 """A pytest plugin: what each test costs in CPU time, and whether the mark ``slow`` tells the truth.
 
-``--cpu-times FILE`` writes a line for each test: seconds of CPU time of this process and of the programs that it waited
-for, and the test's name. The summary then lists the tests that want the mark and those that do not. It never fails a
-run: time on a shared machine is no verdict.
+``--cpu-times=FILE`` writes a line for each test: seconds of CPU time of this process and of the programs that it waited
+for, and the test's name. The summary then prints the sum and lists the tests whose mark is wrong. It works in several
+processes too (``-n 2``) and never fails a run: time on a shared machine is no verdict.
 """
 
 from __future__ import annotations
 
 import os
-from collections import Counter
+from collections import defaultdict
 from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -19,7 +20,7 @@ SLOW = 0.5
 MARGIN = 2.0
 """A mark is wrong where the time is this many times above or below `SLOW`."""
 
-seconds: Counter[str] = Counter()
+seconds: defaultdict[str, float] = defaultdict(float)
 marked: set[str] = set()
 
 
@@ -45,12 +46,30 @@ def cpu_time() -> float:
     return sum(os.times()[:4])
 
 
+@pytest.hookimpl(trylast=True)
+def pytest_sessionfinish(session: pytest.Session) -> None:
+    """Send the times from a process of pytest-xdist."""
+    if (output := getattr(session.config, "workeroutput", None)) is not None:
+        output["cpu_times"] = dict(seconds), sorted(marked)
+
+
+@pytest.hookimpl(optionalhook=True)
+def pytest_testnodedown(node: Any) -> None:
+    """Receive the times of a process of pytest-xdist, unless it crashed."""
+    times, names = getattr(node, "workeroutput", {}).get("cpu_times", ({}, []))
+    seconds.update(times)
+    marked.update(names)
+
+
 def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter, config: pytest.Config) -> None:
     """Write the times, and list the tests whose mark is wrong."""
     file: Path | None = config.getoption("--cpu-times")
     if file is None:
         return
-    file.write_text("".join(f"{time:.2f} {name}\n" for name, time in seconds.most_common()))
+    file.write_text(
+        "".join(f"{time:.2f} {name}\n" for name, time in sorted(seconds.items(), key=lambda item: -item[1]))
+    )
+    terminalreporter.write_line(f"CPU time of {len(seconds)} tests: {sum(seconds.values()):.0f} s")
     for line in wrong_marks(seconds, marked):
         terminalreporter.write_line(line)
 

@@ -77,6 +77,21 @@ def test_signals_are_handled_as_in_a_terminal_unless_ignored() -> None:
             assert process.communicate()[0] == f"{[False, bool(ignored)]}\n"
 
 
+@pytest.mark.slow
+def test_the_times_of_several_processes_come_together(tmp_path: Path) -> None:
+    file = tmp_path / "times.txt"
+    command = run(tmp_path / "test_two.py", "def test_one(): pass\ndef test_two(): sum(range(10**8))\n")
+    command += ["-p", "tests.slow_tests", f"--cpu-times={file}", "-n", "2", "-p", "no:cacheprovider"]
+    done = subprocess.run([str(word) for word in command], cwd=ROOT, stdout=subprocess.PIPE, text=True, check=False)
+    assert done.returncode == 0, done.stdout
+    assert sorted(line.split()[1] for line in file.read_text().splitlines()) == [
+        "test_two.py::test_one",
+        "test_two.py::test_two",
+    ]
+    assert "\ntest_two.py::test_two: " in done.stdout
+    assert "CPU time of 2 tests: " in done.stdout
+
+
 def test_the_summary_names_wrong_marks_by_the_slowest_case_of_a_test() -> None:
     times = {"a.py::test_long[1]": 0.1, "a.py::test_long[2]": 9.0, "a.py::test_short": 0.2, "a.py::test_quick": 0.8}
     assert wrong_marks(times, {"a.py::test_short"}) == [
