@@ -1,5 +1,6 @@
 """What all tests share: settings of hypothesis, time limits, markers for system packages, the real sdformat."""
 
+import gc
 import os
 import subprocess
 from collections.abc import Callable
@@ -34,6 +35,13 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     for item in items:
         if "sdformat" in getattr(item, "fixturenames", ()):
             item.add_marker("sdformat")
+
+
+@pytest.hookimpl(trylast=True)
+def pytest_collection_finish() -> None:
+    """Leave all tests and imported modules out of further garbage collections, which took a second each."""
+    gc.collect()
+    gc.freeze()
 
 
 @pytest.hookimpl(tryfirst=True)  # before the fixtures of the test
