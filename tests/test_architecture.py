@@ -190,6 +190,7 @@ PUBLIC = {"_exit", "_asdict"}
 """Documented functions of the standard library: os._exit and namedtuple._asdict."""
 
 
+@pytest.mark.slow
 def test_no_private_attribute_is_used_outside_its_package() -> None:
     accesses = private_accesses(ROOT)
     libraries = {(file, name) for file, names in OF_LIBRARIES.items() for name in names}
@@ -227,6 +228,7 @@ AMBIGUOUS = {
 """Names of classes that have two meanings."""
 
 
+@pytest.mark.slow
 def test_class_names_have_one_meaning() -> None:
     counts: dict[str, int] = {}
     for path in ROOT.rglob("*.py"):

@@ -19,6 +19,7 @@ def own_files(monkeypatch):
     seed_files.seeds.cache_clear()
 
 
+@pytest.mark.slow
 @pytest.mark.filterwarnings("ignore")
 @pytest.mark.parametrize("family", sorted(FAMILIES))
 def test_a_changed_file_is_read_or_refused_in_one_line(family, tmp_path):

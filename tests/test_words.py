@@ -22,6 +22,7 @@ PLACES = (
 """All files that users and contributors read."""
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("place", PLACES)
 def test_names_and_sentences_use_the_words_of_the_field(place):
     files = files_below(ROOT / place)

@@ -22,6 +22,7 @@ def ran(capsys: pytest.CaptureFixture[str], *words: str) -> tuple[int, str, str]
     return code, out, err
 
 
+@pytest.mark.slow
 def test_the_arrays_are_those_of_python(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
     file = tmp_path / "map.npz"
     code, out, err = ran(capsys, *ARM, "--json", "-o", str(file))
@@ -46,6 +47,7 @@ def test_the_arrays_are_those_of_python(capsys: pytest.CaptureFixture[str], tmp_
     assert again.read_bytes() == file.read_bytes()
 
 
+@pytest.mark.slow
 def test_json_and_points_have_the_same_scores(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
     for name in ("map.json", "map.ply"):
         assert ran(capsys, *ARM, "-q", "--seed", "3", "-o", str(tmp_path / name))[0] == 0
@@ -64,6 +66,7 @@ def test_json_and_points_have_the_same_scores(capsys: pytest.CaptureFixture[str]
     assert points["green"][np.argmax(points["score"])] > points["green"][np.argmin(points["score"])]
 
 
+@pytest.mark.slow
 def test_a_cone_about_an_axis_and_the_summary(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
     file = tmp_path / "map.npz"
     code, out, err = ran(capsys, *ARM, "--cone", "-z,20", "--tool-axis", "x", "-q", "-o", str(file))
@@ -80,6 +83,7 @@ def test_a_cone_about_an_axis_and_the_summary(capsys: pytest.CaptureFixture[str]
     assert "2 joints move `shoulder_pitch_link`; with fewer than six it reaches few orientations" in err
 
 
+@pytest.mark.slow
 def test_collisions_lower_the_scores(capsys: pytest.CaptureFixture[str]) -> None:
     every, free = (json.loads(ran(capsys, *ARM, "-q", "--json", *more)[1]) for more in ((), ("--collision-free",)))
     assert 0 < free["reached"] < every["reached"]

@@ -29,6 +29,7 @@ def test_the_last_picture_is_saved(tmp_path: Path, capsys: Capture) -> None:
 
 
 @pytest.mark.opengl
+@pytest.mark.slow
 def test_both_renderers_save_the_same_picture(tmp_path: Path) -> None:
     found = []
     for renderer in ("ray", "gl"):

@@ -78,6 +78,7 @@ def test_two_runs_are_identical_but_for_the_times(capsys: Capture) -> None:
     assert texts[0] == texts[1]
 
 
+@pytest.mark.slow  # in a fresh checkout: kernels of the tests are compiled first
 def test_the_reference_engine_agrees(capsys: Capture, monkeypatch: pytest.MonkeyPatch) -> None:
     short = ["simpleton", "--for", "0.2", "--cmd-vel", "0.5,0,0.5", "--cmd-ramp", "0.1"]
     ours = run(capsys, *short)

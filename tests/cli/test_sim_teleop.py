@@ -234,6 +234,7 @@ def test_nobody_gets_in_without_the_key(simpleton, visits) -> None:
     assert answer.status == 403
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("how", [signal.SIGINT, signal.SIGTERM])
 def test_ending_is_clean_and_leaves_nothing_behind(serve, how: signal.Signals) -> None:
     served = serve("sim", "teleop", "simpleton")

@@ -15,6 +15,7 @@ def written(capsys, *words):
     return capsys.readouterr()
 
 
+@pytest.mark.slow
 def test_the_text_is_an_srdf_of_the_robot(capsys):
     root = ElementTree.fromstring(written(capsys).out)
     assert root.attrib == {"name": "seven_dof_arm"}
@@ -26,6 +27,7 @@ def test_the_text_is_an_srdf_of_the_robot(capsys):
     assert set(pairs.values()) <= {"Adjacent", "Default", "Always", "Never"}
 
 
+@pytest.mark.slow
 def test_json_has_every_pair_with_its_samples(capsys):
     values = json.loads(written(capsys, "--json", "--group", "wrist=elbow_pitch_link:gripper_roll_link").out)
     count = len(values["links"])
@@ -39,6 +41,7 @@ def test_json_has_every_pair_with_its_samples(capsys):
         assert (pair["distance"] is not None) == (pair["hits"] == 0 and pair["reason"] in ("Never", None))
 
 
+@pytest.mark.slow
 def test_an_update_replaces_only_lines_of_ours(tmp_path, capsys):
     old = tmp_path / "old.srdf"
     old.write_text(

@@ -49,6 +49,7 @@ def test_every_step_is_there(place: Path) -> None:
     assert [finding.code for finding in lint([place / "ws/src"]) if finding.severity != "note"] == []
 
 
+@pytest.mark.slow
 def test_the_rear_lidar_sees(place: Path) -> None:
     scan = json.loads((place / "rear.json").read_text())
     assert len(scan["ranges"]) == 541

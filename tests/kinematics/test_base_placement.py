@@ -45,6 +45,7 @@ def test_poses_that_one_place_reaches_are_reached(arm: tuple[Chain, ReachMap], s
     assert angle[best.reached].max() <= 1.745e-3
 
 
+@pytest.mark.slow
 def test_command(arm: tuple[Chain, ReachMap], tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     rows = ["x,y,z,qx,qy,qz,qw", "2,3,0.5,0,0,0,1", "2.1,3.1,0.5,0,0,0,1", "9,9,0.5,0,0,0,1"]
     (tmp_path / "poses.csv").write_text("\n".join(rows))

@@ -54,6 +54,7 @@ def test_random_reachable_poses_are_reached_within_limits(name: str, tmp_path: P
     np.testing.assert_allclose(found.rotation_error, angle, rtol=0, atol=1e-7)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("number", [1, 2, 3])
 def test_threads_and_order_change_no_bit(arm: Robot, number: int) -> None:
     chain = Chain(arm, "world", "finger_a")
@@ -135,6 +136,7 @@ def test_an_unknown_preference_is_refused(arm: Robot) -> None:
         Chain(arm, "world", "camera").solve(np.eye(4), prefer="nearst")
 
 
+@pytest.mark.slow
 def test_unreachable_targets_get_the_nearest_configuration(arm: Robot) -> None:
     chain = Chain(arm, "world", "finger_a")
     targets = chain.forward(random_configurations(chain, 8, 2))

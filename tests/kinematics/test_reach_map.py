@@ -57,6 +57,7 @@ def test_solutions_reach_their_poses_within_limits(arm: tuple[Chain, ReachMap]) 
     assert ((q >= chain.lower) & (q <= chain.upper)).all()
 
 
+@pytest.mark.slow
 def test_poses_that_many_restarts_reach_are_in_the_map(arm: tuple[Chain, ReachMap]) -> None:
     chain, found = arm
     random = np.random.default_rng(1)
@@ -82,6 +83,7 @@ def test_score_and_manipulability_are_those_of_the_solutions(arm: tuple[Chain, R
         assert layers[-1] > 0.0
 
 
+@pytest.mark.slow
 def test_threads_change_no_bit_and_another_seed_few_poses() -> None:
     chain = chain_of("bundled")
     options = {"resolution": 0.15, "orientations": 10}
@@ -93,6 +95,7 @@ def test_threads_change_no_bit_and_another_seed_few_poses() -> None:
     assert other.reached.sum() == pytest.approx(found[0].reached.sum(), rel=0.01)
 
 
+@pytest.mark.slow
 def test_configurations_without_collisions() -> None:
     chain = chain_of("bundled")
     options = {"resolution": 0.15, "orientations": 8}

@@ -52,6 +52,7 @@ def model(request: pytest.FixtureRequest, tmp_path: Path, arm_xml: str) -> Path:
     return path
 
 
+@pytest.mark.slow
 def test_robot_state_publisher_agrees(model: Path, ros: dict[str, str]) -> None:
     tree = TransformTree(load(model))
     rng = np.random.default_rng(6)

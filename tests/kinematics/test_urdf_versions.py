@@ -18,6 +18,7 @@ TOLERANCE = 1e-9
 ROBOTS = 200
 
 
+@pytest.mark.slow
 def test_random_robots_move_as_in_pinocchio(robot_of: Callable[[str], Robot]) -> None:
     worst = 0.0
     for seed in range(ROBOTS):

@@ -115,6 +115,7 @@ def test_an_open_mesh_is_taken_as_its_hull_and_a_flat_one_has_no_volume(tmp_path
     assert "flat" in note
 
 
+@pytest.mark.slow
 def test_many_shapes_in_a_row_that_overlap_are_their_box(monkeypatch):
     """Each of 80 boxes overlaps six others; the number of sample points is bounded."""
     checks = 0

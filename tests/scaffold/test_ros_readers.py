@@ -61,6 +61,7 @@ def test_sdformat_converts_it_and_takes_the_worlds(robots, sdformat, tmp_path):
         assert {f"{robot.name}::{joint.child}" for joint in robot.joints if joint.is_movable} <= links
 
 
+@pytest.mark.slow
 def test_pinocchio_and_mujoco(robots):
     import pinocchio
 

@@ -77,6 +77,7 @@ def test_poses_are_those_of_the_recording_in_every_format(name: str, tmp_path: P
             np.testing.assert_allclose(found, base @ matrices(relative), atol=1e-9)
 
 
+@pytest.mark.slow
 def test_a_recorded_simulation_is_replayed_with_its_poses(tmp_path: Path) -> None:
     simulator = Simulator("simpleton")
     simulator.command((0.5, 0, 0), (0, 0, 0.8))

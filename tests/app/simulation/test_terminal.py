@@ -171,6 +171,7 @@ def test_a_robot_is_driven_by_a_terminal_which_is_restored(end: Any) -> None:
         session.close()
 
 
+@pytest.mark.slow
 def test_without_a_terminal_one_line_says_so() -> None:
     command = [sys.executable, "-m", "urdfkit", "sim", "teleop", "simpleton", "--terminal"]
     done = subprocess.run(command, capture_output=True, text=True, stdin=subprocess.DEVNULL, check=False)

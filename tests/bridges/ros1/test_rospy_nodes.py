@@ -124,6 +124,7 @@ def test_the_command_sends_goals_over_ros1(master: Master, capsys: pytest.Captur
     assert lines == []
 
 
+@pytest.mark.slow
 def test_nodes_find_each_other_and_again_after_the_master_was_gone(master: Master) -> None:
     lines, received = list[str](), list[Any]()
     first, second = Ros1Node(report=lines.append), Ros1Node(name="/other", report=lines.append)

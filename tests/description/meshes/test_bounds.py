@@ -48,6 +48,7 @@ def written(folder: Path, kind: str, shape: trimesh.Trimesh, angle: float, seed:
     return path
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("subdivisions", [1, 5])
 @pytest.mark.parametrize("kind", ["stl", "stl text", "obj", "dae", "glb", "glb turned"])
 def test_exact_bounds_are_those_of_the_loader(kind: str, subdivisions: int, tmp_path: Path) -> None:
@@ -60,6 +61,7 @@ def test_exact_bounds_are_those_of_the_loader(kind: str, subdivisions: int, tmp_
         path.unlink()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", ["stl", "stl text", "obj", "dae"])
 def test_estimates_lie_inside_and_near_the_bounds(kind: str, tmp_path: Path) -> None:
     for seed in range(3):

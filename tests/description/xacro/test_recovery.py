@@ -317,6 +317,7 @@ def test_faults_in_an_infinite_recursion_are_reported_for_its_first_round(write:
     assert expanded.root.children[-1].get("name") == "left"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", HOSTILE)
 def test_a_hostile_file_has_few_faults(write: Write, name: str) -> None:
     text, cause = HOSTILE[name]

@@ -162,6 +162,7 @@ def busy_but_for(left_out: float, seconds: float) -> None:
     busy(seconds)
 
 
+@pytest.mark.slow
 def test_an_excluded_block_does_not_count() -> None:
     with CostLimit(0.5):
         with excluded():

@@ -141,6 +141,7 @@ def test_every_element_is_where_its_origin_says(text: str) -> None:
         assert shape(alone) == shape(element)
 
 
+@pytest.mark.slow
 @given(documents())
 def test_both_readers_agree_with_minidom(text: str) -> None:
     source = Source("a", text)

@@ -42,6 +42,7 @@ CHANGES = (
 )
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", range(6))
 def test_findings_after_edits_are_those_of_a_fresh_check(seed: int, tmp_path: Path) -> None:
     dice = random.Random(seed)

@@ -87,6 +87,7 @@ def test_each_world_gives_the_bytes_of_a_single_simulation(case: str) -> None:
             assert_single(batch, world, single)
 
 
+@pytest.mark.slow
 def test_worlds_with_other_bodies_give_the_bytes_of_a_single_simulation(tmp_path: Any) -> None:
     world = tmp_path / "boxes.sdf"
     world.write_text(BOXES)

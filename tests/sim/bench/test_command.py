@@ -110,6 +110,7 @@ def example(*, right: bool = True) -> Report:
     return Report(machine, versions, {}, 0.3, 2, [Compared(SCENES[0], speeds)], rows, held)
 
 
+@pytest.mark.slow
 def test_the_json_is_of_the_documented_shape(capsys: Capture) -> None:
     pytest.importorskip("mujoco")
     assert main(["--scene", "diff-drive", "--json", *QUICK]) == 0
@@ -243,6 +244,7 @@ def test_colours_only_where_they_are_wanted(monkeypatch: pytest.MonkeyPatch) -> 
     assert "\x1b" not in table(example())
 
 
+@pytest.mark.slow
 def test_memory_is_that_of_a_fresh_process() -> None:
     found = memory_use.measure()
     assert 20e6 < found.resident <= found.peak < memory_use.MOST

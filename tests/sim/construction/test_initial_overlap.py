@@ -87,6 +87,7 @@ def test_a_body_that_is_put_on_the_ground() -> None:
     assert spawned(0.0) == []
 
 
+@pytest.mark.slow
 def test_a_robot_that_is_put_into_another(world: Path) -> None:
     notes: list[str] = []
     simulator = Simulator("simpleton", world=world, note=notes.append)

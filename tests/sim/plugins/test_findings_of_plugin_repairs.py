@@ -78,6 +78,7 @@ def cases(spec: PluginSpec) -> Iterator[dict[str, str | None]]:
         yield {"cmd_min": "1", "cmd_max": "0"}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("spec", SPECS, ids=lambda spec: f"{spec.kind}-{spec.generation}")
 def test_every_invalid_parameter_has_a_finding_at_its_place(tmp_path: Path, spec: PluginSpec) -> None:
     path = tmp_path / "r.urdf"

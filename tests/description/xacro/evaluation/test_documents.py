@@ -20,6 +20,7 @@ HOSTILE = ("too-large", "include-cycle")
 """Folders of files on which stock xacro does not end."""
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("folder", FOLDERS, ids=lambda folder: folder.name)
 def test_every_file_expands_as_with_stock_xacro(folder: Path) -> None:
     if not folder.is_dir():

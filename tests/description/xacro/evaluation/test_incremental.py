@@ -178,6 +178,7 @@ def outcome(entry: str, packages: Packages, texts: dict[str, str], memory: Memor
     return facts(expanded)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", range(12))
 def test_a_remembered_expansion_is_equal_to_a_fresh_one(seed: int, tmp_path: Path) -> None:
     dice = random.Random(seed)

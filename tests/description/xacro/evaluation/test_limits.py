@@ -95,6 +95,7 @@ def hostile_file(write: Write, text: str) -> Path:
     return write("m.xacro", f"HEAD{text}</robot>")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", HOSTILE)
 def test_a_hostile_file_is_refused(write: Write, name: str) -> None:
     text, cause = HOSTILE[name]
@@ -105,6 +106,7 @@ def test_a_hostile_file_is_refused(write: Write, name: str) -> None:
     assert time.process_time() - start < FINITE
 
 
+@pytest.mark.slow
 def test_recovery_spends_no_more_on_files_that_are_refused(write: Write) -> None:
     write("deep.yaml", "[" * 2_000 + "]" * 2_000)
     path = write("m.xacro", "HEAD" + "<l a=\"${xacro.load_yaml('deep.yaml')}\"/>" * 1000 + "</robot>")
@@ -123,6 +125,7 @@ def test_a_file_in_a_folder_without_permission_cannot_be_read(monkeypatch: pytes
     assert str(unreadable(missing, is_include=True)) == "included file private/part.xacro cannot be read"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("definition", "use"),
     [

@@ -46,6 +46,7 @@ def compare(seed: int, folder: Path, found: Counter[str]) -> str:
     return ""
 
 
+@pytest.mark.slow
 @pytest.mark.filterwarnings("ignore::SyntaxWarning", "ignore::DeprecationWarning")
 def test_random_files_expand_as_with_stock_xacro(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)

@@ -120,6 +120,7 @@ def test_gap_and_normal_are_those_of_coal(kind_a: int, kind_b: int) -> None:
         assert not wrong
 
 
+@pytest.mark.slow  # in a fresh checkout: the kernel is compiled first
 def test_a_ball_and_a_cylinder_are_as_far_apart_as_geometry_says() -> None:
     rng = np.random.default_rng(4)
     for _ in range(PLACES):

@@ -116,6 +116,7 @@ def pile(rng, count):
     return [6] * count, touching
 
 
+@pytest.mark.slow  # in a fresh checkout: the kernel is compiled first
 @pytest.mark.parametrize("seed", range(8))
 def test_random_piles(solve, seed):
     rng = np.random.default_rng(seed)

@@ -200,6 +200,7 @@ CONTROLLERS: dict[tuple[str, int], dict[str, str]] = {
 OTHERS = ("odom_frame_id", "enable_odom_tf", "pose_covariance_diagonal", "use_stamped_vel", "max_effort_interface")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("kind", "ros"), CONTROLLERS)
 def test_parameters_that_a_controller_cannot_read_have_a_finding(tmp_path: Path, kind: str, ros: int) -> None:
     parameters = CONTROLLERS[kind, ros]
