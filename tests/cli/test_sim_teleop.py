@@ -5,6 +5,7 @@ import subprocess
 import sys
 from concurrent.futures import Future
 from pathlib import Path
+from threading import Event
 
 import pytest
 
@@ -13,7 +14,7 @@ pytest.importorskip("meshcat")
 pytest.importorskip("numba")
 
 from urdfkit.app.simulation.clock_rate import BEHIND, FRAME
-from urdfkit.app.simulation.loop import DriveLoop
+from urdfkit.app.simulation.loop import SERVED, DriveLoop
 from urdfkit.cli import main
 from urdfkit.view.protocol.websocket_messages import Axes
 
@@ -356,6 +357,38 @@ def test_a_simulation_that_diverges_pauses_with_an_error(ride: DriveLoop, capfd,
     spend(ride, 2 * FRAME)
     assert ride.simulator.paused
     assert capfd.readouterr().err == "urdfkit: the simulation diverged at t = 1 s\n"
+
+
+class Calls:
+    """Bridges whose peer calls at the third wait; each wait takes as long as it may."""
+
+    def __init__(self, wall: Wall, stop: Event) -> None:
+        self.calls = self  # of bridges and queue, what the loop uses
+        self.waits: list[float] = []
+        self._wall, self._stop = wall, stop
+
+    def wait(self, seconds: float) -> bool:
+        self.waits.append(seconds)
+        self._wall.now += max(seconds, 1e-4)
+        if len(self.waits) == 40:
+            self._stop.set()
+        return len(self.waits) == 3
+
+    def take(self) -> None:
+        pass
+
+
+@pytest.mark.parametrize("paused", [False, True])
+def test_after_a_call_of_a_peer_each_step_is_taken_when_it_is_due(ride: DriveLoop, paused: bool) -> None:
+    stop = Event()
+    ride.bridges = calls = Calls(ride.wall, stop)  # type: ignore[assignment]
+    ride.simulator.paused = paused
+    ride.run(stop)
+    before, after, later = calls.waits[:3], calls.waits[3:8], calls.waits[-3:]
+    assert before == pytest.approx([SERVED] * 3)
+    assert max(after) <= (SERVED if paused else ride.simulator.dt) + 1e-9
+    assert max(later) > ride.simulator.dt
+    assert paused or max(after) < min(before)
 
 
 def test_what_is_spawned_appears_on_the_page_and_what_is_removed_vanishes() -> None:

@@ -44,6 +44,8 @@ from urdfkit.view.server.server import Server
 
 SERVED = 0.002
 """Longest pause of the simulation while a bridge is open [s]."""
+PROMPT = 0.01
+"""Time after a call of a peer in which each step is taken when it is due: its effect is published at once [s]."""
 STATUS = 0.1
 """Seconds between two status messages to the page."""
 PATIENCE = 0.05
@@ -98,7 +100,7 @@ class DriveLoop:
         self._driven = ""
         self._failed = False
         self._requests: deque[Request] = deque()
-        self._reported = -math.inf
+        self._reported = self._prompt_until = -math.inf
         self._warnings: list[str] = []
         self.report, simulator.note.report = simulator.note.report, self._warn
         self.look: Callable[[], None] = lambda: None  # subscribes a recording to new topics
@@ -168,14 +170,20 @@ class DriveLoop:
 
     def _rest(self, due: float) -> None:
         """Wait until the next iteration is due; serve the peers of bridges meanwhile."""
-        while (wait := due - self._clock()) > 0:
+        while (wait := due - (now := self._clock())) > 0:
             if not self.bridges:
                 self._sleep(wait)
                 continue
-            self.bridges.calls.wait(min(wait, SERVED))
+            is_prompt = now < self._prompt_until and self._is_running
+            if self.bridges.calls.wait(min(wait, self.pace.wait(self.simulator.t) if is_prompt else SERVED)):
+                self._prompt_until = self._clock() + PROMPT
             self.bridges.take()
-            if not self.replay.playing and not self.simulator.paused:
+            if self._is_running:
                 self._physics()
+
+    @property
+    def _is_running(self) -> bool:
+        return not self.replay.playing and not self.simulator.paused
 
     def tick(self) -> None:
         """Run one iteration: requests, drive commands, physics, poses."""
