@@ -121,7 +121,16 @@ CALLS = """<robot name="arm" xmlns:xacro="http://www.ros.org/wiki/xacro">
 """
 
 
-@pytest.mark.parametrize(("other", "is_found"), [("elbo", False), ("wrist", True), ("${tool}", False)])
+@pytest.mark.parametrize(
+    ("other", "is_found"),
+    [
+        ("elbo", False),
+        ("wrist", True),
+        ("${tool}", False),
+        ("${tool}bo", False),
+        ("${tool}wrist", True),
+    ],
+)
 def test_of_names_that_macros_make_those_count_that_their_calls_give(workspace, other, is_found):
     (workspace / "arm_description" / "urdf" / "arm.urdf").unlink()
     (workspace / "arm_description" / "urdf" / "arm.urdf.xacro").write_text(CALLS.format(other=other))

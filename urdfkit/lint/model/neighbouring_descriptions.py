@@ -73,8 +73,15 @@ class NeighbouringDescriptions:
         return {str(path.absolute()): text for folder in sorted(folders) for path, text in descriptions(folder)}
 
 
-def _pattern(name: str, calls: str, texts: str) -> str:
-    """Return the pattern of a name; literal arguments of the macro's calls replace its parameters."""
+def _pattern(name: str, calls: str, texts: str, outer: tuple[str, ...] = ()) -> str:
+    """Return the pattern of a name; the arguments of the macro's calls replace its parameters.
+
+    Args:
+        name: a name with expressions.
+        calls: the calls of macros and the defaults of their parameters.
+        texts: the texts of the descriptions.
+        outer: the parameters whose arguments are being replaced.
+    """
     parts = []
     for part in re.split(r"(\$\([^()]*\)|\$\{[^{}]*\})", name):
         if not part.startswith("$"):
@@ -82,10 +89,15 @@ def _pattern(name: str, calls: str, texts: str) -> str:
             continue
         word = re.fullmatch(r"\$\{\s*(\w+)\s*\}", part)
         values = set(re.findall(rf"(?<![\w:]){word[1]}\s*:?=\s*[\"']?([^\"'\s]*)", calls)) if word else set()
-        is_written = values and len(values) <= _MAX_VALUES and not any("$" in value or "^" in value for value in values)
+        is_written = values and len(values) <= _MAX_VALUES and not any("^" in value for value in values)
         is_set = word is not None and re.search(rf"property\s+name\s*=\s*[\"']{word[1]}[\"']", texts)
-        parts.append(f"(?:{'|'.join(map(re.escape, sorted(values)))})" if is_written and not is_set else ".*")
-    return "".join(parts)
+        if word is None or not is_written or is_set or word[1] in outer or len(outer) >= _MAX_DEPTH:
+            parts.append(".*")
+            continue
+        patterns = sorted({_pattern(value, calls, texts, (*outer, word[1])) for value in values})
+        parts.append(".*" if ".*" in patterns else f"(?:{'|'.join(patterns)})")
+    pattern = "".join(parts)
+    return ".*" if "\\$" in pattern or len(pattern) > _MAX_LENGTH else pattern
 
 
 _CALL = r"<xacro:(?!macro\b|property\b|arg\b|include\b|if\b|unless\b)[^<>]*>"
@@ -94,3 +106,9 @@ _DEFAULTS = r"\bparams\s*=\s*(?:\"[^\"]*\"|'[^']*')"
 
 _MAX_VALUES = 200
 """Maximum number of values of one parameter."""
+
+_MAX_DEPTH = 2
+"""Maximum number of macros through which a parameter is followed."""
+
+_MAX_LENGTH = 20_000
+"""Maximum length of the pattern of one name; longer ones match every name."""
