@@ -50,6 +50,22 @@ FILTER = """ekf_filter_node:
     imu0: imu_broadcaster/imu
     imu0_differential: true
 """
+ROS1_FILTER = """frequency: 30
+map_frame: map
+odom_frame: odom
+base_link_frame: base_link
+world_frame: odom
+imu0: imu
+imu0_relative: true
+two_d_mode: true
+"""
+MAP = """image: room.pgm
+mode: trinary
+resolution: 0.05
+origin: [0.0, 0.0, 0.0]
+occupied_thresh: 0.65
+free_thresh: 0.25
+"""
 NAVIGATION = """controller_server:
   ros__parameters:
     controller_frequency: 20.0
@@ -86,7 +102,7 @@ amcl:
     laser_model_type: likelihood_field
     global_frame_id: map
 """
-FILES = {"controllers": CONTROLLERS, "filter": FILTER, "navigation": NAVIGATION}
+FILES = {"controllers": CONTROLLERS, "filter": FILTER, "navigation": NAVIGATION, "ros1": ROS1_FILTER, "map": MAP}
 
 BAD = [
     ("controllers", "update_rate: 100", "update_rate: 100.0", "K974", 3, "write 100"),
@@ -131,6 +147,14 @@ BAD = [
     ("navigation", "likelihood", "likelyhood", "K971", 34, "did you mean `likelihood_field`?"),
     ("navigation", "_id: map", "_id: mpa", "K971", 35, "unknown frame `mpa`; did you mean `map`?"),
     ("filter", "imu0_differential", "imu_differential", "K971", 9, "did you mean `imu0_differential`?"),
+    ("filter", "30.0", "0.0", "K971", 3, "`frequency` is 0; it must be positive"),
+    ("ros1", "world_frame: odom", "world_frame: base", "K971", 5, "neither `map_frame` nor `odom_frame`"),
+    ("ros1", "imu0_relative", "imu0_relativ", "K971", 7, "did you mean `imu0_relative`?"),
+    ("ros1", "two_d_mode", "two_d_mod", "L104", 8, "parameter `two_d_mod` of node `robot_localization`; did you mean"),
+    ("map", "room.pgm", "roon.pgm", "K971", 1, "image `roon.pgm` of the map does not exist; did you mean `room.pgm`?"),
+    ("map", "trinary", "trinery", "K971", 2, "unknown `mode` `trinery` of the map; did you mean `trinary`?"),
+    ("map", "0.05", "0", "K971", 3, "`resolution` is 0 m; it must be positive"),
+    ("map", "0.25", "0.75", "K971", 6, "`free_thresh` is 0.75, more than `occupied_thresh`, 0.65"),
 ]
 
 GOOD = [
@@ -143,6 +167,9 @@ GOOD = [
     ("navigation", "max_velocity: [0.5, 0.0, 1.0]", "max_velocity: [0.5, 0.0, 0.0, 0.0, 0.0, 1.0]"),
     ("filter", "world_frame: odom", "world_frame: $(var world)"),
     ("filter", "imu_broadcaster/imu", "imu/data"),
+    ("ros1", "imu0: imu", "imu0: imu/data"),
+    ("map", "room.pgm", "/maps/room.pgm"),
+    ("map", "trinary", "scale"),
 ]
 
 
@@ -162,6 +189,7 @@ def findings(folder: Path, name: str, old: str, new: str) -> list[tuple[str, int
         assert file != name or old in before
         changed = before.replace(old, new, 1)[1:] if file == name else text
         (folder / f"config/{file}.yaml").write_text(changed)
+    (folder / "config/room.pgm").write_bytes(b"P5 1 1 255 \0")
     found = lint(folder)
     return [(one.code, one.line, one.message) for one in found if one.file.endswith(".yaml")]
 

@@ -121,11 +121,15 @@ def misspelt_parameters(source: Source) -> Iterator[tuple[Node, str, str]]:
     """Yield the misspelt parameters of well-known nodes in a YAML file: key, name of the node, suggested name."""
     from urdfkit.lint.facts.ros_packages import is_slip
 
-    if not any(name in source.text for name in _parameters()):
+    if not any(name in source.text for name in (*_parameters(), "base_link_frame")):
         return
     for document in documents(source)[0]:
-        for name, section in document.entries:
-            accepted = _parameters().get(name.text.rpartition("/")[2], ())
+        entries = [(key, key.text.rpartition("/")[2], value) for key, value in document.entries]
+        frame, is_filter = document.find("base_link_frame"), document.find("world_frame") is not None
+        if frame is not None and is_filter:  # a file of ROS 1, loaded inside of the node
+            entries = [(frame, "ekf_filter_node", document)]
+        for name, kind, section in entries:
+            accepted = _parameters().get(kind, ())
             group = section.find("ros__parameters") or section
             written = {key.text.partition(".")[0] for key, _ in group.entries} if accepted else set()
             lacking = [each for each in accepted if each not in written and len(each) >= _MIN_LENGTH]
@@ -133,4 +137,4 @@ def misspelt_parameters(source: Source) -> Iterator[tuple[Node, str, str]]:
                 first = key.text.partition(".")[0]
                 near = next((each for each in lacking if is_slip(first, each)), None) if first not in accepted else None
                 if near is not None:
-                    yield key, name.text, near
+                    yield key, name.text if name is not frame else "robot_localization", near

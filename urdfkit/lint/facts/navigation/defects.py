@@ -60,6 +60,10 @@ def navigation_defects(source: Source, controllers: frozenset[str]) -> Defects:
         controllers: the names of the controllers of the robot, in which topics of sensors start.
     """
     if PARAMETERS not in source.text:
+        for root in documents(source)[0] if "base_link_frame" in source.text else ():  # a file of ROS 1
+            for group in (root, *(value for _, value in root.entries)):
+                if all(group.find(f"{name}_frame") is not None for name in ("world", "odom", "base_link")):
+                    yield from _filter(group, controllers)
         return
     for key, group in sections(source):
         name = key.text.strip("/").rpartition("/")[2]
@@ -247,6 +251,10 @@ def _filter(group: Node, controllers: frozenset[str]) -> Defects:
     if world is not None and is_literal and world.text not in names:
         hint = suggestion(nearest(world.text, names)) or f"; write `{names[0]}` or `{names[1]}`"
         yield world, f"`world_frame` is `{world.text}`, which is neither `map_frame` nor `odom_frame`{hint}"
+    frequency = group.find("frequency")
+    rate = number_of(frequency) if frequency is not None else None
+    if frequency is not None and rate is not None and rate <= 0.0:
+        yield frequency, f"`frequency` is {rate:g}; it must be positive"
     inputs = {key.text for key, _ in group.entries}
     for key, value in group.entries:
         at = re.fullmatch(_INPUT, key.text)
