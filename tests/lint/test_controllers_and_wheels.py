@@ -63,3 +63,8 @@ def test_a_left_wheel_on_the_right_side(left: str, right: str, axis: str, is_swa
     messages = found(write, "", left, right, axis)
     assert len(messages) == is_swapped
     assert all("is on the right side" in message for message in messages)
+
+
+def test_two_wheels_at_the_same_place(write) -> None:
+    (message,) = found(write, "wheel_radius: 0.1", "0 0.2 0", "0 0.2 0")
+    assert message == "wheels `left_joint` and `right_joint` are at the same place, 0 0.2 0 m"

@@ -68,6 +68,12 @@ def test_numbers(inside: str, expected: list[str]) -> None:
             [("horizontal", "<horizontal> goes from 1 to 0 rad: the smaller angle is <min_angle>")],
         ),
         (
+            scan("<samples>9</samples><min_angle>1</min_angle><max_angle>1</max_angle>"),
+            [("horizontal", "<horizontal> has 9 samples, but <min_angle> and <max_angle> are both 1 rad")],
+        ),
+        (scan("<samples>1</samples><min_angle>1</min_angle><max_angle>1</max_angle>"), []),
+        (scan("<samples>9</samples><min_angle>0</min_angle><max_angle>0</max_angle>"), []),
+        (
             scan("<max_angle>-1</max_angle>"),
             [("horizontal", "<horizontal> goes from 0 to -1 rad: the smaller angle is <min_angle>")],
         ),

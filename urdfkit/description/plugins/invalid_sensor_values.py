@@ -95,6 +95,8 @@ def _senseless_fan(fan: Element) -> Senseless:
     low, high = _number(fan, "min_angle", 0.0), _number(fan, "max_angle", 0.0)
     if low > high:
         yield fan, f"<{fan.tag}> goes from {low:g} to {high:g} rad: the smaller angle is <min_angle>"
+    elif low == high != 0.0 and samples > 1:
+        yield fan, f"<{fan.tag}> has {samples:g} samples, but <min_angle> and <max_angle> are both {low:g} rad"
 
 
 def senseless_camera(camera: Element, *, is_wide: bool = False) -> Senseless:

@@ -25,7 +25,7 @@ class ControllerContradictsWheels(RobotRule):
     Compares ``wheel_separation`` and ``wheel_radius`` in YAML with the joints and shapes of the wheels, and checks the
     positions of the left and right wheels: x points forward and y left (REP 103). Deviations of up to 10 % are
     accepted. With several wheels on each side a factor of two is accepted for the separation, because the wheels slip
-    when the robot turns. Wheels with meshes are not measured.
+    when the robot turns. Wheels with meshes are not measured. A left and a right wheel at the same place are reported.
 
     Nothing is reported if another description in the package or its neighbours also has continuous joints.
 
@@ -100,6 +100,10 @@ class ControllerContradictsWheels(RobotRule):
             position = f"y = {first.place[1]:g} m"
             message = f"left wheel `{node.text}` of controller `{controller.name}` is on the right side, at {position}"
             yield self._at(source, node, message, node.text, "swap the wheel names")
+        if first.joint is not other.joint and first.place == other.place and first.place[1] != 0.0:
+            position = f"{first.place[0]:g} {first.place[1]:g} {first.place[2]:g} m"
+            message = f"wheels `{node.text}` and `{right[0][0].text}` are at the same place, {position}"
+            yield self._at(source, node, message, node.text, "check the signs of the joint origins")
         separation_of_joints = abs(lateral)
         max_ratio = SKID_STEER_RATIO if len(left) > 1 else 1.0 + TOLERANCE
         distances = [
