@@ -21,9 +21,9 @@ class InterfaceLimits(RobotRule):
 
     ## What it does
     Compares ``<param name="min">`` and ``<param name="max">`` of the command interfaces ``position``, ``velocity`` and
-    ``effort`` with the ``<limit>`` of the joint, and with each other. A ``min`` above its ``max``, and values that
-    appear to be in degrees, are warnings. Any other value beyond the limit of the joint is a note, because the narrower
-    limit still applies.
+    ``effort`` with the ``<limit>`` of the joint, and with each other. A ``min`` that is not below its ``max``, and
+    values that appear to be in degrees, are warnings. Any other value beyond the limit of the joint is a note, because
+    the narrower limit still applies.
 
     ## Why is this bad?
     One of the two values is wrong. With ``min`` above ``max`` no command is accepted, and the effect of limits wider
@@ -96,8 +96,9 @@ class InterfaceLimits(RobotRule):
         name = interface.get("name") or ""
         if joint is None:
             return
-        if low is not None and high is not None and low > high:
-            message = f"{name} command of joint `{joint.name}`: min {low:g} is greater than max {high:g}"
+        if low is not None and high is not None and (low > high or low == high != 0.0):
+            relation = "greater than" if low > high else "equal to"
+            message = f"{name} command of joint `{joint.name}`: min {low:g} is {relation} max {high:g}"
             yield self.at(model, params["min"], message, joint=joint.name)
             return
         allowed = _limits(joint, name)
