@@ -260,6 +260,13 @@ CASES: list[tuple[str, str, list[str]]] = [
         control(command("velocity", "min", 1).replace("</param>", '</param><param name="max">1</param>')),
         ["warning: velocity command of joint `elbow`: min 1 is equal to max 1"],
     ),
+    (
+        "C719",
+        control(command("position", "initial_value", 9).replace("command_", "state_")),
+        ["warning: initial position 9 rad of joint `elbow` is beyond its limits -1 … 1 rad"],
+    ),
+    ("C719", control(command("position", "initial_value", 1.0005).replace("command_", "state_")), []),
+    ("C719", control(command("velocity", "initial_value", 9).replace("command_", "state_")), []),
 ]
 
 

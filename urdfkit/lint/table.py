@@ -172,7 +172,7 @@ ROBOT: tuple[Row, ...] = (
     ("ros2_control", "control.ros2_control_hardware", "HardwareMismatch"),
     ("ros2_control", "control.interface_combination", "InterfaceCombination"),
     ("ros2_control", "control.hardware_without_plugin", "HardwareWithoutPlugin"),
-    ("command_interface", "control.interface_limits", "InterfaceLimits"),
+    ("ros2_control", "control.interface_limits", "InterfaceLimits"),
 )
 
 _LAUNCH = ".launch .launch.xml .launch.py .launch.yaml _launch.xml _launch.py _launch.yaml"

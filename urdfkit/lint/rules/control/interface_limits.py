@@ -23,7 +23,7 @@ class InterfaceLimits(RobotRule):
     Compares ``<param name="min">`` and ``<param name="max">`` of the command interfaces ``position``, ``velocity`` and
     ``effort`` with the ``<limit>`` of the joint, and with each other. A ``min`` that is not below its ``max``, and
     values that appear to be in degrees, are warnings. Any other value beyond the limit of the joint is a note, because
-    the narrower limit still applies.
+    the narrower limit still applies. An ``initial_value`` of the position beyond the limits of the joint is a warning.
 
     ## Why is this bad?
     One of the two values is wrong. With ``min`` above ``max`` no command is accepted, and the effect of limits wider
@@ -86,16 +86,31 @@ class InterfaceLimits(RobotRule):
         for block in model.robot.ros2_control:
             for part in block.element.find_all("joint"):
                 joint = model.robot.joint_by_name.get(part.get("name") or "")
-                for interface in part.find_all("command_interface") if joint is not None else ():
+                if joint is None:
+                    continue
+                for interface in part.find_all("command_interface"):
                     yield from self._check_interface(model, interface, joint)
+                for interface in part.find_all("state_interface"):
+                    yield from self._check_start(model, interface, joint)
 
-    def _check_interface(self, model: Model, interface: Element, joint: Joint | None) -> Findings:
+    def _check_start(self, model: Model, interface: Element, joint: Joint) -> Findings:
+        allowed = _limits(joint, "position") if interface.get("name") == "position" else None
+        if allowed is None:
+            return
+        for param in interface.find_all("param"):
+            value = number(param.text) if param.get("name") == "initial_value" else None
+            slack = 1e-3 * max(map(abs, (*allowed, 1.0)))
+            if value is not None and not allowed[0] - slack <= value <= allowed[1] + slack:
+                unit = _UNITS["position"][joint.type != "prismatic"]
+                limits = f"{allowed[0]:g} … {allowed[1]:g} {unit}"
+                message = f"initial position {value:g} {unit} of joint `{joint.name}` is beyond its limits {limits}"
+                yield self.at(model, param, message, joint=joint.name, severity="warning")
+
+    def _check_interface(self, model: Model, interface: Element, joint: Joint) -> Findings:
         params = {param.get("name"): param for param in interface.find_all("param")}
         values = {name: number(params[name].text) for name in ("min", "max") if name in params}
         low, high = values.get("min"), values.get("max")
         name = interface.get("name") or ""
-        if joint is None:
-            return
         if low is not None and high is not None and (low > high or low == high != 0.0):
             relation = "greater than" if low > high else "equal to"
             message = f"{name} command of joint `{joint.name}`: min {low:g} is {relation} max {high:g}"
