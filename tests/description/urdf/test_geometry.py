@@ -5,6 +5,7 @@ from __future__ import annotations
 from itertools import product
 from math import cos, pi, sin
 
+import numpy as np
 import pytest
 
 from urdfkit.description.urdf.geometry import (
@@ -16,8 +17,9 @@ from urdfkit.description.urdf.geometry import (
     rotation_of,
     rpy_of,
     rpy_of_quaternion,
+    second_moments,
 )
-from urdfkit.description.urdf.robot import Pose
+from urdfkit.description.urdf.robot import Box, Capsule, Cylinder, Geometry, Pose, Sphere
 
 ANGLES = [
     (roll, pitch, yaw)
@@ -78,3 +80,24 @@ def test_the_identity_changes_no_digit_of_a_pose(pose: Pose) -> None:
 def test_the_difference_of_poses_is_the_larger_of_distance_and_rotation() -> None:
     assert difference(Pose((1.0, 2.0, 3.0)), Pose((1.0, 2.5, 2.0))) == 1.0
     assert difference(Pose(), Pose((0.1, 0.0, 0.0), (0.0, 0.0, pi / 2))) == pytest.approx(1.0)
+
+
+@pytest.mark.parametrize(
+    "shape",
+    [Box((0.6, 0.4, 0.2)), Sphere(0.3), Cylinder(radius=0.2, length=0.7), Capsule(radius=0.2, length=0.7)],
+    ids=lambda shape: type(shape).__name__,
+)
+def test_second_moments_are_those_of_slices(shape: Geometry) -> None:
+    unit = (np.arange(20_000) + 0.5) / 10_000 - 1.0
+    if isinstance(shape, Box):
+        x, y, height = shape.size
+        z, weight = unit * height / 2, np.ones_like(unit)
+        across = np.full_like(z, x**2 / 12), np.full_like(z, y**2 / 12)
+    else:
+        assert isinstance(shape, (Sphere, Cylinder, Capsule))
+        half = 0.0 if isinstance(shape, Sphere) else shape.length / 2
+        z = unit * (half if isinstance(shape, Cylinder) else half + shape.radius)
+        weight = shape.radius**2 - np.maximum(np.abs(z) - half, 0.0) ** 2  # squares of the radii of slices
+        across = weight / 4, weight / 4
+    expected = [np.average(values, weights=weight) for values in (*across, z**2)]
+    assert second_moments(shape) == pytest.approx(expected, rel=1e-6)  # of 20,000 slices

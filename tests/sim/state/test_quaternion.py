@@ -16,10 +16,17 @@ from urdfkit.description import load
 from urdfkit.kinematics import Kinematics
 from urdfkit.resources import find_model
 from urdfkit.sim.engine import Engine
-from urdfkit.sim.state.quaternion import from_matrix
+from urdfkit.sim.state.quaternion import from_matrix, product
 
 LEAST_LOST = 80
 """What Pinocchio 4.1 loses at each ``pin.Quaternion(R)`` [B]."""
+
+
+def test_a_product_is_the_rotation_by_the_second_then_the_first() -> None:
+    rng = np.random.default_rng(0)
+    for first, second in rng.normal(size=(20, 2, 4)):
+        a, b = (pin.Quaternion(*(q[[3, 0, 1, 2]] / np.linalg.norm(q))) for q in (first, second))
+        np.testing.assert_allclose(product(a.coeffs(), b.coeffs()), (a * b).coeffs(), atol=1e-15)
 
 
 def test_a_matrix_becomes_its_quaternion() -> None:
