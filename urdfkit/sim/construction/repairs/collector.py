@@ -14,6 +14,8 @@ if TYPE_CHECKING:
     from urdfkit.description.xml.source import Position
     from urdfkit.errors import UrdfkitError
 
+_REFUSED = " (refused: strict)"
+
 DENSITY = 1000.0
 """Default density of links without mass [kg/m³]: water."""
 
@@ -47,7 +49,7 @@ class Repairs:
         new = [repair for repair in dict.fromkeys(at_attributes(repairs)) if repair not in self._recorded]
         if self.strict and (refused := next((one for one in new if one.severity == "warning"), None)) is not None:
             defect = refused.message.partition("; simulated with ")[0]
-            raise SimulationError(f"{defect} (refused: strict)", position=refused.position, code=refused.code)
+            raise SimulationError(f"{defect}{_REFUSED}", position=refused.position, code=refused.code)
         self._recorded.update(new)
         self.found += new
         for repair in grouped(new):
@@ -72,8 +74,9 @@ class Repairs:
             position: source position for an error without position.
 
         Raises:
-            UrdfkitError: the error, if robots that need a repair are refused.
+            SimulationError: robots that need a repair are refused.
         """
         if self.strict:
-            raise error
+            message = error.message.removesuffix(_REFUSED)  # of a part inside this one
+            raise SimulationError(f"{message}{_REFUSED}", position=error.position, code=error.code) from error
         self.add(Repair(kind, error.code or code, with_effect(error.message, effect), error.position or position))
