@@ -7,10 +7,13 @@ import os
 import re
 import shlex
 import subprocess
+from contextlib import redirect_stderr, redirect_stdout
+from io import StringIO
 from pathlib import Path
 
 import pytest
 
+from tests.docs.course import HOME, Step, agrees, blocks, commands
 from urdfkit.cli import main
 from urdfkit.description import load
 from urdfkit.lint import lint
@@ -24,19 +27,35 @@ def shown() -> list[str]:
 
 
 @pytest.fixture(scope="module")
-def place(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """Type what the page states, but for what serves a page until it is stopped."""
-    folder = tmp_path_factory.mktemp("tutorial")
+def steps(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, list[Step]]:
+    """Type what the page states, but for what serves a page until it is stopped; return the folder and the outputs."""
+    folder = tmp_path_factory.mktemp("tutorial").resolve()
+    consoles = [block.text for block in blocks(PAGE.read_text(encoding="utf-8")) if block.language == "console"]
+    found = []
     here = Path.cwd()
     os.chdir(folder)
     try:
-        for command in shown():
+        for command, output in (step for text in consoles for step in commands(text)):
             words = shlex.split(command)
             if words[0] == "urdfkit" and words[1] != "view" and words[1:3] != ["sim", "teleop"]:
-                assert main(words[1:]) == 0, command
+                printed = StringIO()
+                with redirect_stdout(printed), redirect_stderr(printed):
+                    assert main(words[1:]) == 0, command
+                found.append(Step(command, output, printed.getvalue().replace(str(folder), HOME)))
     finally:
         os.chdir(here)
-    return folder
+    return folder, found
+
+
+@pytest.fixture(scope="module")
+def place(steps: tuple[Path, list[Step]]) -> Path:
+    return steps[0]
+
+
+@pytest.mark.slow
+def test_a_reader_sees_the_outputs_of_the_page(steps: tuple[Path, list[Step]]) -> None:
+    for step in steps[1]:
+        assert agrees(step.shown, step.printed), f"$ {step.command}\n{step.printed}"
 
 
 @pytest.mark.slow
