@@ -10,6 +10,8 @@ import trimesh
 from numpy.typing import NDArray
 from PIL import Image
 
+from tests.cli.conftest import READY
+
 pytest.importorskip("pinocchio")
 pytest.importorskip("meshcat")
 pytest.importorskip("collada")
@@ -160,4 +162,112 @@ def test_the_page_has_the_materials_of_a_camera_of_the_same_pose(serve, visits) 
     page.wait_for_selector("#pause[aria-pressed=true]")
     rows = measure(page, "heterogeneous")
     assert len(rows) > 10
-    assert {link: materials for link, _, materials, _ in rows if materials > 5.0} == {}
+    assert {link: materials for link, _, materials, _, _ in rows if materials > 5.0} == {}
+    assert {link: world for link, *_, world in rows if world > 5.0} == {}
+
+
+LAMPS = """<?xml version="1.0"?>
+<sdf version="1.9"><world name="lamps">
+  <scene><ambient>0.15 0.2 0.3 1</ambient><background>0.2 0.4 0.6 1</background><shadows>true</shadows></scene>
+  <light name="sun" type="directional"><diffuse>0.4 0.35 0.3 1</diffuse><specular>0.6 0.6 0.6 1</specular>
+    <direction>-0.5 0.2 -0.9</direction><cast_shadows>true</cast_shadows></light>
+  <light name="bulb" type="point"><pose>1.5 -1 1.5 0 0 0</pose><diffuse>0.9 0.2 0.1 1</diffuse>
+    <specular>0.5 0.5 0.5 1</specular><cast_shadows>true</cast_shadows>
+    <attenuation><range>6</range><constant>0.4</constant><linear>0.1</linear><quadratic>0.05</quadratic></attenuation></light>
+  <light name="spot" type="spot"><pose>0 0 3 0 0 0</pose><diffuse>0.1 0.7 0.2 1</diffuse><direction>0 0 -1</direction>
+    <attenuation><range>9</range><constant>1</constant><linear>0</linear><quadratic>0</quadratic></attenuation>
+    <spot><inner_angle>0.2</inner_angle><outer_angle>0.5</outer_angle><falloff>0.8</falloff></spot>
+    <cast_shadows>true</cast_shadows></light>
+  <model name="ground"><static>true</static><link name="l"><collision name="c"><geometry><plane><normal>0 0 1</normal>
+    </plane></geometry></collision></link></model>
+</world></sdf>"""
+TABLE = """<robot name="table">
+  <link name="top"><inertial><mass value="5"/><inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial>
+    <visual><geometry><box size="1.5 1.5 0.2"/></geometry>
+      <material name="c"><color rgba="0.8 0.7 0.6 1"/></material></visual>
+    <collision><geometry><box size="1.5 1.5 0.2"/></geometry></collision>
+    <visual><origin xyz="0.2 0.2 0.4"/><geometry><sphere radius="0.25"/></geometry>
+      <material name="d"><color rgba="0.3 0.4 0.9 1"/></material></visual></link>
+  <link name="ball"><visual><geometry><mesh filename="ball.obj"/></geometry></visual></link>
+  <joint name="j" type="fixed"><parent link="top"/><child link="ball"/><origin xyz="0.3 -0.4 0.4"/></joint>
+  <gazebo reference="top"><visual><material><specular>0.7 0.7 0.7 20</specular></material></visual></gazebo>
+</robot>"""
+
+
+MATERIALS = """newmtl glossy
+Kd 0.5 0.2 0.2
+Ks 0.9 0.9 0.9
+Ns 5
+newmtl matt
+Kd 0.2 0.5 0.2
+"""
+OPEN = "urdfkit.page.panels.arrange({ open: ['camera'], pinned: [] })"
+
+
+def write_table(folder: Path) -> None:
+    """Write a table with a ball of two materials of which one is glossy."""
+    ball = trimesh.creation.icosphere(subdivisions=3, radius=0.25)
+    lines = ["mtllib ball.mtl", *(f"v {x} {y} {z}" for x, y, z in ball.vertices), "usemtl glossy"]
+    for k, (a, b, c) in enumerate(ball.faces[np.argsort(ball.triangles_center[:, 0])] + 1):
+        lines += ["usemtl matt"] * (k == len(ball.faces) // 4) + [f"f {a} {b} {c}"]
+    (folder / "ball.obj").write_text("\n".join(lines))
+    (folder / "ball.mtl").write_text(MATERIALS)
+    (folder / "table.urdf").write_text(TABLE)
+
+
+@pytest.fixture
+def lamps(serve, visits, tmp_path: Path):
+    """Return a page of a table in a world with a sun, a bulb and a spot."""
+    (tmp_path / "lamps.sdf").write_text(LAMPS)
+    write_table(tmp_path)
+    served = serve("sim", "teleop", str(tmp_path / "table.urdf"), "--world", str(tmp_path / "lamps.sdf"))
+    return visits.open(served.url, viewport={"width": 480, "height": 360})
+
+
+def test_with_the_light_of_the_world_the_page_looks_like_a_camera(lamps, visits, tmp_path: Path) -> None:
+    from tests.bench.bench_page_camera import measure
+
+    lamps.locator("#pause").click()
+    lamps.wait_for_selector("#pause[aria-pressed=true]")
+    rows = measure(lamps, str(tmp_path / "table.urdf"), tmp_path, world=str(tmp_path / "lamps.sdf"))
+    assert [link for link, *_ in rows] == ["ball", "top", "robot"]
+    for *_, studio, world in rows:
+        assert studio > 5.0
+        assert world <= 1.0
+    corner = np.asarray(Image.open(next(tmp_path.glob("*-0-world.png"))).convert("RGB"))[0, 0]
+    assert np.abs(corner - np.array([51, 102, 153])).max() <= 1  # the background
+    assert visits.problems == []
+
+
+def test_the_light_is_chosen_by_keys_and_saved_with_the_layout(lamps, visits, until) -> None:
+    lamps.evaluate(OPEN)
+    assert lamps.evaluate("urdfkit.layout.state.light") == "studio"
+    lamps.locator("#light-studio").focus()
+    lamps.keyboard.press("ArrowRight")
+    assert lamps.locator("#light-world").is_checked()
+    background = "urdfkit.viewport.viewer.scene.background.toArray().map((x) => Math.round(100 * x))"
+    assert lamps.evaluate(background) == [20, 40, 60]
+    lamps.emulate_media(color_scheme="dark")
+    assert lamps.evaluate(background) == [20, 40, 60]
+    layout = lamps.evaluate("urdfkit.layout.state")
+    lamps.locator("#light-world").focus()
+    lamps.keyboard.press("ArrowLeft")
+    assert lamps.evaluate(background) == [9, 11, 14]  # the dark theme
+    lamps.evaluate("(layout) => urdfkit.layout.apply(layout)", layout)
+    assert lamps.locator("#light-world").is_checked()
+    assert lamps.evaluate(background) == [20, 40, 60]
+    kept = "Object.values(localStorage).some((each) => JSON.parse(each).light === 'world')"
+    until(lambda: lamps.evaluate(kept))
+    lamps.reload()
+    lamps.wait_for_selector(READY)
+    until(lambda: lamps.evaluate(background) == [20, 40, 60])
+    assert visits.problems == []
+
+
+def test_a_view_without_a_world_has_no_choice_of_light(serve, visits, tmp_path: Path) -> None:
+    write_table(tmp_path)
+    page = visits.open(serve("view", str(tmp_path / "table.urdf")).url)
+    page.evaluate(OPEN)
+    assert page.locator("#camera-orbit").is_visible()
+    assert page.locator("#light-world").is_hidden()
+    assert visits.problems == []

@@ -126,6 +126,19 @@ def test_own_normals_and_colours_are_kept() -> None:
     assert np.allclose(np.linalg.norm(normals, axis=1), 1)
 
 
+def test_parts_have_one_gloss_each() -> None:
+    box = trimesh.creation.box()
+    glosses = np.array([[0, 0, 0, 0], [0.5, 0.5, 0.5, 8]], dtype=np.float32)
+    which = np.arange(len(box.faces)) % 2
+    mesh = tri_mesh(box, face_gloss=glosses[which])
+    store = GeometryStore()
+    found = decoded(store.get(store.add(mesh)))
+    assert [(part["first"], part["count"], part["gloss"]) for part in found["parts"]] == [
+        (0, 6, glosses[0].tolist()),
+        (6, 6, glosses[1].tolist()),
+    ]
+
+
 def test_parts_are_sorted_by_texture_and_name_it() -> None:
     box = trimesh.creation.box()
     uv = np.random.default_rng(0).uniform(-3.0, 3.0, (len(box.vertices), 2)).astype(np.float32)

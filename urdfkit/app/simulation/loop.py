@@ -31,6 +31,7 @@ from urdfkit.app.simulation.features.sensor_views import SensorViews
 from urdfkit.app.simulation.features.teleop import command, command_topics, drive_controls
 from urdfkit.app.simulation.features.topic_panel import TopicPanel
 from urdfkit.app.simulation.features.topic_stream import TopicStreams
+from urdfkit.app.simulation.features.world_lights import WorldLights
 from urdfkit.app.simulation.features.world_objects import WorldObjects
 from urdfkit.app.simulation.scene_bodies import SceneBodies
 from urdfkit.bridges.bridge import Bridges
@@ -56,6 +57,7 @@ FEATURES: tuple[type[Feature], ...] = (
     TopicStreams,
     Plots,
     WorldObjects,
+    WorldLights,
     JointSliders,
     LiveParameters,
     Pushing,

@@ -5,7 +5,7 @@ contains a table of integers: the differences between consecutive rows, with the
 by column and byte by byte, the lowest bytes first. Such planes compress well with gzip, and the browser decodes them in
 some milliseconds. Vertices are numbered in the order of their first use. An index is stored as its distance below the
 next unused number (the high-water mark), as in webgl-loader. A stream ``of`` contains, in the same way, the row of the
-next stream that each vertex has.
+next stream that each vertex has. A part has triangles of one texture and one gloss (specular colour and exponent).
 """
 
 import gzip
@@ -22,7 +22,7 @@ from urdfkit.meshes.unique_rows import unique_rows
 from urdfkit.scene import TriMesh
 from urdfkit.view.content.crease_normals import crease, flat_normals
 
-FORMAT = "urdfkit mesh 3"
+FORMAT = "urdfkit mesh 4"
 """Part of the names of stored meshes, so that a browser does not use a cached mesh in another format."""
 
 STEPS = 65535
@@ -44,8 +44,12 @@ def pack(mesh: TriMesh, textures: list[str] | None = None) -> bytes:
     """
     points, normals, faces, source = _with_normals(mesh)
     which = np.full(len(faces), -1) if mesh.face_textures is None or mesh.uv is None else mesh.face_textures
-    order = np.argsort(which, kind="stable")
-    faces, which = faces[order], which[order]
+    gloss = np.zeros((len(faces), 4), dtype=np.float32) if mesh.face_gloss is None else mesh.face_gloss
+    kinds = np.column_stack([which, np.ascontiguousarray(gloss, dtype=np.float32).view(np.int32)])
+    kinds, where = np.unique(kinds, axis=0, return_inverse=True)
+    where = where.reshape(-1)
+    order = np.argsort(where, kind="stable")
+    faces, which, gloss = faces[order], which[order], gloss[order]
     used, codes = _high_water(faces.reshape(-1), len(points))
     source = source[used]
     low = points.min(axis=0, initial=np.inf) if len(points) else np.zeros(3)
@@ -61,14 +65,16 @@ def pack(mesh: TriMesh, textures: list[str] | None = None) -> bytes:
     if mesh.uv is not None and (which >= 0).any():
         tables.append(({"name": "uv", "step": 1.0 / UV_STEPS}, np.rint(mesh.uv[source].astype(float) * UV_STEPS)))
     parts = []
-    for kind in np.unique(which).tolist():
-        first, count = int(np.searchsorted(which, kind)), int((which == kind).sum())
-        if kind >= 0:
-            clear = bool((mesh.textures[kind].pixels[..., 3] < 255).any())
+    ends = np.cumsum(np.bincount(where, minlength=len(kinds))).tolist()
+    for first, end in zip([0, *ends], ends, strict=False):
+        image = int(which[first])
+        if image >= 0:
+            clear = bool((mesh.textures[image].pixels[..., 3] < 255).any())
         else:
             clear = mesh.colors is not None and bool((mesh.colors[:, 3] < 255).any())
-        name = textures[kind] if textures and kind >= 0 else None
-        parts.append({"first": first, "count": count, "texture": name, "clear": clear})
+        name = textures[image] if textures and image >= 0 else None
+        part = {"first": first, "count": end - first, "texture": name, "clear": clear}
+        parts.append(part if mesh.face_gloss is None else part | {"gloss": gloss[first].tolist()})
     streams, content = [], []
     for stream, rows in chain.from_iterable(_distinct(*each) for each in tables):
         depth, planes = _planes(rows.astype(np.int64), is_delta=stream["name"] not in ("index", "of"))

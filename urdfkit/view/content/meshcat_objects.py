@@ -142,6 +142,7 @@ def material(shape: Shape) -> Any:
         vertexColors=own and shape.mesh is not None and shape.mesh.colors is not None,
         roughness=roughness(shape),
         metalness=0.0,
+        userData={} if own else {"gloss": [float(number) for number in shape.gloss]},
     )
 
 

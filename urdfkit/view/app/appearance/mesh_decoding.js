@@ -1,9 +1,9 @@
-// Decodes meshes of the server (content/mesh_encoding.py) into geometries, one per texture.
+// Decodes meshes of the server (content/mesh_encoding.py) into geometries, one per texture and gloss.
 /* global MeshCat */
 
 const THREE = MeshCat.THREE;
 
-/** Return the parts of a packed mesh: [{geometry, texture: name or null, clear}], with `triangles` and `simplifiedFrom`. */
+/** Return the parts of a packed mesh: [{geometry, texture: name or null, clear, gloss}], with `triangles` and `simplifiedFrom`. */
 export function decoded(buffer) {
   const size = new DataView(buffer).getUint32(0, true);
   const header = JSON.parse(new TextDecoder().decode(new Uint8Array(buffer, 4, size)));
@@ -23,13 +23,13 @@ export function decoded(buffer) {
       of = null;
     }
   }
-  const parts = header.parts.map(({ first, count, texture, clear }) => {
+  const parts = header.parts.map(({ first, count, texture, clear, gloss }) => {
     const geometry = new THREE.BufferGeometry();
     for (const [name, values] of attributes) geometry.setAttribute(name, values);
     const part = header.parts.length > 1 ? index.slice(3 * first, 3 * (first + count)) : index;
     geometry.setIndex(new THREE.BufferAttribute(part, 1));
     if (header.parts.length > 1) bound(geometry);
-    return { geometry, texture, clear };
+    return { geometry, texture, clear, gloss };
   });
   return Object.assign(parts, { triangles: header.triangles, simplifiedFrom: header.simplified_from });
 }

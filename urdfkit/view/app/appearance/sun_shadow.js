@@ -4,13 +4,12 @@
 import { soft } from "../viewport/graphics_device.js";
 
 const THREE = MeshCat.THREE;
-const TOWARDS = new THREE.Vector3(0.3, -0.22, 1).normalize(); // direction of the sun, z up
 const LARGEST = 60; // [m]; shadows of larger scenes end there
 
 export class SunShadow {
-  constructor(viewer, sun) {
-    this.viewer = viewer;
-    this.sun = sun;
+  /** `towards`: direction of the sun, z up. */
+  constructor(viewer, sun, towards) {
+    Object.assign(this, { viewer, sun, towards });
     sun.castShadow = true;
     const edge = soft ? 1024 : 4096;
     sun.shadow.mapSize.set(edge, edge);
@@ -32,7 +31,7 @@ export class SunShadow {
     const radius = Math.min(Math.max(sphere.radius, 0.05), LARGEST);
     const { x, y, z } = sphere.center;
     sun.target.position.set(x, -z, y); // the world of three.js has y up
-    sun.position.copy(sun.target.position).addScaledVector(TOWARDS, 2 * radius);
+    sun.position.copy(sun.target.position).addScaledVector(this.towards, 2 * radius);
     Object.assign(sun.shadow.camera, { left: -radius, right: radius, top: radius, bottom: -radius, near: 0.5 * radius, far: 8 * radius });
     sun.shadow.camera.updateProjectionMatrix();
     const texel = (2 * radius) / sun.shadow.mapSize.x;

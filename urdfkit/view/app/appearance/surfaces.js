@@ -1,6 +1,8 @@
 // How surfaces look: materials are lit in linear colours and mapped to the screen without burnt-out highlights.
 /* global MeshCat */
 
+import { WORLD } from "./world_light.js";
+
 const THREE = MeshCat.THREE;
 
 // The colours of a robot are sRGB and the page has no colour management, because lines and labels use plain colours.
@@ -70,7 +72,9 @@ const full = `void main() {${main}`
   .replace("vec3 outgoingLight =", HIGHLIGHT)
   .replace("#include <tonemapping_fragment>", REFLECTIONS + TO_SCREEN);
 shader.fragmentShader = `${head}
-#ifdef QUICK
+#if defined(WORLD)
+${WORLD}
+#elif defined(QUICK)
 ${QUICK}
 #else
 ${full}
@@ -87,6 +91,8 @@ export function quicken(scene, isQuick) {
     material.needsUpdate = true;
   });
 }
+
+export const SUN = new THREE.Vector3(0.3, -0.22, 1).normalize(); // its direction, z up
 
 /** The lights, in the axes of the robot: sky and floor, a sun with shadows, and a weak light from the other side. */
 export function studio() {

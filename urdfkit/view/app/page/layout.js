@@ -17,7 +17,7 @@ export class Layout {
     const reset = h("button", { type: "button", id: "reset-layout", onclick: () => this.#forget() }, "Reset");
     page.viewPanel.body.append(h("h3", {}, "Layout"), h("div.row.wrap", {}, save, open, reset), file);
     page.on("model", () => this.#begin());
-    for (const event of ["panels", "displays"]) page.on(event, () => this.#later());
+    for (const event of ["panels", "displays", "light"]) page.on(event, () => this.#later());
     addEventListener("change", (event) => event.target.closest?.("#panel-show") && this.#later());
   }
 
@@ -31,6 +31,7 @@ export class Layout {
       panels: { open: offered.filter(({ open }) => open).map(({ id }) => id), pinned: offered.filter(({ pinned }) => pinned).map(({ id }) => id), ...panels.places.state },
       displays: displays.state(),
       show: Object.fromEntries([...document.querySelectorAll("#panel-show input[type=checkbox]")].map(({ id, checked }) => [id, checked])),
+      light: this.page.light.choice,
       camera: { position: camera.position.toArray(), target: controls.target.toArray() },
     };
   }
@@ -45,6 +46,7 @@ export class Layout {
       const box = document.getElementById(id);
       if (box?.type === "checkbox" && box.checked !== checked) box.click();
     }
+    if (layout.light) this.page.light.choose(layout.light);
     if (!whole || !layout.camera || viewport.viewer.camera.isOrthographicCamera) return;
     viewport.viewer.camera.position.set(...layout.camera.position);
     viewport.viewer.controls.target.set(...layout.camera.target);

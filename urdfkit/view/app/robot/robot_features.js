@@ -12,6 +12,7 @@ import { joints } from "./joint_sliders.js";
 import { labels } from "../viewport/labels.js";
 import { layers } from "../viewport/display_layers.js";
 import { modes } from "../page/mode_switch.js";
+import { lightChoice } from "../viewport/light_choice.js";
 import { loading } from "../page/loading_progress.js";
 import { measure } from "./measure.js";
 import { pick } from "../viewport/picking.js";
@@ -26,6 +27,6 @@ import { tools } from "../page/toolbar.js";
 import { tree } from "./link_tree.js";
 
 export const viewFeatures = [
-  tools, history, robot, sight, labels, joints, tree, inspector, layers, loading, tf, reach, collisions, measure, findings, cameras, capture, ik, pick, steering, selection,
+  tools, history, robot, sight, labels, joints, tree, inspector, layers, loading, tf, reach, collisions, measure, findings, cameras, lightChoice, capture, ik, pick, steering, selection,
   modes, theme, help,
 ];

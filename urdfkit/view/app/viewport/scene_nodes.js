@@ -151,8 +151,9 @@ export class Scene {
     if (path[3] === "visual" && simplifiedFrom) this.simplified.set(unescaped(path[2]), [simplifiedFrom, triangles]);
   }
 
-  async #part({ geometry, texture: name, clear }, written) {
+  async #part({ geometry, texture: name, clear, gloss }, written) {
     const material = new THREE.MaterialLoader().parse(written);
+    material.userData = { gloss, ...written.userData }; // without a colour of its own, a shape has the gloss of its mesh
     if (clear) Object.assign(material, { transparent: true });
     if (name) {
       this.textures.add(name);

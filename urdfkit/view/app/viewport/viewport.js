@@ -5,7 +5,8 @@ import { DrawingBudget } from "./drawing_budget.js";
 import { soft, sparing } from "./graphics_device.js";
 import { gridMaterial } from "./ground_grid.js";
 import { SunShadow } from "../appearance/sun_shadow.js";
-import { studio } from "../appearance/surfaces.js";
+import { studio, SUN } from "../appearance/surfaces.js";
+import { light, WorldLight } from "../appearance/world_light.js";
 
 const THREE = MeshCat.THREE;
 const THEMES = {
@@ -62,7 +63,7 @@ export class Viewport {
     this.viewer.render = () => {
       if (this.empty) return;
       this.budget.draw(() => {
-        if (this.viewer.renderer.shadowMap.needsUpdate) this.sunShadow.fit();
+        if (this.viewer.renderer.shadowMap.needsUpdate) this.#relight();
         render();
       });
     };
@@ -107,7 +108,8 @@ export class Viewport {
   theme(dark) {
     const theme = THEMES[dark ? "dark" : "light"];
     const scene = this.viewer.scene;
-    scene.background = new THREE.Color(theme.sky);
+    this.sky = new THREE.Color(theme.sky);
+    scene.background = this.world?.background ?? this.sky;
     this.shade.material.opacity = theme.shadow;
     const { major, minor } = this.grid.material.uniforms;
     major.value.set(theme.major);
@@ -117,8 +119,27 @@ export class Viewport {
 
   /** Show shadows, or draw without them. */
   shadows(shown) {
-    this.shade.visible = shown;
+    // The ground is transparent but for shadows, which those of bulbs and spots would make too dark.
+    this.shade.visible = shown && !this.world?.casters.some(({ kind }) => kind > 0);
     this.sunShadow.sun.castShadow = shown;
+    for (const caster of this.world?.casters ?? []) caster.light.castShadow = shown;
+  }
+
+  /** Light the scene as the cameras of a world do, or by the studio (null). */
+  lightBy(message) {
+    this.world?.dispose();
+    this.world = message && new WorldLight(this.viewer, message);
+    for (const each of this.studio) each.visible = !message;
+    this.viewer.scene.background = this.world?.background ?? this.sky;
+    this.shadows(this.budget.used === 0);
+    this.dirty();
+  }
+
+  // Meshes that have arrived get the light too.
+  #relight() {
+    light(this.viewer.scene, this.world?.code ?? null);
+    if (!this.world) this.sunShadow.fit();
+    for (const caster of this.world?.casters ?? []) caster.fit();
   }
 
   visible(name, shown) {
@@ -131,7 +152,8 @@ export class Viewport {
     // The children of the scene use the axes of the robot, z up.
     const { sky, fill, sun } = studio();
     this.viewer.scene.add(sky, fill, sun, sun.target);
-    this.sunShadow = new SunShadow(this.viewer, sun);
+    this.studio = [sky, fill, sun];
+    this.sunShadow = new SunShadow(this.viewer, sun, SUN);
   }
 
   #ground() {
