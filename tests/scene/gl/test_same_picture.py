@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 from dataclasses import replace
 from threading import Thread
 
@@ -262,3 +263,19 @@ def test_a_driver_that_draws_on_the_processor_leaves_edges_to_rays(monkeypatch) 
     assert off[True].mean() < off[False].mean()
     hard = gl.take(LENS, EYE, deep=False).rgb
     assert 0.005 < (found[True] != hard).any(axis=2).mean() < 0.2
+
+
+def test_the_context_of_a_renderer_that_is_no_longer_used_is_released(monkeypatch: pytest.MonkeyPatch) -> None:
+    import moderngl
+
+    from urdfkit.scene.gl import gl_renderer
+
+    created = []
+    create = gl_renderer.create
+    monkeypatch.setattr(gl_renderer, "create", lambda backend: created.append(create(backend)) or created[-1])
+    renderer = gl_renderer.GlRenderer(table_of(*zoo()), lit(SUN), DEVICE.backend)
+    renderer.take(LENS, EYE)
+    assert not isinstance(created[0].mglo, moderngl.InvalidObject)
+    del renderer
+    gc.collect()
+    assert isinstance(created[0].mglo, moderngl.InvalidObject)

@@ -7,6 +7,7 @@ from functools import partial
 from math import hypot
 from threading import Lock
 from typing import Any
+from weakref import finalize
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -56,6 +57,7 @@ class GlRenderer:
         self._drawable = all(kind == DIRECTIONAL or not shadows for kind, shadows in lamps)
         self._targets: dict[tuple[int, int, int], dict[str, Any]] = {}
         self._ctx = create(backend)
+        finalize(self, self._ctx.release).atexit = False  # a driver on the processor keeps 40 MB of each context
         self._on_processor = on_processor(str(self._ctx.info["GL_RENDERER"]))
         with self._lock, self._ctx:
             self._drawing = Drawing(self._ctx, table, self._rays.paint, lamps)
