@@ -20,8 +20,8 @@ from urdfkit.lint.model.model import Model
 def loaded_controllers(model: Model) -> list[tuple[str, Settings, int]]:
     """Return name, parameters and version of ROS of each controller that a simulation of the robot loads.
 
-    They are those of its Gazebo plugins, or of the only file that configures controllers of its mock hardware. Files
-    that cannot be read have no controllers.
+    They are those of its Gazebo plugins, or for the target urdfkit of the only file that configures controllers of its
+    mock hardware: outside of the simulator, that has any interface. Files that cannot be read have no controllers.
     """
     found: list[tuple[str, Settings, int]] = []
     for plugin, _, _ in plugins(model.robot):
@@ -30,7 +30,7 @@ def loaded_controllers(model: Model) -> list[tuple[str, Settings, int]]:
             found += [(name, settings, 2) for name, settings in _of_manager(model, plugin).items()]
         elif spec is not None and spec.kind == "gazebo_ros_control":
             found += [(name, settings, 1) for name, settings in _of_namespace(model, plugin).items()]
-    if mock_blocks(model.robot):
+    if model.target == "urdfkit" and mock_blocks(model.robot):
         files = manager_files(model.expanded.path)
         source = model.related_files.get(shown_path(files[0])) if len(files) == 1 else None
         root = _read(source) if source is not None else None

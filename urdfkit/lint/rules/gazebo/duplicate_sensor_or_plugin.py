@@ -18,7 +18,7 @@ class DuplicateSensorOrPlugin(RobotRule):
     ## What it does
     Compares the names of the sensors of each link (an error), of plugins in the same scope (a warning), and of plugins
     of gazebo_ros in different sensors (a note, because each sensor is a separate scope, but in ROS 2 the name of the
-    plugin is the name of its node). Other plugins in different sensors can share a name, and so can those of ROS 1.
+    plugin is the name of its node). Other plugins in different sensors can share a name.
 
     ## Why is this bad?
     SDF requires unique names: Gazebo rejects the model, or both publish on the same topic.
@@ -61,7 +61,6 @@ class DuplicateSensorOrPlugin(RobotRule):
                         yield self._duplicate(
                             model, sensor.element, f"duplicate sensor name `{sensor.name}` on this link", first
                         )
-        is_ros2 = model.target != "ros1"
         by_scope: dict[tuple[int, str], Element] = {}
         by_name: dict[str, Element] = {}
         for plugin, _, within in plugins(model.robot):
@@ -71,7 +70,7 @@ class DuplicateSensorOrPlugin(RobotRule):
             first, other = by_scope.setdefault(scope, plugin.element), by_name.setdefault(plugin.name, plugin.element)
             if first is not plugin.element:
                 yield self._duplicate(model, plugin.element, f"duplicate plugin name `{plugin.name}`", first, "warning")
-            elif other is not plugin.element and is_ros2 and "gazebo_ros" in (plugin.filename or ""):
+            elif other is not plugin.element and "gazebo_ros" in (plugin.filename or ""):
                 message = f"plugin name `{plugin.name}` is also used in another sensor"
                 yield self._duplicate(model, plugin.element, message, other, "note")
 

@@ -109,5 +109,5 @@ class InertiaTooLarge(RobotRule):
             if call is not None:
                 help = "check the arguments of this macro call; other calls give plausible tensors"
             fix = computed(model, link, element)
-            severity: Severity | None = "note" if bodies.is_small(link) else None
+            severity: Severity | None = "note" if bodies.is_negligible(link) else None
             yield self.at(model, call or element, message, link=link.name, help=help, fix=fix, severity=severity)
