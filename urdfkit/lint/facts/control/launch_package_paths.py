@@ -81,6 +81,8 @@ def packages_used(source: Source) -> Iterator[tuple[str, int, int]]:
         return
     import ast
 
+    from urdfkit.lint.facts.nodes.python_bindings import bindings, resolved
+
     reader = launch_reader(tree)
     for node in ast.walk(tree):
         if not isinstance(node, ast.Call):
@@ -90,8 +92,12 @@ def packages_used(source: Source) -> Iterator[tuple[str, int, int]]:
             yield "xacro", *place(source, node)
         if name is None and name_of(node.func) in _STARTS:
             package = next((word.value for word in node.keywords if word.arg == "package"), None)
-            name = reader.text(package) if package is not None else None
-        if name is not None:
+            for binding in bindings(tree, node):
+                part = resolved(package, binding)
+                name = reader.text(part) if part is not None else None
+                if name is not None:
+                    yield name, *place(source, node if part is package or part is None else part)
+        elif name is not None:
             yield name, *place(source, node)
 
 

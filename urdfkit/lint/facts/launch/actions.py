@@ -62,15 +62,29 @@ def _actions_of(source: Source, is_ros1: bool) -> LaunchActions:
 
         return read_python(source)
     text = uncommented(source)
-    is_yaml = source.file.endswith((".yaml", ".yml"))
     found = LaunchActions(source, is_ros1)
-    roots = tuple(_from_yaml(source)) if is_yaml else tuple(_from_tag(tag) for tag in Document(source).roots)
+    roots = _elements(source)
     for use in re.finditer(_USED, text):
         group = 1 if use[1] is not None else 2
         found.used.append((Named(use[group], use.start(group)), False))
     for root in roots:
         _read(root, found, False)
     return found
+
+
+@lru_cache(maxsize=400)
+def launch_elements(source: Source) -> tuple[LaunchAction, ...]:
+    """Return the elements of a launch file in XML or YAML; empty if they are nested too deeply."""
+    try:
+        return _elements(source)
+    except RecursionError:
+        return ()
+
+
+def _elements(source: Source) -> tuple[LaunchAction, ...]:
+    if source.file.endswith((".yaml", ".yml")):
+        return tuple(_from_yaml(source))
+    return tuple(_from_tag(tag) for tag in Document(source).roots)
 
 
 def share_of(text: str) -> tuple[str, str]:

@@ -19,6 +19,7 @@ from urdfkit.lint.facts.launch.records import (
     Executable,
     LaunchActions,
 )
+from urdfkit.lint.facts.nodes.python_bindings import bindings, resolved
 
 _NODES = ("Node", "LifecycleNode", "ComposableNodeContainer")
 _DECLARATIONS = ("DeclareLaunchArgument", "DeclareBooleanLaunchArg")
@@ -93,8 +94,9 @@ class _PythonActions:
         elif kind == "Command" and first is not None:
             self._command(first, node)
         elif kind in _NODES:
-            names = [self._named(keywords[key]) if key in keywords else None for key in ("package", "executable")]
-            found.nodes.append(Executable(*names))
+            for binding in bindings(self._tree, node):
+                parts = [resolved(keywords.get(key), binding) for key in ("package", "executable")]
+                found.nodes.append(Executable(*(self._named(part) if part is not None else None for part in parts)))
 
     def _add(
         self,

@@ -62,14 +62,10 @@ _PROCESS = (
     "additional_env cached_output cmd condition cwd emulate_tty env log_cmd name on_exit output output_format prefix"
     " respawn respawn_delay respawn_max_retries shell sigkill_timeout sigterm_timeout"
 )
-_NODE = (
-    f"{_PROCESS} arguments exec_name executable namespace node_executable node_name node_namespace package parameters"
-    " remappings ros_arguments"
-)
+_NODE = f"{_PROCESS} arguments exec_name executable namespace package parameters remappings ros_arguments"
 _KEYWORDS = {
     "Command": "command on_stderr",
-    "ComposableNode": "condition extra_arguments name namespace node_name node_namespace node_plugin package parameters"
-    " plugin remappings",
+    "ComposableNode": "condition extra_arguments name namespace package parameters plugin remappings",
     "ComposableNodeContainer": f"{_NODE} composable_node_descriptions",
     "DeclareLaunchArgument": "choices condition default_value description name",
     "ExecuteProcess": _PROCESS,
@@ -95,7 +91,7 @@ _KEYWORDS = {
     "SetRemap": "condition dst src",
     "TimerAction": "actions cancel_on_shutdown condition period",
 }
-"""Class → keywords, with those of older releases (Foxy to Rolling)."""
+"""Class → keywords (Galactic to Rolling)."""
 
 _OF_XML = {
     "args": "arguments",
@@ -111,6 +107,14 @@ _OF_XML = {
     "type": "executable",
 }
 """Attribute or element of launch files in XML → keyword in Python."""
+
+OF_FOXY = {
+    "node_executable": "executable",
+    "node_name": "name",
+    "node_namespace": "namespace",
+    "node_plugin": "plugin",
+}
+"""Keyword of nodes until Foxy, which Galactic removed → the keyword that replaces it (launch_ros 0.12)."""
 
 LISTS = frozenset(("arguments", "cmd", "parameters", "remappings", "ros_arguments"))
 """Keywords of nodes and processes whose values are lists."""
@@ -157,7 +161,7 @@ def wrong_keyword(kind: str, word: str) -> str | None:
     valid = _KEYWORDS.get(kind, "").split()
     if not valid or word in valid:
         return None
-    meant = _OF_XML.get(word)
+    meant = _OF_XML.get(word) or OF_FOXY.get(word)
     return meant if meant in valid else nearest(word, valid, cutoff=0.75)
 
 

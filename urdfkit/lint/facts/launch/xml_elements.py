@@ -140,3 +140,11 @@ OTHER_ELEMENTS: Mapping[int, Mapping[str, str]] = {
     },
 }
 """ROS version → element that is no action in it → what to use instead."""
+
+OUTPUTS: Mapping[int, tuple[str, ...]] = {1: ("screen", "log"), 2: ("screen", "log", "both", "own_log", "full")}
+"""ROS version → values of ``output`` (roslaunch: xmlloader.py; launch: logging/__init__.py)."""
+
+
+def is_output(text: str, version: int) -> bool:
+    """Return whether a text is a value of ``output``, or computed."""
+    return "$" in text or text in OUTPUTS[version]

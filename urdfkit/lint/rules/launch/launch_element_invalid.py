@@ -13,12 +13,13 @@ if TYPE_CHECKING:
 
 
 class LaunchElementInvalid(RobotRule):
-    """A launch file in XML has an unknown element or attribute, or lacks a required attribute.
+    """A launch file in XML or YAML has an unknown element or attribute, or lacks a required attribute.
 
     ## What it does
     Compares elements, attributes and substitutions with those of roslaunch for packages built by catkin, and with those
     of launch_xml for packages built by ament. In ROS 2, packages can add actions, so unknown elements are reported only
-    if they are misspelt, belong to ROS 1, or are in an element with fixed contents such as ``<node>``.
+    if they are misspelt, belong to ROS 1, or are in an element with fixed contents such as ``<node>``. In YAML, the
+    rule checks actions, the keys of actions, parameters, remappings and arguments, and substitutions.
 
     ## Why is this bad?
     The launch stops with "Unexpected attribute(s)" or "missing required attribute". roslaunch ignores unknown elements
@@ -57,6 +58,8 @@ class LaunchElementInvalid(RobotRule):
         from urdfkit.lint.model.tags import Document
 
         for name, source in model.related_files.items():
+            if name.endswith((".launch.yaml", "_launch.yaml")):
+                yield from self._yaml(source)
             if not name.endswith((".launch", ".launch.xml", "_launch.xml")):
                 continue
             roots = [tag for tag in Document(source).roots if tag.name == "launch"] if is_well_formed(source) else []
@@ -66,6 +69,14 @@ class LaunchElementInvalid(RobotRule):
                 for root in roots:
                     for tag in root.walk():
                         yield from self._tag(source, tag, version)
+
+    def _yaml(self, source: Source) -> Findings:
+        from urdfkit.lint.facts.control.yaml_tree import span_of
+        from urdfkit.lint.facts.launch.yaml_elements import yaml_launch_defects
+
+        for node, message in yaml_launch_defects(source):
+            yield Finding(self.code, self.name, self.severity, message, span_of(source, node))
+        yield from self._substitutions(source, 2)
 
     def _substitutions(self, source: Source, version: int) -> Findings:
         import re

@@ -25,9 +25,9 @@ class LaunchValueInvalid(RobotRule):
     """An attribute of a launch file in XML has a value that the launch cannot use.
 
     ## What it does
-    Checks conditions and other truth values without substitutions, the defaults of arguments that are conditions, the
-    command of ``<rosparam>``, and whether the description is a file without xacro (``textfile``), a command
-    (``command``) or a value (``value``).
+    Checks conditions and other truth values without substitutions, the ``output`` of nodes, the defaults of arguments
+    that are conditions, the command of ``<rosparam>``, and whether the description is a file without xacro
+    (``textfile``), a command (``command``) or a value (``value``).
 
     ## Why is this bad?
     The launch stops with "invalid bool value" or a similar error, or the nodes read a wrong description. A dump
@@ -73,6 +73,9 @@ class LaunchValueInvalid(RobotRule):
 
 
 def _invalid(tag: Tag, version: int, model: Model) -> Iterator[tuple[Attribute, str]]:
+    from urdfkit.errors import did_you_mean
+    from urdfkit.lint.facts.launch.xml_elements import OUTPUTS, is_output
+
     attributes = tag.attributes
     for name in (*_WHEN, *_BOOLEANS[version]):
         attribute = attributes.get(name)
@@ -83,6 +86,9 @@ def _invalid(tag: Tag, version: int, model: Model) -> Iterator[tuple[Attribute, 
         if attribute.value.strip().lower() not in words:
             what = "condition" if is_condition else f"`{name}`"
             yield attribute, f"{what} `{attribute.value}` is neither true nor false"
+    output = attributes.get("output") if tag.name in ("node", "test", "executable") else None
+    if output is not None and not is_output(output.value, version):
+        yield output, f"unknown output `{output.value}`{did_you_mean(output.value, OUTPUTS[version])}"
     if version == 1 and tag.name == "rosparam" and "command" in attributes:
         yield from _parameter_command(attributes, model)
     elif version == 1 and tag.name == "param":

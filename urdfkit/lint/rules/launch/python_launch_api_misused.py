@@ -17,10 +17,11 @@ class PythonLaunchApiMisused(RobotRule):
     """A launch file in Python imports a name that a launch package does not have, or calls a class wrongly.
 
     ## What it does
-    Compares imports from ``launch``, ``launch_ros``, ``ament_index_python`` and ``moveit_configs_utils``, and the
-    keywords of common actions, with the names of all releases from Foxy to Rolling. The rule reports misspelt names,
-    names of another module, attributes of XML launch files such as ``pkg``, lists without brackets, and ``items``
-    without a call. Imports in ``try`` are left out.
+    Compares imports from ``launch``, ``launch_ros``, ``ament_index_python`` and ``moveit_configs_utils`` with the names
+    of all releases from Foxy to Rolling, and the keywords of common actions with those from Galactic to Rolling. The
+    rule reports misspelt names, names of another module, attributes of XML launch files such as ``pkg``, keywords of
+    Foxy such as ``node_executable``, lists without brackets, unknown values of ``output``, ``items`` without a call,
+    and calls of functions of the file that lack an argument. Imports in ``try`` are left out.
 
     ## Why is this bad?
     The launch file stops with an ImportError or a TypeError before it starts a node.
@@ -58,7 +59,9 @@ class PythonLaunchApiMisused(RobotRule):
         import ast
 
         from urdfkit.description.launch.python_constants import launch_reader
+        from urdfkit.lint.facts.control.launch_package_paths import place
         from urdfkit.lint.facts.launch.python_names import class_called, launch_classes, python_files
+        from urdfkit.lint.facts.nodes.python_bindings import miscalled
 
         for source, tree in python_files(model):
             classes, reader = launch_classes(tree), launch_reader(tree)
@@ -68,6 +71,8 @@ class PythonLaunchApiMisused(RobotRule):
                     yield from self._import(source, node)
                 elif isinstance(node, ast.Call) and (kind := class_called(node, classes)):
                     yield from self._call(source, node, kind, reader)
+            for call, message in miscalled(tree):
+                yield self._at(source, place(source, call), message)
 
     def _import(self, source: Source, node: ast.ImportFrom) -> Findings:
         from urdfkit.lint.facts.control.launch_package_paths import place
@@ -89,8 +94,10 @@ class PythonLaunchApiMisused(RobotRule):
         import ast
 
         from urdfkit.description.launch.python_constants import name_of
+        from urdfkit.errors import did_you_mean
         from urdfkit.lint.facts.control.launch_package_paths import place
-        from urdfkit.lint.facts.launch.python_api import LISTS, wrong_keyword
+        from urdfkit.lint.facts.launch.python_api import LISTS, OF_FOXY, wrong_keyword
+        from urdfkit.lint.facts.launch.xml_elements import OUTPUTS, is_output
 
         for word in node.keywords:
             if word.arg is None:
@@ -109,8 +116,12 @@ class PythonLaunchApiMisused(RobotRule):
             elif word.arg == "condition" and (other := _no_condition(word.value, reader)):
                 message = f"`condition` is a {other}; write `IfCondition(...)` around it"
                 yield self._at(source, (start, end), message)
+            elif word.arg == "output" and _has_lists(kind) and not is_output(reader.text(word.value) or "$", 2):
+                text = reader.text(word.value) or ""
+                yield self._at(source, (start, end), f"unknown output `{text}`{did_you_mean(text, OUTPUTS[2])}")
             if near is not None:
-                message = f"`{kind}` has no argument `{word.arg}`; did you mean `{near}`?"
+                since = " since ROS 2 Galactic" if word.arg in OF_FOXY else ""
+                message = f"`{kind}` has no argument `{word.arg}`{since}; did you mean `{near}`?"
                 yield self._at(source, (before, before + len(word.arg)), message)
             elif word.arg in LISTS and _has_lists(kind) and _is_no_list(word.value, reader):
                 yield self._at(source, (start, end), f"`{word.arg}` of `{kind}` is not a list; write it in brackets")
