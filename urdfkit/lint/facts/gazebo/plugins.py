@@ -39,6 +39,12 @@ def runs_ros2_control(robot: Robot) -> bool:
     return any(spec.kind == "ros2_control" for plugin, _, _ in plugins(robot) for spec in specs(plugin))
 
 
+def runs_controllers(robot: Robot) -> bool:
+    """Return whether a Gazebo plugin of the robot runs the controllers of ros_control or ros2_control."""
+    names = ("gazebo_ros_control", "gazebo_ros2_control", "gz_ros2_control", "ign_ros2_control")
+    return any(any(name in (plugin.filename or "") for name in names) for plugin, _, _ in plugins(robot))
+
+
 def generations(plugin: Plugin) -> set[str]:
     """Return the generations that have a plugin's library, from its specifications or its name; empty if unknown."""
     from urdfkit.description.plugins.lookup import stem

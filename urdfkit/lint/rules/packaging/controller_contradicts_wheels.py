@@ -12,7 +12,6 @@ TYPE_CHECKING = False
 if TYPE_CHECKING:
     from urdfkit.lint.facts.control.controller_settings import ControllerSettings
     from urdfkit.lint.facts.control.yaml_tree import Node
-    from urdfkit.lint.facts.gazebo.drive_wheels import Wheel
 
 TOLERANCE = 0.1
 """Accepted relative deviation; twice that of Gazebo plugins, because controllers are tuned on real robots."""
@@ -73,23 +72,20 @@ class ControllerContradictsWheels(RobotRule):
         """Yield a finding for each parameter of a drive controller that contradicts the robot."""
         if model.is_incomplete:
             return
-        from urdfkit.lint.facts.control.controller_settings import settings
-        from urdfkit.lint.facts.control.yaml_tree import yamls
+        from urdfkit.lint.facts.control.controller_wheels import diff_drives, has_other_wheels
 
         findings: list[Finding] = []
-        for source in yamls(model):
-            if "DiffDriveController" in source.text:
-                for controller in settings(source):
-                    if controller.kind == "diff_drive_controller/DiffDriveController":
-                        findings += self._contradictions(source, controller, model)
-        if findings and not _has_other_wheels(model):
+        for source, controller in diff_drives(model):
+            findings += self._contradictions(source, controller, model)
+        if findings and not has_other_wheels(model):
             yield from findings
 
     def _contradictions(self, source: Source, controller: ControllerSettings, model: Model) -> Findings:
+        from urdfkit.lint.facts.control.controller_wheels import wheels_of
         from urdfkit.lint.facts.gazebo.drive_wheels import track
         from urdfkit.lint.rules.semantics.wheel_separation import SKID_STEER_RATIO
 
-        left, right = _wheels(controller, model, "left"), _wheels(controller, model, "right")
+        left, right = (wheels_of(controller, model, side) for side in ("left", "right"))
         if not left or len(left) != len(right):
             return
         (node, first), (_, other) = left[0], right[0]
@@ -136,18 +132,6 @@ class ControllerContradictsWheels(RobotRule):
         return Finding(self.code, self.name, self.severity, message, span_of(source, node), joint=joint, help=help)
 
 
-def _wheels(controller: ControllerSettings, model: Model, side: str) -> list[tuple[Node, Wheel]]:
-    """Return the wheels of one side with their nodes in YAML; empty if the robot lacks one of them."""
-    from urdfkit.lint.facts.gazebo.drive_wheels import wheel_of
-
-    names = controller.group.find(f"{side}_wheel_names") or controller.group.find(f"{side}_wheel")
-    nodes = [node for node in (names, *names.items) if node.text] if names is not None else []
-    joints = [model.robot.joint_by_name.get(node.text) for node in nodes]
-    wheels = [wheel_of(model, joint, None) if joint is not None else None for joint in joints]
-    named_wheels = [(node, wheel) for node, wheel in zip(nodes, wheels, strict=True) if wheel is not None]
-    return named_wheels if len(named_wheels) == len(nodes) else []
-
-
 def _positive_number(controller: ControllerSettings, name: str) -> Iterator[tuple[Node, float]]:
     """Yield the node and value of a parameter greater than zero; with zero, the controller reads the description."""
     from urdfkit.description.xml.numbers import number
@@ -156,17 +140,3 @@ def _positive_number(controller: ControllerSettings, name: str) -> Iterator[tupl
     value = number(node.text) if node is not None and node.text else None
     if node is not None and value is not None and value > 0.0:
         yield node, value
-
-
-def _has_other_wheels(model: Model) -> bool:
-    """Return whether another description in these packages has continuous joints."""
-    from pathlib import Path
-
-    from urdfkit.description.packages.related_files import package_of
-    from urdfkit.lint.project.description_files import descriptions
-
-    included = {str(Path(name).absolute()) for name in model.expanded.sources}
-    packages = {model.package, *(package_of(Path(file)) for file in model.related_files)}
-    folders = sorted(package for package in packages if package is not None)
-    texts = (description for folder in folders for description in descriptions(folder))
-    return any("continuous" in text for path, text in texts if str(path.absolute()) not in included)

@@ -1,5 +1,7 @@
 """S907 drive-wheels-misaligned."""
 
+from collections.abc import Sequence
+from itertools import pairwise
 from math import dist
 
 from urdfkit.lint.facts.gazebo.drive_wheels import Wheel, drives
@@ -17,7 +19,8 @@ class DriveWheelsMisaligned(RobotRule):
 
     ## What it does
     Compares the position, height and axis direction of each pair of left and right wheels. The rule reports a joint
-    that is used for both sides, two wheels in the same place, different heights, and opposite axes.
+    that is used for both sides, two wheels in the same place, different heights, and opposite axes. Also checks the
+    wheels of a ``diff_drive_controller`` that a Gazebo plugin of the robot runs.
 
     ## Why is this bad?
     A drive commands the same velocity to both wheels to move straight ahead. If the axes point in opposite directions,
@@ -113,6 +116,37 @@ class DriveWheelsMisaligned(RobotRule):
                     yield self.at(
                         model, right.joint.element, message, attribute="name", joint=right.joint.name, help=help
                     )
+            for side in (drive.left, drive.right):
+                yield from self._same_place(model, side)
+        yield from self._of_controllers(model)
+
+    def _of_controllers(self, model: Model) -> Findings:
+        """Yield a finding for each pair of wheels of a simulated diff_drive_controller that do not match."""
+        from urdfkit.lint.facts.control.controller_wheels import diff_drives, has_other_wheels, wheels_of
+        from urdfkit.lint.facts.gazebo.plugins import runs_controllers
+
+        if not runs_controllers(model.robot):
+            return
+        for _, controller in diff_drives(model):
+            left, right = ([wheel for _, wheel in wheels_of(controller, model, side)] for side in ("left", "right"))
+            if not left or len(left) != len(right) or has_other_wheels(model):
+                continue
+            for one, other in zip(left, right, strict=True):
+                defect = _defect(one, other) if one.joint is not other.joint else None
+                if defect is not None:
+                    joint = other.joint
+                    yield self.at(model, joint.element, defect[0], attribute="name", joint=joint.name, help=defect[1])
+            for side in (left, right):
+                yield from self._same_place(model, side)
+
+    def _same_place(self, model: Model, side: Sequence[Wheel]) -> Findings:
+        """Yield a finding for each wheel at the place of the wheel before it on the same side."""
+        for first, other in pairwise(side):
+            pairs = zip(first.middles, other.middles, strict=False)
+            if first.joint is not other.joint and max(dist(a, b) for a, b in pairs) < _MIN_DISTANCE:
+                message = f"drive wheels `{first.joint.name}` and `{other.joint.name}` are in the same place"
+                help = "correct the <origin> of one of the joints"
+                yield self.at(model, other.joint.element, message, attribute="name", joint=other.joint.name, help=help)
 
 
 def _defect(left: Wheel, right: Wheel) -> tuple[str, str] | None:

@@ -1,0 +1,42 @@
+"""Wheels of the ``diff_drive_controller`` in YAML."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+
+from urdfkit.description.packages.related_files import package_of
+from urdfkit.description.xml.source import Source
+from urdfkit.lint.facts.control.controller_settings import ControllerSettings, settings
+from urdfkit.lint.facts.control.yaml_tree import Node, yamls
+from urdfkit.lint.facts.gazebo.drive_wheels import Wheel, wheel_of
+from urdfkit.lint.model.model import Model
+from urdfkit.lint.project.description_files import descriptions
+
+
+def diff_drives(model: Model) -> Iterator[tuple[Source, ControllerSettings]]:
+    """Yield the controllers for differential drives in the YAML files of these packages."""
+    for source in yamls(model):
+        if "DiffDriveController" in source.text:
+            for controller in settings(source):
+                if controller.kind == "diff_drive_controller/DiffDriveController":
+                    yield source, controller
+
+
+def wheels_of(controller: ControllerSettings, model: Model, side: str) -> list[tuple[Node, Wheel]]:
+    """Return the wheels of one side with their nodes in YAML; empty if the robot lacks one of them."""
+    names = controller.group.find(f"{side}_wheel_names") or controller.group.find(f"{side}_wheel")
+    nodes = [node for node in (names, *names.items) if node.text] if names is not None else []
+    joints = [model.robot.joint_by_name.get(node.text) for node in nodes]
+    wheels = [wheel_of(model, joint, None) if joint is not None else None for joint in joints]
+    named_wheels = [(node, wheel) for node, wheel in zip(nodes, wheels, strict=True) if wheel is not None]
+    return named_wheels if len(named_wheels) == len(nodes) else []
+
+
+def has_other_wheels(model: Model) -> bool:
+    """Return whether another description in these packages has continuous joints."""
+    included = {str(Path(name).absolute()) for name in model.expanded.sources}
+    packages = {model.package, *(package_of(Path(file)) for file in model.related_files)}
+    folders = sorted(package for package in packages if package is not None)
+    texts = (description for folder in folders for description in descriptions(folder))
+    return any("continuous" in text for path, text in texts if str(path.absolute()) not in included)
