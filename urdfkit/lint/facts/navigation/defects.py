@@ -15,14 +15,23 @@ from urdfkit.lint.facts.control.ros2_controllers import PARAMETERS
 from urdfkit.lint.facts.control.yaml_tree import Node, documents, not_a_number, number_of, walk
 from urdfkit.lint.facts.navigation.tables import (
     CHOICES,
+    COSTMAP_ROS1,
     DEFAULTS,
     DOUBLES,
+    FILTER_POSITIVE,
     FRAMES,
     INTEGERS,
+    MAY_BE_ZERO,
+    MUX,
     NODES,
     OTHERS,
     PLUGINS,
     POSITIVE,
+    SIMILAR,
+    SLAM_DOUBLES,
+    SLAM_MODES,
+    SLAM_POSITIVE,
+    SWITCHES,
     VELOCITY_LIMITS,
 )
 
@@ -64,19 +73,98 @@ def navigation_defects(source: Source, controllers: frozenset[str]) -> Defects:
             for group in (root, *(value for _, value in root.entries)):
                 if all(group.find(f"{name}_frame") is not None for name in ("world", "odom", "base_link")):
                     yield from _filter(group, controllers)
+        for node in costmaps_of_ros1(source):
+            yield from _choices(node)
+            yield from _plugins(node)
+            for each in walk(node):
+                yield from _values(each)
         return
     for key, group in sections(source):
         name = key.text.strip("/").rpartition("/")[2]
         if name in (*NODES, "slam_toolbox"):
             yield from _choices(group)
+            for node in walk(group):
+                yield from _switches(node)
+                yield from _similar(node)
         if name in NODES:
             for node in walk(group):
                 yield from _plugins(node)
                 yield from _values(node)
             if name == "velocity_smoother":
                 yield from _velocity_limits(group)
+        elif name == "slam_toolbox":
+            mode = group.find("mode")
+            if mode is not None and mode.text and "$" not in mode.text and mode.text not in SLAM_MODES:
+                hint = suggestion(nearest(mode.text, SLAM_MODES)) or "; write `mapping` or `localization`"
+                yield mode, f"unknown `mode` `{mode.text}` of slam_toolbox{hint}"
+            yield from _values(group, SLAM_POSITIVE)
+        elif name == "twist_mux":
+            yield from _mux(group)
         elif group.find("world_frame") is not None and group.find("odom_frame") is not None:
             yield from _filter(group, controllers)
+            yield from _switches(group)
+            yield from _values(group, FILTER_POSITIVE)
+
+
+def costmaps_of_ros1(source: Source) -> Iterator[Node]:
+    """Yield the groups of parameters of costmap_2d in a YAML file of ROS 1."""
+    if "footprint" not in source.text and "frame" not in source.text:
+        return
+    for node in (each for root in documents(source)[0] for each in walk(root) if each.kind == "group"):
+        if len({key.text for key, _ in node.entries} & COSTMAP_ROS1) >= 3:
+            yield node
+
+
+def _switches(node: Node) -> Defects:
+    """Yield the values of truth values that are neither true nor false."""
+    for key, value in node.entries:
+        if key.text not in SWITCHES or value.kind != "text" or not value.text or "$" in value.text:
+            continue
+        if not value.is_plain and value.text.lower() in ("true", "false"):
+            yield value, f'`{key.text}` is "{value.text}", a text in quotes; write {value.text.lower()}'
+        elif not re.fullmatch(_TRUTH, value.text, re.IGNORECASE) and not re.fullmatch(_SLIP_OF_TRUTH, value.text):
+            yield value, f"`{key.text}` is `{value.text}`, which is neither true nor false"
+
+
+def _similar(node: Node) -> Defects:
+    """Yield the misspelt values of parameters whose further values plugins define."""
+    from urdfkit.lint.facts.ros_packages import is_slip
+
+    for key, value in node.entries:
+        choices = SIMILAR.get(key.text, ())
+        if not choices or value.kind != "text" or value.text in choices:
+            continue
+        near = next((each for each in choices if is_slip(value.text, each)), None)
+        if near is not None:
+            yield value, f"unknown `{key.text}` `{value.text}`; did you mean `{near}`?"
+
+
+def _mux(group: Node) -> Defects:
+    """Yield the defects of the inputs of twist_mux."""
+    from urdfkit.lint.facts.ros_packages import is_slip
+
+    for part in ("topics", "locks"):
+        inputs = group.find(part)
+        for name, entry in inputs.entries if inputs is not None else ():
+            written = {key.text for key, _ in entry.entries}
+            for key, value in entry.entries:
+                near = next((each for each in MUX if each not in written and is_slip(key.text, each)), None)
+                if key.text not in MUX and near is not None:
+                    written.add(near)
+                    yield key, f"unknown parameter `{key.text}` of twist_mux; did you mean `{near}`?"
+                number = number_of(value)
+                if key.text == "priority" and number is not None and not 0.0 <= number <= 255.0:
+                    yield value, f"`priority` is {number:g}; twist_mux requires 0 to 255"
+                elif key.text == "timeout" and number is not None and number < 0.0:
+                    yield value, f"`timeout` is {number:g}; it must not be negative"
+            lacking = [each for each in MUX[:3] if each not in written] if entry.kind == "group" else []
+            if lacking:
+                yield name, f"input `{name.text}` of twist_mux lacks `{lacking[0]}`"
+
+
+_TRUTH = r"true|false|yes|no|on|off|y|n"
+_SLIP_OF_TRUTH = r"[Tt](?:ure|reu|ru|rie|ruee|tue|reue)|[Ff](?:asle|lase|ales|als|alsee|lse|ase)"
+"""Matches the misspelt truth values that parameter-value-invalid reports in each YAML file."""
 
 
 def misspelt_navigation(source: Source) -> Iterator[tuple[Node, str, str]]:
@@ -84,6 +172,7 @@ def misspelt_navigation(source: Source) -> Iterator[tuple[Node, str, str]]:
     from urdfkit.lint.facts.ros_packages import is_slip
 
     if PARAMETERS not in source.text:
+        yield from _misspelt_in_ros1(source)
         return
     valid = DOUBLES | INTEGERS | OTHERS
     named = [(key, group, key.text.strip("/").rpartition("/")[2]) for key, group in sections(source)]
@@ -118,6 +207,23 @@ def misspelt_navigation(source: Source) -> Iterator[tuple[Node, str, str]]:
                     yield parameter, "parameter", near
 
 
+def _misspelt_in_ros1(source: Source) -> Iterator[tuple[Node, str, str]]:
+    """Yield the misspelt parameters and namespaces of costmaps in a YAML file of ROS 1."""
+    from urdfkit.lint.facts.ros_packages import is_slip
+
+    costmaps = list(costmaps_of_ros1(source))
+    for node in costmaps:
+        names = {key.text for key, _ in node.entries}
+        for key, _ in node.entries:
+            near = next((each for each in sorted(COSTMAP_ROS1 - names) if is_slip(key.text, each)), None)
+            if key.text not in COSTMAP_ROS1 and len(key.text) >= 6 and near is not None and len(near) >= 6:
+                yield key, "parameter", near
+    for key, value in (entry for root in documents(source)[0] for entry in root.entries):
+        near = next((each for each in _COSTMAPS if is_slip(key.text, each)), None)
+        if key.text not in _COSTMAPS and near is not None and any(value is each for each in costmaps):
+            yield key, "namespace", near
+
+
 def _meant_plugin(name: str) -> str | None:
     """Return the plugin of Nav2 that a misspelt class stands for, or one with its class in another package of Nav2."""
     from urdfkit.lint.facts.ros_packages import is_slip
@@ -143,7 +249,7 @@ def wrong_numbers(source: Source) -> Iterator[tuple[Node, str, str]]:
         elif name in NODES:
             doubles, integers = DOUBLES, INTEGERS
         elif name == "slam_toolbox":
-            doubles, integers = frozenset(), frozenset(("throttle_scans", "scan_buffer_size"))
+            doubles, integers = SLAM_DOUBLES, frozenset(("throttle_scans", "scan_buffer_size"))
         elif is_filter:
             doubles, integers = frozenset(("frequency", "sensor_timeout")), frozenset()
         else:
@@ -202,23 +308,24 @@ def _choices(group: Node) -> Defects:
             yield least, f"`min_particles` is {low:g}, more than `max_particles`, {high:g}"
 
 
-def _values(node: Node) -> Defects:
+def _values(node: Node, positive: frozenset[str] = POSITIVE) -> Defects:
     for key, value in node.entries:
         name = key.text
-        if name == "data_type" and value.text not in ("LaserScan", "PointCloud2") and "$" not in value.text:
+        if (
+            name == "data_type"
+            and node.find("topic") is not None
+            and value.text not in ("LaserScan", "PointCloud2")
+            and "$" not in value.text
+        ):
             near = nearest(value.text, ("LaserScan", "PointCloud2"))
             hint = suggestion(near) or "; write `LaserScan` or `PointCloud2`"
             yield value, f"unknown `data_type` `{value.text}` of an observation source{hint}"
-        if name not in POSITIVE or value.kind != "text" or not value.text or "$" in value.text:
+        if name not in positive or value.kind != "text" or not value.text or "$" in value.text:
             continue
         if problem := not_a_number(value):
             yield value, f"`{name}` is {problem}"
-        elif (number := number_of(value)) is not None and (number < 0.0 or (number == 0.0 and name not in _ZERO)):
+        elif (number := number_of(value)) is not None and (number < 0.0 or (number == 0.0 and name not in MAY_BE_ZERO)):
             yield value, f"`{name}` is {number:g}; it must be positive"
-
-
-_ZERO = ("robot_radius", "inflation_radius", "width", "height")
-"""Parameters that may be zero."""
 
 
 def _velocity_limits(group: Node) -> Defects:

@@ -56,9 +56,43 @@ INTEGERS = frozenset(("height", "loop_rate", "max_beams", "max_particles", "min_
 
 _POSITIVE = """
 controller_frequency cycle_frequency inflation_radius resolution robot_radius smoothing_frequency update_frequency
-xy_goal_tolerance yaw_goal_tolerance z_resolution max_particles min_particles max_beams width height
+xy_goal_tolerance yaw_goal_tolerance z_resolution max_particles min_particles max_beams width height bt_loop_duration
+cost_scaling_factor default_server_timeout desired_linear_vel expected_planner_frequency lookahead_dist lookahead_time
+max_lookahead_dist min_lookahead_dist movement_time_allowance obstacle_max_range publish_frequency raytrace_max_range
+sim_time transform_tolerance
 """
 POSITIVE = frozenset(_POSITIVE.split())
+
+MAY_BE_ZERO = frozenset(
+    (
+        *("robot_radius", "inflation_radius", "width", "height", "cost_scaling_factor", "expected_planner_frequency"),
+        *("min_lookahead_dist", "publish_frequency", "transform_tolerance", "sensor_timeout", "transform_timeout"),
+        *("minimum_time_interval", "minimum_travel_distance", "minimum_travel_heading", "transform_publish_period"),
+    )
+)
+"""Parameters that may be zero."""
+
+_SLAM = """
+map_update_interval max_laser_range minimum_time_interval minimum_travel_distance minimum_travel_heading resolution
+scan_buffer_size tf_buffer_duration throttle_scans transform_publish_period transform_timeout
+"""
+SLAM_POSITIVE = frozenset(_SLAM.split())
+"""Parameters of slam_toolbox that are not negative (slam_toolbox_common.cpp, karto_sdk: Mapper.cpp)."""
+
+SLAM_DOUBLES = frozenset(("map_update_interval", "max_laser_range", "resolution", "tf_buffer_duration"))
+
+FILTER_POSITIVE = frozenset(("frequency", "sensor_timeout"))
+"""Parameters of robot_localization that are not negative (ros_filter.cpp)."""
+
+_SWITCHES = """
+allow_reversing allow_unknown always_reset_initial_pose always_send_full_costmap clearing debug_logging do_beamskip
+do_loop_closing enable_interactive_mode enabled first_map_only footprint_clearing_enabled map_start_at_dock
+map_subscribe_transient_local marking permit_corrected_publication print_diagnostics publish_acceleration publish_tf
+rolling_window set_initial_pose stateful tf_broadcast track_unknown_space two_d_mode use_astar use_collision_detection
+use_control use_rotate_to_heading use_scan_barycenter use_scan_matching use_sim_time
+"""
+SWITCHES = frozenset(_SWITCHES.split())
+"""Parameters that are true or false."""
 
 _OTHERS = """
 allow_unknown always_send_full_costmap base_frame_id behavior_plugins bt_loop_duration clearing controller_plugins
@@ -74,8 +108,42 @@ OTHERS = frozenset(_OTHERS.split())
 CHOICES = {
     "laser_model_type": ("beam", "likelihood_field", "likelihood_field_prob"),
     "solver_plugin": ("solver_plugins::CeresSolver", "solver_plugins::G2oSolver", "solver_plugins::SpaSolver"),
+    "ceres_linear_solver": ("SPARSE_NORMAL_CHOLESKY", "SPARSE_SCHUR", "ITERATIVE_SCHUR", "CGNR"),
+    "ceres_preconditioner": ("SCHUR_JACOBI", "JACOBI", "IDENTITY"),
+    "ceres_trust_strategy": ("LEVENBERG_MARQUARDT", "DOGLEG"),
+    "ceres_dogleg_type": ("TRADITIONAL_DOGLEG", "SUBSPACE_DOGLEG"),
+    "ceres_loss_function": ("None", "HuberLoss", "CauchyLoss"),
 }
-"""Parameters of amcl and slam_toolbox: their values (nav2_amcl: amcl_node.cpp; slam_toolbox: solver_plugins.xml)."""
+"""Parameters of amcl and slam_toolbox: their values (nav2_amcl: amcl_node.cpp; slam_toolbox: ceres_solver.cpp)."""
+
+SLAM_MODES = ("mapping", "localization")
+"""Values of ``mode`` of slam_toolbox (README.md)."""
+
+SIMILAR = {
+    "robot_model_type": (
+        *("nav2_amcl::DifferentialMotionModel", "nav2_amcl::OmniMotionModel", "differential", "omnidirectional"),
+        *("omni_directional",),
+    ),
+    "odom_model_type": ("diff", "omni", "diff-corrected", "omni-corrected"),
+    "motion_model": ("DiffDrive", "Omni", "Ackermann"),
+    "motion_model_for_search": ("DUBIN", "REEDS_SHEPP", "STATE_LATTICE", "MOORE", "VON_NEUMANN"),
+    "action_type": ("stop", "slowdown", "limit", "approach", "none"),
+}
+"""Parameters for which a value that differs by a letter is misspelt; other values can be those of plugins."""
+
+COSTMAP_ROS1 = frozenset(
+    (
+        *("footprint", "footprint_padding", "global_frame", "height", "inflation_radius", "map_type"),
+        *("max_obstacle_height", "observation_sources", "obstacle_range", "origin_x", "origin_y", "origin_z"),
+        *("plugins", "unknown_threshold", "mark_threshold", "z_resolution", "z_voxels", "track_unknown_space"),
+        *("publish_frequency", "raytrace_range", "resolution", "robot_base_frame", "robot_radius", "rolling_window"),
+        *("static_map", "transform_tolerance", "update_frequency", "width", "cost_scaling_factor"),
+    )
+)
+"""Parameters of costmap_2d in ROS 1 (costmap_2d_ros.cpp and its layers, Noetic)."""
+
+MUX = ("topic", "timeout", "priority", "short_desc", "name")
+"""Parameters of an input of twist_mux (twist_mux.cpp)."""
 
 FRAMES = ("global_frame", "global_frame_id", "local_frame", "map_frame", "odom_frame", "odom_frame_id", "world_frame")
 """Parameters whose values are usually ``map`` or ``odom``."""

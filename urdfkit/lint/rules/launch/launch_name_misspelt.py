@@ -39,8 +39,9 @@ class LaunchNameMisspelt(RobotRule):
     Compares quoted words in launch files with ``use_sim_time``, ``robot_description``, ``joint_states`` and
     ``controller_manager``, keys in YAML files with the first two, and the topics that remappings of common nodes
     replace with the topics of these nodes. Also compares the parameters of common nodes, such as
-    ``teleop_twist_joy_node`` and ``parameter_bridge``, with the parameters of these nodes, and worlds without a path
-    with those of Gazebo. Words that differ by more than one letter, or that the file declares as a launch argument, are
+    ``teleop_twist_joy_node``, ``slam_toolbox``, ``amcl`` and ``parameter_bridge``, with the parameters of these nodes,
+    the namespaces of costmaps with ``local_costmap`` and ``global_costmap``, and worlds without a path with those of
+    Gazebo. Words that differ by more than one letter, or that the file declares as a launch argument, are
     accepted.
 
     ## Why is this bad?
@@ -98,7 +99,8 @@ class LaunchNameMisspelt(RobotRule):
             for key, kind, near in () if is_launch else misspelt_navigation(source):
                 if kind == "plugin" and is_exported_plugin(model, key.text):
                     continue
-                message = f"unknown {kind} `{key.text}` in the parameters of Nav2; did you mean `{near}`?"
+                of = "Nav2" if "ros__parameters" in source.text else "costmap_2d"
+                message = f"unknown {kind} `{key.text}` in the parameters of {of}; did you mean `{near}`?"
                 yield Finding(self.code, self.name, "warning", message, span_of(source, key))
             for parameter, package, near in misspelt_in_launch(source) if is_launch else ():
                 message = f"unknown parameter `{parameter.name}` of a node of `{package}`; did you mean `{near}`?"
@@ -125,11 +127,17 @@ def _nearest(written: str, names: tuple[str, ...]) -> str | None:
 
 
 def _remapped(source: Source) -> Iterator[tuple[Named, str]]:
-    """Yield the topics in remappings of nodes in XML that differ from a topic by a final ``s`` or by ``-``."""
+    """Yield the topics in remappings in XML that differ from a topic by a final ``s`` or by ``-``, and namespaces."""
     from urdfkit.lint.facts.control.controller_joints import Named
     from urdfkit.lint.model.tags import Document
 
-    for tag in (tag for root in Document(source).roots for tag in root.walk() if tag.name == "remap"):
+    for tag in (tag for root in Document(source).roots for tag in root.walk() if tag.name in ("remap", "rosparam")):
+        space = tag.attributes.get("ns") if tag.name == "rosparam" else None
+        meant = _nearest(space.value, ("global_costmap", "local_costmap")) if space is not None else None
+        if space is not None and meant is not None:
+            yield Named(space.value, space.value_start), meant
+        if tag.name == "rosparam":
+            continue
         for value in tag.attributes.values():
             last = value.value.rpartition("/")[2]
             if "-" in last and last.replace("-", "_") in _TOPICS:

@@ -13,6 +13,7 @@ if TYPE_CHECKING:
     from urdfkit.lint.finding import Severity
 
 _PARAMETERS = "ros__parameters"
+_LEVEL = r"(?m)^[ \t]+(ros_{1,3}param\w*)[ \t]*:[ \t]*\r?$"
 _TAB = r"(?m)^ *\t[ \t]*(?=[^\s#])"
 
 
@@ -79,6 +80,10 @@ class ControllerSettingsMisspelt(RobotRule):
             text = uncommented(source)
             types = list(typed(source))
             if not types and "controller" not in text:
+                for level in re.finditer(_LEVEL, text):
+                    if level[1] != _PARAMETERS:
+                        message = f"unknown key `{level[1]}`; did you mean `{_PARAMETERS}`?"
+                        yield self._at(source, level.start(1), level[1], message, severity="error")
                 continue
             for reference in types:
                 suggestion = meant_type(reference.name)

@@ -1,18 +1,29 @@
 """K961 yaml-link-undefined."""
 
 import re
+from collections.abc import Iterator
 
+from urdfkit.description.packages.related_files import LAUNCH
 from urdfkit.description.xml.source import Source
 from urdfkit.lint.finding import Finding
 from urdfkit.lint.model.masked_names import unless_masked
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
 _FRAME = (
-    r"(?m)^[ \t]*(robot_base_frame|base_frame(?:_id)?|base_link_frame(?:_id)?|base_link|tip_link|ee_link|root_link"
-    r"|frame_id)"
-    r"[ \t]*:[ \t]*([\"']?)([\w./-]+)\2[ \t]*\r?$"
+    r"(?m)(?:^|[{,])[ \t]*(robot_base_frame|base_frame(?:_id)?|base_link_frame(?:_id)?|base_link|tip_link|ee_link"
+    r"|root_link|frame_id|sensor_frame)"
+    r"[ \t]*:[ \t]*([\"']?)([\w./-]+)\2[ \t]*(?=\r?$|[},])"
 )
 """Matches parameters of controllers, navigation and localisation that name a link of the robot."""
+
+
+_IN_XML = r"<param\b[^<>]*?\bname\s*=\s*[\"'](\w+)([\"'])[^<>]*?\bvalue\s*=\s*[\"']([\w/]+)[\"']"
+_IN_PYTHON = r"[\"'](\w+)([\"'])\s*:\s*[\"']([\w/]+)[\"']"
+_IN_LAUNCH = ("robot_base_frame", "base_frame", "base_frame_id", "base_link_frame", "base_link_frame_id")
+"""Parameters of nodes in launch files that name a link of the robot."""
+
+_LOOSE = ("frame_id", "sensor_frame")
+"""Parameters that can name frames of other robots."""
 
 
 class FrameUndefined(RobotRule):
@@ -20,10 +31,11 @@ class FrameUndefined(RobotRule):
 
     ## What it does
     Checks ``base_frame_id``, ``base_frame``, ``robot_base_frame`` and ``base_link_frame``, and for arms ``base_link``,
-    ``root_link``, ``tip_link`` and ``ee_link``, and ``frame_id`` with a name that differs by a letter, in the YAML
-    files of the robot's package and of neighbouring packages that depend on it. The rule reports misspelt link names,
-    unless another description in these packages defines a link of that name. For the ``base_frame_id`` of a drive
-    controller, it also reports names that no other file in these packages mentions.
+    ``root_link``, ``tip_link`` and ``ee_link``, and ``frame_id`` and ``sensor_frame`` with a name that differs by a
+    letter, in the YAML files of the robot's package and of neighbouring packages that depend on it, and the base frames
+    in parameters of launch files. The rule reports misspelt link names, unless another description in these packages
+    defines a link of that name. For the ``base_frame_id`` of a drive controller, it also reports names that no other
+    file in these packages mentions.
 
     ## Why is this bad?
     The controller publishes a frame that is not part of the TF tree, or navigation waits for a frame that never
@@ -62,16 +74,15 @@ class FrameUndefined(RobotRule):
         if not links_by_name:
             return
         for source in model.related_files.values():
-            if not source.file.endswith((".yaml", ".yml")):
-                continue
-            for match in re.finditer(_FRAME, uncommented(source)):
+            for match in _named(source, uncommented(source)):
                 name = match[3].rpartition("/")[2]
                 suggestion, hint = meant(name, links_by_name)
                 if name in links_by_name or (suggestion is None and not _is_drive_frame(source, match, model)):
                     continue
                 if model.neighbouring_descriptions.define("link", name):
                     continue
-                if match[1] == "frame_id" and (suggestion is None or not is_slip(name, suggestion)):
+                is_loose = match[1] in _LOOSE or not source.file.endswith((".yaml", ".yml"))
+                if is_loose and (suggestion is None or not is_slip(name, suggestion)):
                     continue
                 finding = Finding(
                     self.code,
@@ -84,14 +95,28 @@ class FrameUndefined(RobotRule):
                 yield from unless_masked(model, name, suggestion, finding)
 
 
+def _named(source: Source, text: str) -> Iterator[re.Match[str]]:
+    """Yield the parameters that name a link: the name in group 1 and the link in group 3."""
+    if source.file.endswith((".yaml", ".yml")):
+        yield from re.finditer(_FRAME, text)
+    elif source.file.endswith(LAUNCH) and "frame" in text:
+        pattern = _IN_PYTHON if source.file.endswith(".py") else _IN_XML
+        yield from (match for match in re.finditer(pattern, text) if match[1] in _IN_LAUNCH)
+
+
 def _is_drive_frame(source: Source, match: re.Match[str], model: Model) -> bool:
     """Return whether a parameter is the base frame of a drive controller, and no other file mentions the frame."""
     from urdfkit.lint.facts.control.controller_settings import settings
 
-    if match[1] != "base_frame_id" or any(
-        re.search(rf"(?<![\w-]){re.escape(match[3])}(?![\w-])", other.text)
-        for other in model.related_files.values()
-        if other is not source
+    is_yaml = source.file.endswith((".yaml", ".yml"))
+    if (
+        match[1] != "base_frame_id"
+        or not is_yaml
+        or any(
+            re.search(rf"(?<![\w-]){re.escape(match[3])}(?![\w-])", other.text)
+            for other in model.related_files.values()
+            if other is not source
+        )
     ):
         return False
     position = source.position(match.start(3))
