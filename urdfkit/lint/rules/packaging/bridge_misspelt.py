@@ -142,6 +142,7 @@ def _topic_defects(bridges: list[tuple[Source, Bridged]], model: Model) -> Itera
     """Yield misspelt topics and wrong directions with their messages."""
     from urdfkit.lint.facts.gazebo.plugins import references
     from urdfkit.lint.facts.gazebo.sensor_topics import published
+    from urdfkit.lint.facts.topics.misspelt import COMMON
     from urdfkit.lint.fix_builders import nearest
 
     if model.is_incomplete:
@@ -160,6 +161,8 @@ def _topic_defects(bridges: list[tuple[Source, Bridged]], model: Model) -> Itera
         topic, direction = bridge.topic.name.strip("/"), bridge.direction.name if bridge.direction is not None else ""
         unbridged = [name for name in robot_topics if (source.file, name) not in bridged_topics]
         suggestion = nearest(topic, sorted(unbridged), cutoff=0.75) if topic not in robot_topics else None
+        if topic in COMMON and suggestion is not None and suggestion not in COMMON:
+            continue  # topic-misspelt reports the name in the description
         if suggestion is not None and _is_misspelling(topic, suggestion) and not _is_in_description(topic, model):
             yield (
                 source,

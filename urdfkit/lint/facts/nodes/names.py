@@ -1,0 +1,124 @@
+"""Names of nodes that differ between launch files, parameter files and lifecycle managers."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+
+from urdfkit.description.launch.python_constants import launch_reader, parsed
+from urdfkit.description.xml.source import Source, Span
+from urdfkit.lint.facts.control.launch_package_paths import place
+from urdfkit.lint.facts.control.yaml_tree import documents, span_of
+from urdfkit.lint.facts.launch.executables import released
+from urdfkit.lint.facts.navigation.defects import sections
+from urdfkit.lint.facts.navigation.tables import NODES
+from urdfkit.lint.facts.nodes.started import LaunchedNode, launched_nodes, parameter_files
+from urdfkit.lint.facts.ros_packages import is_slip
+from urdfkit.lint.model.model import Model
+
+Defects = Iterator[tuple[Source, Span, str]]
+
+_DEFAULTS = {
+    ("joy", "joy_node"): "joy_node",
+    ("nav2_amcl", "amcl"): "amcl",
+    ("robot_localization", "ekf_node"): "ekf_filter_node",
+    ("robot_localization", "ukf_node"): "ukf_filter_node",
+    ("robot_localization", "navsat_transform_node"): "navsat_transform",
+    ("slam_toolbox", "async_slam_toolbox_node"): "slam_toolbox",
+    ("slam_toolbox", "localization_slam_toolbox_node"): "slam_toolbox",
+    ("slam_toolbox", "sync_slam_toolbox_node"): "slam_toolbox",
+    ("teleop_twist_joy", "teleop_node"): "teleop_twist_joy_node",
+    ("twist_mux", "twist_mux"): "twist_mux",
+}
+"""Package and executable → the name that the node has by default (Humble to Rolling)."""
+
+_KNOWN = NODES | {*_DEFAULTS.values()}
+
+_SEVERAL = ("controller_manager", "moveit_ros_move_group", "moveit_servo", "gazebo_ros", "ros_gz_sim", "rviz2")
+"""Packages whose processes contain nodes of further names."""
+
+
+def misnamed(model: Model) -> Defects:
+    """Yield the names of nodes that no section of their parameter file has, and the misspelt sections."""
+    nodes = launched_nodes(model)
+    files = parameter_files(model)
+    users: dict[str, list[LaunchedNode]] = {}
+    for node in nodes:
+        for path in dict.fromkeys(node.files):
+            if path in files:
+                users.setdefault(files[path].file, []).append(node)
+    started = {_name(node) for node in nodes}
+    by_file = {source.file: source for source in files.values()}
+    for file, readers in users.items():
+        keys = [(key, key.text.strip("/").rpartition("/")[2]) for key, _ in sections(by_file[file])]
+        if not keys or any("*" in key.text for key, _ in keys):
+            continue
+        seen = set[tuple[int, int]]()
+        for node in readers:
+            name = _name(node)
+            if not name or any(name == other for _, other in keys):
+                continue
+            near = next((entry for entry in keys if is_slip(entry[1], name) and entry[1] not in started), None)
+            is_named = node.name is not None and node.name.name == name
+            if near is not None and (not is_named or name in _KNOWN or name == node.program or near[1] not in _KNOWN):
+                if not any(is_slip(near[1], each) for each in NODES) and (near[0].line, near[0].column) not in seen:
+                    seen.add((near[0].line, near[0].column))
+                    message = f"no node is called `{near[1]}`; did you mean `{name}`?"
+                    yield by_file[file], span_of(by_file[file], near[0]), message
+            elif near is not None and node.name is not None:
+                message = f"node `{name}` has no section in {_short(file)}; did you mean `{near[1]}`?"
+                yield node.source, _span(node), message
+            elif node.name is not None and len(keys) == len(readers) == 1 and _has_one_node(node):
+                if keys[0][1] not in started and name in _KNOWN:
+                    message = f"no node is called `{keys[0][1]}`; did you mean `{name}`?"
+                    yield by_file[file], span_of(by_file[file], keys[0][0]), message
+                elif keys[0][1] not in started:
+                    message = f"node `{name}` has no section in {_short(file)}, whose only section is `{keys[0][1]}`"
+                    yield node.source, _span(node), message
+    yield from _unmanaged(model, {each for each in started if each})
+
+
+def _name(node: LaunchedNode) -> str:
+    if node.name is not None:
+        return node.name.name
+    return "" if node.has_name else _DEFAULTS.get((node.package, node.program), "")
+
+
+def _span(node: LaunchedNode) -> Span:
+    assert node.name is not None
+    return node.source.span(node.name.start, node.name.start + len(node.name.name))
+
+
+def _short(file: str) -> str:
+    return file.rpartition("/")[2]
+
+
+def _has_one_node(node: LaunchedNode) -> bool:
+    return node.package in released() and node.package not in _SEVERAL
+
+
+def _unmanaged(model: Model, started: set[str]) -> Defects:
+    """Yield the misspelt names in ``node_names`` of a lifecycle manager, in launch files and YAML."""
+    for file, source in model.related_files.items():
+        if "node_names" not in source.text:
+            continue
+        listed: list[tuple[str, Span]] = []
+        if file.endswith(".py") and (tree := parsed(source)) is not None:
+            reader = launch_reader(tree)
+            for node in (each for each in ast.walk(tree) if isinstance(each, ast.Dict)):
+                for key, value in zip(node.keys, node.values, strict=True):
+                    if key is None or reader.text(key) != "node_names":
+                        continue
+                    names = reader.assigned.get(value.id) if isinstance(value, ast.Name) else value
+                    for item in names.elts if isinstance(names, (ast.List, ast.Tuple)) else ():
+                        if isinstance(item, ast.Constant) and isinstance(item.value, str):
+                            listed.append((item.value, source.span(*place(source, item))))
+        elif file.endswith((".yaml", ".yml")):
+            for _, group in (each for each in sections(source) if documents(source)[1] is None):
+                names_node = group.find("node_names")
+                listed += ((item.text, span_of(source, item)) for item in (names_node.items if names_node else ()))
+        names_listed = {name for name, _ in listed}
+        for name, span in listed:
+            near = next((each for each in sorted(started - names_listed) if is_slip(name, each)), None)
+            if name not in started | _KNOWN and near is not None:
+                yield source, span, f"no node is called `{name}`; did you mean `{near}`?"

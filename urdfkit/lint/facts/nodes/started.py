@@ -1,0 +1,194 @@
+"""Nodes of ROS 2 that launch files start, with their names, parameter files and remappings."""
+
+from __future__ import annotations
+
+import ast
+import re
+from collections.abc import Iterator
+from pathlib import Path
+
+from urdfkit.description.launch.python_constants import LaunchReader, launch_reader, name_of, parsed
+from urdfkit.description.packages.related_files import LAUNCH, neighbours
+from urdfkit.description.xml.source import Source
+from urdfkit.lint.facts.control.controller_joints import Named
+from urdfkit.lint.facts.control.launch_package_paths import place
+from urdfkit.lint.facts.launch.actions import LaunchAction, launch_elements, share_of
+from urdfkit.lint.facts.nodes.python_bindings import Binding, bindings, resolved
+from urdfkit.lint.model.model import Model
+from urdfkit.record import record
+
+_WRAPPERS = ("ParameterFile", "RewrittenYaml", "ReplaceString")
+"""Classes that return a changed copy of a parameter file (launch_ros, nav2_common)."""
+
+_DECLARATIONS = ("DeclareLaunchArgument", "DeclareBooleanLaunchArg")
+_ARGUMENT = r"\$\((?:var|arg)\s+([\w.-]+)\s*\)"
+
+
+@record(eq=False)
+class LaunchedNode:
+    """A node in a launch file.
+
+    Attributes:
+        source: the launch file.
+        package: its package; empty if it is computed.
+        program: its executable; empty if it is computed.
+        name: its name; None if it has none, or a computed one.
+        has_name: whether the launch file names it.
+        files: package and path of the parameter files that it loads.
+        remappings: old and new name of each remapping with constant names.
+    """
+
+    source: Source
+    package: str
+    program: str
+    name: Named | None
+    has_name: bool
+    files: tuple[tuple[str, str], ...]
+    remappings: tuple[tuple[Named, Named], ...]
+
+
+def launched_nodes(model: Model) -> list[LaunchedNode]:
+    """Return the nodes in the launch files of the model's package and of related packages."""
+    found: list[LaunchedNode] = []
+    for file, source in model.related_files.items():
+        if file.endswith(LAUNCH):
+            found += _in_python(source) if file.endswith(".py") else _in_elements(source)
+    return found
+
+
+def parameter_files(model: Model) -> dict[tuple[str, str], Source]:
+    """Return the YAML files of the model's package and of related packages, by package and path in it."""
+    if model.package is None:
+        return {}
+    folders = {str(folder.absolute()): name for name, folder in neighbours(model.package).items()}
+    found = {}
+    for file, source in model.related_files.items():
+        if file.endswith((".yaml", ".yml")):
+            path = Path(file).absolute()
+            folder = next((str(each) for each in path.parents if str(each) in folders), None)
+            if folder is not None:
+                found[folders[folder], path.relative_to(folder).as_posix()] = source
+    return found
+
+
+def _in_elements(source: Source) -> Iterator[LaunchedNode]:
+    roots = launch_elements(source)
+    waiting = list(reversed(roots))
+    defaults: dict[str, str] = {}
+    while waiting:
+        element = waiting.pop()
+        waiting += reversed(element.children)
+        at = element.attributes
+        if element.tag == "arg" and "name" in at and (default := at.get("default") or at.get("value")) is not None:
+            defaults.setdefault(at["name"].name, default.name)
+        if element.tag in ("node", "lifecycle_node"):
+            yield _node(source, element, defaults)
+
+
+def _node(source: Source, element: LaunchAction, defaults: dict[str, str]) -> LaunchedNode:
+    at = element.attributes
+    program = at.get("exec") or at.get("type")
+    name = at.get("name")
+    files, remappings = [], []
+    for child in element.children:
+        parts = child.attributes
+        if child.tag == "param" and "from" in parts:
+            text = re.sub(rf"^\s*{_ARGUMENT}\s*$", lambda use: defaults.get(use[1], use[0]), parts["from"].name)
+            files.append(share_of(text))
+        elif child.tag == "remap" and "from" in parts and "to" in parts:
+            remappings.append((parts["from"], parts["to"]))
+    return LaunchedNode(
+        source,
+        at["pkg"].name if "pkg" in at and "$" not in at["pkg"].name else "",
+        program.name if program is not None and "$" not in program.name else "",
+        name if name is not None and name.name and "$" not in name.name else None,
+        name is not None,
+        tuple(file for file in files if file[0]),
+        tuple(remappings),
+    )
+
+
+def _in_python(source: Source) -> Iterator[LaunchedNode]:
+    tree = parsed(source) if "Node" in source.text else None
+    if tree is None:
+        return
+    reader = launch_reader(tree)
+    defaults = dict(_defaults(tree, reader))
+    for call in (each for each in ast.walk(tree) if isinstance(each, ast.Call)):
+        if name_of(call.func) not in ("Node", "LifecycleNode"):
+            continue
+        words = {word.arg: word.value for word in call.keywords if word.arg is not None}
+        for binding in bindings(tree, call):
+            values = {key: resolved(value, binding) for key, value in words.items()}
+            texts = {key: reader.text(value) if value is not None else None for key, value in values.items()}
+            name = values.get("name")
+            listed = values.get("parameters")
+            if isinstance(listed, ast.Name):
+                listed = reader.assigned.get(listed.id)
+            items = listed.elts if isinstance(listed, (ast.List, ast.Tuple)) else []
+            files = [_file(resolved(item, binding), reader, defaults) for item in items]
+            yield LaunchedNode(
+                source,
+                texts.get("package") or "",
+                texts.get("executable") or "",
+                _literal(source, name, reader) if name is not None else None,
+                "name" in words,
+                tuple(file for file in files if file is not None),
+                tuple(_remappings(source, values.get("remappings"), reader, binding)),
+            )
+
+
+def _defaults(tree: ast.Module, reader: LaunchReader) -> Iterator[tuple[str, ast.expr]]:
+    """Yield name and default of the declared launch arguments."""
+    for call in ast.walk(tree):
+        if isinstance(call, ast.Call) and name_of(call.func) in _DECLARATIONS:
+            words = {word.arg: word.value for word in call.keywords}
+            first = call.args[0] if call.args else words.get("name")
+            name = reader.text(first) if first is not None else None
+            if name is not None and "default_value" in words:
+                yield name, words["default_value"]
+
+
+def _file(
+    node: ast.expr | None, reader: LaunchReader, defaults: dict[str, ast.expr], depth: int = 0
+) -> tuple[str, str] | None:
+    """Return package and path of a parameter file; None for dictionaries and computed paths."""
+    if isinstance(node, ast.Name):
+        node = reader.assigned.get(node.id)
+    if node is None or depth > 6:
+        return None
+    if isinstance(node, ast.Call) and name_of(node.func) in _WRAPPERS:
+        words = {word.arg: word.value for word in node.keywords}
+        inner = words.get("param_file") or words.get("source_file") or next(iter(node.args), None)
+        return _file(inner, reader, defaults, depth + 1)
+    if isinstance(node, ast.Call) and name_of(node.func) == "LaunchConfiguration" and node.args:
+        name = reader.text(node.args[0])
+        return _file(defaults.get(name or ""), reader, defaults, depth + 1)
+    found = reader.path(node)
+    return (found[0], found[1].strip("/")) if found is not None and found[1].strip("/") else None
+
+
+def _literal(source: Source, node: ast.expr, reader: LaunchReader) -> Named | None:
+    """Return a constant text with the offset of its first character."""
+    for _ in range(4):
+        if isinstance(node, ast.Name):
+            node = reader.assigned.get(node.id) or node
+    if not isinstance(node, ast.Constant) or not isinstance(node.value, str) or not node.value:
+        return None
+    start, end = place(source, node)
+    offset = source.text[start:end].find(node.value)
+    return Named(node.value, start + offset) if offset >= 0 else None
+
+
+def _remappings(
+    source: Source, node: ast.expr | None, reader: LaunchReader, binding: Binding
+) -> Iterator[tuple[Named, Named]]:
+    if isinstance(node, ast.Name):
+        node = reader.assigned.get(node.id)
+    for item in node.elts if isinstance(node, (ast.List, ast.Tuple)) else ():
+        pair = reader.assigned.get(item.id) if isinstance(item, ast.Name) else item
+        if isinstance(pair, ast.Tuple) and len(pair.elts) == 2:
+            parts = [resolved(part, binding) for part in pair.elts]
+            names = [_literal(source, part, reader) if part is not None else None for part in parts]
+            if names[0] is not None and names[1] is not None:
+                yield names[0], names[1]

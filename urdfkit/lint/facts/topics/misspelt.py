@@ -1,0 +1,236 @@
+"""Topics in launch files, parameter files and bridges that differ by a letter from a topic of the robot.
+
+A name that occurs twice in the files of the packages is accepted, because two nodes can exchange messages on it.
+"""
+
+from __future__ import annotations
+
+import ast
+import os
+import re
+from collections import Counter
+from collections.abc import Iterator
+from pathlib import Path
+
+from urdfkit.description.launch.python_constants import launch_reader, name_of, parsed
+from urdfkit.description.packages.related_files import CODE, LAUNCH, package_of
+from urdfkit.description.xml.source import Source, Span
+from urdfkit.lint.facts.control.controller_joints import Named
+from urdfkit.lint.facts.control.launch_package_paths import place
+from urdfkit.lint.facts.control.yaml_tree import documents, start_of, walk
+from urdfkit.lint.facts.launch.actions import launch_elements
+from urdfkit.lint.facts.navigation.defects import misspelt_navigation
+from urdfkit.lint.facts.nodes.started import launched_nodes
+from urdfkit.lint.facts.ros_packages import is_slip
+from urdfkit.lint.facts.topics.robot_topics import BRIDGE_KEYS, RobotTopics, last, robot_topics
+from urdfkit.lint.model.model import Model
+from urdfkit.record import record
+
+_COMMON = """
+cmd_vel cmd_vel_joy cmd_vel_nav cmd_vel_out cmd_vel_smoothed cmd_vel_teleop cmd_vel_unstamped odom scan
+"""
+COMMON = frozenset(_COMMON.split())
+"""Topics that a misspelt name is compared with even if no file of the robot names them."""
+
+_ACCEPTED = (
+    "joint_states clock tf tf_static map imu odometry image image_raw camera_info points robot_description pose twist"
+)
+
+_PARAMETER = r"(?:\w+_)?topic|(?:odom|imu|twist|pose)\d+"
+"""Matches parameters whose values are topics: of Nav2, slam_toolbox, twist_mux, robot_localization and others."""
+
+_ADDED = ("data", "in", "input", "laser", "lidar", "out", "output", "raw", "topic")
+"""Words that turn the topic of a sensor into one that nothing publishes."""
+
+_MAX_FILES = 400
+_MAX_BYTES = 500_000
+
+
+@record(eq=False)
+class Mention:
+    """A topic that a file names.
+
+    Attributes:
+        source: the file.
+        topic: the whole name, and its offset.
+        reads: whether a node only subscribes to the topic.
+        is_input: whether it is an input of robot_localization; parameter-value-invalid compares its controller.
+    """
+
+    source: Source
+    topic: Named
+    reads: bool = False
+    is_input: bool = False
+
+
+def misspelt_topics(model: Model) -> Iterator[tuple[Span, str, str]]:
+    """Yield the place of each misspelt topic, the topic, and the topic that is meant."""
+    topics = robot_topics(model)
+    words = _Words(model)
+    seen = {
+        (source.file, start_of(source, node))
+        for source in model.related_files.values()
+        if source.file.endswith((".yaml", ".yml"))
+        for node, kind, _ in misspelt_navigation(source)
+        if kind == "topic"
+    }
+    for mention in mentions(model):
+        if (mention.source.file, mention.topic.start) in seen or "$" in mention.topic.name:
+            continue
+        near = _meant(mention, topics)
+        if near is not None and words.occurs_once(_part(mention.topic.name, near)):
+            seen.add((mention.source.file, mention.topic.start))
+            start = mention.topic.start
+            yield mention.source.span(start, start + len(mention.topic.name)), mention.topic.name, near
+    for name, elements in topics.elements.items():
+        if name in COMMON or name in topics.bridged or len(elements) > 1:
+            continue
+        others = (COMMON | topics.bridged) - topics.described
+        near = next((each for each in sorted(others) if _is_misspelling(name, each, True)), None)
+        if near is not None and elements[0].text.strip().endswith(name) and words.occurs_once(name):
+            yield model.span(elements[0].origin.position), elements[0].text.strip(), near
+
+
+def mentions(model: Model) -> Iterator[Mention]:
+    """Yield the topics in remappings, parameters, arguments and bridges of the related files."""
+    for node in launched_nodes(model):
+        for old, new in node.remappings if node.source.file.endswith(".py") else ():
+            yield Mention(node.source, old)
+            yield Mention(node.source, new, last(old.name) in ("scan", "points", "image"))
+    for file, source in model.related_files.items():
+        if file.endswith((".launch.py", "_launch.py")):
+            yield from _in_python(source)
+        elif file.endswith(LAUNCH):
+            yield from _in_elements(source)
+        elif file.endswith((".yaml", ".yml")):
+            for group in (each for root in documents(source)[0] for each in walk(root) if each.kind == "group"):
+                is_bridge = any(group.find(key) is not None for key in ("ros_type_name", "gz_type_name"))
+                for key, value in group.entries:
+                    is_topic = key.text == BRIDGE_KEYS[0] if is_bridge else re.fullmatch(_PARAMETER, key.text)
+                    if is_topic and value.kind == "text" and re.fullmatch(r"[\w/]+", value.text):
+                        reads = key.text == "scan_topic" or group.find("data_type") is not None
+                        is_input = key.text[-1].isdigit()
+                        yield Mention(source, Named(value.text, start_of(source, value)), reads, is_input)
+
+
+def _in_elements(source: Source) -> Iterator[Mention]:
+    waiting = list(launch_elements(source))
+    while waiting:
+        element = waiting.pop()
+        waiting += element.children
+        at = element.attributes
+        if element.tag == "remap":
+            reads = "from" in at and last(at["from"].name) == "scan"
+            yield from (Mention(source, at[key], reads and key == "to") for key in ("from", "to") if key in at)
+        elif element.tag in ("arg", "param", "let") and "name" in at and re.fullmatch(_PARAMETER, at["name"].name):
+            value = at.get("default") or at.get("value")
+            if value is not None and re.fullmatch(r"[\w/]+", value.name):
+                yield Mention(source, value, at["name"].name == "scan_topic")
+
+
+def _in_python(source: Source) -> Iterator[Mention]:
+    tree = parsed(source) if "topic" in source.text else None
+    if tree is None:
+        return
+    reader = launch_reader(tree)
+    pairs: list[tuple[ast.expr | None, ast.expr | None]] = []
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Dict):
+            pairs += zip(node.keys, node.values, strict=True)
+        elif isinstance(node, ast.Call) and name_of(node.func) == "DeclareLaunchArgument" and node.args:
+            words = {word.arg: word.value for word in node.keywords}
+            pairs.append((node.args[0], words.get("default_value")))
+    for key, value in pairs:
+        name = reader.text(key) if key is not None else None
+        if name is None or not re.fullmatch(_PARAMETER, name) or not isinstance(value, ast.Constant):
+            continue
+        if isinstance(value.value, str) and re.fullmatch(r"[\w/]+", value.value):
+            start, end = place(source, value)
+            offset = source.text[start:end].find(value.value)
+            yield Mention(source, Named(value.value, start + max(offset, 0)), name == "scan_topic")
+
+
+def _meant(mention: Mention, topics: RobotTopics) -> str | None:
+    """Return the whole name of the topic that a mention stands for; None if it may be right."""
+    name = mention.topic.name
+    end = last(name)
+    space, _, _ = name.rstrip("/").rpartition("/")
+    first = name.strip("/").partition("/")[0]
+    if space.strip("/") and not mention.is_input and first not in topics.controllers:
+        near = [each for each in sorted(topics.controllers) if len(each) > 5 and is_slip(first, each)]
+        if len(near) == 1:
+            return name.replace(first, near[0], 1)
+    if end in COMMON or end in topics.names or end in _ACCEPTED.split() or len(end) < 3:
+        return None
+    # launch-name-misspelt reports `joint_states` and `robot_description` in launch files.
+    is_launch = mention.source.file.endswith(LAUNCH)
+    names = topics.names - {"joint_states", "robot_description"} if is_launch else topics.names
+    strong = [each for each in sorted(names) if _is_misspelling(end, each, True)]
+    near = strong or [each for each in sorted(COMMON) if _is_misspelling(end, each, False)]
+    if len(near) == 1:
+        return f"{name[: len(name.rstrip('/')) - len(end)]}{near[0]}"
+    if mention.reads and not near:
+        parts = end.split("_")
+        if "scan" in topics.sensors and len(parts) == 2 and "scan" in parts and not {*parts}.isdisjoint(_ADDED):
+            return f"{name[: len(name.rstrip('/')) - len(end)]}scan"
+    return None
+
+
+def _is_misspelling(name: str, topic: str, is_of_robot: bool) -> bool:
+    """Return whether a name differs by a letter from a topic, and not by a word that means another topic."""
+    if name == topic or not is_slip(name, topic) or len(topic) < 3 or max(len(name), len(topic)) < 4:
+        return False
+    changed = [(a, b) for a, b in zip(name.split("_"), topic.split("_"), strict=False) if a != b]
+    if len(name.split("_")) == len(topic.split("_")) and any(max(len(a), len(b)) < 3 for a, b in changed):
+        return False  # camera_l and camera_r
+    is_short = len(topic) < 6
+    if is_short and len(name) == len(topic) and sorted(name) != sorted(topic):
+        return False
+    return is_of_robot or min(len(name), len(topic)) >= 4
+
+
+def _part(name: str, near: str) -> str:
+    """Return the part of a name that differs from the meant one."""
+    pairs = zip(name.strip("/").split("/"), near.strip("/").split("/"), strict=False)
+    return next((a for a, b in pairs if a != b), last(name))
+
+
+class _Words:
+    """Words in the related files, the description and the code of their packages."""
+
+    def __init__(self, model: Model) -> None:
+        self._model = model
+        self._counts: Counter[str] | None = None
+        self._code: list[str] | None = None
+
+    def occurs_once(self, word: str) -> bool:
+        """Return whether a word occurs in one place of the files, and not in the code of their packages."""
+        if self._counts is None:
+            sources = {**self._model.expanded.sources, **self._model.related_files}
+            self._counts = Counter(at for each in sources.values() for at in re.findall(r"\w+", each.text))
+        if self._counts[word] > 1:
+            return False
+        if self._code is None:
+            self._code = list(_code(self._model))
+        return not any(re.search(rf"\b{re.escape(word)}\b", text) for text in self._code)
+
+
+def _code(model: Model) -> Iterator[str]:
+    """Yield the code and other files in the packages of the related files that can name a topic."""
+    folders = {package for file in model.related_files if (package := package_of(Path(file))) is not None}
+    read = {str(Path(file).absolute()) for file in model.expanded.sources}
+    endings = (*CODE, ".rviz", ".xacro", ".sdf", ".world", ".md", ".lua", ".json")
+    count = 0
+    for folder in sorted(folders):
+        model.expanded.packages.watch(folder, ".py")
+        for where, inner, files in os.walk(folder):
+            inner[:] = sorted(name for name in inner if not name.startswith("."))
+            for name in sorted(files):
+                path = Path(where, name)
+                if name.endswith(LAUNCH) or not name.endswith(endings) or path.is_symlink():
+                    continue
+                if str(path.absolute()) in read or count >= _MAX_FILES:
+                    continue
+                if path.is_file() and path.stat().st_size <= _MAX_BYTES:
+                    count += 1
+                    yield path.read_text("utf-8", "replace")

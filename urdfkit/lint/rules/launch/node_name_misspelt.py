@@ -1,0 +1,64 @@
+"""L117 node-name-misspelt."""
+
+from urdfkit.lint.finding import Finding
+from urdfkit.lint.rule import Findings, Model, RobotRule
+
+
+class NodeNameMisspelt(RobotRule):
+    """The name of a node differs between a launch file and its parameters.
+
+    ## What it does
+    Compares the names of nodes in launch files of ROS 2 with the sections of the parameter files that these nodes load,
+    and with the ``node_names`` of lifecycle managers. The rule reports names that differ by a letter, and a file whose
+    only section belongs to a node of another name. Files with ``/**`` are left out, because their parameters apply to
+    each node.
+
+    ## Why is this bad?
+    The node starts without its parameters and without an error. A lifecycle manager waits for a node that never
+    starts.
+
+    ## Example
+    ```python
+    from launch import LaunchDescription
+    from launch_ros.actions import Node
+
+    SERVERS = ["planer_server"]
+
+
+    def generate_launch_description():
+        planner = Node(package="nav2_planner", executable="planner_server", name="planner_server")
+        parameters = [{"node_names": SERVERS}]
+        manager = Node(package="nav2_lifecycle_manager", executable="lifecycle_manager", parameters=parameters)
+        return LaunchDescription([planner, manager])
+    ```
+
+    ## Use instead
+    ```python
+    from launch import LaunchDescription
+    from launch_ros.actions import Node
+
+    SERVERS = ["planner_server"]
+
+
+    def generate_launch_description():
+        planner = Node(package="nav2_planner", executable="planner_server", name="planner_server")
+        parameters = [{"node_names": SERVERS}]
+        manager = Node(package="nav2_lifecycle_manager", executable="lifecycle_manager", parameters=parameters)
+        return LaunchDescription([planner, manager])
+    ```
+
+    ## Fix safety
+    Unsafe: the fix writes the nearest name in place of a misspelt one; another name may be meant.
+    """
+
+    code = "L117"
+    name = "node-name-misspelt"
+    severity = "warning"
+    fix = "unsafe"
+
+    def check(self, model: Model) -> Findings:
+        """Yield a finding for each name without its counterpart."""
+        from urdfkit.lint.facts.nodes.names import misnamed
+
+        for _, span, message in misnamed(model):
+            yield Finding(self.code, self.name, self.severity, message, span)

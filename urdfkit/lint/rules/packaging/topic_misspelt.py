@@ -1,0 +1,50 @@
+"""K977 topic-misspelt."""
+
+from urdfkit.lint.finding import Finding
+from urdfkit.lint.rule import Findings, Model, RobotRule
+
+
+class TopicMisspelt(RobotRule):
+    """A launch file, parameter file or bridge names a topic that differs by a letter from a topic of the robot.
+
+    ## What it does
+    Compares the topics in remappings, in parameters such as ``scan_topic``, ``odom_topic`` and ``odom0``, in arguments
+    and in the ROS side of bridges with the topics of the robot: those of its Gazebo plugins, sensors, bridges and
+    controllers, and with ``cmd_vel``, ``odom`` and ``scan``. A name is reported if it differs by one
+    letter, or by the order of letters, from exactly one of these topics and if no other line of these packages, of
+    their code or of their RViz files contains it. A node that reads ``scan_raw`` or ``laser_scan`` is reported if the
+    robot publishes ``scan`` and nothing else names the topic.
+
+    ## Why is this bad?
+    The node waits for messages that never arrive, without an error.
+
+    ## Example
+    ```yaml
+    amcl:
+      ros__parameters:
+        scan_topic: sacn
+    ```
+
+    ## Use instead
+    ```yaml
+    amcl:
+      ros__parameters:
+        scan_topic: scan
+    ```
+
+    ## Fix safety
+    Unsafe: the fix writes the nearest name in place of a misspelt one; another name may be meant.
+    """
+
+    code = "K977"
+    name = "topic-misspelt"
+    severity = "warning"
+    fix = "unsafe"
+
+    def check(self, model: Model) -> Findings:
+        """Yield a finding for each misspelt topic."""
+        from urdfkit.lint.facts.topics.misspelt import misspelt_topics
+
+        for span, topic, meant in misspelt_topics(model):
+            message = f"no other file names the topic `{topic}`; did you mean `{meant}`?"
+            yield Finding(self.code, self.name, self.severity, message, span)
