@@ -147,9 +147,15 @@ def test_the_packages_without_mistakes_have_no_findings(tmp_path: Path) -> None:
         ("launch/mux.launch.yaml", "value:", "vlaue:", "L109", "did you mean `value`?"),
         ("launch/mux.launch.yaml", "find-pkg-share", "find", "L109", "did you mean `find-pkg-share`?"),
         ("launch/mux.launch.yaml", "output: screen", "output: scren", "L109", "did you mean `screen`?"),
-        ("launch/slam.launch.xml", "screen", "scren", "L110", "did you mean `screen`?"),
+        ("launch/slam.launch.xml", "screen", "scren", "L110", "unknown output `scren`; did you mean `screen`?"),
         ("launch/nav.launch.py", '"screen"', '"scren"', "L106", "did you mean `screen`?"),
-        ("launch/nav.launch.py", " executable=e,", " node_executable=e,", "L106", "did you mean `executable`?"),
+        (
+            "launch/nav.launch.py",
+            " executable=e,",
+            " node_executable=e,",
+            "L106",
+            " since ROS 2 Galactic; did you mean `executable`?",
+        ),
         ("launch/nav.launch.py", '("nav2_planner", "pl', '("nav2_planer", "pl', "K956", "did you mean `nav2_planner`?"),
         ("launch/nav.launch.py", '"planner_server"', '"planer_server"', "L103", "did you mean `planner_server`?"),
         ("launch/nav.launch.py", '"amcl")', '"amlc")', "L103", "did you mean `amcl`?"),
@@ -234,7 +240,25 @@ def test_packages_of_controllers_and_plugins_of_ros1_are_dependencies(name: str,
     manifest = FILES_OF_ROS1["package.xml"].replace(f"  <exec_depend>{name}</exec_depend>\n", "")
     found = findings(tmp_path, {**FILES_OF_ROS1, "package.xml": manifest})
     assert [each[0] for each in found] == ["K956"]
-    assert f"missing dependency on `{name}`" in found[0][3]
+    kinds = {"diff_drive_controller": "DiffDriveController", "joint_state_controller": "JointStateController"}
+    if name in kinds:
+        message = f"missing dependency on `{name}`, which has the controller type `{name}/{kinds[name]}`"
+    else:
+        message = f"missing dependency on `{name}`, which has the plugin `libgazebo_ros_control.so`"
+    assert found[0][3] == message
+
+
+def test_parameters_of_costmaps_of_ros1_are_compared(tmp_path: Path) -> None:
+    costmap = """local_costmap:
+  global_frame: odom
+  robot_base_frame: base_link
+  update_freqency: 5.0
+  rolling_window: true
+  width: 4.0
+"""
+    found = findings(tmp_path, {**FILES_OF_ROS1, "config/costmap.yaml": costmap})
+    message = "unknown parameter `update_freqency` in the parameters of costmap_2d; did you mean `update_frequency`?"
+    assert found == [("L104", "costmap.yaml", 4, message)]
 
 
 @pytest.mark.parametrize(

@@ -32,7 +32,7 @@ _DEFAULTS = {
 }
 """Package and executable → the name that the node has by default (Humble to Rolling)."""
 
-_KNOWN = NODES | {*_DEFAULTS.values()}
+_RELEASED_NAMES = NODES | {*_DEFAULTS.values()}
 
 _SEVERAL = ("controller_manager", "moveit_ros_move_group", "moveit_servo", "gazebo_ros", "ros_gz_sim", "rviz2")
 """Packages whose processes contain nodes of further names."""
@@ -60,7 +60,9 @@ def misnamed(model: Model) -> Defects:
                 continue
             near = next((entry for entry in keys if is_slip(entry[1], name) and entry[1] not in started), None)
             is_named = node.name is not None and node.name.name == name
-            if near is not None and (not is_named or name in _KNOWN or name == node.program or near[1] not in _KNOWN):
+            if near is not None and (
+                not is_named or name in _RELEASED_NAMES or name == node.program or near[1] not in _RELEASED_NAMES
+            ):
                 if not any(is_slip(near[1], each) for each in NODES) and (near[0].line, near[0].column) not in seen:
                     seen.add((near[0].line, near[0].column))
                     message = f"no node is called `{near[1]}`; did you mean `{name}`?"
@@ -69,7 +71,7 @@ def misnamed(model: Model) -> Defects:
                 message = f"node `{name}` has no section in {_short(file)}; did you mean `{near[1]}`?"
                 yield node.source, _span(node), message
             elif node.name is not None and len(keys) == len(readers) == 1 and _has_one_node(node):
-                if keys[0][1] not in started and name in _KNOWN:
+                if keys[0][1] not in started and name in _RELEASED_NAMES:
                     message = f"no node is called `{keys[0][1]}`; did you mean `{name}`?"
                     yield by_file[file], span_of(by_file[file], keys[0][0]), message
                 elif keys[0][1] not in started:
@@ -120,5 +122,5 @@ def _unmanaged(model: Model, started: set[str]) -> Defects:
         names_listed = {name for name, _ in listed}
         for name, span in listed:
             near = next((each for each in sorted(started - names_listed) if is_slip(name, each)), None)
-            if name not in started | _KNOWN and near is not None:
+            if name not in started | _RELEASED_NAMES and near is not None:
                 yield source, span, f"no node is called `{name}`; did you mean `{near}`?"

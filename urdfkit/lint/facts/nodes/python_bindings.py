@@ -33,7 +33,7 @@ def _scopes(tree: ast.Module) -> tuple[dict[ast.AST, tuple[ast.AST, ...]], dict[
 
 
 def bindings(tree: ast.Module, call: ast.Call) -> list[Binding]:
-    """Return what the names in a call stand for: one binding for each time that the call runs.
+    """Return the expressions that the names in a call stand for, one binding for each run of the call.
 
     Args:
         tree: syntax tree of the launch file.
@@ -88,13 +88,13 @@ def miscalled(tree: ast.Module) -> list[tuple[ast.Call, str]]:
         names = [each.arg for each in (*parts.posonlyargs, *parts.args)]
         required = names[: len(names) - len(parts.defaults)]
         required += [each.arg for each, value in zip(parts.kwonlyargs, parts.kw_defaults, strict=True) if value is None]
-        known = {*names, *(each.arg for each in parts.kwonlyargs)}
+        accepted = {*names, *(each.arg for each in parts.kwonlyargs)}
         for call in calls:
             passed = arguments_of(own[0], call)
             if passed is None:
                 continue
             lacking = [each for each in required if each not in passed]
-            unknown = [each for each in passed if each not in known and parts.kwarg is None]
+            unknown = [each for each in passed if each not in accepted and parts.kwarg is None]
             if unknown:
                 found.append((call, f"`{name}` has no argument `{unknown[0]}`"))
             elif lacking:

@@ -40,7 +40,7 @@ _PARAMETER = r"(?:\w+_)?topic|(?:odom|imu|twist|pose)\d+"
 """Matches parameters whose values are topics: of Nav2, slam_toolbox, twist_mux, robot_localization and others."""
 
 _ADDED = ("data", "in", "input", "laser", "lidar", "out", "output", "raw", "topic")
-"""Words that turn the topic of a sensor into one that nothing publishes."""
+"""Words added to the topic of a sensor that give a topic without publisher."""
 
 _MAX_FILES = 400
 _MAX_BYTES = 500_000

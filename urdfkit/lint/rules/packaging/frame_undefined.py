@@ -22,7 +22,7 @@ _IN_PYTHON = r"[\"'](\w+)([\"'])\s*:\s*[\"']([\w/]+)[\"']"
 _IN_LAUNCH = ("robot_base_frame", "base_frame", "base_frame_id", "base_link_frame", "base_link_frame_id")
 """Parameters of nodes in launch files that name a link of the robot."""
 
-_LOOSE = ("frame_id", "sensor_frame")
+_ANY_FRAME = ("frame_id", "sensor_frame")
 """Parameters that can name frames of other robots."""
 
 
@@ -81,8 +81,8 @@ class FrameUndefined(RobotRule):
                     continue
                 if model.neighbouring_descriptions.define("link", name):
                     continue
-                is_loose = match[1] in _LOOSE or not source.file.endswith((".yaml", ".yml"))
-                if is_loose and (suggestion is None or not is_slip(name, suggestion)):
+                needs_slip = match[1] in _ANY_FRAME or not source.file.endswith((".yaml", ".yml"))
+                if needs_slip and (suggestion is None or not is_slip(name, suggestion)):
                     continue
                 finding = Finding(
                     self.code,
