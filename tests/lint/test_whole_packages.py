@@ -235,17 +235,15 @@ install(DIRECTORY config urdf DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION})
 }
 
 
-@pytest.mark.parametrize("name", ["diff_drive_controller", "joint_state_controller", "gazebo_ros_control"])
-def test_packages_of_controllers_and_plugins_of_ros1_are_dependencies(name: str, tmp_path: Path) -> None:
+@pytest.mark.parametrize(
+    ("name", "kind"),
+    [("diff_drive_controller", "DiffDriveController"), ("joint_state_controller", "JointStateController")],
+)
+def test_packages_of_controllers_of_ros1_are_dependencies(name: str, kind: str, tmp_path: Path) -> None:
     manifest = FILES_OF_ROS1["package.xml"].replace(f"  <exec_depend>{name}</exec_depend>\n", "")
-    found = findings(tmp_path, {**FILES_OF_ROS1, "package.xml": manifest})
-    assert [each[0] for each in found] == ["K956"]
-    kinds = {"diff_drive_controller": "DiffDriveController", "joint_state_controller": "JointStateController"}
-    if name in kinds:
-        message = f"missing dependency on `{name}`, which has the controller type `{name}/{kinds[name]}`"
-    else:
-        message = f"missing dependency on `{name}`, which has the plugin `libgazebo_ros_control.so`"
-    assert found[0][3] == message
+    ((code, _, _, message),) = findings(tmp_path, {**FILES_OF_ROS1, "package.xml": manifest})
+    assert code == "K956"
+    assert message == f"missing dependency on `{name}`, which has the controller type `{name}/{kind}`"
 
 
 def test_parameters_of_costmaps_of_ros1_are_compared(tmp_path: Path) -> None:

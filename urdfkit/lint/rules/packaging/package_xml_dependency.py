@@ -24,23 +24,6 @@ _PACKAGES_OF_ROS1 = {
 }
 """Class of a controller in ROS 1 → its package; the other packages have the name before the class."""
 
-_GAZEBO = ("gazebo_ros", "gazebo_plugins", "gazebo_ros_control", "ros_gz_sim", "ros_gz", "gazebo_ros_pkgs")
-"""Packages that start Gazebo."""
-
-_PACKAGES_OF_PLUGINS = {
-    "gazebo_ros2_control": "gazebo_ros2_control",
-    "gazebo_ros_control": "gazebo_ros_control",
-    "gz_ros2_control-system": "gz_ros2_control",
-    "ign_ros2_control-system": "ign_ros2_control",
-}
-_OF_GAZEBO_PLUGINS = """
-ackermann_drive block_laser bumper camera depth_camera diff_drive f3d ft_sensor gpu_laser gps_sensor imu imu_sensor
-joint_pose_trajectory joint_state_publisher laser multicamera openni_kinect p3d planar_move projector prosilica range
-ray_sensor skid_steer_drive tricycle_drive
-"""
-_GAZEBO_PLUGINS = frozenset(f"gazebo_ros_{name}" for name in _OF_GAZEBO_PLUGINS.split())
-"""Library of a Gazebo plugin → its package, and the libraries of gazebo_plugins (Noetic and Humble)."""
-
 _TESTS = frozenset(("test", "tests"))
 """Folders whose files do not add runtime dependencies."""
 
@@ -51,9 +34,8 @@ class PackageXmlDependency(RobotRule):
     ## What it does
     Compares the packages that the files of the robot's package use, by ``$(find …)`` and ``package://…``, with the
     dependencies in package.xml. Also compares the packages that launch files start, include or import, and ``xacro``
-    where they call it, with the dependencies of their own package, the packages of controllers in YAML with the
-    dependencies of all packages of the robot, if one of these is about controllers, and the packages of Gazebo plugins
-    likewise, if one of these starts Gazebo. Metapackages, such as
+    where they call it, with the dependencies of their own package, and the packages of controllers in YAML with
+    the dependencies of all packages of the robot, if one of these is about controllers. Metapackages, such as
     ``navigation2``, stand for the packages that they depend on. Names that misspell a dependency, a package of the
     workspace or a common package by one letter are errors at each place. Each other package is reported once; test
     folders are not checked, nor the optional launch files that the MoveIt Setup Assistant writes, or dependencies that
@@ -129,7 +111,6 @@ class PackageXmlDependency(RobotRule):
                     yield finding
         yield from self._check_launch_files(model, {package: declared})
         yield from self._check_controllers(model)
-        yield from self._check_plugins(model)
 
     def _check_launch_files(self, model: Model, declared: dict[Path, set[str]]) -> Findings:
         """Yield a finding for each package that a launch file uses without a dependency in its own package."""
@@ -215,24 +196,6 @@ class PackageXmlDependency(RobotRule):
                 message = f"missing dependency on `{name}`, which has the controller type `{reference.name}`"
                 help = f"add <exec_depend>{name}</exec_depend> to package.xml"
                 yield Finding(self.code, self.name, self.severity, message, span, help=help)
-
-    def _check_plugins(self, model: Model) -> Findings:
-        """Yield a finding for each package of a Gazebo plugin that none of the related packages depends on."""
-        from urdfkit.description.plugins.lookup import stem
-        from urdfkit.lint.facts.gazebo.plugins import plugins
-        from urdfkit.lint.facts.ros_packages import is_in_metapackage
-
-        manifests = [text.text for name, text in model.related_files.items() if name.endswith("package.xml")]
-        needed = {name for text in manifests for name in (*dependencies_in(text), name_in(text))}
-        for plugin, _, _ in plugins(model.robot) if not needed.isdisjoint(_GAZEBO) else ():
-            library = stem("".join((plugin.filename or "").split()))
-            name = _PACKAGES_OF_PLUGINS.get(library) or ("gazebo_plugins" if library in _GAZEBO_PLUGINS else None)
-            if name is None or name in needed or is_in_metapackage(name, needed):
-                continue
-            needed.add(name)
-            help = f"add <exec_depend>{name}</exec_depend> to package.xml"
-            message = f"missing dependency on `{name}`, which has the plugin `{plugin.filename}`"
-            yield self.at(model, plugin.element, message, attribute="filename", help=help)
 
     def _missing(self, name: str, source: Source, start: int, end: int, near: set[str]) -> Finding:
         from urdfkit.lint.facts.launch.ros_version import reads_version
