@@ -18,6 +18,7 @@ from urdfkit.app.simulation.bridging.service_requests import SimulationServices,
 from urdfkit.app.simulation.bridging.services import simulation_services
 from urdfkit.app.simulation.clock_rate import FRAME, ClockRate
 from urdfkit.app.simulation.displays.displays import Displays
+from urdfkit.app.simulation.displays.world_lights import WorldLights
 from urdfkit.app.simulation.features.contact_forces import ContactForces
 from urdfkit.app.simulation.features.feature import Done, Feature
 from urdfkit.app.simulation.features.joint_sliders import JointSliders
@@ -31,7 +32,6 @@ from urdfkit.app.simulation.features.sensor_views import SensorViews
 from urdfkit.app.simulation.features.teleop import command, command_topics, drive_controls
 from urdfkit.app.simulation.features.topic_panel import TopicPanel
 from urdfkit.app.simulation.features.topic_stream import TopicStreams
-from urdfkit.app.simulation.features.world_lights import WorldLights
 from urdfkit.app.simulation.features.world_objects import WorldObjects
 from urdfkit.app.simulation.scene_bodies import SceneBodies
 from urdfkit.bridges.bridge import Bridges
