@@ -175,7 +175,7 @@ def test_everything_has_a_name_and_the_keyboard_reaches_it_and_shows_where_it_is
         assert nameless == [], name
     page.locator(".brand").click()
     reached, unseen = [], []
-    for _ in range(70):
+    for _ in range(80):
         page.keyboard.press("Tab")
         name, seen = page.evaluate(
             """() => { const e = document.activeElement;

@@ -75,13 +75,19 @@ export class Objects {
     for (const [name, entry] of this.entries) entry.setAttribute("aria-selected", name === this.chosen);
     const { children: shown } = this.library;
     if (rows.length !== shown.length || rows.some((entry, i) => entry !== shown[i])) this.library.replaceChildren(...rows);
+    this.#reach(rows.find((entry) => entry === this.entries.get(this.chosen)) ?? rows.find(({ tabIndex }) => tabIndex === 0) ?? rows[0]);
+  }
+
+  // The tab key reaches one entry, and the arrow keys the others.
+  #reach(entry) {
+    for (const each of this.entries.values()) each.tabIndex = each === entry ? 0 : -1;
   }
 
   // Pictures are requested when they are scrolled into view.
   #entry(name, title, kind) {
     const picture = h("img", { src: `/app/library/${name}.webp`, alt: "", width: 64, height: 64, loading: "lazy", onerror: () => (picture.style.visibility = "hidden") });
     const choose = () => this.#choose(name === this.chosen ? null : name);
-    return h("button.library-entry", { type: "button", role: "option", "data-kind": kind, title, onclick: choose }, picture, h("span", {}, title));
+    return h("button.library-entry", { type: "button", role: "option", tabindex: -1, "data-kind": kind, title, onclick: choose }, picture, h("span", {}, title));
   }
 
   // The arrow keys go through the pictures.
@@ -92,7 +98,9 @@ export class Objects {
     if (!step) return;
     event.preventDefault();
     event.stopPropagation(); // they would drive the robot
-    all[Math.min(all.length - 1, Math.max(0, all.indexOf(document.activeElement) + step))].focus();
+    const next = all[Math.min(all.length - 1, Math.max(0, all.indexOf(document.activeElement) + step))];
+    this.#reach(next);
+    next.focus();
   }
 
   #choose(name) {
