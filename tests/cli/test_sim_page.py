@@ -497,7 +497,6 @@ def test_walls_with_a_door_are_drawn_and_the_world_is_saved(page, keep, until, t
     order(page, "remove", name="walls")
 
 
-@pytest.mark.xfail(reason="after the tests before it, the walls sometimes do not reach the expected pose", strict=False)
 def test_walls_are_drawn_and_moved_by_the_keyboard_alone(page, keep, until) -> None:
     put_down(page)
     look_from_above(page, 9.0)
@@ -524,6 +523,7 @@ def test_walls_are_drawn_and_moved_by_the_keyboard_alone(page, keep, until) -> N
     page.keyboard.press("Escape")
 
     page.locator("[data-object=walls] button").press("Enter")
+    until(lambda: page.locator("#move-object").is_visible())  # a hidden one of an earlier test cannot be focused
     page.locator("#move-object").press("Enter")
     before = order(page, "get_pose", name="walls")["pose"]
     page.evaluate("urdfkit.page.emit('select', urdfkit.page.selected)")  # as when the links arrive after an insertion
