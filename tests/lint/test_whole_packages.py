@@ -178,6 +178,12 @@ def test_a_topic_that_two_files_or_the_code_name_is_accepted(tmp_path: Path) -> 
     assert findings(tmp_path, files) == []
 
 
+def test_a_topic_is_accepted_if_there_is_more_code_than_is_read(tmp_path: Path) -> None:
+    files = {**FILES, "config/slam.yaml": SLAM.replace("/scan", "/scna")}
+    files |= {f"src/part_{number}.cpp": "int x;\n" for number in range(401)}
+    assert findings(tmp_path, files) == []
+
+
 WHEEL = """  <link name="{0}"><inertial><mass value="1"/>
     <inertia ixx="0.0027" ixy="0" ixz="0" iyy="0.005" iyz="0" izz="0.0027"/></inertial></link>
   <joint name="{0}_joint" type="continuous"><parent link="base_link"/><child link="{0}"/>

@@ -1,14 +1,14 @@
 """Plugins that packages of the workspace export: in C++, or in a plugin description."""
 
-import os
 import re
+from itertools import islice
 from pathlib import Path
 
 from urdfkit.lint.model.model import Model
+from urdfkit.lint.project.code_files import MAX_BYTES, code_texts
 
 _SUFFIXES = (".cpp", ".cc", ".cxx", ".hpp", ".h", ".xml")
 _MAX_FILES = 400
-_MAX_BYTES = 500_000
 
 
 def is_exported_plugin(model: Model, kind: str) -> bool:
@@ -44,7 +44,7 @@ def is_built_library(model: Model, name: str) -> bool:
     for package, folder in neighbours(model.package).items():
         file = folder / "CMakeLists.txt"
         model.expanded.packages.watch(folder, file.name)
-        if file.is_file() and file.stat().st_size <= _MAX_BYTES:
+        if file.is_file() and file.stat().st_size <= MAX_BYTES:
             text = file.read_text("utf-8", "replace").replace("${PROJECT_NAME}", package)
             if built.search(text):
                 return True
@@ -53,15 +53,4 @@ def is_built_library(model: Model, name: str) -> bool:
 
 def _sources(folder: Path) -> list[str]:
     """Return the texts of the C++ files and plugin descriptions in a folder."""
-    texts: list[str] = []
-    for place, folders, files in os.walk(folder):
-        folders[:] = sorted(name for name in folders if not name.startswith("."))
-        for name in sorted(files):
-            path = Path(place, name)
-            if not name.endswith(_SUFFIXES) or name == "package.xml" or path.is_symlink():
-                continue
-            if path.is_file() and path.stat().st_size <= _MAX_BYTES:
-                texts.append(path.read_text("utf-8", "replace"))
-                if len(texts) >= _MAX_FILES:
-                    return texts
-    return texts
+    return [text for _, text in islice(code_texts(folder, _SUFFIXES, ("package.xml",)), _MAX_FILES)]

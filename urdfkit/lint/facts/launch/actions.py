@@ -73,12 +73,21 @@ def _actions_of(source: Source, is_ros1: bool) -> LaunchActions:
 
 
 @lru_cache(maxsize=400)
-def launch_elements(source: Source) -> tuple[LaunchAction, ...]:
-    """Return the elements of a launch file in XML or YAML; empty if they are nested too deeply."""
+def _roots(source: Source) -> tuple[LaunchAction, ...]:
+    """Return the outermost elements of a launch file in XML or YAML; empty if they are nested too deeply."""
     try:
         return _elements(source)
     except RecursionError:
         return ()
+
+
+def all_elements(source: Source) -> Iterator[LaunchAction]:
+    """Yield the elements of a launch file in XML or YAML with those inside them, in document order."""
+    waiting = list(reversed(_roots(source)))
+    while waiting:
+        element = waiting.pop()
+        yield element
+        waiting += reversed(element.children)
 
 
 def _elements(source: Source) -> tuple[LaunchAction, ...]:

@@ -12,7 +12,7 @@ from urdfkit.description.packages.related_files import LAUNCH, neighbours
 from urdfkit.description.xml.source import Source
 from urdfkit.lint.facts.control.controller_joints import Named
 from urdfkit.lint.facts.control.launch_package_paths import place
-from urdfkit.lint.facts.launch.actions import LaunchAction, launch_elements, share_of
+from urdfkit.lint.facts.launch.actions import LaunchAction, all_elements, share_of
 from urdfkit.lint.facts.nodes.python_bindings import Binding, bindings, resolved
 from urdfkit.lint.model.model import Model
 from urdfkit.record import record
@@ -72,12 +72,8 @@ def parameter_files(model: Model) -> dict[tuple[str, str], Source]:
 
 
 def _in_elements(source: Source) -> Iterator[LaunchedNode]:
-    roots = launch_elements(source)
-    waiting = list(reversed(roots))
     defaults: dict[str, str] = {}
-    while waiting:
-        element = waiting.pop()
-        waiting += reversed(element.children)
+    for element in all_elements(source):
         at = element.attributes
         if element.tag == "arg" and "name" in at and (default := at.get("default") or at.get("value")) is not None:
             defaults.setdefault(at["name"].name, default.name)

@@ -6,10 +6,11 @@ A name that occurs twice in the files of the packages is accepted, because two n
 from __future__ import annotations
 
 import ast
-import os
 import re
 from collections import Counter
 from collections.abc import Iterator
+from functools import cached_property
+from itertools import islice
 from pathlib import Path
 
 from urdfkit.description.launch.python_constants import launch_reader, name_of, parsed
@@ -18,12 +19,13 @@ from urdfkit.description.xml.source import Source, Span
 from urdfkit.lint.facts.control.controller_joints import Named
 from urdfkit.lint.facts.control.launch_package_paths import place
 from urdfkit.lint.facts.control.yaml_tree import documents, start_of, walk
-from urdfkit.lint.facts.launch.actions import launch_elements
+from urdfkit.lint.facts.launch.actions import all_elements
 from urdfkit.lint.facts.navigation.defects import misspelt_navigation
 from urdfkit.lint.facts.nodes.started import launched_nodes
 from urdfkit.lint.facts.ros_packages import is_slip
 from urdfkit.lint.facts.topics.robot_topics import BRIDGE_KEYS, RobotTopics, last, robot_topics
 from urdfkit.lint.model.model import Model
+from urdfkit.lint.project.code_files import code_texts
 from urdfkit.record import record
 
 _COMMON = """
@@ -42,8 +44,10 @@ _PARAMETER = r"(?:\w+_)?topic|(?:odom|imu|twist|pose)\d+"
 _ADDED = ("data", "in", "input", "laser", "lidar", "out", "output", "raw", "topic")
 """Words added to the topic of a sensor that give a topic without publisher."""
 
+_NAMING_TOPICS = (*CODE, ".rviz", ".xacro", ".sdf", ".world", ".md", ".lua", ".json")
+"""Endings of the other files that can name a topic."""
+
 _MAX_FILES = 400
-_MAX_BYTES = 500_000
 
 
 @record(eq=False)
@@ -114,10 +118,7 @@ def mentions(model: Model) -> Iterator[Mention]:
 
 
 def _in_elements(source: Source) -> Iterator[Mention]:
-    waiting = list(launch_elements(source))
-    while waiting:
-        element = waiting.pop()
-        waiting += element.children
+    for element in all_elements(source):
         at = element.attributes
         if element.tag == "remap":
             reads = "from" in at and last(at["from"].name) == "scan"
@@ -200,37 +201,31 @@ class _Words:
 
     def __init__(self, model: Model) -> None:
         self._model = model
-        self._counts: Counter[str] | None = None
-        self._code: list[str] | None = None
 
     def occurs_once(self, word: str) -> bool:
         """Return whether a word occurs in one place of the files, and not in the code of their packages."""
-        if self._counts is None:
-            sources = {**self._model.expanded.sources, **self._model.related_files}
-            self._counts = Counter(at for each in sources.values() for at in re.findall(r"\w+", each.text))
         if self._counts[word] > 1:
             return False
-        if self._code is None:
-            self._code = list(_code(self._model))
-        return not any(re.search(rf"\b{re.escape(word)}\b", text) for text in self._code)
+        return not any(re.search(rf"\b{re.escape(word)}\b", text) for text in self._code) and not self._is_cut
 
+    @cached_property
+    def _counts(self) -> Counter[str]:
+        sources = {**self._model.expanded.sources, **self._model.related_files}
+        return Counter(at for each in sources.values() for at in re.findall(r"\w+", each.text))
 
-def _code(model: Model) -> Iterator[str]:
-    """Yield the code and other files in the packages of the related files that can name a topic."""
-    folders = {package for file in model.related_files if (package := package_of(Path(file))) is not None}
-    read = {str(Path(file).absolute()) for file in model.expanded.sources}
-    endings = (*CODE, ".rviz", ".xacro", ".sdf", ".world", ".md", ".lua", ".json")
-    count = 0
-    for folder in sorted(folders):
-        model.expanded.packages.watch(folder, ".py")
-        for where, inner, files in os.walk(folder):
-            inner[:] = sorted(name for name in inner if not name.startswith("."))
-            for name in sorted(files):
-                path = Path(where, name)
-                if name.endswith(LAUNCH) or not name.endswith(endings) or path.is_symlink():
-                    continue
-                if str(path.absolute()) in read or count >= _MAX_FILES:
-                    continue
-                if path.is_file() and path.stat().st_size <= _MAX_BYTES:
-                    count += 1
-                    yield path.read_text("utf-8", "replace")
+    @cached_property
+    def _code(self) -> list[str]:
+        """Texts of the code and other files that can name a topic, one more than `_MAX_FILES` at most."""
+        model = self._model
+        folders = {package for file in model.related_files if (package := package_of(Path(file))) is not None}
+        read = {str(Path(file).absolute()) for file in model.expanded.sources}
+        for folder in folders:
+            model.expanded.packages.watch(folder, ".py")
+        files = (each for folder in sorted(folders) for each in code_texts(folder, _NAMING_TOPICS, LAUNCH))
+        texts = (text for path, text in files if str(path.absolute()) not in read)
+        return list(islice(texts, _MAX_FILES + 1))
+
+    @property
+    def _is_cut(self) -> bool:
+        """Whether there is more code than was read, so that every word may occur in it."""
+        return len(self._code) > _MAX_FILES

@@ -1,0 +1,33 @@
+"""Texts of the code and other files of a package that no reader of urdfkit parses."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator
+from pathlib import Path
+
+MAX_BYTES = 500_000
+"""Largest size of a file whose text is read."""
+
+
+def code_texts(folder: Path, endings: tuple[str, ...], without: tuple[str, ...] = ()) -> Iterator[tuple[Path, str]]:
+    """Yield the files in a folder that end so and can be read, with their texts, in the order of their names.
+
+    Hidden folders, symbolic links and files larger than `MAX_BYTES` are left out.
+
+    Args:
+        folder: a package.
+        endings: endings of the names of files.
+        without: endings of the names of files that are left out.
+    """
+    for place, folders, files in os.walk(folder):
+        folders[:] = sorted(name for name in folders if not name.startswith("."))
+        for name in sorted(files):
+            path = Path(place, name)
+            if not name.endswith(endings) or name.endswith(without) or path.is_symlink() or not path.is_file():
+                continue
+            try:
+                if path.stat().st_size <= MAX_BYTES:
+                    yield path, path.read_text("utf-8", "replace")
+            except OSError:
+                continue
