@@ -83,15 +83,19 @@ def goal(joint, position, seconds, tolerance=0.0):
 
 
 def ended(wanted, cancel=False):
+    """Send a goal; return its state, the code of its result and the text, when it has ended.
+
+    The handle is asked: `wait_for_result` waits for ever if the answer arrives before `send_goal` has returned.
+    """
     before = seen["feedback"]
     client.send_goal(wanted, feedback_cb=followed)
     while cancel and seen["feedback"] == before:
         rospy.rostime.wallsleep(0.02)
     if cancel:
         client.cancel_goal()
-    assert client.wait_for_result(), "no result"
-    result = client.get_result()
-    return [client.get_state(), result.error_code, client.get_goal_status_text()]
+    while client.gh.get_comm_state() != actionlib.CommState.DONE:
+        rospy.rostime.wallsleep(0.02)
+    return [client.gh.get_terminal_state(), client.gh.get_result().error_code, client.gh.get_goal_status_text()]
 
 
 seen["reached"] = ended(goal("jarmLink0", 0.3, 0.5))

@@ -13,7 +13,7 @@ import pytest
 from tests.time_limit import PATIENCE
 from urdfkit.bridges.bridge import CallQueue
 from urdfkit.bridges.node.node import Done, End, Quality, UnknownTypeError
-from urdfkit.bridges.node.node_bridge import NodeBridge, check_namespace
+from urdfkit.bridges.node.node_bridge import GOAL_DELAY, NodeBridge, check_namespace
 from urdfkit.bridges.ros2.environment import keep_on_this_machine, on_this_machine, ros_domain, share_long_messages
 from urdfkit.bridges.service import Service
 from urdfkit.bus import Bus
@@ -103,6 +103,32 @@ def test_latched_topics_are_sent_without_waiting_for_a_subscriber() -> None:
     bridge = NodeBridge(bus, calls, node, report=pytest.fail)
     until(lambda: node.published["/robot_description"].sent, calls)
     assert node.published["/robot_description"].quality == Quality(latched=True, depth=1)
+    bridge.close()
+
+
+@pytest.mark.parametrize(
+    ("graph", "type", "delays"),
+    [
+        ("ROS 1", "control_msgs/msg/FollowJointTrajectoryActionGoal", [GOAL_DELAY]),
+        ("ROS 1", "actionlib_msgs/msg/GoalID", [GOAL_DELAY]),
+        ("ROS 1", TWIST, []),
+        ("ROS 2", "control_msgs/msg/FollowJointTrajectoryActionGoal", []),
+    ],
+)
+def test_goals_of_actionlib_wait_until_their_client_expects_the_answer(
+    graph: str, type: str, delays: list[float], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    bus, calls, node, received = Bus(), CallQueue(), RecordedNode(), list[Any]()
+    node.ros = graph
+    bus.subscribe("/arm", type, received.append)
+    bridge = NodeBridge(bus, calls, node, report=pytest.fail)
+    slept = list[float]()
+    monkeypatch.setattr("urdfkit.bridges.node.node_bridge.time.sleep", slept.append)
+    node.subscribed["/arm"](encode_cdr(from_fields(type, {}), type))
+    monkeypatch.undo()
+    assert slept == delays
+    calls.take()
+    assert len(received) == 1
     bridge.close()
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import time
 from collections.abc import Callable, Mapping
 from functools import partial
 from queue import Queue
@@ -17,9 +18,16 @@ from urdfkit.bridges.node.published_topics import OutputThread
 from urdfkit.bridges.service import Service, respond
 from urdfkit.bus import Bus, Topic, absolute
 from urdfkit.errors import UrdfkitError, UsageError
+from urdfkit.messages.control import GOAL_ID
 
 GLOBAL = ("/clock", "/tf", "/tf_static")
 """Topics without the namespace: nodes in a namespace use them under these names too."""
+GOAL_DELAY = 0.02
+"""Seconds until a goal or cancel request of actionlib is handed on.
+
+The client of actionlib ignores an answer that arrives before its function `send_goal` has returned, and then waits for
+ever; a refusal would be quicker than that.
+"""
 VALID_NAME = re.compile(r"(/[A-Za-z_][A-Za-z0-9_]*)+")
 
 
@@ -172,8 +180,11 @@ class NodeBridge:
 
     def _receiver(self, topic: Topic) -> Callable[[bytes], None]:
         name, type, bus, node = topic.name, topic.type, self._bus, self._node
+        delayed = node.ros == "ROS 1" and (type == GOAL_ID or type.endswith("ActionGoal"))
 
         def receive(data: bytes) -> None:
+            if delayed:
+                time.sleep(GOAL_DELAY)
             try:
                 message = node.decode(data, type)
             except Exception as error:  # of a malformed message, by several classes
