@@ -15,6 +15,8 @@ from urdfkit.scene.gl.driver_probe import probe
 
 pytest_plugins = ("tests.leftover_processes", "tests.slow_tests", "tests.time_limit")
 
+BRIDGES = Path(__file__).parent / "bridges"
+
 # Machines are shared and noisy, so no example has a deadline. A developer's every run tries new examples; in CI
 # the examples are the same each time, so that a change is judged by itself.
 settings.register_profile("developer", deadline=None)
@@ -31,10 +33,16 @@ def pytest_configure(config: pytest.Config) -> None:
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Mark the tests that use the real sdformat by its fixture."""
+    """Mark the tests that use the real sdformat by its fixture, and those with programs that may fail by themselves.
+
+    A test with a browser or with nodes of ROS runs a second time if it fails, since some of these programs have
+    faults of their own on a busy machine; the summary names it, as a fault to look for.
+    """
     for item in items:
         if "sdformat" in getattr(item, "fixturenames", ()):
             item.add_marker("sdformat")
+        if item.path.is_relative_to(BRIDGES) or item.get_closest_marker("browser"):
+            item.add_marker(pytest.mark.flaky(reruns=1))
 
 
 @pytest.hookimpl(trylast=True)
