@@ -556,6 +556,7 @@ def test_topics_are_recorded_to_a_file_that_the_page_gets(ride, tmp_path, monkey
     with Reader(tmp_path / "a.mcap") as reader:
         assert reader.message_count == done["messages"] > 20
         assert not any("image_raw" in topic for topic in reader.topics)
+        assert reader.topics["/robot_description"].msgcount == 1
     do(ride, "record", on=True, topics=True, pictures=True)
     spend(ride, 0.1)
     assert do(ride, "record", on=False)["messages"] > 5

@@ -105,8 +105,10 @@ class Replay(Feature):
         self._times, self._frames, self._bytes = [], [], 0
         self.playing, self._revision = False, self.simulator.world.revision
         if request.values.get("topics"):
+            from urdfkit.app.simulation.bridging.description_text import publish_description
             from urdfkit.bridges.recorder import Recorder
 
+            publish_description(self.simulator)  # `replay` then needs no robot
             folder = self._folder.enter_context(TemporaryDirectory())
             bus: Any = self.simulator.bus if request.values.get("pictures") else WithoutPictures(self.simulator.bus)
             self._recorder = Recorder(bus, Path(folder) / "recording.mcap", lambda: self.simulator.t)
