@@ -141,8 +141,9 @@ def test_topics_are_drawn_with_their_options_and_saved_as_a_layout(shown, visits
     page.get_by_role("button", name="Put Displays below the view").click()
     page.get_by_role("separator", name="Height of the panels below the view").press("ArrowUp")
     page.get_by_role("button", name="Put Displays floating").press("Enter")
-    page.get_by_role("button", name="Put Displays at the side").press("ArrowDown")
+    page.get_by_role("button", name="Put Displays at the left").press("ArrowDown")
     assert page.evaluate("urdfkit.layout.state.panels.places.displays.at[1]") == 76
+    page.get_by_role("button", name="Put Displays at the left").press("Enter")
     page.get_by_role("button", name="Put Displays at the side").press("Enter")
     page.get_by_role("button", name="Put Displays below the view").press("Enter")
 

@@ -268,6 +268,65 @@ def test_a_panel_can_be_kept_open_beside_others(page, keep, until) -> None:
     assert page.evaluate("document.activeElement.id") == "open-joints"
 
 
+def drag(page, start: tuple[float, float], end: tuple[float, float]) -> None:
+    page.mouse.move(*start)
+    page.mouse.down()
+    page.mouse.move((start[0] + end[0]) / 2, (start[1] + end[1]) / 2)
+    page.mouse.move(*end)
+    page.mouse.up()
+
+
+def test_panels_are_docked_by_dragging_and_columns_are_split(page, keep, until) -> None:
+    for name in ("joints", "tree", "show"):
+        page.evaluate("(name) => urdfkit.page.panels.open(name)", name)
+        page.get_by_role("button", name=f"Keep {page.locator(f'#title-{name}').inner_text()} open").click()
+
+    def drop(name: str, x: float, y: float) -> None:
+        title = page.locator(f"#title-{name}")
+        title.scroll_into_view_if_needed()
+        box = title.bounding_box()
+        drag(page, (box["x"] + 20, box["y"] + 8), (x, y))
+
+    places = "urdfkit.layout.state.panels.places"
+    drop("tree", 10, 400)
+    assert page.locator("#left #panel-tree").is_visible()
+    drop("show", 100, 790)
+    assert page.evaluate("[...document.querySelectorAll('#left .panel')].map(({ id }) => id)") == [
+        "panel-tree",
+        "panel-show",
+    ]
+    drop("tree", 100, 790)
+    assert page.evaluate("[...document.querySelectorAll('#left .panel')].map(({ id }) => id)") == [
+        "panel-show",
+        "panel-tree",
+    ]
+    drop("joints", 600, 300)
+    assert page.locator("#stage > #panel-joints.floating").is_visible()
+    keep(page, "columns")
+    drop("joints", 600, 795)
+    assert page.locator("#strip #panel-joints").is_visible()
+
+    edge = page.get_by_role("separator", name="Height of Show")
+    edge.press("ArrowUp")
+    box, before = edge.bounding_box(), page.evaluate(f"{places}.show.size")
+    drag(page, (box["x"] + 50, box["y"] + 3), (box["x"] + 50, box["y"] - 57))
+    assert page.evaluate(f"{places}.show.size") == before - 60
+    assert page.locator("#panel-show").bounding_box()["height"] == before - 60
+    width = page.locator("#left").bounding_box()["width"]
+    page.get_by_role("separator", name="Width of the panels at the left").press("ArrowRight")
+    assert page.locator("#left").bounding_box()["width"] == pytest.approx(width + 16, abs=0.5)
+
+    stored = "(text) => Object.values(localStorage).some((each) => each.includes(text))"
+    panels = page.evaluate("JSON.stringify(urdfkit.layout.state.panels)")
+    until(lambda: page.evaluate(stored, panels))
+    page.reload()
+    page.wait_for_selector("#left #panel-show:visible")
+    assert page.evaluate("JSON.stringify(urdfkit.layout.state.panels)") == panels
+    page.get_by_role("separator", name="Height of Show").dblclick()
+    assert page.evaluate(f"{places}.show.size ?? null") is None
+    assert violations(page) == {"light": [], "dark": []}
+
+
 @pytest.mark.parametrize("scheme", ["light", "dark"])
 def test_a_phone_has_room_for_every_panel(lab_served, visits, keep, scheme: str) -> None:
     phone = {"viewport": {"width": 390, "height": 844}, "is_mobile": True, "has_touch": True, "color_scheme": scheme}

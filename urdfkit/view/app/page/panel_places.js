@@ -1,48 +1,71 @@
-// Where panels are: in the column at the side, in the strip below the view, or floating; and the sizes of column and strip.
+// Where panels are: in a column at the side or at the left, in the strip below the view, or floating; and their sizes.
 
 import { h, icon } from "./dom.js";
 
-const PLACES = ["side", "below", "floating"];
-const ICONS = { side: "M4 5h16v14H4zM14 5v14", below: "M4 5h16v14H4zM4 14h16", floating: "M4 5h11v9H4zM9 10h11v9H9z" };
-const WORDS = { side: "at the side", below: "below the view", floating: "floating" };
+const PLACES = ["side", "below", "floating", "left"];
+const ICONS = { side: "M4 5h16v14H4zM14 5v14", below: "M4 5h16v14H4zM4 14h16", floating: "M4 5h11v9H4zM9 10h11v9H9z", left: "M4 5h16v14H4zM10 5v14" };
+const WORDS = { side: "at the side", below: "below the view", floating: "floating", left: "at the left" };
 const STEP = 16; // px per arrow key
-const LIMITS = { width: [240, 0.6], height: [120, 0.6] }; // least px, and largest part of the window
+const LIMITS = { width: [240, 0.6], left: [240, 0.6], height: [120, 0.6] }; // least px, and largest part of the window
+const SMALLEST = 96; // px of a panel next to others
+const FLOATING = [336, 384]; // px
+const START = 6; // px that the pointer moves before a panel does
+const DOCK = 48; // px from an edge of the view within which a panel is docked
 
 export class PanelPlaces {
   constructor(panels) {
     this.panels = panels;
     this.sizes = {};
-    this.strip = h("div", { id: "strip", "data-closed": "", role: "region", "aria-label": "Panels below the view" });
-    document.getElementById("viewport").after(this.strip);
-    const stage = h("div", { id: "stage" });
-    this.strip.before(stage);
-    stage.append(document.getElementById("viewport"), this.strip);
-    this.stage = stage;
-    panels.host.before(this.#divider("width", "vertical", "Width of the panels"));
-    this.strip.before(this.#divider("height", "horizontal", "Height of the panels below the view"));
+    const viewport = document.getElementById("viewport");
+    const strip = h("div", { id: "strip", "data-closed": "", role: "region", "aria-label": "Panels below the view" });
+    const left = h("aside", { id: "left", "data-closed": "", "aria-label": "Panels at the left" });
+    this.target = h("div", { id: "dock-target", hidden: true });
+    this.stage = h("div", { id: "stage" });
+    viewport.before(left, this.stage);
+    this.stage.append(viewport, strip, this.target);
+    this.hosts = { side: panels.host, below: strip, left, floating: this.stage };
+    this.docks = Object.entries(this.hosts).slice(0, 3); // hidden without an open panel
+    panels.host.before(this.#divider("width", "vertical", "Width of the panels", () => panels.host.offsetWidth, -1));
+    left.after(this.#divider("left", "vertical", "Width of the panels at the left", () => left.offsetWidth, 1));
+    strip.before(this.#divider("height", "horizontal", "Height of the panels below the view", () => strip.offsetHeight, -1));
   }
 
-  /** Give a panel the button that changes its place. */
+  /** Give a panel the button that changes its place, and the edge that changes its size. */
   equip(panel) {
     const button = h("button.bare.place-button", { type: "button" });
-    button.addEventListener("click", () => this.put(panel, PLACES[(PLACES.indexOf(panel.place) + 1) % PLACES.length], true));
+    button.addEventListener("click", () => this.put(panel, this.#next(panel), true));
     panel.placeButton = button;
     panel.pin.before(button);
+    panel.edge = h("div.edge", { role: "separator", tabindex: "0", "aria-valuenow": 0, title: "Drag to resize; a double click restores the size" });
+    this.#resizes(panel.edge, {
+      isVertical: () => panel.place === "below",
+      sized: () => panel.section[panel.place === "below" ? "offsetWidth" : "offsetHeight"],
+      set: (value) => this.#size(panel, value),
+    });
+    panel.edge.addEventListener("dblclick", () => (this.#size(panel, null), this.panels.changed()));
+    panel.section.append(panel.edge);
+    panel.section.addEventListener("pointerup", () => panel.place === "floating" && this.panels.changed()); // resized by its corner
     const head = panel.section.querySelector(".panel-head");
-    head.addEventListener("pointerdown", (event) => this.#drag(panel, head, event));
+    head.addEventListener("pointerdown", (event) => this.#drag(panel, event));
     head.addEventListener("keydown", (event) => event.target === button && panel.place === "floating" && this.#keys(panel, event));
     this.#show(panel);
   }
 
-  /** Put a panel at a place. @param chosen whether the user did it @param at position of a floating panel */
+  #next({ place }) {
+    return PLACES[(PLACES.indexOf(place) + 1) % PLACES.length];
+  }
+
+  /** Put a panel at a place. @param chosen whether the user did it @param at position of a floating panel, and its size */
   put(panel, place, chosen = false, at = null) {
     panel.place = PLACES.includes(place) ? place : "side";
-    const hosts = { side: this.panels.host, below: this.strip, floating: this.stage };
-    hosts[panel.place].append(panel.section);
-    if (panel.place === "side") this.panels.sort();
-    panel.section.classList.toggle("floating", panel.place === "floating");
-    if (panel.place === "floating") this.#move(panel, ...(at ?? [Math.max(0, this.stage.clientWidth - 380), 60]));
-    else panel.section.removeAttribute("style");
+    panel.section.removeAttribute("style");
+    this.hosts[panel.place].append(panel.section);
+    this.panels.sort();
+    this.#size(panel, null);
+    const isFloating = panel.place === "floating";
+    panel.section.classList.toggle("floating", isFloating);
+    if (isFloating) this.#move(panel, ...(at ?? [Math.max(0, this.stage.clientWidth - FLOATING[0] - 44), 60]));
+    if (isFloating && at?.length === 4) Object.assign(panel.section.style, { width: `${at[2]}px`, height: `${at[3]}px` });
     this.#show(panel);
     if (chosen) {
       this.panels.chosen = true;
@@ -52,10 +75,21 @@ export class PanelPlaces {
   }
 
   #show(panel) {
-    const next = PLACES[(PLACES.indexOf(panel.place) + 1) % PLACES.length];
+    const next = this.#next(panel);
     panel.placeButton.replaceChildren(icon(ICONS[next]));
     panel.placeButton.title = `Put ${WORDS[next]}${panel.place === "floating" ? "; the arrow keys move it" : ""}`;
     panel.placeButton.setAttribute("aria-label", `Put ${panel.title} ${WORDS[next]}`);
+    panel.edge.hidden = panel.place === "floating";
+    panel.edge.setAttribute("aria-orientation", panel.place === "below" ? "vertical" : "horizontal");
+    panel.edge.setAttribute("aria-label", `${panel.place === "below" ? "Width" : "Height"} of ${panel.title}`);
+  }
+
+  // The size of a panel next to others [px], or null for that of its content.
+  #size(panel, value) {
+    panel.size = value && Math.round(Math.max(SMALLEST, value));
+    panel.section.toggleAttribute("data-sized", panel.size !== null);
+    panel.section.style.setProperty("--size", `${panel.size}px`);
+    panel.edge.setAttribute("aria-valuenow", panel.size ?? 0);
   }
 
   #move(panel, x, y) {
@@ -64,17 +98,78 @@ export class PanelPlaces {
     Object.assign(panel.section.style, { left: `${panel.at[0]}px`, top: `${panel.at[1]}px` });
   }
 
-  #drag(panel, head, event) {
-    if (panel.place !== "floating" || event.button !== 0 || event.target.closest("button, input, select")) return;
+  // Drag a panel by its head: to a column or the strip, where it is docked, or over the view, where it floats.
+  #drag(panel, event) {
+    if (event.button !== 0 || this.panels.narrow.matches || event.target.closest("button, input, select, a")) return;
+    const isFloating = panel.place === "floating";
+    if (!isFloating && event.pointerType === "touch") return; // scrolls
     event.preventDefault();
-    const from = [event.clientX - panel.at[0], event.clientY - panel.at[1]];
-    this.#follow(head, event, (move) => this.#move(panel, move.clientX - from[0], move.clientY - from[1]));
+    const box = panel.section.getBoundingClientRect();
+    const grip = [event.clientX - box.left, event.clientY - box.top].map((value, i) => (isFloating ? value : Math.min(value, FLOATING[i] - DOCK)));
+    let place = null;
+    this.#follow(event, (move) => {
+      if (place === null && Math.hypot(move.clientX - event.clientX, move.clientY - event.clientY) < START) return;
+      const view = this.stage.getBoundingClientRect();
+      const at = [move.clientX - grip[0] - view.left, move.clientY - grip[1] - view.top];
+      place = this.#under(move.clientX, move.clientY);
+      if (isFloating) this.#move(panel, ...at);
+      this.#outline(place, at, isFloating);
+      return at;
+    }, (at, last) => {
+      this.target.hidden = true;
+      if (place === null) return;
+      if (place !== "floating") this.#sort(panel, place, last.clientY);
+      if (place !== panel.place) this.put(panel, place, true, at);
+      else this.panels.sort();
+    });
   }
 
-  #follow(element, event, moved) {
-    element.setPointerCapture(event.pointerId);
-    element.addEventListener("pointermove", moved);
-    element.addEventListener("lostpointercapture", () => (element.removeEventListener("pointermove", moved), this.panels.changed()), { once: true });
+  // The place under the pointer.
+  #under(x, y) {
+    const view = this.stage.getBoundingClientRect();
+    if (x > view.right - DOCK) return "side";
+    if (x < view.left + DOCK) return "left";
+    return y > Math.min(view.bottom - DOCK, this.hosts.below.hasAttribute("data-closed") ? Infinity : this.hosts.below.getBoundingClientRect().top) ? "below" : "floating";
+  }
+
+  // Outline where a panel will be.
+  #outline(place, at, isFloating) {
+    const [view, main] = [this.stage, this.stage.parentElement].map((each) => each.getBoundingClientRect());
+    const size = (name, otherwise) => (this.hosts[name].hasAttribute("data-closed") ? otherwise : name === "below" ? this.hosts[name].offsetHeight : this.hosts[name].offsetWidth);
+    const wide = { side: size("side", 0), left: size("left", 0) };
+    const [left, top, width, height] = {
+      side: [wide.side ? view.right : view.right - FLOATING[0], main.top, wide.side || FLOATING[0], main.height],
+      left: [main.left, main.top, wide.left || FLOATING[0], main.height],
+      below: [view.left, view.bottom - size("below", 224), view.width, size("below", 224)],
+      floating: [at[0] + view.left, at[1] + view.top, ...FLOATING],
+    }[place];
+    Object.assign(this.target.style, { left: `${left}px`, top: `${top}px`, width: `${width}px`, height: `${height}px` });
+    this.target.hidden = isFloating && place === "floating";
+  }
+
+  // Give a panel its position in a column: before the first panel whose middle is below the pointer.
+  #sort(panel, place, y) {
+    const others = [...this.panels.all.values()].filter((each) => each !== panel && each.open && each.place === place).sort((a, b) => a.order - b.order);
+    const next = others.findIndex(({ section }) => section.getBoundingClientRect().top + section.offsetHeight / 2 > y);
+    if (place === "below" || !others.length) return;
+    if (next < 0) panel.order = Math.max(panel.order, others.at(-1).order + 0.5);
+    else panel.order = next ? (others[next - 1].order + others[next].order) / 2 : Math.min(panel.order, others[0].order - 0.5);
+  }
+
+  // Call `moved` while the pointer is down, and `done` with its last result and the last event.
+  #follow(event, moved, done = () => {}) {
+    let result = null;
+    let last = event;
+    const go = (move) => move.pointerId === event.pointerId && ((last = move), (result = moved(move) ?? result));
+    const end = (up) => {
+      if (up.pointerId !== event.pointerId) return;
+      removeEventListener("pointermove", go);
+      for (const each of ["pointerup", "pointercancel"]) removeEventListener(each, end);
+      done(result, last);
+      this.panels.changed();
+    };
+    addEventListener("pointermove", go);
+    for (const each of ["pointerup", "pointercancel"]) addEventListener(each, end);
   }
 
   #keys(panel, event) {
@@ -86,32 +181,37 @@ export class PanelPlaces {
     this.panels.changed();
   }
 
-  // A line between two parts of the page that is dragged, or moved by the arrow keys.
-  #divider(name, orientation, words) {
-    const line = h("div.divider", { role: "separator", tabindex: "0", "aria-orientation": orientation, "aria-label": words, "aria-valuemin": LIMITS[name][0], "aria-valuenow": name === "width" ? 352 : 224, "data-divides": name });
-    const sized = () => (name === "width" ? this.panels.host.offsetWidth : this.strip.offsetHeight);
-    line.addEventListener("pointerdown", (event) => {
-      if (event.button !== 0) return;
-      event.preventDefault();
-      const [start, size] = [name === "width" ? event.clientX : event.clientY, sized()];
-      this.#follow(line, event, (move) => this.size(name, size + start - (name === "width" ? move.clientX : move.clientY)));
-    });
-    line.addEventListener("keydown", (event) => {
-      const by = { ArrowLeft: STEP, ArrowUp: STEP, ArrowRight: -STEP, ArrowDown: -STEP }[event.key];
-      if (!by) return;
-      event.preventDefault();
-      event.stopPropagation();
-      this.size(name, sized() + by);
-      this.panels.changed();
-    });
+  // A line between two parts of the page.
+  #divider(name, orientation, words, sized, sign) {
+    const line = h("div.divider", { role: "separator", tabindex: "0", "aria-orientation": orientation, "aria-label": words, "aria-valuemin": LIMITS[name][0], "aria-valuenow": name === "height" ? 224 : 352, "data-divides": name });
+    this.#resizes(line, { isVertical: () => orientation === "vertical", sized, set: (value) => this.size(name, value), sign });
     this[name] = line;
     return line;
   }
 
-  /** Set the width of the column or the height of the strip [px]. */
+  // Drag a line, or move it by the arrow keys. @param sign 1 if the part grows to the right or downwards
+  #resizes(line, { isVertical, sized, set, sign = 1 }) {
+    line.addEventListener("pointerdown", (event) => {
+      if (event.button !== 0) return;
+      event.preventDefault();
+      const along = isVertical() ? "clientX" : "clientY";
+      const [start, size] = [event[along], sized()];
+      this.#follow(event, (move) => set(size + sign * (move[along] - start)));
+    });
+    line.addEventListener("keydown", (event) => {
+      const by = { ArrowLeft: -STEP, ArrowUp: -STEP, ArrowRight: STEP, ArrowDown: STEP }[event.key];
+      if (!by) return;
+      event.preventDefault();
+      event.stopPropagation();
+      set(sized() + sign * by);
+      this.panels.changed();
+    });
+  }
+
+  /** Set the width of a column or the height of the strip [px]. */
   size(name, value) {
     const [least, part] = LIMITS[name];
-    const kept = Math.round(Math.max(least, Math.min(value, part * (name === "width" ? innerWidth : innerHeight))));
+    const kept = Math.round(Math.max(least, Math.min(value, part * (name === "height" ? innerHeight : innerWidth))));
     this.sizes[name] = kept;
     document.documentElement.style.setProperty(`--panel-${name}`, `${kept}px`);
     this[name].setAttribute("aria-valuenow", kept);
@@ -119,15 +219,23 @@ export class PanelPlaces {
 
   /** Places and sizes, for a layout. */
   get state() {
-    const moved = [...this.panels.all.values()].filter(({ place }) => place !== "side");
-    return { places: Object.fromEntries(moved.map(({ id, place, at }) => [id, place === "floating" ? { place, at } : { place }])), sizes: this.sizes };
+    const places = {};
+    for (const { id, place, at, size, order, ordered, section } of this.panels.all.values()) {
+      if (place === "side" && size === null && order === ordered) continue;
+      const floating = place === "floating" && { at: [...at, ...(section.style.height ? [parseInt(section.style.width, 10), parseInt(section.style.height, 10)] : [])] };
+      places[id] = { place, ...(size !== null && { size }), ...(order !== ordered && { order }), ...floating };
+    }
+    return { places, sizes: this.sizes };
   }
 
   restore({ places = {}, sizes = {} }) {
     for (const panel of this.panels.all.values()) {
-      const { place, at } = places[panel.id] ?? { place: "side" };
+      const { place, at, size = null, order = panel.ordered } = places[panel.id] ?? { place: "side" };
+      panel.order = order;
       if (place !== panel.place || at) this.put(panel, place, false, at);
+      if (size !== panel.size) this.#size(panel, size);
     }
+    this.panels.sort();
     for (const [name, value] of Object.entries(sizes)) if (name in LIMITS) this.size(name, value);
   }
 }

@@ -1,4 +1,4 @@
-// The panels at the side (on a phone: the sheet at the bottom) and the rail of buttons that open them.
+// The panels at the sides (on a phone: the sheet at the bottom) and the rail of buttons that open them.
 
 import { h, icon } from "./dom.js";
 import { PanelPlaces } from "./panel_places.js";
@@ -10,7 +10,7 @@ const CLOSE = "M6 6l12 12M18 6L6 18";
 /** One panel. Its content goes into `body`; `badge` shows a count on the rail. */
 class Panel {
   constructor(panels, { id, title, icon: path, modes, order, element, pinned }) {
-    Object.assign(this, { id, title, modes, order, pinned, available: true, place: "side" });
+    Object.assign(this, { id, title, modes, order, ordered: order, pinned, available: true, place: "side", size: null });
     this.count = h("span.count", { hidden: true });
     this.button = h(
       "button.rail-button",
@@ -83,10 +83,12 @@ export class Panels {
     return panel;
   }
 
-  /** Put the panels of the column into their order. */
+  /** Put the panels of each place into their order. */
   sort() {
-    const here = [...this.all.values()].filter(({ place }) => place === "side").sort((a, b) => a.order - b.order);
-    this.host.append(...here.map(({ section }) => section));
+    for (const [name, host] of Object.entries(this.places.hosts)) {
+      const here = [...this.all.values()].filter(({ place }) => place === name).sort((a, b) => a.order - b.order);
+      host.append(...here.map(({ section }) => section));
+    }
   }
 
   /** Show the panels of a mode; open the first one and the pinned ones if there is enough space. */
@@ -130,18 +132,19 @@ export class Panels {
     this.wanted = [];
     for (const panel of this.all.values()) this.#show(panel, panel === opened || (panel.open && !this.narrow.matches && (panel.pinned || panel.place !== "side" || opened.place !== "side")));
     this.#changed();
-    this.#scrollTo(opened.section);
+    if (opened.place === "side" || opened.place === "left") this.#scrollTo(opened.section);
   }
 
   // Scroll a panel to the top of the column; content that arrives later may move it, so repeat this for a while.
   #scrollTo(section) {
-    const show = () => (this.host.scrollTop += section.getBoundingClientRect().top - this.host.getBoundingClientRect().top);
+    const host = section.parentElement;
+    const show = () => (host.scrollTop += section.getBoundingClientRect().top - host.getBoundingClientRect().top);
     show();
     this.watching?.disconnect();
     const watching = (this.watching = new ResizeObserver(show));
-    for (const child of this.host.children) watching.observe(child);
+    for (const child of host.children) watching.observe(child);
     for (const event of ["pointerdown", "wheel", "keydown", "touchstart"]) {
-      this.host.addEventListener(event, () => watching.disconnect(), { once: true, passive: true });
+      host.addEventListener(event, () => watching.disconnect(), { once: true, passive: true });
     }
     setTimeout(() => watching.disconnect(), SETTLE);
   }
@@ -182,7 +185,7 @@ export class Panels {
     panel.button.setAttribute("aria-expanded", shown);
   }
 
-  /** Show column and strip while they have an open panel. */
+  /** Show columns and strip while they have an open panel. */
   refresh() {
     this.#changed();
   }
@@ -190,7 +193,6 @@ export class Panels {
   #changed() {
     this.changed();
     const open = [...this.all.values()].filter((panel) => panel.open);
-    this.host.toggleAttribute("data-closed", !open.some(({ place }) => place === "side"));
-    this.places.strip.toggleAttribute("data-closed", !open.some(({ place }) => place === "below"));
+    for (const [name, host] of this.places.docks) host.toggleAttribute("data-closed", !open.some(({ place }) => place === name));
   }
 }
