@@ -106,7 +106,7 @@ def write_pictures(arguments: argparse.Namespace, shown: ShownRobot) -> None:
     """
     from urdfkit.app.pictures.camera_placement import camera_direction
     from urdfkit.app.pictures.films import encoded, frames
-    from urdfkit.app.pictures.studio import Studio, camera_of
+    from urdfkit.app.pictures.studio import FILM, Studio, camera_of
     from urdfkit.atomic import write_bytes
     from urdfkit.cli.robot_arguments.joint_positions import joint_positions
     from urdfkit.view.content.joint_panel import home
@@ -116,9 +116,10 @@ def write_pictures(arguments: argparse.Namespace, shown: ShownRobot) -> None:
         raise UsageError(f"robot `{kinematics.robot.name}` has no shapes to show")
     positions = home(kinematics) | joint_positions(arguments.joint, "view: --joint")
     poses = kinematics.link_poses(kinematics.configuration(positions))
-    studio, direction = Studio(shown.scene, poses), camera_direction(arguments.camera)
+    direction = camera_direction(arguments.camera)
     if arguments.image is not None:
         size, file = _size(arguments.size, "image"), Path(arguments.image)
+        studio = Studio(shown.scene, poses)
         camera = camera_of(studio, [poses], size, direction)
         pixels = studio.picture(poses, camera, *size, is_transparent=arguments.transparent)
         write_bytes(file, _image(pixels, file))
@@ -126,6 +127,7 @@ def write_pictures(arguments: argparse.Namespace, shown: ShownRobot) -> None:
     if arguments.video is not None:
         size, file = _size(arguments.size, "video"), Path(arguments.video)
         options = {"size": size, "direction": direction, "motion": arguments.motion, "seconds": arguments.seconds}
+        studio = Studio(shown.scene, poses, FILM)
         write_bytes(file, encoded(list(frames(studio, kinematics, positions, **options)), file))
         _wrote(arguments, file)
 

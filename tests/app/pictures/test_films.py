@@ -104,3 +104,13 @@ def test_videos_need_ffmpeg(robot: Path, tmp_path: Path, monkeypatch, capsys) ->
     monkeypatch.setattr(films.shutil, "which", lambda name: None)
     assert view(robot, "--video", str(tmp_path / "a.mp4")) == 2
     assert "needs the program ffmpeg" in capsys.readouterr().err
+
+
+def test_the_floor_of_a_picture_shows_no_edges_of_the_many_shadows(robot: Path, tmp_path: Path) -> None:
+    file = tmp_path / "a.png"
+    assert view(robot, "--image", str(file), "--size", "160,120", "--camera", "60,30,0.5") == 0
+    brightness = np.asarray(Image.open(file)).astype(int).sum(axis=-1)
+    floor = brightness > 680
+    steps = np.abs(np.diff(brightness, axis=1))[floor[:, 1:] & floor[:, :-1]]
+    assert len(steps) > 10_000
+    assert (steps > 6).sum() < 100  # 2 of 255 in each colour: at the robot and its sun shadow; 637 with 30 directions
