@@ -12,6 +12,7 @@ from pathlib import Path
 
 import pytest
 
+from tests.lint.test_messages import CASES
 from urdfkit.lint import RULES, lint
 from urdfkit.lint.catalogue import SECTIONS, page, sections, title
 from urdfkit.lint.fixes.apply import fix
@@ -102,12 +103,13 @@ def message_texts(path: Path) -> Iterator[tuple[str, str]]:
             parts = node.values if isinstance(node, ast.JoinedStr) else [node]
             text = "".join(str(part.value) if isinstance(part, ast.Constant) else "…" for part in parts)
             if re.search(r"[a-z`>] .*[a-z]{2}", text):
-                yield text, ".*".join(map(re.escape, text.strip("…").split("…")))
+                yield text, ".*".join(map(re.escape, re.split(r"…|\{\}", text.strip("…"))))
 
 
 def test_every_text_of_a_rule_is_held():
     """Each message, help and title of a fix occurs in an expected file of a rule or in a test of the linter."""
     expected = "\n".join(path.read_text() for path in HERE.glob("*/findings.*.txt"))
+    expected += "".join(f"{line}\n" for _, _, _, lines in CASES.values() for line in lines)
     tests = "\n".join(path.read_text() for path in HERE.parent.rglob("test_*.py"))
     found = sorted(
         f"{path.relative_to(FOLDER)}: {text}"
