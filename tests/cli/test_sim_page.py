@@ -641,6 +641,22 @@ TYPED = """async (text) => {
 }"""
 
 
+def test_the_list_of_objects_keeps_the_focus(page) -> None:
+    put_down(page)
+    order(page, "spawn", model="crate", pose=[2, 2, 0], name="first")
+    page.evaluate("urdfkit.page.panels.open('world')")
+    item = page.locator("[data-object=first] button")
+    item.focus()
+    order(page, "spawn", model="crate", pose=[-2, 2, 0], name="last")
+    page.wait_for_selector("[data-object=last]")
+    focused = "document.activeElement.closest('[data-object]')?.dataset.object"
+    assert page.evaluate(focused) == "first"
+    order(page, "remove", name="first")
+    page.wait_for_selector("[data-object=first]", state="detached")
+    assert page.evaluate(focused) == "last"  # the next one
+    put_down(page)
+
+
 def test_the_target_of_a_joint_that_is_typed_survives_a_change_of_its_controller(page) -> None:
     assert page.evaluate(TYPED, "0.") == ["0.", "false"]
 

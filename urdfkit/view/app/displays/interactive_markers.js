@@ -4,6 +4,7 @@
 import { gizmoKeys } from "../handles/gizmo.js";
 import { HandleDrag, screen } from "../handles/handle_drag.js";
 import { h } from "../page/dom.js";
+import { refill } from "../page/edited_fields.js";
 
 const THREE = MeshCat.THREE;
 const TYPE = "visualization_msgs/msg/InteractiveMarkerUpdate";
@@ -159,7 +160,7 @@ class InteractiveMarkers {
     if (!this.#publishes || signature === display.handles.dataset.markers) return;
     display.handles.dataset.markers = signature;
     const press = (words, marker, ...rest) => h("button.quiet", { type: "button", onclick: () => this.#send(display, this.#group({ display: display.topic, marker }).group, ...rest) }, words);
-    display.handles.replaceChildren(...markers.map(({ name, menu, controls }) => {
+    refill(display.handles, markers.map(({ name, menu, controls }) => {
       const moves = controls.some(({ mode }) => mode in KINDS);
       const keys = h("button.quiet", { type: "button", "data-display": display.topic, "data-marker": name, title: "Arrow keys move it, with Shift up, down and about z" }, `Move ${name}`);
       const buttons = controls.filter(({ mode }) => mode === BUTTON).map((each) => press(each.name || "Click", name, each.name, BUTTON_CLICK));

@@ -1,4 +1,5 @@
-// Fields that the user edits while messages arrive: a message must not replace a text that is not complete.
+// Fields and buttons that the user has reached while messages arrive: a message replaces no text that is not complete, and
+// the focus stays where it is.
 
 import { h } from "./dom.js";
 
@@ -26,6 +27,18 @@ export function offer(select, choices, done = null) {
     if (choices.some(([value]) => value === before)) select.value = before;
     done?.();
   });
+}
+
+/** Replace the children of a list. The focus goes to the button or field with the same words, else to the next one. */
+export function refill(list, items) {
+  const all = () => [...list.querySelectorAll("button, input, select, summary, [tabindex]")];
+  const words = (element) => element.getAttribute("aria-label") ?? element.textContent;
+  const { activeElement: focused } = document;
+  const at = all().indexOf(focused);
+  list.replaceChildren(...items);
+  if (at < 0) return;
+  const now = all();
+  (now.find((each) => words(each) === words(focused)) ?? now[Math.min(at, now.length - 1)])?.focus({ preventScroll: true });
 }
 
 // A typed number is newer than the messages before it.

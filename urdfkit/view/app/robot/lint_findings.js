@@ -2,6 +2,7 @@
 
 import { h, icon } from "../page/dom.js";
 import { excerpt, source } from "./inspector.js";
+import { refill } from "../page/edited_fields.js";
 import { inline, markdown } from "../page/markdown.js";
 
 const SHIELD = "M12 3l8 3v6c0 4.5-3.3 7.8-8 9-4.7-1.2-8-4.5-8-9V6zM12 8v5M12 16v.1";
@@ -40,7 +41,7 @@ export function findings(page) {
     const shown = only ? known.filter((finding) => finding.links.includes(only)) : known;
     summary.textContent = fault ?? (known.length === 0 ? "No findings." : only ? `${shown.length} about ${only}` : words(known));
     all.hidden = only === null;
-    list.replaceChildren(...shown.map(card));
+    refill(list, shown.map(card));
   }
 
   function mark() {

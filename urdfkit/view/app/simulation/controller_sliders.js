@@ -1,7 +1,7 @@
 // Arms: a slider with the target of every joint of every controller, and the measured position.
 
 import { h, short } from "../page/dom.js";
-import { redraw } from "../page/edited_fields.js";
+import { redraw, refill } from "../page/edited_fields.js";
 import { numberField } from "../page/number_field.js";
 
 const ARM = "M5 20h6M8 20v-6l-2-4 5-5 4 2M15 7l3-3M15 7l4 1M6 10a1 1 0 1 0 0 .1";
@@ -71,7 +71,7 @@ export function arms(page) {
   page.on("arms", ({ arms: all }) => {
     redraw(panel.body, () => {
       rows.clear();
-      panel.body.replaceChildren(...all.map(controllerOf));
+      refill(panel.body, all.map(controllerOf));
     });
     page.panels.available("arms", all.length > 0);
   });

@@ -3,7 +3,7 @@
 
 import { h, short } from "../page/dom.js";
 import { Mover } from "../handles/object_gizmo.js";
-import { redraw } from "../page/edited_fields.js";
+import { redraw, refill } from "../page/edited_fields.js";
 import { numberField, unitField } from "../page/number_field.js";
 
 const THREE = MeshCat.THREE;
@@ -51,8 +51,9 @@ export class Objects {
     Object.assign(this, { objects: message.objects, models: message.models, robots: message.robots });
     this.#library();
     const kind = ({ robot, static: still }) => (robot ? "robot" : still ? "static" : "movable");
-    this.list.replaceChildren(
-      ...this.objects.map((object) => {
+    refill(
+      this.list,
+      this.objects.map((object) => {
         const button = h("button.topic", { type: "button" }, h("span.name", {}, object.name), h("span.rate.quiet", {}, kind(object)));
         button.addEventListener("click", () => this.pick(this.picked === object.name ? null : object.name));
         return h("li", { "data-object": object.name, "data-chosen": object.name === this.picked }, button);
