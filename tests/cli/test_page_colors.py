@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import base64
+import io
 from pathlib import Path
 
 import numpy as np
@@ -261,6 +263,41 @@ def test_the_light_is_chosen_by_keys_and_saved_with_the_layout(lamps, visits, un
     lamps.reload()
     lamps.wait_for_selector(READY)
     until(lambda: lamps.evaluate(background) == [20, 40, 60])
+    assert visits.problems == []
+
+
+FLOOR = """<?xml version="1.0"?>
+<sdf version="1.9"><world name="floor"><scene><ambient>1 1 1 1</ambient><background>0 0 0 1</background></scene>
+  <model name="ground"><static>true</static><link name="l">
+    <collision name="c"><geometry><plane/></geometry></collision>
+    <visual name="v"><geometry><plane><normal>0 0 1</normal><size>8 8</size></plane></geometry>
+      <material><diffuse>0.2 0.6 0.4 1</diffuse></material></visual></link></model>
+</world></sdf>"""
+
+
+def test_planes_of_the_world_are_drawn_in_its_material(serve, visits, until, tmp_path: Path) -> None:
+    from tests.bench.bench_page_camera import SHOT
+
+    (tmp_path / "floor.sdf").write_text(FLOOR)
+    page = visits.open(serve("sim", "teleop", "simpleton", "--world", str(tmp_path / "floor.sdf")).url)
+    page.locator("#pause").click()
+    until(lambda: page.evaluate("urdfkit.viewport.planes.some"))
+
+    def seen(light: str, x: float) -> list[int]:
+        """Return the colour of a point of the ground, seen from above."""
+        data = page.evaluate(SHOT, [[x - 0.1, 2.0, 2.0], [x, 2.0, 0.0], 20.0, 64, 64, True, light])
+        picture = Image.open(io.BytesIO(base64.b64decode(data.partition(",")[2]))).convert("RGB")
+        return [int(value) for value in np.asarray(picture)[32, 32]]
+
+    assert seen("world", 1.0) == pytest.approx([51, 153, 102], abs=2)
+    assert seen("world", 6.0) == [0, 0, 0]  # beyond its edge
+    sky = np.array([238, 241, 245])
+    near = np.array(seen("studio", 1.0))
+    assert near == pytest.approx(0.6 * np.array([51, 153, 102]) + 0.4 * sky, abs=3)
+    page.evaluate("urdfkit.page.panels.arrange({ open: ['show'], pinned: [] })")
+    page.get_by_label("Ground", exact=True).uncheck()
+    assert seen("studio", 1.0) == pytest.approx(sky, abs=2)
+    assert seen("world", 1.0) == [0, 0, 0]
     assert visits.problems == []
 
 

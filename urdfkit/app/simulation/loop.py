@@ -18,7 +18,7 @@ from urdfkit.app.simulation.bridging.service_requests import SimulationServices,
 from urdfkit.app.simulation.bridging.services import simulation_services
 from urdfkit.app.simulation.clock_rate import FRAME, ClockRate
 from urdfkit.app.simulation.displays.displays import Displays
-from urdfkit.app.simulation.displays.world_lights import WorldLights
+from urdfkit.app.simulation.displays.world_appearance import WorldLights, WorldPlanes
 from urdfkit.app.simulation.features.contact_forces import ContactForces
 from urdfkit.app.simulation.features.feature import Done, Feature
 from urdfkit.app.simulation.features.joint_sliders import JointSliders
@@ -58,6 +58,7 @@ FEATURES: tuple[type[Feature], ...] = (
     Plots,
     WorldObjects,
     WorldLights,
+    WorldPlanes,
     JointSliders,
     LiveParameters,
     Pushing,

@@ -31,18 +31,20 @@ function stem(page) {
 export function picture(page, { width, height, transparent = false } = {}) {
   const { viewport } = page;
   const { renderer, scene } = viewport.viewer;
-  const before = { ratio: renderer.getPixelRatio(), sky: scene.background, grid: viewport.grid.visible };
+  const before = { ratio: renderer.getPixelRatio(), sky: scene.background, grid: viewport.grid.visible, planes: viewport.planes.group.visible };
   const { clientWidth, clientHeight } = viewport.pane;
   const size = width && height ? [width, height] : [SCALE * clientWidth, SCALE * clientHeight];
   if (transparent) Object.assign(scene, { background: null });
   if (transparent) renderer.setClearAlpha(0);
   viewport.grid.visible = before.grid && !transparent;
+  viewport.planes.group.visible = before.planes && !transparent;
   renderer.setPixelRatio(1);
   viewport.draw(...size);
   // Read before the next frame is drawn, because the buffer is not preserved.
   const taken = new Promise((resolve, reject) => renderer.domElement.toBlob((blob) => (blob ? resolve(blob) : reject(new Error(`the browser cannot draw ${size.join(" × ")} pixels`))), "image/png"));
   scene.background = before.sky;
   viewport.grid.visible = before.grid;
+  viewport.planes.group.visible = before.planes;
   renderer.setPixelRatio(before.ratio);
   viewport.resize();
   return taken;

@@ -4,6 +4,7 @@ import { cameras } from "../viewport/cameras.js";
 import { capture } from "../capture/screen_capture.js";
 import { collisions } from "./collision_matrix.js";
 import { findings } from "./lint_findings.js";
+import { groundPlanes } from "../viewport/ground_planes.js";
 import { help } from "../page/keyboard_help.js";
 import { history } from "../page/history.js";
 import { ik } from "./inverse_kinematics.js";
@@ -27,6 +28,6 @@ import { tools } from "../page/toolbar.js";
 import { tree } from "./link_tree.js";
 
 export const viewFeatures = [
-  tools, history, robot, sight, labels, joints, tree, inspector, layers, loading, tf, reach, collisions, measure, findings, cameras, lightChoice, capture, ik, pick, steering, selection,
+  tools, history, robot, sight, labels, joints, tree, inspector, layers, groundPlanes, loading, tf, reach, collisions, measure, findings, cameras, lightChoice, capture, ik, pick, steering, selection,
   modes, theme, help,
 ];

@@ -34,6 +34,7 @@ export function layers(page) {
   add("Names", { id: "show-names", key: "n", keys: both, changed: (shown) => names(page, shown) });
   add("Wireframe", { id: "wireframe", key: "w", changed: (wireframe) => scene.restyle({ wireframe }) });
   add("Grid", { id: "show-grid", key: "g", checked: true, changed: (shown) => viewport.visible("Grid", shown) });
+  add("Ground", { id: "show-ground", checked: true, changed: (shown) => viewport.visible("Ground", shown) }).parentElement.hidden = true; // until the world has one
   add("Origin", { id: "show-axes-world", changed: (shown) => viewport.visible("Axes", shown) });
   add("Follow robot", { id: "follow", modes: ["sim"], checked: true, changed: (on) => (page.following = on) });
 

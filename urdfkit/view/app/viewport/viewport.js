@@ -4,14 +4,15 @@
 import { DrawingBudget } from "./drawing_budget.js";
 import { soft, sparing } from "./graphics_device.js";
 import { gridMaterial } from "./ground_grid.js";
+import { GroundPlanes } from "./ground_planes.js";
 import { SunShadow } from "../appearance/sun_shadow.js";
 import { studio, SUN } from "../appearance/surfaces.js";
 import { light, WorldLight } from "../appearance/world_light.js";
 
 const THREE = MeshCat.THREE;
 const THEMES = {
-  light: { sky: 0xeef1f5, major: 0xaab4c2, minor: 0xd3dae3, shadow: 0.3 },
-  dark: { sky: 0x161b23, major: 0x49566a, minor: 0x2a3340, shadow: 0.5 },
+  light: { sky: 0xeef1f5, major: 0xaab4c2, minor: 0xd3dae3, shadow: 0.3, floor: 0.6 },
+  dark: { sky: 0x161b23, major: 0x49566a, minor: 0x2a3340, shadow: 0.5, floor: 0.25 },
 };
 const FOV = 42;
 const ROOM = 1.3; // factor by which a robot may outgrow the fitted view
@@ -114,13 +115,15 @@ export class Viewport {
     const { major, minor } = this.grid.material.uniforms;
     major.value.set(theme.major);
     minor.value.set(theme.minor);
+    this.planes.share.value = theme.floor;
     this.dirty();
   }
 
   /** Show shadows, or draw without them. */
   shadows(shown) {
-    // The ground is transparent but for shadows, which those of bulbs and spots would make too dark.
-    this.shade.visible = shown && !this.world?.casters.some(({ kind }) => kind > 0);
+    // The ground is transparent but for shadows, which those of bulbs and spots would make too dark. Planes of the world
+    // have their own in its light.
+    this.shade.visible = shown && !(this.world && (this.planes.some || this.world.casters.some(({ kind }) => kind > 0)));
     this.sunShadow.sun.castShadow = shown;
     for (const caster of this.world?.casters ?? []) caster.light.castShadow = shown;
   }
@@ -130,6 +133,7 @@ export class Viewport {
     this.world?.dispose();
     this.world = message && new WorldLight(this.viewer, message);
     for (const each of this.studio) each.visible = !message;
+    this.planes.light(Boolean(message));
     this.viewer.scene.background = this.world?.background ?? this.sky;
     this.shadows(this.budget.used === 0);
     this.dirty();
@@ -144,8 +148,14 @@ export class Viewport {
 
   visible(name, shown) {
     if (name === "Grid") this.grid.visible = shown;
+    else if (name === "Ground") this.#showPlanes(shown);
     else this.viewer.scene_tree.find([name]).object.visible = shown;
     this.dirty();
+  }
+
+  #showPlanes(shown) {
+    this.planes.group.visible = shown;
+    this.shadows(this.budget.used === 0);
   }
 
   #light() {
@@ -164,6 +174,7 @@ export class Viewport {
     this.grid = new THREE.Mesh(new THREE.PlaneGeometry(400, 400), gridMaterial());
     this.grid.renderOrder = -1;
     this.ground.add(this.shade, this.grid);
+    this.planes = new GroundPlanes(this.viewer, this.grid.material.uniforms.reach);
     this.cell = 1;
   }
 
