@@ -4,7 +4,7 @@ import { cameras } from "../viewport/cameras.js";
 import { capture } from "../capture/screen_capture.js";
 import { collisions } from "./collision_matrix.js";
 import { findings } from "./lint_findings.js";
-import { groundPlanes } from "../viewport/ground_planes.js";
+import { groundPlanes } from "../appearance/ground_planes.js";
 import { help } from "../page/keyboard_help.js";
 import { history } from "../page/history.js";
 import { ik } from "./inverse_kinematics.js";

@@ -4,7 +4,7 @@
 import { DrawingBudget } from "./drawing_budget.js";
 import { soft, sparing } from "./graphics_device.js";
 import { gridMaterial } from "./ground_grid.js";
-import { GroundPlanes } from "./ground_planes.js";
+import { GroundPlanes } from "../appearance/ground_planes.js";
 import { SunShadow } from "../appearance/sun_shadow.js";
 import { studio, SUN } from "../appearance/surfaces.js";
 import { light, WorldLight } from "../appearance/world_light.js";
