@@ -65,6 +65,12 @@ def blocks(page: str) -> Iterator[Block]:
         yield Block(language, title, text)
 
 
+def unnamed_files(page: str) -> list[str]:
+    """Return the files of a page that the text before their block does not name: sites without titles hide them."""
+    parts = re.split(r"^```(?:\w+)(?: title=\"([^\"]+)\")?[^\n]*\n.*?^```$", page, flags=re.MULTILINE | re.DOTALL)
+    return [title for text, title in zip(parts[::2], parts[1::2], strict=False) if title and title not in text]
+
+
 def commands(block: str) -> Iterator[tuple[str, str]]:
     """Yield each command of a console block and the output below it."""
     for part in re.split(r"^\$ ", block, flags=re.MULTILINE)[1:]:
@@ -87,7 +93,7 @@ def run(page: str, folder: Path) -> Iterator[Step]:
                         served.close()
                         printed = _serve(command, folder, served)
                     else:
-                        printed = _output(command, folder, REFUSED.match(shown) is not None)
+                        printed = output(command, folder, (2,) if REFUSED.match(shown) else (0, 1))
                     yield Step(command, shown, printed)
             elif block.title:
                 file = folder / block.title
@@ -133,7 +139,12 @@ def _serve(command: str, folder: Path, served: ExitStack) -> str:
     return line
 
 
-def _output(command: str, folder: Path, refused: bool) -> str:
+def output(command: str, folder: Path, statuses: tuple[int, ...] = (0,)) -> str:
+    """Run a command in a shell; return what it prints, with `HOME` in place of the folder.
+
+    Raises:
+        AssertionError: the exit status is another one.
+    """
     python = shlex.quote(sys.executable)
     programs = f'urdfkit() {{ {python} -m urdfkit "$@"; }}; python() {{ {python} "$@"; }}\n'
     install = f"--no-build-isolation --no-deps --upgrade --target {shlex.quote(str(_site(folder)))}"
@@ -148,7 +159,7 @@ def _output(command: str, folder: Path, refused: bool) -> str:
         text=True,
         check=False,
     )
-    assert done.returncode in ((2,) if refused else (0, 1)), f"{command}\n{done.stdout}"
+    assert done.returncode in statuses, f"{command}\n{done.stdout}"
     printed = re.sub(WAITS, "", done.stdout, flags=re.MULTILINE)
     return printed.replace(str(folder), HOME)
 

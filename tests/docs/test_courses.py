@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.docs.course import PAGES, agrees, run
+from tests.docs.course import PAGES, agrees, run, unnamed_files
 
 pytest.importorskip("numba")
 
@@ -19,6 +19,12 @@ def test_a_reader_in_an_empty_folder_sees_the_outputs_of_the_page(page: Path, tm
     for step in steps:
         if step.shown.strip() and "urdfkit sim teleop" not in step.command and "urdfkit view" not in step.command:
             assert agrees(step.shown, step.printed), f"$ {step.command}\n{step.printed}"
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
+def test_the_text_names_each_file_before_its_block(page: Path) -> None:
+    assert unnamed_files(page.read_text("utf-8")) == []
+    assert unnamed_files('Save `a.txt`:\n\n```text title="a.txt"\n```\n```text title="b.txt"\n```\n') == ["b.txt"]
 
 
 def test_a_page_with_a_wrong_output_is_found(tmp_path: Path) -> None:
