@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import time
 from collections.abc import Callable, Collection
 from threading import Event, Thread
@@ -15,6 +16,8 @@ from urdfkit.messages import from_fields
 
 SEARCH = 0.5
 """Seconds between two searches for new topics."""
+FIRST_SEARCHES = 50
+"""Searches that follow each other ten times faster, while the graph is discovered."""
 
 
 class LiveTopics:
@@ -29,13 +32,14 @@ class LiveTopics:
     Attributes:
         node: on the graph.
         calls: received messages, until `update` publishes them.
+        searched: set after the first search.
     """
 
     def __init__(self, node: Node, bus: Bus, report: Callable[[str], None], clock: Callable[[], float]) -> None:
         self.calls = CallQueue()
         self.node, self._bus, self._report, self._clock = node, bus, report, clock
         self._found: dict[str, str] = {}
-        self._closed = Event()
+        self.searched, self._closed = Event(), Event()
         self._ends: dict[str, End] = {}
         self._writers: dict[str, Writer] = {}
         self._reported: set[str] = set()
@@ -104,13 +108,14 @@ class LiveTopics:
 
     def _search(self) -> None:
         """Find topics, in a thread of its own: a slow graph must not stop the page."""
-        while True:
+        for count in itertools.count():
             try:
                 self._found = self.node.topics()
             except Exception as error:  # of a graph, by several classes
                 if not self._closed.is_set():
                     self._note(str(error))
-            if self._closed.wait(SEARCH):
+            self.searched.set()
+            if self._closed.wait(SEARCH / 10 if count < FIRST_SEARCHES else SEARCH):
                 return
 
     def _follow(self, topic: Topic) -> End:

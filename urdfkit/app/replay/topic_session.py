@@ -8,6 +8,7 @@ from contextlib import contextmanager
 from threading import Event, Thread
 from typing import Any
 
+from urdfkit.app.replay.discovery import Search, Types, wait_for_discovery
 from urdfkit.app.replay.live_actions import live_actions
 from urdfkit.app.replay.live_topics import LiveTopics
 from urdfkit.app.replay.live_view import open_source
@@ -16,16 +17,13 @@ from urdfkit.app.simulation.bridging.service_requests import service_requests
 from urdfkit.app.simulation.features.feature import Done
 from urdfkit.app.simulation.features.topic_panel import ECHO, TopicPanel
 from urdfkit.app.simulation.features.topic_stream import KEYS, TopicStreams
+from urdfkit.bridges.ros2.rclpy_node import DISCOVERY, RclpyNode
 from urdfkit.bus import Bus, absolute
 from urdfkit.errors import UrdfkitError
 from urdfkit.messages import from_fields, full_type_name
 from urdfkit.view.protocol.page_requests import Request
 from urdfkit.view.server.server import Server
 
-DISCOVERY = 2.0
-"""Seconds to wait for the first topics."""
-OF_EACH_NODE = ("/parameter_events", "/rosout")
-"""Topics of every node of ROS 2, also of this one."""
 PERIOD = 0.02
 
 
@@ -81,8 +79,13 @@ class TopicSession:
 
 
 @contextmanager
-def served_topics(source: str, report: Callable[[str], None]) -> Iterator[str]:
+def served_topics(source: str, report: Callable[[str], None], search: Search | None = None) -> Iterator[str]:
     """Serve the topics of a graph inside the context, on this machine; yield the address of the server.
+
+    Args:
+        source: of the topics.
+        report: receives lines about topics that cannot be received.
+        search: what must be discovered before the server is used.
 
     Raises:
         UrdfkitError: the source is unknown or cannot be reached.
@@ -101,11 +104,8 @@ def served_topics(source: str, report: Callable[[str], None]) -> Iterator[str]:
     try:
         server.start()
         thread.start()
-        end = time.monotonic() + DISCOVERY
-        while all(topic.name in OF_EACH_NODE for topic in bus.topics) and time.monotonic() < end:
-            time.sleep(PERIOD)
-        if time.monotonic() < end:
-            time.sleep(DISCOVERY / 4)  # nodes of ROS 2 are discovered one after the other
+        if search is not None:
+            _wait(topics, bus, search)
         yield server.url
     finally:
         stop.set()
@@ -113,3 +113,19 @@ def served_topics(source: str, report: Callable[[str], None]) -> Iterator[str]:
             thread.join()
         topics.close()
         server.stop()
+
+
+def _wait(topics: LiveTopics, bus: Bus, search: Search) -> None:
+    """Wait until a graph is discovered; a master and a server of rosbridge answer the first search with all of it."""
+    node = topics.node
+    if node.ros != "ROS 2":
+        topics.searched.wait(DISCOVERY)
+        return
+
+    def find() -> Types:
+        found: Types = {"topics": {topic.name: topic.type for topic in bus.topics}}
+        if not isinstance(node, RclpyNode):
+            return found
+        return {**found, "services": dict.fromkeys(node.services(), ""), "actions": node.actions()}
+
+    wait_for_discovery(find, search)

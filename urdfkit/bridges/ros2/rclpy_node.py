@@ -21,8 +21,8 @@ from urdfkit.messages import from_fields
 from urdfkit.messages.conversion import decode_cdr, encode_cdr
 
 NAME = "urdfkit"
-DISCOVERY = 5.0
-"""Longest time until a service is discovered [s]."""
+DISCOVERY = 8.0
+"""Longest time until a node of the graph is discovered, on a busy machine [s]."""
 DDS = ("rmw_fastrtps_cpp", "rmw_fastrtps_dynamic_cpp", "rmw_cyclonedds_cpp")
 """Middlewares whose nodes match topics of Cyclone DDS."""
 

@@ -13,6 +13,7 @@ from urdfkit.app.page import note
 from urdfkit.errors import MissingDependencyError, ResourceError, UsageError, suggestion
 
 if TYPE_CHECKING:
+    from urdfkit.app.replay.discovery import Search
     from urdfkit.view.protocol.client import Client
 
 READY = 30.0
@@ -73,9 +74,30 @@ def run_with_client(work: Callable[[Client, argparse.Namespace], Awaitable[int]]
 
         if arguments.url is not None:
             raise UsageError("--url names a simulation and --live another graph: use one of them")
-        with served_topics(arguments.live, note) as url:
+        with served_topics(arguments.live, note, _search(arguments)) as url:
             return asyncio.run(connected(url))
     return 0
+
+
+def _search(arguments: argparse.Namespace) -> Search | None:
+    """Return what a command looks up; None if it waits for its topic, service or action itself."""
+    from urdfkit.app.replay.discovery import Search
+    from urdfkit.bus import absolute
+    from urdfkit.messages import full_type_name
+
+    subcommand = arguments.subcommand
+    if subcommand == "list":
+        return Search({"topic": "topics", "service": "services", "action": "actions"}[arguments.command])
+    if subcommand == "find":
+        return Search(type=full_type_name(arguments.type))
+    if arguments.command == "topic" and (subcommand != "pub" or arguments.type is None or is_message(arguments.type)):
+        return Search(name=absolute(arguments.topic))
+    return None
+
+
+def is_message(word: str) -> bool:
+    """Return whether an argument is a message instead of its type."""
+    return word.startswith(("{", "["))
 
 
 def positive(text: str) -> int:

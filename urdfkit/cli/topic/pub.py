@@ -8,7 +8,7 @@ import json
 from typing import TYPE_CHECKING, Any
 
 from urdfkit.app.page import note
-from urdfkit.cli.topic.connection import find_topic, positive, topics
+from urdfkit.cli.topic.connection import find_topic, is_message, positive, topics
 from urdfkit.errors import UsageError, did_you_mean
 
 if TYPE_CHECKING:
@@ -59,7 +59,7 @@ async def run(client: Client, arguments: argparse.Namespace) -> int:
     name = absolute(arguments.topic)
     row_by_name = {row.name: row for row in rows}
     kind, words = arguments.type, arguments.message
-    if kind is not None and kind.startswith(("{", "[")):  # no type, only a message
+    if kind is not None and is_message(kind):  # no type, only a message
         kind, words = None, [kind, *words]
     values = message_of(words)
     kind = kind or find_topic(rows, name).type
