@@ -1,6 +1,7 @@
 """Node of a real rclpy, run by the Python of its own environment: prints what it sees and receives as JSON.
 
-Arguments: seconds to run, the topic to drive on, its odometry; both empty for a node that only listens.
+Arguments: seconds to run, the topic to drive on, its odometry; both empty for a node that only listens; a topic that
+ends the node when it is listed.
 """
 
 import json
@@ -14,6 +15,7 @@ from rclpy.qos import DurabilityPolicy, QoSProfile
 from std_msgs.msg import String
 
 seconds, command, odometry = float(sys.argv[1]), sys.argv[2], sys.argv[3]
+awaited = sys.argv[4]
 rclpy.init()
 node = rclpy.create_node("listener")
 seen = {"descriptions": 0, "odometry": 0, "x": None}
@@ -39,6 +41,8 @@ if odometry:
 end = time.monotonic() + seconds
 while time.monotonic() < end and not (odometry and seen["x"] is not None and seen["x"] > 1.0):
     rclpy.spin_once(node, timeout_sec=0.1)
+    if awaited and awaited in dict(node.get_topic_names_and_types()):
+        break
 types = dict(node.get_topic_names_and_types())
 publishers = {}
 for name in types:

@@ -18,6 +18,7 @@ import pytest
 pytest.importorskip("cyclonedds")
 
 from tests.processes import running
+from tests.time_limit import PATIENCE
 from urdfkit.sim import Simulator
 
 ROOT = Path(__file__).parents[3]
@@ -65,9 +66,11 @@ def simulated(
         process.stderr.close()
 
 
-def node(distribution: str, domain: int, seconds: float, command: str = "", odometry: str = "") -> dict[str, Any]:
+def node(
+    distribution: str, domain: int, seconds: float, command: str = "", odometry: str = "", awaited: str = ""
+) -> dict[str, Any]:
     """Run a real node and return what it has seen."""
-    words = [str(Path(__file__).parent / "real_node.py"), str(seconds), command, odometry]
+    words = [str(Path(__file__).parent / "real_node.py"), str(seconds), command, odometry, awaited]
     environment = {name: value for name, value in os.environ.items() if not name.startswith("PYTHON")}
     environment |= {**LOCAL, "ROS_DOMAIN_ID": str(domain)}
     done = subprocess.run(
@@ -127,6 +130,28 @@ def test_a_late_joiner_gets_the_static_transforms_by_cyclonedds_alone() -> None:
     assert "camera" in done.stdout
 
 
+@pytest.mark.slow
+def test_nodes_list_the_topics_of_each_other_beside_cyclonedds() -> None:
+    """Cyclone DDS answered their requests for types, so that about half of them never listed the odometry."""
+    domain, words = 48, [str(node_python("kilted")), str(Path(__file__).parent / "real_node.py")]
+    code = (
+        "import sys; from urdfkit.bridges.ros2.cyclonedds_node import CycloneddsNode; "
+        f"node = CycloneddsNode({domain}); print('ready', flush=True); sys.stdin.read(); node.close()"
+    )
+    environment = {name: value for name, value in os.environ.items() if not name.startswith("PYTHON")}
+    environment |= {**LOCAL, "ROS_DOMAIN_ID": str(domain)}
+    pipe = subprocess.PIPE
+    beside = running(
+        [sys.executable, "-c", code], env={**os.environ, **LOCAL}, stdin=pipe, stdout=pipe, stderr=pipe, text=True
+    )
+    with beside as silent, running([*words, "600", "/cmd_vel", "/odom", ""], env=environment):
+        assert silent.stdout is not None
+        assert silent.stdout.readline() == "ready\n"
+        for _ in range(5):
+            assert "/odom" in node("kilted", domain, PATIENCE, awaited="/odom")["types"]
+        assert silent.communicate(timeout=PATIENCE) == ("", "")
+
+
 def urdfkit_by(distribution: str, code: str = "from urdfkit.cli import main; sys.exit(main())") -> list[str | Path]:
     """Return the command that runs urdfkit, or code with it, with rclpy; skip the test if its Python is another."""
     python = node_python(distribution)
@@ -144,7 +169,7 @@ def test_rclpy_publishes_the_topics_and_serves_the_services(distribution: str) -
     python, domain = node_python(distribution), 45 + DISTRIBUTIONS.index(distribution)
     with simulated("simpleton", domain, urdfkit_by(distribution), library="rclpy"):
         found = node(distribution, domain, 90.0, "/simpleton/cmd_vel", "/simpleton/odom")
-        words = [python, str(Path(__file__).parent / "real_client.py")]
+        words: list[str | Path] = [python, Path(__file__).parent / "real_client.py"]
         environment = {name: value for name, value in os.environ.items() if not name.startswith("PYTHON")}
         environment |= {**LOCAL, "ROS_DOMAIN_ID": str(domain)}
         done = subprocess.run(words, capture_output=True, text=True, env=environment, check=False)

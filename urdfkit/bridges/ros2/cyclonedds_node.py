@@ -11,7 +11,7 @@ from threading import Thread
 from typing import Any
 
 from urdfkit.bridges.node.node import Done, End, Quality, UnknownTypeError
-from urdfkit.bridges.ros2.cyclonedds_types import hide_type_information, idl_type
+from urdfkit.bridges.ros2.cyclonedds_types import hide_type_information, idl_type, ignore_type_lookups
 from urdfkit.bridges.ros2.environment import on_this_machine
 from urdfkit.bridges.service import Service
 from urdfkit.errors import ResourceError
@@ -57,6 +57,7 @@ class CycloneddsNode:
             configured = environment.get("CYCLONEDDS_URI")
             self._domain = Domain(domain, configured or (LOCALHOST if on_this_machine(environment) else SILENT))
             self._participant = DomainParticipant(domain)
+            ignore_type_lookups(self._participant)
         except DDSException as error:
             raise ResourceError(f"cannot join ROS domain {domain}: {error}") from error
         self._entities: list[Any] = []
