@@ -133,6 +133,28 @@ def test_pages_hear_something_before_they_take_the_line_for_lost(session: Sessio
     assert heard.count("alive") >= 3
 
 
+def test_a_saved_file_is_shown_after_waits_of_a_tenth_of_a_second(session: Session) -> None:
+    class EndedError(Exception):
+        pass
+
+    first, waited = session.shown, []
+
+    class Inbox:
+        def wait(self, timeout: float) -> PageInput:
+            if session.shown is not first:
+                raise EndedError
+            if not waited:
+                session.model.path.write_text(ROBOT.replace("lab", "saved", 1))
+            waited.append(timeout)
+            return PageInput()
+
+    session.server.inbox = Inbox()
+    with pytest.raises(EndedError):
+        session.run()
+    assert session.shown.kinematics.robot.name == "saved"
+    assert sum(waited) < 0.11
+
+
 def checked(session: Session, until, patience: float = 10.0) -> float:
     """Check the files as `run` does until a condition holds; return how long that took [s]."""
     start = time.monotonic()

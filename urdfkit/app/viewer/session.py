@@ -24,10 +24,8 @@ if TYPE_CHECKING:
     from urdfkit.view.server.request_inbox import PageInput
     from urdfkit.view.server.server import Server
 
-CHECK_PERIOD = 0.15
-"""Seconds between two checks of the files."""
-SETTLE_PERIOD = 0.05
-"""Seconds from a check that finds a changed file to the next check, which reads it unless it has changed again."""
+CHECK_PERIOD = 0.05
+"""Seconds between two checks of the files, which take 0.3 % of a core; a changed file is read if two checks agree."""
 SAVE_TIME = 0.3
 """Seconds for which a saved file may be invalid before its error is reported."""
 KEEPALIVE_PERIOD = 2.0
@@ -94,8 +92,7 @@ class Session:
             if (now := time.monotonic()) >= due:
                 server.broadcast("alive")
                 due = now + KEEPALIVE_PERIOD
-            saving = self.watch.unsettled and not self.watch.missing
-            self.process(server.inbox.wait(SETTLE_PERIOD if saving else CHECK_PERIOD))
+            self.process(server.inbox.wait(CHECK_PERIOD))
             self.check_files()
 
     def add_request(self, name: str, schema: Schema, handler: Callable[[Request], Mapping[str, Any]]) -> None:
