@@ -52,6 +52,7 @@ def test_eigenvalues_and_eigenvectors(size):
     np.testing.assert_allclose(axes.T @ axes, np.eye(size), atol=1e-13)
 
 
+@pytest.mark.slow
 def test_nothing_simulated_goes_through_openblas():
     found = []
     for room in ROOMS:

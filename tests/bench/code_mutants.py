@@ -44,8 +44,10 @@ WANTED = 0.9
 MOST_SECONDS = 20.0
 """Time of the tests that run against a mutant, without changes: the tests of the module's own file come first [s]."""
 MOST_TESTS = 400
-TIME_LIMIT = 300
-"""A mutant whose tests take more CPU time, or twice as long, hangs and counts as noticed [s]."""
+TIME_LIMIT = 60
+"""A mutant whose tests take more CPU time hangs and counts as noticed [s]."""
+WAITING_LIMIT = 600
+"""A mutant whose tests wait longer counts as noticed, too [s]."""
 MEMORY_LIMIT = 6 << 30
 """A mutant that needs more memory counts as noticed [bytes]."""
 
@@ -206,7 +208,7 @@ def first_failure(copy: Path, tests: list[str]) -> str | None:
         finally:
             os._exit(pytest.ExitCode.INTERNAL_ERROR)  # leave without the clean-up of the parent process
     os.close(write)
-    end = time.monotonic() + 2 * TIME_LIMIT
+    end = time.monotonic() + WAITING_LIMIT
     while not (ended := os.waitpid(process, os.WNOHANG))[0] and time.monotonic() < end:
         time.sleep(0.05)
     with suppress(ProcessLookupError):

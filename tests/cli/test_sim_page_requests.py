@@ -462,6 +462,23 @@ def test_gravity_mass_friction_and_gains(made) -> None:
         do(ride, "mass", name=row["name"], link="nothing", mass=1)
 
 
+def test_a_robot_without_plugins_is_a_robot_if_it_was_loaded_first(made, tmp_path) -> None:
+    inertial = '<inertial><mass value="2"/><inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial>'
+    box = '<collision><geometry><box size="1 1 1"/></geometry></collision>'
+    (tmp_path / "sled.urdf").write_text(f'<robot name="sled"><link name="base">{inertial}{box}</link></robot>')
+    ride = made(str(tmp_path / "sled.urdf"))
+    do(ride, "spawn", model="barrel", pose=[3.0, 0.0, 0.0, 0.0])
+    spend(ride, 1.0)
+    reported = ride.page.reported
+    assert reported["teleop"]["robots"] == [{"name": "sled", "drives": False}]
+    assert [*reported["status"]["robots"]] == ["sled"]
+    objects = {row["name"]: (row["robot"], row["first"]) for row in reported["objects"]["objects"]}
+    assert (objects["sled"], objects["barrel"]) == ((True, True), (False, False))
+    rows = [(row["name"], row["link"], row["mass"]) for row in reported["parameters"]["rows"]]
+    assert ("sled", "base", 2.0) in rows
+    assert [row[:2] for row in rows if row[0] == "barrel"] == [("barrel", "")]
+
+
 def test_a_push_lasts_as_long_as_it_is_held(ride) -> None:
     name = do(ride, "spawn", model="ball", pose=[2.0, 0.0, 3.0])["name"]
     mass = next(row["mass"] for row in ride.page.reported["parameters"]["rows"] if row["name"] == name)

@@ -101,8 +101,35 @@ amcl:
     max_particles: 2000
     laser_model_type: likelihood_field
     global_frame_id: map
+    robot_model_type: "nav2_amcl::DifferentialMotionModel"
 """
-FILES = {"controllers": CONTROLLERS, "filter": FILTER, "navigation": NAVIGATION, "ros1": ROS1_FILTER, "map": MAP}
+MUX = """twist_mux:
+  ros__parameters:
+    topics:
+      keys:
+        topic: key_vel
+        timeout: 0.5
+        priority: 100
+"""
+SLAM = """slam_toolbox:
+  ros__parameters:
+    mode: mapping
+    solver_plugin: solver_plugins::CeresSolver
+    resolution: 0.05
+    use_scan_matching: true
+    throttle_scans: 1
+"""
+FILES = {
+    "controllers": CONTROLLERS,
+    "filter": FILTER,
+    "navigation": NAVIGATION,
+    "ros1": ROS1_FILTER,
+    "map": MAP,
+    "mux": MUX,
+    "slam": SLAM,
+}
+SLAM_SOLVERS = "solver_plugins::CeresSolver, solver_plugins::G2oSolver, solver_plugins::SpaSolver"
+MOTION = "nav2_amcl::DifferentialMotionModel"
 
 BAD = [
     ("controllers", "update_rate: 100", "update_rate: 100.0", "K974", 3, "write 100"),
@@ -155,6 +182,74 @@ BAD = [
     ("map", "trinary", "trinery", "K971", 2, "unknown `mode` `trinery` of the map; did you mean `trinary`?"),
     ("map", "0.05", "0", "K971", 3, "`resolution` is 0 m; it must be positive"),
     ("map", "0.25", "0.75", "K971", 6, "`free_thresh` is 0.75, more than `occupied_thresh`, 0.65"),
+    ("mux", "100", "300", "K971", 7, "`priority` is 300; twist_mux requires 0 to 255"),
+    ("mux", "100", "-1", "K971", 7, "`priority` is -1; twist_mux requires 0 to 255"),
+    ("mux", "0.5", "-0.5", "K971", 6, "`timeout` is -0.5; it must not be negative"),
+    ("mux", "timeout", "timeuot", "K971", 6, "unknown parameter `timeuot` of twist_mux; did you mean `timeout`?"),
+    ("mux", "        topic: key_vel\n", "", "K971", 4, "input `keys` of twist_mux lacks `topic`"),
+    ("slam", "mapping", "maping", "K971", 3, "unknown `mode` `maping` of slam_toolbox; did you mean `mapping`?"),
+    ("slam", "mapping", "x", "K971", 3, "unknown `mode` `x` of slam_toolbox; write `mapping` or `localization`"),
+    (
+        "slam",
+        "solver_plugins::Ceres",
+        "x",
+        "K971",
+        4,
+        f"unknown `solver_plugin` `xSolver`; write one of {SLAM_SOLVERS}",
+    ),
+    ("slam", "0.05", "0.0", "K971", 5, "`resolution` is 0; it must be positive"),
+    ("slam", "true", "maybe", "K971", 6, "`use_scan_matching` is `maybe`, which is neither true nor false"),
+    ("slam", "true", '"true"', "K971", 6, '`use_scan_matching` is "true", a text in quotes; write true'),
+    ("slam", "scans: 1", "scans: -1", "K971", 7, "`throttle_scans` is -1; it must be positive"),
+    (
+        "navigation",
+        "Differ",
+        "Difer",
+        "K971",
+        36,
+        f"unknown `robot_model_type` `{MOTION.replace('ff', 'f')}`; did you mean `{MOTION}`?",
+    ),
+    (
+        "navigation",
+        "OPEN",
+        "NO",
+        "K971",
+        26,
+        "unknown `feedback` `NO_LOOP` of velocity_smoother; did you mean `OPEN_LOOP`?",
+    ),
+    ("navigation", '"OPEN_LOOP"', "x", "K971", 26, "`x` of velocity_smoother; write `OPEN_LOOP` or `CLOSED_LOOP`"),
+    (
+        "navigation",
+        '"LaserScan"',
+        "x",
+        "K971",
+        22,
+        "unknown `data_type` `x` of an observation source; write `LaserScan` or `PointCloud2`",
+    ),
+    (
+        "navigation",
+        "[-2.5, 0.0, -3.2]",
+        "[-2.5, 0.0, 3.2]",
+        "K971",
+        28,
+        "`max_decel` has 3.2; velocity_smoother requires zero or negative values",
+    ),
+    (
+        "navigation",
+        "[0.5, 0.0, 1.0]",
+        "[0.5]",
+        "K971",
+        27,
+        "`max_velocity` has 1 values; velocity_smoother requires 3 (x, y, rotation) or 6",
+    ),
+    (
+        "filter",
+        "world_frame: odom",
+        "world_frame: x",
+        "K971",
+        7,
+        "`world_frame` is `x`, which is neither `map_frame` nor `odom_frame`; write `map` or `odom`",
+    ),
 ]
 
 GOOD = [
@@ -170,6 +265,16 @@ GOOD = [
     ("ros1", "imu0: imu", "imu0: imu/data"),
     ("map", "room.pgm", "/maps/room.pgm"),
     ("map", "trinary", "scale"),
+    ("mux", "priority: 100", "priority: 255"),
+    ("mux", "priority: 100", "priority: 0"),
+    ("mux", "timeout: 0.5", "timeout: 0.0"),
+    ("slam", "mapping", "localization"),
+    ("slam", "true", "off"),
+    ("slam", "Ceres", "G2o"),
+    ("navigation", MOTION, "nav2_amcl::OmniMotionModel"),
+    ("navigation", MOTION, "my_robot::MotionModel"),
+    ("navigation", "OPEN_LOOP", "CLOSED_LOOP"),
+    ("navigation", "LaserScan", "PointCloud2"),
 ]
 
 

@@ -115,6 +115,46 @@ def test_each_format_of_ros2(name: str, text: str, package: Package) -> None:
     assert choose(passed, "display", {}).chosen == {}
 
 
+@pytest.mark.parametrize(
+    ("mappings", "expected"),
+    [
+        ('{"a": "x", "b": "y"}', {"a": "x", "b": "y"}),
+        ('dict(a="x", b="y")', {"a": "x", "b": "y"}),
+        ('dict(a="x").items()', {"a": "x"}),
+        ('{"a": "x"}.items()', {"a": "x"}),
+        ('[("a", "x"), ["b", "y"], ("c", "d", "e")]', {"a": "x", "b": "y"}),
+        ("constant", {"a": "x"}),
+        ("unknown", {}),
+        ('zip("a", "x")', {}),
+        ('{"a": "x" + "_" + tool}', {"a": "x_gripper"}),
+        ('{"a": f"x_{tool}"}', {"a": "x_gripper"}),
+        ('{"a": str(tool)}', {"a": "gripper"}),
+        ('{"a": ["x_", tool]}', {"a": "x_gripper"}),
+        ('{"a": TextSubstitution(text="x")}', {"a": "x"}),
+        ('{"a": LaunchConfiguration("declared")}', {"a": "1"}),
+        ('{"a": LaunchConfiguration("declared", default="2")}', {"a": "1"}),
+        ('{"a": LaunchConfiguration(variable_name="declared").perform(context)}', {"a": "1"}),
+        ('{"a": LaunchConfiguration("other", default="2")}', {"a": "2"}),
+        ('{"a": PathJoinSubstitution(["x", tool])}', {"a": "x/gripper"}),
+        ('{"a": os.path.join("x", tool)}', {"a": "x/gripper"}),
+        ('{"a": Path("x") / tool}', {"a": "x/gripper"}),
+        ('{"a": Path("x").joinpath(tool)}', {"a": "x/gripper"}),
+        ('{"a": 2}', {"a": "2"}),
+    ],
+)
+def test_values_of_python_launch_files(mappings: str, expected: dict[str, str], package: Package) -> None:
+    file = 'Path(get_package_share_directory("arm")) / "urdf" / "arm.urdf.xacro"'
+    description = package(
+        {
+            "sim.launch.py": f'tool = "gripper"\nconstant = {{"a": "x"}}\n'
+            f'DeclareLaunchArgument("declared", default_value="1")\n'
+            f"document = xacro.process_file({file}, mappings={mappings})\n"
+        }
+    )
+    found = passed_to(description, Packages(near=description))
+    assert [dict(each.arguments) for each in found] == [expected]
+
+
 def test_arguments_follow_the_includes_of_python_launch_files(package: Package) -> None:
     description = package({"sim.launch.py": PYTHON, "rsp.launch.py": RSP})
     passed = passed_to(description, Packages(near=description))

@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from urdfkit.description.urdf.parser import parse
-from urdfkit.description.urdf.queries import cycles, tree_order
+from urdfkit.description.urdf.queries import cycles, loop_closed_by, tree_order
 from urdfkit.description.urdf.robot import JOINT_TYPES, Box, Capsule, Cylinder, Mesh, Pose, Robot, Sphere
 from urdfkit.description.xml.element import Element
 from urdfkit.description.xml.numbers import number, numbers, why_not
@@ -293,3 +293,24 @@ def test_lists_of_numbers() -> None:
     assert numbers("") == []
     assert numbers("1 b") is None
     assert why_not("seven") == ""
+
+
+@pytest.mark.parametrize(
+    ("joints", "most", "loop"),
+    [
+        ("ab bc", 9, []),
+        ("ab bc cb", 9, ["b", "c"]),
+        ("ab bc cd db", 9, ["b", "c", "d"]),
+        ("ab bc cd db", 2, []),  # too long to follow
+        ("ab cb", 9, []),  # two parents, and no loop
+        ("ab bb", 9, ["b"]),
+    ],
+)
+def test_the_loop_that_a_second_parent_closes(joints: str, most: int, loop: list[str]) -> None:
+    links = "".join(f'<link name="{name}"/>' for name in "abcd")
+    text = "".join(
+        f'<joint name="{pair}" type="fixed"><parent link="{pair[0]}"/><child link="{pair[1]}"/></joint>'
+        for pair in joints.split()
+    )
+    robot = read(f'<robot name="r">{links}{text}</robot>')
+    assert loop_closed_by(robot, robot.joints[-1], most=most) == loop

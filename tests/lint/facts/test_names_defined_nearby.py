@@ -161,6 +161,10 @@ def test_what_was_found_before_is_found_anew_once_a_file_comes_or_changes(worksp
     assert again() == ({"K958"}, 0)
 
 
+SELF_REFERENCES = ["é", 'é / "a"', 'é + "/a"', 'os.path.join(é, "a")', '[é, "/a"]', 'f"{é}/a"']
+"""Expressions that are assigned to the name that they use."""
+
+
 @pytest.mark.parametrize(
     ("line", "named"),
     [
@@ -176,6 +180,7 @@ def test_what_was_found_before_is_found_anew_once_a_file_comes_or_changes(worksp
         ('get_package_share_directory("p") + "_more/a"', []),
         ('f"{get_package_share_directory(chr(112))}/a"', []),
         ("get_package_share_directory(((", []),
+        *((f'{path} or get_package_share_directory("p")', []) for path in SELF_REFERENCES),
     ],
 )
 def test_paths_in_python(line, named):

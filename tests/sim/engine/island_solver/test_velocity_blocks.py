@@ -13,6 +13,8 @@ from urdfkit.sim.engine.kernel_world import world
 from urdfkit.sim.engine.simulation_memory import LETTERS, allocate
 from urdfkit.sim.engine.solver.row_states import AT_LOW, HOLDS, SLIDES
 
+pytestmark = pytest.mark.slow  # in a fresh checkout: the kernel is compiled first
+
 
 def held(floats, integers, root, rows):
     return hold(world(floats, integers), root, rows)
@@ -97,7 +99,6 @@ ISLANDS = {
 }
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("name", ISLANDS)
 @pytest.mark.parametrize("points", [1, 4])
 def test_velocities_and_what_each_tree_feels_are_those_of_the_equations(solve, name, points):
@@ -116,7 +117,6 @@ def pile(rng, count):
     return [6] * count, touching
 
 
-@pytest.mark.slow  # in a fresh checkout: the kernel is compiled first
 @pytest.mark.parametrize("seed", range(8))
 def test_random_piles(solve, seed):
     rng = np.random.default_rng(seed)
