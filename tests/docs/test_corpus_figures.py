@@ -1,7 +1,8 @@
-"""Figures of the linter's precision in README and docs are those of the reviewed findings."""
+"""Figures in README and docs are those of the reviewed findings, and those that the benchmarks wrote into the pages."""
 
 from __future__ import annotations
 
+import re
 from collections import Counter
 from pathlib import Path
 
@@ -23,3 +24,24 @@ def test_the_drawn_findings_are_as_the_page_says() -> None:
     page = (ROOT / "docs/linting.md").read_text("utf-8")
     assert f"A sample of {len(rows)} findings" in page
     assert f"\n{verdicts['right']} are right" in page
+
+
+def test_the_figures_of_the_readme_are_those_of_the_pages() -> None:
+    readme, linting, performance, fidelity = (
+        (ROOT / name).read_text("utf-8")
+        for name in ("README.md", "docs/linting.md", "docs/performance.md", "docs/fidelity.md")
+    )
+    [(ours, theirs)] = re.findall(r"^\| 100 \| (\d+ ms) \| \d+ ms \| (\d+ ms) \|", linting, re.MULTILINE)
+    assert f"{ours} of CPU for 100 links, compared with {theirs}" in readme
+    section = performance.partition("\n## With plugins and topics\n")[2].partition("\n## ")[0]
+    ratios = [float(ratio) for ratio in re.findall(r"\| ([\d.]+), [\d.]+ \|$", section, re.MULTILINE)]
+    assert len(ratios) == 6
+    assert f"six robots with plugins and topics, one step per call: {min(ratios)} to {max(ratios)} times" in readme
+    [heap] = re.findall(
+        r"^\| 200 boxes falling into a heap \|.*\| \**([\d.]+)\** \| [^|]*\|$", performance, re.MULTILINE
+    )
+    assert f"in a heap of 200 boxes it has {heap} times the speed of MuJoCo" in readme
+    pattern = r"urdfkit is better in (\d+) of (\d+) rows, equal in (\d+) and worse in (\d+)"
+    [(better, rows, equal, worse)] = re.findall(pattern, fidelity)
+    verdicts = f"smaller than that of the best peer in {better}, equal in {equal} and larger in {worse}"
+    assert f"{rows} closed forms: the error is {verdicts}" in readme
