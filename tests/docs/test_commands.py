@@ -56,8 +56,8 @@ def shown_commands(page: Path) -> list[tuple[str, str]]:
     ]
 
 
-def run(command: str, folder: Path) -> str:
-    """Run a command, which must exit with status 0; return its output, empty if it serves a page."""
+def run(command: str, folder: Path, status: int = 0) -> str:
+    """Run a command, which must exit with this status; return its output, empty if it serves a page."""
     is_file = {"--image", "--video"} & set(command.split())
     if command.startswith(tuple(f"urdfkit {name}" for name in SERVES)) and not is_file:
         words = [sys.executable, "-m", "urdfkit", *shlex.split(command)[1:], "--no-browser", "--port", "0"]
@@ -68,18 +68,19 @@ def run(command: str, folder: Path) -> str:
             _, errors = process.communicate(timeout=PATIENCE)
         assert "http://127.0.0.1:" in line, errors
         return ""
-    return course.output(command, folder)
+    return course.output(command, folder, (status,))
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("page", [p for p in PAGES if shown_commands(p)], ids=lambda p: p.name)
 def test_the_commands_on_a_page_work(page: Path, tmp_path: Path) -> None:
     (tmp_path / "robot.urdf.xacro").write_text(MODEL)
-    for name in {word for command, _ in shown_commands(page) for word in command.split()} & {
-        "arm.urdf",
-        "arm.urdf.xacro",
-    }:
+    words = {word for command, _ in shown_commands(page) for word in command.split()}
+    for name in words & {"arm.urdf", "arm.urdf.xacro"}:
         (tmp_path / name).write_text(ARM)
+    for block in course.blocks(page.read_text(encoding="utf-8")):
+        if block.title:
+            (tmp_path / block.title).write_text(block.text)
     tables = r"`([\w-]+\.csv)`:\n\n```csv\n(.*?)^```"
     for name, table in re.findall(tables, page.read_text(encoding="utf-8"), re.MULTILINE | re.DOTALL):
         (tmp_path / name).write_text(table)
@@ -93,7 +94,8 @@ def test_the_commands_on_a_page_work(page: Path, tmp_path: Path) -> None:
         if command.startswith("urdfkit new robot ") and (tmp_path / f"{command.split()[3]}_description").exists():
             continue
         line = f"{command} --yes" if command.startswith("urdfkit new") and "--yes" not in command else command
-        printed = run(line, tmp_path)
+        status = 2 if course.REFUSED.match(shown) else int("\nFound " in shown)  # an error, findings
+        printed = run(line, tmp_path, status)
         if printed and shown.strip():
             assert course.agrees(shown, printed), f"$ {command}\n{printed}"
     assert done
