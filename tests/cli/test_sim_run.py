@@ -93,6 +93,11 @@ def test_parked_for_100_seconds(capsys: Capture) -> None:
     assert np.linalg.norm(report["base"]["position"]) < 1e-9
 
 
+def test_the_factor_of_a_run_with_a_bridge_is_that_of_the_wall_clock(capsys: Capture) -> None:
+    report = run(capsys, "simpleton", "--for", "0.3", "--rosbridge", "0")
+    assert report["real_time_factor"] == pytest.approx(report["duration"] / report["wall"])
+
+
 def test_json_has_the_contracts_keys_and_kinds(capsys: Capture) -> None:
     report = run(capsys, "simpleton", "--for", "0.5", "--cmd-vel", "0.2,0,0")
     assert set(report) == {

@@ -223,7 +223,8 @@ def test_namespaces() -> None:
 @pytest.mark.parametrize(
     ("options", "line"),
     [
-        (["--namespace", "r1"], "--namespace is an option of the bridge to ROS 2: add --ros2"),
+        (["--namespace", "r1"], "--namespace is an option of the bridge to ROS: add --ros2 or --ros1"),
+        (["--ros1", "--ros-domain", "3"], "--ros-domain is an option of the bridge to ROS: add --ros2"),
         (["--ros2", "--ros-domain", "233"], "--ros-domain is `233`; a ROS domain is a number from 0 to 232"),
     ],
 )

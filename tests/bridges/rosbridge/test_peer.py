@@ -137,6 +137,7 @@ def test_published_messages_reach_the_bus_in_the_thread_of_the_simulation(client
     ],
 )
 def test_a_wrong_message_is_one_line_and_the_connection_stays(client, simulated, reported, frame, reason) -> None:
+    client.send(op="set_level", level="error")
     client.line.send(frame)
     status = client.receive()
     assert (status["op"], status["level"]) == ("status", "error")
@@ -146,11 +147,18 @@ def test_a_wrong_message_is_one_line_and_the_connection_stays(client, simulated,
     assert client.call("/rosapi/topic_type", topic="/odom") == {"type": "nav_msgs/msg/Odometry"}
 
 
+def test_a_client_that_has_not_set_a_level_receives_no_status(client, reported) -> None:
+    client.send(op="dance")
+    assert client.call("/rosapi/topic_type", topic="/odom") == {"type": "nav_msgs/msg/Odometry"}
+    assert len(reported) == 1
+
+
 def test_a_subscriber_that_cannot_use_a_message_does_not_stop_the_simulation(client, simulated, reported) -> None:
     def refuse(message: Any) -> None:
         raise ValueError("too fast")
 
     simulated.bus.subscribe("/cmd_vel", TWIST, refuse)
+    client.send(op="set_level", level="error")
     client.send(op="publish", topic="/cmd_vel", id="p", msg={"linear": {"x": 9}})
     status = client.receive()
     assert (status["id"], status["msg"]) == ("p", "`/cmd_vel` does not accept this message: too fast")

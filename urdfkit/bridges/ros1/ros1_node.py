@@ -35,7 +35,7 @@ from urdfkit.errors import ResourceError, UsageError
 from urdfkit.messages import from_fields
 
 NAME = "/urdfkit"
-WATCH = 2.0
+WATCH = 1.0
 """Seconds between two checks whether the master runs."""
 Value = TypeVar("Value")
 

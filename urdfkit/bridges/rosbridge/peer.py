@@ -36,7 +36,7 @@ class RosbridgePeer:
 
     def __init__(self, graph: Graph, queue: SendQueue, report: Callable[[str], None]) -> None:
         self._graph, self._queue, self._report = graph, queue, report
-        self._level = "error"
+        self._level = "none"  # as rosbridge_suite, which sends no status: roslibpy fails at one
         self._subscriptions: dict[tuple[str, str], tuple[SubscriptionQueue, Callable[[], None]]] = {}
         self._advertised: dict[str, str] = {}
         self._rosapi = Rosapi(graph)

@@ -38,13 +38,16 @@ def ros_options(arguments: argparse.Namespace) -> RosOptions | None:
     """Return the options, checked before a robot is loaded; None without ``--ros1`` and ``--ros2``.
 
     Raises:
-        UsageError: options without ``--ros2``, or an invalid domain, namespace or variable of ROS.
+        UsageError: options without ``--ros2`` or ``--ros1``, or an invalid domain, namespace or variable of ROS.
         MissingDependencyError: neither rclpy nor Cyclone DDS is installed.
     """
-    for option, needed in (("ros_domain", "--ros2"), ("namespace", "--ros2"), ("clock_rate", "--ros2")):
-        is_open = arguments.ros2 or (arguments.ros1 and option != "ros_domain")
+    for option, is_open, needed in (
+        ("ros_domain", arguments.ros2, "--ros2"),
+        ("namespace", arguments.ros2 or arguments.ros1, "--ros2 or --ros1"),
+        ("clock_rate", arguments.ros2 or arguments.ros1, "--ros2 or --ros1"),
+    ):
         if getattr(arguments, option) is not None and not is_open:
-            raise UsageError(f"--{option.replace('_', '-')} is an option of the bridge to ROS 2: add {needed}")
+            raise UsageError(f"--{option.replace('_', '-')} is an option of the bridge to ROS: add {needed}")
     if not (arguments.ros1 or arguments.ros2):
         return None
     from urdfkit.app.simulation.bridging.ros_connection import CLOCK_RATE, RosOptions

@@ -168,4 +168,4 @@ def advance(simulator: Simulator, seconds: float, until: str | None, bridges: Br
             sys.stderr.write("\x1b[K")
     # After a CPU timer such as that of `CostLimit`, Linux updates the time of the process only at ticks of 4 ms.
     spent = max(time.process_time() - cpu, time.thread_time() - own)
-    return Effort(spent, time.perf_counter() - wall)
+    return Effort(spent, time.perf_counter() - wall, is_paced=bool(bridges))

@@ -17,17 +17,27 @@ MAX_JOINTS = 8
 
 @dataclass(frozen=True, slots=True)
 class Effort:
-    """CPU and wall seconds spent stepping."""
+    """CPU and wall seconds spent stepping.
+
+    Attributes:
+        is_paced: the simulation ran in real time, for bridges.
+    """
 
     cpu: float
     wall: float
+    is_paced: bool = False
+
+    def factor(self, t: float) -> float:
+        """Return simulated seconds per CPU second, or per second of the wall clock if the simulation was paced."""
+        spent = self.wall if self.is_paced else self.cpu
+        return t / spent if spent > 0 else 0.0
 
 
 def as_json(simulator: Simulator, spent: Effort) -> dict[str, Any]:
     """Return the report as JSON values.
 
     Planar and floating joints have the same fields as the base, relative to their parent frame; ``odometry`` is
-    keyed by odometry frame; ``real_time_factor`` is simulated seconds per CPU second.
+    keyed by odometry frame; ``real_time_factor`` is that of `Effort.factor`.
     """
     state = simulator.state
     pose, velocity = state.base_pose, state.base_velocity
@@ -41,7 +51,7 @@ def as_json(simulator: Simulator, spent: Effort) -> dict[str, Any]:
         "duration": state.t,
         "cpu": spent.cpu,
         "wall": spent.wall,
-        "real_time_factor": state.t / spent.cpu if spent.cpu > 0 else 0.0,
+        "real_time_factor": spent.factor(state.t),
         "base": {
             "frame": simulator.kinematics.root,
             "position": list(pose[:3]),
@@ -86,7 +96,8 @@ def as_text(simulator: Simulator, spent: Effort) -> str:
     """Return the summary as text."""
     state = simulator.state
     pose = state.base_pose
-    rate = f", {state.t / spent.cpu:.0f} × real time" if spent.cpu > 0 else ""
+    factor = spent.factor(state.t)
+    rate = f", {factor:.{2 if spent.is_paced else 0}f} × real time" if factor else ""
     lines = [
         f"{simulator.name} in world {simulator.world.name}: {state.t:g} s in {state.step} steps{rate}",
         _line(f"base {simulator.kinematics.root}", pose[:3], pose[3:]),
