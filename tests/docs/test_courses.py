@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 import pytest
@@ -37,3 +38,9 @@ def test_a_change_that_matches_nothing_is_an_error(tmp_path: Path) -> None:
     page = '```text title="a.txt"\none\n```\n```diff title="a.txt"\n-two\n+three\n```\n'
     with pytest.raises(AssertionError, match="0 times"):
         list(run(page, tmp_path))
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
+def test_a_page_with_changes_explains_their_signs(page: Path) -> None:
+    before, diff, _ = page.read_text("utf-8").partition("```diff")
+    assert not diff or re.search(r"lines?\s+with\s+`-`", before)
