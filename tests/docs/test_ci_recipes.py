@@ -102,3 +102,4 @@ def test_the_image_installs_an_extra_and_runs_commands_that_exist(repository: Pa
     [command] = re.findall(r"urdfkit sim \w+", GUIDE["Dockerfile"])
     assert bash(f"{command} --help", repository).returncode == 0
     assert json.loads(lines[-1].removeprefix("ENTRYPOINT ")) == ["urdfkit"]
+    assert {".git", ".venv", "build"} <= set((ROOT / ".dockerignore").read_text().split())  # not copied by `COPY .`
