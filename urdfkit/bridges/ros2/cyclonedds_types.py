@@ -61,9 +61,9 @@ def hide_type_information(topic: Any) -> None:
 def ignore_type_lookups(participant: Any) -> None:
     """Let a participant neither answer requests of the type lookup service nor read their answers.
 
-    Fast DDS 3 (ROS 2 Kilted) asks for types when it lists topics. Cyclone DDS answers what other participants are
-    asked, with types that it has misread; Fast DDS then never lists these topics. Cyclone DDS has no option for this,
-    so the function that reads such messages is replaced by one that does nothing.
+    Fast DDS 3 (ROS 2 Kilted) requests types when it lists topics. Cyclone DDS also replies to requests to other
+    participants, with types that it has misread; Fast DDS then never lists these topics. Cyclone DDS has no option for
+    this, so its function that reads such messages is replaced by an empty function.
     """
     from contextlib import suppress
     from ctypes import addressof, c_void_p

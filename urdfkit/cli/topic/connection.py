@@ -80,7 +80,7 @@ def run_with_client(work: Callable[[Client, argparse.Namespace], Awaitable[int]]
 
 
 def _search(arguments: argparse.Namespace) -> Search | None:
-    """Return what a command looks up; None if it waits for its topic, service or action itself."""
+    """Return the name that a command looks up; None if it waits for its topic, service or action itself."""
     from urdfkit.app.replay.discovery import Search
     from urdfkit.bus import absolute
     from urdfkit.messages import full_type_name
