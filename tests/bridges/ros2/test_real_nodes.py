@@ -19,6 +19,8 @@ pytest.importorskip("cyclonedds")
 
 from tests.processes import running
 from tests.time_limit import PATIENCE
+from urdfkit.bridges.ros2.cyclonedds_node import CycloneddsNode
+from urdfkit.errors import ResourceError
 from urdfkit.sim import Simulator
 
 ROOT = Path(__file__).parents[3]
@@ -128,6 +130,30 @@ def test_a_late_joiner_gets_the_static_transforms_by_cyclonedds_alone() -> None:
         )
     assert done.returncode == 0, done.stderr
     assert "camera" in done.stdout
+
+
+def test_a_configuration_that_cyclonedds_refuses_is_named() -> None:
+    with pytest.raises(ResourceError, match="cannot join ROS domain 49") as caught:
+        CycloneddsNode(49, {"CYCLONEDDS_URI": "file:///nowhere.xml"})
+    assert str(caught.value).endswith("the configuration CYCLONEDDS_URI=file:///nowhere.xml")
+
+
+def test_a_publisher_that_leaves_the_graph_does_not_stop_its_listing() -> None:
+    code = (
+        "import sys; from urdfkit.bridges.node.node import Quality; "
+        "from urdfkit.bridges.ros2.cyclonedds_node import CycloneddsNode; node = CycloneddsNode(50); "
+        "writer = node.writer('/odom', 'nav_msgs/msg/Odometry', Quality()); sys.stdin.read(); del writer; node.close()"
+    )
+    listing, end = CycloneddsNode(50, LOCAL), time.monotonic() + PATIENCE
+    with running([sys.executable, "-c", code], env={**os.environ, **LOCAL}, stdin=subprocess.PIPE) as leaving:
+        while "/odom" not in listing.topics():
+            assert time.monotonic() < end, "/odom is not listed"
+            time.sleep(0.05)
+        leaving.communicate(timeout=PATIENCE)
+    for _ in range(20):
+        listing.topics()
+        time.sleep(0.05)
+    listing.close()
 
 
 @pytest.mark.slow

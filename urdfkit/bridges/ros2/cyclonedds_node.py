@@ -53,13 +53,18 @@ class CycloneddsNode:
         from cyclonedds.core import DDSException, WaitSet
         from cyclonedds.domain import Domain, DomainParticipant
 
+        configured = environment.get("CYCLONEDDS_URI")
         try:
-            configured = environment.get("CYCLONEDDS_URI")
             self._domain = Domain(domain, configured or (LOCALHOST if on_this_machine(environment) else SILENT))
             self._participant = DomainParticipant(domain)
             ignore_type_lookups(self._participant)
         except DDSException as error:
-            raise ResourceError(f"cannot join ROS domain {domain}: {error}") from error
+            reason = (
+                f"Cyclone DDS cannot use the configuration CYCLONEDDS_URI={configured}"
+                if configured
+                else "Cyclone DDS finds no network interface that is up, or no free participant index"
+            )
+            raise ResourceError(f"cannot join ROS domain {domain}: {reason}") from error
         self._entities: list[Any] = []
         self._discovered: list[Any] = []
         self._topics: dict[str, str] = {}
@@ -107,7 +112,8 @@ class CycloneddsNode:
             self._discovered = [BuiltinDataReader(self._participant, kind) for kind in kinds]
         for each in self._discovered:
             for sample in each.read(N=DISCOVERED):
-                if sample.topic_name.startswith("rt/"):
+                # A publisher that has left the graph is a sample without a name.
+                if (sample.topic_name or "").startswith("rt/"):
                     type = sample.type_name.replace("::dds_::", "/").replace("::", "/").removesuffix("_")
                     self._topics[sample.topic_name[2:]] = type
         return dict(sorted(self._topics.items()))
