@@ -21,6 +21,7 @@ the share noticed by package. Exits with status 1 below 90 %. Needs Linux.
 from __future__ import annotations
 
 import ast
+import gc
 import json
 import os
 import random
@@ -267,21 +268,27 @@ def try_mutants(count: int = 200, seed: int = 0) -> int:
     tests, seconds = covering_tests()
     drawn = covered_mutants(tests)
     print(f"{len(drawn)} mutants on covered lines; trying {count} of them, seed {seed}", flush=True)
+    sample = [
+        (mutant, chosen_tests(mutant.file, all_tests, seconds), len(all_tests))
+        for mutant, all_tests in random.Random(seed).sample(drawn, count)
+    ]
+    del drawn, tests, seconds
+    gc.collect()
+    gc.freeze()  # the processes of the mutants leave what is there out of their garbage collections
     tried: Counter[str] = Counter()
     noticed: Counter[str] = Counter()
     failures: set[str] = set()
     with copied() as copy:
-        for mutant, all_tests in random.Random(seed).sample(drawn, count):
+        for mutant, chosen, total in sample:
             package = mutant.file.split("/")[1]
             tried[package] += 1
-            chosen = chosen_tests(mutant.file, all_tests, seconds)
             if failure := is_noticed_by(copy, mutant, chosen, tried.total()):
                 noticed[package] += 1
                 failures.add(failure)
             else:
                 old = (ROOT / mutant.file).read_bytes()[mutant.start : mutant.end].decode()
                 print(f"{mutant.file}:{mutant.line}: `{old}` -> `{mutant.text}`")
-                print(f"  not noticed by {len(chosen)} of {len(all_tests)} tests, {chosen[0]}", flush=True)
+                print(f"  not noticed by {len(chosen)} of {total} tests, {chosen[0]}", flush=True)
             if tried.total() % 20 == 0:
                 print(f"{noticed.total()} of {tried.total()}", flush=True)
         print(f"without a change: {first_failure(copy, sorted(f for f in failures if '::' in f)) or 'all tests pass'}")
