@@ -185,6 +185,12 @@ def test_a_file_without_end_is_not_loaded(write: Write) -> None:
         ("len('x' * N)", 100_000),
         ("len('x' * 9 + 'x' * (N - 9))", 100_000),
         ("len('x'.ljust(N))", 100_000),
+        ("len('x'.zfill(N))", 100_000),
+        ("len('\\t'.expandtabs(N))", 99_999),  # the tab itself counts
+        ("len('\\t'.expandtabs(tabsize=N))", 99_999),
+        ("len('x'.replace('x', 'y' * N))", 99_999),
+        ("len(','.join(['x', 'y' * N]))", 99_997),  # one separator too many counts
+        ("len('a'.translate(dict([[97, 'x' * N]])))", 100_000),
         ("len(list(range(N)))", 99_999),
         ("1 &lt;&lt; (N - 1) > 0", 10_000),
     ],
