@@ -23,6 +23,7 @@ SOURCE: tuple[Row, ...] = (
     ("<inertia", "xacro.inertia_formula", "InertiaFormula"),
     ("<inertial", "xacro.inertia_arguments", "InertiaArguments"),
     ("*.urdf", "xacro.xacro_in_plain_urdf", "XacroInPlainUrdf"),
+    ("macro", "names.prefix_missing", "PrefixMissing"),
 )
 
 FAULTS: tuple[Row, ...] = (
@@ -93,7 +94,8 @@ ROBOT: tuple[Row, ...] = (
     ("limit!", "joints.continuous_with_position_limits", "ContinuousWithPositionLimits"),
     ("mimic", "joints.mimic_joint_undefined", "MimicJointUndefined"),
     ("type=fixed", "joints.axis_or_limit_on_fixed", "AxisOrLimitOnFixed"),
-    ("distant!", "joints.origin_too_far", "OriginTooFar"),
+    ("box cylinder sphere capsule mesh", "joints.origin_too_far", "OriginTooFar"),
+    ("type=prismatic", "joints.stroke_too_long", "StrokeTooLong"),
     ("dynamics", "joints.dynamics_empty_or_negative", "DynamicsEmptyOrNegative"),
     ("safety_controller", "joints.safety_controller_inconsistent", "SafetyControllerInconsistent"),
     ("mass!", "inertial.mass_nonpositive", "MassNonpositive"),
@@ -110,6 +112,7 @@ ROBOT: tuple[Row, ...] = (
     ("bare-collision!", "inertial.collision_without_inertial", "CollisionWithoutInertial"),
     ("inertial", "inertial.com_outside_geometry", "ComOutsideGeometry"),
     ("mass", "inertial.mass_vs_volume", "MassVsVolume"),
+    ("part!", "inertial.twins_differ", "TwinsDiffer"),
     ("unhit!", "geometry.visual_without_collision", "VisualWithoutCollision"),
     ("size!", "geometry.nonpositive_primitive", "NonpositivePrimitive"),
     ("material", "geometry.material_undefined", "MaterialUndefined"),
@@ -120,6 +123,7 @@ ROBOT: tuple[Row, ...] = (
     ("mesh", "geometry.mesh_package_unknown", "MeshPackageUnknown"),
     ("mesh", "geometry.mesh_absolute_path", "MeshAbsolutePath"),
     ("mesh", "geometry.mesh_scale_suspect", "MeshScaleSuspect"),
+    ("box cylinder sphere capsule", "geometry.size_in_other_unit", "SizeInOtherUnit"),
     ("inertia", "geometry.shapes_apart", "ShapesApart"),
     ("mesh", "geometry.mesh_format_unsupported", "MeshFormatUnsupported"),
     ("mesh", "geometry.mesh_corrupt", "MeshCorrupt"),
@@ -132,6 +136,8 @@ ROBOT: tuple[Row, ...] = (
     ("plugin", "semantics.caster_off_the_ground", "CasterOffTheGround"),
     ("optical!", "semantics.optical_frame", "OpticalFrame"),
     ("type=fixed", "semantics.double_offset", "DoubleOffset"),
+    ("part!", "semantics.axis_contradicts_part", "AxisContradictsPart"),
+    ("part!", "semantics.twins_misplaced", "TwinsMisplaced"),
     ("gazebo", "gazebo.gazebo_reference_undefined", "GazeboReferenceUndefined"),
     ("plugin", "gazebo.plugin_joint_undefined", "PluginJointUndefined"),
     ("plugin", "gazebo.plugin_link_undefined", "PluginLinkUndefined"),

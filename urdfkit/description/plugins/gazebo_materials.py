@@ -89,7 +89,11 @@ def unknown_material(material: Element) -> tuple[Element, str, str | None] | Non
     names = (*GAZEBO, *PLAIN)
     place, name = script_of(material)
     short = name.removeprefix("Gazebo/")
-    if short == name or short in names:
+    if short == name:
+        lower = {known.lower(): known for known in names}
+        near = lower.get(name.lower().replace("_", ""))
+        return (place, name, f"Gazebo/{near}") if near is not None and not material.children else None
+    if short in names:
         return None
     near = nearest(short, names, cutoff=0.7)
     return place, name, None if near is None else f"Gazebo/{near}"

@@ -208,6 +208,10 @@ class Checker:
             from urdfkit.lint.engine.call_values import at_calls
 
             findings = at_calls(findings, model)
+        if model.target != "urdfkit":  # whose repairs are findings
+            from urdfkit.lint.engine.consequences import without_consequences
+
+            findings = without_consequences(findings)
         used: tuple[tuple[str, str], ...] = ()
         unused: tuple[tuple[str, tuple[str, ...]], ...] = ()
         if any("urdfkit:" in source.text for source in model.expanded.sources.values()):

@@ -4,6 +4,7 @@ A clean robot needs a third of the rules; importing and running the others takes
 set must be complete: a rule whose feature is missing does not run.
 """
 
+import re
 from collections.abc import Callable, Hashable
 from math import pi
 
@@ -29,8 +30,8 @@ from urdfkit.description.xml.numbers import numbers
 _TENSOR = frozenset(("ixx", "ixy", "ixz", "iyy", "iyz", "izz"))
 _FAR = 2.0 * pi
 """[rad]: larger limits and angles are suspicious."""
-_DISTANT = 5.0
-"""[m]: larger offsets of joints are suspicious."""
+_PART = re.compile(r"left|front|steer|wheel|(?<![a-z])(?:f[lr]|[rb]l|l[fbh]|rf|l)(?![a-z])", re.IGNORECASE)
+"""Matches names of joints that have a counterpart or a purpose."""
 
 
 def features_of(
@@ -176,6 +177,8 @@ def _of_tree(robot: Robot, found: set[str]) -> None:
         found.add("parents!")
     if len({*links, *robot.joint_by_name}) < len(robot.links) + len(robot.joints):
         found.add("same-name!")
+    if any(_PART.search(joint.name) for joint in robot.joints):
+        found.add("part!")
     for joint in robot.joints:
         child, parent = joint.child, joint.parent
         if parent not in links or child not in links:
@@ -194,8 +197,6 @@ def _of_joint(joint: Joint, found: set[str]) -> None:
     axis = joint.element.find("axis")
     if axis is not None and not abs(sum(part * part for part in joint.axis) - 1.0) < 1e-4:
         found.add("axis!")
-    if max(map(abs, joint.origin.xyz)) > _DISTANT:
-        found.add("distant!")
     if joint.is_movable:
         found.add("movable!")
         if axis is None:

@@ -107,14 +107,20 @@ def _data_files(
             yield BuildDefect(source, start, source.text[start:end], message)
         elif not is_pattern and not files.has(text):
             yield BuildDefect(source, start, source.text[start:end], f"`{text}` does not exist in this package{hint}")
+    left_out: dict[int, list[tuple[str, str]]] = {}
+    ends: dict[int, int] = {}
     for path, use in used.items():
         folder = path.rpartition("/")[0]
         beside = [node for text, node, _ in installed if folder and text.rpartition("/")[0] == folder]
         if not beside or misspelt or any(fnmatch.fnmatch(path, text.replace("**/", "*")) for text, _, _ in installed):
             continue
-        start, end = place(source, beside[0])
-        message = f"`{path}` is not installed, but {use}" if use else f"launch file `{path}` is not installed"
-        yield BuildDefect(source, start, source.text[start:end], message, "warning")
+        left_out.setdefault(place(source, beside[0])[0], []).append((path, use))
+        ends[place(source, beside[0])[0]] = place(source, beside[0])[1]
+    for start, paths in left_out.items():
+        (path, use), others = paths[0], len(paths) - 1
+        more = f" and {others} other file{'s' * (others > 1)} are" if others else " is"
+        message = f"`{path}`{more} not installed, but {use}" if use else f"launch file `{path}`{more} not installed"
+        yield BuildDefect(source, start, source.text[start : ends[start]], message, "warning")
 
 
 def _scripts(source: Source, reader: LaunchReader, points: ast.expr | None) -> list[tuple[str, int]]:

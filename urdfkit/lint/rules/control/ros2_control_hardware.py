@@ -3,6 +3,7 @@
 from urdfkit.description.hardware_defects import MOCKS
 from urdfkit.lint.facts.control.exported_plugins import is_exported_plugin
 from urdfkit.lint.facts.gazebo.plugins import plugins, runs_ros2_control, simulated_hardware
+from urdfkit.lint.finding import Edit, Fix
 from urdfkit.lint.fix_builders import nearest, new_text
 from urdfkit.lint.project.target_platform import WITHOUT_CLASSIC
 from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
@@ -23,9 +24,9 @@ class HardwareMismatch(RobotRule):
     ## What it does
     Each plugin that runs the controller manager in Gazebo has its own hardware: gazebo_ros2_control has
     ``gazebo_ros2_control/GazeboSystem``, gz_ros2_control ``gz_ros2_control/GazeboSimSystem`` and ign_ros2_control
-    ``ign_ros2_control/IgnitionSystem``. The rule reports hardware of another plugin, and names that nearly match one of
-    these or ``mock_components/GenericSystem``. Other hardware is a note if the robot has such a plugin, because its
-    joints are not controlled in a simulation.
+    ``ign_ros2_control/IgnitionSystem``. The rule reports hardware of another plugin, and names that nearly match
+    one of these or ``mock_components/GenericSystem``, also in branches of ``xacro:if`` that are not expanded. Other
+    hardware is a note if the robot has such a plugin, because its joints are not controlled in a simulation.
 
     ROS 2 from Jazzy on (``--target ros2-jazzy``) and Gazebo Sim (``--target gz``) have no
     ``gazebo_ros2_control/GazeboSystem``; Gazebo Classic (``--target classic``) has only that hardware.
@@ -72,6 +73,7 @@ class HardwareMismatch(RobotRule):
         """Yield a finding for each hardware that the Gazebo plugin of the robot does not have."""
         if not model.robot.ros2_control:
             return
+        yield from self._unexpanded(model)
         files = {(plugin.filename or "").strip() for plugin, _, _ in plugins(model.robot)}
         is_run = runs_ros2_control(model.robot)
         hosts = {package for package in HARDWARE if any(package in file for file in files)}
@@ -115,3 +117,27 @@ class HardwareMismatch(RobotRule):
                 help=f"write `{expected}`",
                 fix=new_text(model, element, expected, "unsafe", f"Replace with `{expected}`"),
             )
+
+    def _unexpanded(self, model: Model) -> Findings:
+        """Yield a finding for each misspelt hardware in the files of the robot that its conditions leave out."""
+        expanded = {element.text for block in model.robot.ros2_control for element in block.element.find_all("plugin")}
+        known = (*HARDWARE.values(), *MOCKS)
+        for file, source in model.expanded.sources.items():
+            if "<hardware" not in source.text or (":if" not in source.text and ":unless" not in source.text):
+                continue
+            for tag in model.document(file).walk():
+                if tag.name != "plugin" or tag.close is None or not any(a.name == "hardware" for a in tag.ancestors()):
+                    continue
+                text = source.text[tag.end : tag.close].strip()
+                if text in known or text in expanded or "$" in text or is_exported_plugin(model, text):
+                    continue
+                expected = nearest(text, known, cutoff=0.9)
+                if expected is not None:
+                    edit = Edit(source.span(tag.end, tag.close), expected)
+                    yield self.at(
+                        model,
+                        source.position(tag.start),
+                        f"unknown hardware `{text}`",
+                        help=f"write `{expected}`",
+                        fix=Fix("unsafe", f"Replace with `{expected}`", (edit,)),
+                    )

@@ -9,7 +9,7 @@ class GazeboMaterialUnknown(RobotRule):
 
     ## What it does
     Compares ``<material>Gazebo/…</material>`` with the materials of Gazebo Classic. Names without the prefix
-    ``Gazebo/`` are accepted, because the robot may define them.
+    ``Gazebo/`` are accepted, because scripts of the robot may define them, unless only that prefix is missing.
 
     ## Why is this bad?
     Gazebo logs "Unable to find material" and shows the link in white.

@@ -6,18 +6,22 @@ from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
 _OUTPUTS = ("sensor_msgs/LaserScan", "sensor_msgs/PointCloud", "sensor_msgs/PointCloud2", "sensor_msgs/Range")
 """Values of <output_type> (gazebo_ros_pkgs, ros2 branch: gazebo_ros_ray_sensor.cpp)."""
 
+_SIM_TYPES = ("gazebo_ros_control/DefaultRobotHWSim",)
+"""Values of <robotSimType> that gazebo_ros_control provides; other packages may provide others."""
+
 
 class PluginValueUnknown(RobotRule):
     """A Gazebo plugin has a value that it cannot read.
 
     ## What it does
-    Checks the parameters of drives, joint controllers and joint state publishers: values that are not numbers, divisors
-    that are negative or zero, vectors of the wrong length, and flags that are neither true nor false. Checks
-    ``<output_type>`` of the ray sensor plugin of gazebo_ros, and that each ``<remapping>`` has the form ``from:=to``.
+    Checks the parameters of drives, joint controllers and joint state publishers: values that are not numbers,
+    divisors that are negative or zero, vectors of the wrong length, and flags that are neither true nor false.
+    Checks ``<output_type>`` of the ray sensor plugin of gazebo_ros, and that each ``<remapping>`` has the form
+    ``from:=to``. Checks ``<robotSimType>`` for misspelt names.
 
     ## Why is this bad?
-    The plugin ignores the value, keeps the default, or publishes nothing ("Invalid <output_type>"). A simulation with
-    urdfkit leaves the plugin out.
+    The plugin ignores the value, keeps the default, or publishes nothing ("Invalid <output_type>"). A simulation
+    with urdfkit leaves the plugin out.
 
     ## Example
     ```xml
@@ -72,7 +76,7 @@ class PluginValueUnknown(RobotRule):
                 yield from self._texts(plugin, model)
 
     def _texts(self, plugin: Plugin, model: Model) -> Findings:
-        from urdfkit.lint.fix_builders import meant
+        from urdfkit.lint.fix_builders import meant, nearest
 
         for child in plugin.element.walk():
             text = child.text.strip()
@@ -81,5 +85,7 @@ class PluginValueUnknown(RobotRule):
             if child.tag == "output_type" and text not in _OUTPUTS:
                 message = f"unknown output type `{text}`{meant(text, _OUTPUTS)[1]}"
                 yield self.at(model, child, message, help=f"use one of {', '.join(_OUTPUTS)}")
+            elif child.tag == "robotSimType" and text not in _SIM_TYPES and nearest(text, _SIM_TYPES, cutoff=0.8):
+                yield self.at(model, child, f"unknown robotSimType `{text}`{meant(text, _SIM_TYPES)[1]}")
             elif child.tag == "remapping" and ":=" not in text:
                 yield self.at(model, child, f"remapping `{text}` is not of the form `from:=to`")

@@ -81,7 +81,8 @@ class SensorTypeUnknown(RobotRule):
                 if kind in SENSOR_TYPES or kind in ("openni_kinect", "gpu_ray"):
                     expected = _CLASSIC.get(kind) if is_classic else None
                 else:
-                    expected = _MISNOMERS.get(kind.lower()) or nearest(kind.strip(), SENSOR_TYPES, cutoff=0.8)
+                    misnomer = nearest(kind.strip().lower(), _MISNOMERS, cutoff=0.75)
+                    expected = nearest(kind.strip(), SENSOR_TYPES, cutoff=0.8) or _MISNOMERS.get(misnomer or "")
                     expected = {"ray": "gpu_lidar"}.get(expected or "", expected) if model.target == "gz" else expected
                 if expected is None:
                     continue

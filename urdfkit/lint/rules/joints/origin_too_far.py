@@ -1,7 +1,9 @@
 """J421 joint-origin-too-far."""
 
-from math import dist
+from math import dist, sqrt
 
+from urdfkit.description.urdf.robot import Joint, Pose
+from urdfkit.lint.model.placement import Extent, Frame, shapes_of
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
 _MIN_DISTANCE = 10.0
@@ -10,16 +12,31 @@ _MIN_DISTANCE = 10.0
 _TIMES = 20.0
 """Ratio of the distance to the largest link above which the parts of the robot cannot be connected."""
 
+_MIN_GAP = 0.05
+"""Smallest gap between parts that is checked [m]."""
+
+_PART_OF_LENGTH = 0.6
+"""Ratio of the gap to the longer of the two parts of the robot above which they are not connected."""
+
+_MAX_CHECKED = 50
+"""Largest number of joints for which the gap is computed."""
+
+Corners = tuple[tuple[float, ...], tuple[float, ...]]
+"""Lower and upper corner of a box."""
+
 
 class OriginTooFar(RobotRule):
     """A joint is far from its parent link, compared with the size of all links.
 
     ## What it does
     Checks for joints that are at least 10 m from the frame of their parent link, and 20 times as far as the largest
-    link extends. Joints of a root link without shapes are not checked, because they place the robot in the world.
+    link extends. If the sizes of all shapes are known, also reports joints whose child link, with all that is attached
+    to it, is farther from the rest of the robot than the largest link extends and than most of the robot is long.
+    Joints of a root link without shapes are not checked, because they place the robot in the world.
 
     ## Why is this bad?
-    The child link floats far from the robot. The usual cause is an offset in millimetres, copied from a CAD program.
+    The child link floats far from the robot. The usual cause is a wrong decimal point, or an offset in millimetres,
+    copied from a CAD program.
 
     ## Example
     ```xml
@@ -63,23 +80,78 @@ class OriginTooFar(RobotRule):
     def check(self, model: Model) -> Findings:
         """Yield a finding for each joint that is too far from its parent link."""
         zero = (0.0, 0.0, 0.0)
-        far = [joint for joint in model.robot.joints if dist(joint.origin.xyz, zero) >= _MIN_DISTANCE]
-        if not far or not model.extents:
+        distances = [(joint, dist(joint.origin.xyz, zero)) for joint in model.robot.joints]
+        largest = max((distance for _, distance in distances), default=0.0)
+        if largest < _MIN_GAP or not model.extents:
             return
         size = max(extent.diagonal for extent in model.extents.values())
+        if largest <= size:
+            return
         children = {joint.child for joint in model.robot.joints}
-        for joint in far:
-            distance = dist(joint.origin.xyz, zero)
+        is_known = not model.is_incomplete and all(
+            link.name in model.extents or not shapes_of(link) for link in model.robot.links
+        )
+        checked = 0
+        for joint, distance in distances:
             origin = joint.element.find("origin")
             is_placed_in_world = joint.parent not in children and joint.parent not in model.extents
-            if origin is None or is_placed_in_world or distance < _TIMES * size:
+            if distance <= max(size, _MIN_GAP) or origin is None or is_placed_in_world:
                 continue
-            yield self.at(
-                model,
-                origin,
-                f"joint `{joint.name}` is {distance:.4g} m from `{joint.parent}`; "
-                f"the largest link extends {size:.3g} m",
-                attribute="xyz",
-                joint=joint.name,
-                help="write offsets in metres",
-            )
+            message, help = "", "write offsets in metres"
+            if distance >= max(_MIN_DISTANCE, _TIMES * size):
+                message = f"joint `{joint.name}` is {distance:.4g} m from `{joint.parent}`; "
+                message += f"the largest link extends {size:.3g} m"
+            elif is_known and checked < _MAX_CHECKED:
+                checked += 1
+                gap = _gap(joint, model)
+                if gap > max(size, _MIN_GAP):
+                    message = f"joint `{joint.name}` places `{joint.child}` {gap:.3g} m away from all other parts; "
+                    message += f"the largest link extends {size:.3g} m"
+                    help = "check the decimal points and units of the origin"
+            if message:
+                yield self.at(model, origin, message, attribute="xyz", joint=joint.name, help=help)
+
+
+def _gap(joint: Joint, model: Model) -> float:
+    """Return the distance between the parts below a joint and the rest of the robot [m]; 0 if either is long."""
+    below, pending = {joint.child}, [joint.child]
+    children: dict[str | None, list[str | None]] = {}
+    for other in model.robot.joints:
+        children.setdefault(other.parent, []).append(other.child)
+    for name in pending:  # The list grows during the iteration.
+        for child in children.get(name, ()):
+            if child not in below:
+                below.add(child)
+                pending.append(child)
+    sides: tuple[list[Corners], list[Corners]] = ([], [])
+    for name, extent in model.extents.items():
+        if name in model.frames:
+            sides[name in below].append(_corners(model.frames[name], extent))
+    rest, part = sides
+    if not rest or not part:
+        return 0.0
+    gap = min(_distance(a, b) for a in part for b in rest)
+    lengths = [_length(boxes) for boxes in sides]
+    return gap if gap > _PART_OF_LENGTH * max(lengths) else 0.0
+
+
+def _corners(frame: Frame, extent: Extent) -> Corners:
+    """Return the lower and upper corner of a link's bounding box, along the axes of the root link."""
+    half = [(high - low) / 2.0 for low, high in zip(extent.low, extent.high, strict=True)]
+    x, y, z = ((low + high) / 2.0 for low, high in zip(extent.low, extent.high, strict=True))
+    centre = frame.moved(Pose((x, y, z))).translation
+    reach = [sum(abs(part) * length for part, length in zip(row, half, strict=True)) for row in frame.rotation]
+    low = tuple(a - b for a, b in zip(centre, reach, strict=True))
+    return low, tuple(a + b for a, b in zip(centre, reach, strict=True))
+
+
+def _distance(first: Corners, second: Corners) -> float:
+    """Return the distance between two boxes [m]; 0 if they overlap."""
+    (low, high), (other_low, other_high) = first, second
+    return sqrt(sum(max(a - d, c - b, 0.0) ** 2 for a, b, c, d in zip(low, high, other_low, other_high, strict=True)))
+
+
+def _length(boxes: list[Corners]) -> float:
+    """Return the diagonal of the box around boxes [m]."""
+    lows, highs = zip(*boxes, strict=True)
+    return dist([min(parts) for parts in zip(*lows, strict=True)], [max(parts) for parts in zip(*highs, strict=True)])

@@ -61,14 +61,14 @@ class ControllerJointUndefined(RobotRule):
 
         places = set()
         for finding in self._undefined(model):
-            places.add((finding.span.file, finding.span.line, finding.span.column))
+            places.add((finding.span.file, finding.span.line, finding.joint))
             yield finding
         joints = model.robot.joint_by_name
         for name, settings, _ in loaded_controllers(model) if joints and not model.is_incomplete else ():
             named = [settings.find(each) for each in JOINT_NAMES]
             for entry in [one for each in named if each is not None for one in (each.items or (each,))]:
                 place = entry.position
-                if not entry.value or entry.value in joints or (place.file, place.line, place.column) in places:
+                if not entry.value or entry.value in joints or (place.file, place.line, entry.value) in places:
                     continue
                 if model.target == "urdfkit" or not model.neighbouring_descriptions.define("joint", entry.value):
                     message = f"controller `{name}` names the undefined joint `{entry.value}`"

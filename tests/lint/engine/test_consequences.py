@@ -1,0 +1,45 @@
+"""Findings that vanish with the cause of another one are left out."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from urdfkit.description.xml.source import Span
+from urdfkit.lint import lint
+from urdfkit.lint.engine.consequences import without_consequences
+from urdfkit.lint.finding import Finding
+
+
+def finding(code: str, message: str, line: int = 1, **others: object) -> Finding:
+    return Finding(code, "x", "warning", message, Span("a", line, 1, line, 2), **others)  # type: ignore[arg-type]
+
+
+CASES = {
+    "line": (finding("E014", "<mass> lacks its attribute `value`"), finding("E007", "unexpected text"), True),
+    "other line": (finding("E014", "<mass> lacks its attribute `value`"), finding("E007", "text", 2), False),
+    "name": (finding("S907", "wheels `a` and `b`", 1), finding("S909", "joints `b` and `c`", 2), True),
+    "other name": (finding("S907", "wheels `a` and `b`", 1), finding("S909", "joints `c` and `d`", 2), False),
+    "call": (finding("T206", "link", chains=(("c",),)), finding("T207", "joint", 9, chains=(("c",),)), True),
+    "other call": (finding("T206", "link", chains=(("c",),)), finding("T207", "joint", 9, chains=(("d",),)), False),
+    "no call": (finding("T206", "duplicate link `a`"), finding("T207", "duplicate joint `b`", 9), False),
+    "robot": (finding("T207", "duplicate joint `a`"), finding("K959", "joint `b` does not exist", 9), True),
+    "other words": (finding("C707", "undefined joint `a`"), finding("K965", "commands the position", 9), False),
+    "no cause": (finding("E010", "bad number"), finding("K959", "joint `b` does not exist", 9), False),
+}
+
+
+@pytest.mark.parametrize("case", CASES)
+def test_consequences_are_left_out(case: str) -> None:
+    cause, effect, is_left_out = CASES[case]
+    assert without_consequences([effect, cause]) == ([cause] if is_left_out else [effect, cause])
+
+
+def test_a_consequence_whose_fix_corrects_the_cause_is_kept(tmp_path: Path) -> None:
+    shape = '<visual><geometry>\n<cylinder radius="1" {}/>\n</geometry></visual>'
+    robot = f'<robot name="arm"><link name="a">{shape}</link></robot>'
+    (tmp_path / "arm.urdf").write_text(robot.format('lenght="1"'))
+    (tmp_path / "leg.urdf").write_text(robot.format('tall="1"'))
+    assert {found.code for found in lint(tmp_path / "arm.urdf") if found.line == 2} == {"E014", "E009"}
+    assert {found.code for found in lint(tmp_path / "leg.urdf") if found.line == 2} == {"E014"}

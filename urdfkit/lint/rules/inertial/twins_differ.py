@@ -1,0 +1,130 @@
+"""I518 twins-differ."""
+
+from urdfkit.description.urdf.robot import Link
+from urdfkit.description.xml.element import Element
+from urdfkit.lint.facts.twins import Twins, decimal_slip, links_of, twins
+from urdfkit.lint.model.placement import shapes_of
+from urdfkit.lint.rule import Findings, Model, RobotRule
+
+_RATIO = 2.0
+"""Smallest ratio of the masses or sizes of a left and a right part that differ by mistake."""
+
+
+class TwinsDiffer(RobotRule):
+    """A part and its counterpart on the other side, or at the other end, differ in mass or size.
+
+    ## What it does
+    Compares the child links of joints with one parent whose names differ in a side (``left`` and ``right``) or an
+    end (``front`` and ``rear``) only. Reports masses and sizes of parts on two sides that differ by a factor of
+    two, and those of parts at two ends that differ by a factor of 10, 100 or 1000.
+
+    ## Why is this bad?
+    The robot leans, drifts, or one of its wheels is too small to reach the ground. The usual cause is a wrong
+    decimal point or unit.
+
+    ## Example
+    ```xml
+    <robot name="cart">
+      <link name="base">
+        <visual><geometry><box size="0.5 0.3 0.1"/></geometry></visual>
+        <inertial>
+          <mass value="8"/>
+          <inertia ixx="0.0667" ixy="0" ixz="0" iyy="0.1733" iyz="0" izz="0.2267"/>
+        </inertial>
+      </link>
+      <link name="left_wheel">
+        <visual><geometry><sphere radius="0.1"/></geometry></visual>
+        <inertial>
+          <mass value="1"/>
+          <inertia ixx="0.004" ixy="0" ixz="0" iyy="0.004" iyz="0" izz="0.004"/>
+        </inertial>
+      </link>
+      <link name="right_wheel">
+        <visual><geometry><sphere radius="0.1"/></geometry></visual>
+        <inertial>
+          <mass value="10"/>
+          <inertia ixx="0.004" ixy="0" ixz="0" iyy="0.004" iyz="0" izz="0.004"/>
+        </inertial>
+      </link>
+      <joint name="left_wheel_joint" type="continuous">
+        <parent link="base"/><child link="left_wheel"/><origin xyz="0 0.2 0"/><axis xyz="0 1 0"/>
+      </joint>
+      <joint name="right_wheel_joint" type="continuous">
+        <parent link="base"/><child link="right_wheel"/><origin xyz="0 -0.2 0"/><axis xyz="0 1 0"/>
+      </joint>
+    </robot>
+    ```
+
+    ## Use instead
+    ```xml
+    <robot name="cart">
+      <link name="base">
+        <visual><geometry><box size="0.5 0.3 0.1"/></geometry></visual>
+        <inertial>
+          <mass value="8"/>
+          <inertia ixx="0.0667" ixy="0" ixz="0" iyy="0.1733" iyz="0" izz="0.2267"/>
+        </inertial>
+      </link>
+      <link name="left_wheel">
+        <visual><geometry><sphere radius="0.1"/></geometry></visual>
+        <inertial>
+          <mass value="1"/>
+          <inertia ixx="0.004" ixy="0" ixz="0" iyy="0.004" iyz="0" izz="0.004"/>
+        </inertial>
+      </link>
+      <link name="right_wheel">
+        <visual><geometry><sphere radius="0.1"/></geometry></visual>
+        <inertial>
+          <mass value="1"/>
+          <inertia ixx="0.004" ixy="0" ixz="0" iyy="0.004" iyz="0" izz="0.004"/>
+        </inertial>
+      </link>
+      <joint name="left_wheel_joint" type="continuous">
+        <parent link="base"/><child link="left_wheel"/><origin xyz="0 0.2 0"/><axis xyz="0 1 0"/>
+      </joint>
+      <joint name="right_wheel_joint" type="continuous">
+        <parent link="base"/><child link="right_wheel"/><origin xyz="0 -0.2 0"/><axis xyz="0 1 0"/>
+      </joint>
+    </robot>
+    ```
+    """
+
+    code = "I518"
+    name = "twins-differ"
+    severity = "warning"
+
+    def check(self, model: Model) -> Findings:
+        """Yield a finding for each pair of links with different masses, else with different sizes."""
+        if model.is_incomplete:
+            return
+        for pair in twins(model):
+            links = links_of(pair, model)
+            if links is None or any(not link.name or links[0] is links[1] for link in links):
+                continue
+            masses = [link.inertial.mass or 0.0 if link.inertial is not None else 0.0 for link in links]
+            extents = [model.extents.get(link.name) for link in links]
+            sizes = [extent.diagonal if extent is not None else 0.0 for extent in extents]
+            for values, what, unit in ((masses, "mass", "kg"), (sizes, "size", "m")):
+                if min(values) <= 0.0 or not _differ(pair, values):
+                    continue
+                wrong = links[values.index(max(values))]
+                element = _place(wrong, what)
+                x, y = (f"{value:.3g} {unit}" for value in values)
+                message = f"`{links[0].name}` and `{links[1].name}` differ in {what}: {x} and {y}"
+                help = "check the decimal points and units of both"
+                attribute = "value" if what == "mass" else None
+                yield self.at(model, element, message, attribute=attribute, link=wrong.name, help=help)
+                break
+
+
+def _place(link: Link, what: str) -> Element:
+    """Return the element with the mass or the shape of a link."""
+    found = link.inertial.element.find("mass") if what == "mass" and link.inertial is not None else None
+    if what == "size":
+        found = next((shape.element.find("geometry") for shape in shapes_of(link)), None)
+    return found or link.element
+
+
+def _differ(pair: Twins, values: list[float]) -> bool:
+    """Return whether a quantity of twins differs so much that one of the values is wrong."""
+    return max(values) >= _RATIO * min(values) if pair.are_sides else bool(decimal_slip(*values))

@@ -1,0 +1,173 @@
+"""S904 axis-contradicts-part."""
+
+import re
+
+from urdfkit.description.urdf.geometry import rotate, rotation_of, unit
+from urdfkit.description.urdf.robot import Cylinder, Joint, Vector
+from urdfkit.lint.facts.twins import Twins, links_of, twins
+from urdfkit.lint.finding import Finding
+from urdfkit.lint.model.placement import shapes_of
+from urdfkit.lint.rule import Findings, Model, RobotRule
+
+_MIN_UPRIGHT = 0.7
+"""Cosine of the largest angle between an axis and the vertical at which the axis is about vertical (45 degrees)."""
+
+_MAX_ACROSS = 0.2
+"""Cosine of an angle at which two lines are about perpendicular."""
+
+_UNLIKE = 0.3
+"""Difference of the components of two unit axes along different lines."""
+
+_OTHER = r"(?i)cast[eo]r|swivel|steer|fork|roll|pan|yaw|rotac|suspension"
+"""Names of joints next to wheels that turn about other axes, and of wheels that turn freely."""
+
+
+class AxisContradictsPart(RobotRule):
+    """The axis of a steering joint or of a wheel does not suit its part.
+
+    ## What it does
+    Checks, with every joint at zero, that joints with ``steer`` in their names turn about an axis that is about
+    vertical, and that continuous joints of wheels turn about an axis that is about horizontal and not perpendicular
+    to the line between the wheel and its counterpart on the other side. Casters, forks and rollers are not checked.
+    Also reports counterparts, such as ``left_wheel_joint`` and ``right_wheel_joint``, whose axes are along
+    different lines, and front and rear wheels of one side that turn in opposite directions.
+
+    ## Why is this bad?
+    The wheel tumbles or scrapes over the ground instead of rolling, or the robot does not steer.
+
+    ## Example
+    ```xml
+    <robot name="cart">
+      <link name="base">
+        <visual><geometry><box size="0.5 0.3 0.1"/></geometry></visual>
+        <inertial>
+          <mass value="8"/>
+          <inertia ixx="0.0667" ixy="0" ixz="0" iyy="0.1733" iyz="0" izz="0.2267"/>
+        </inertial>
+      </link>
+      <link name="left_wheel">
+        <visual><geometry><sphere radius="0.1"/></geometry></visual>
+        <inertial><mass value="1"/><inertia ixx="0.004" ixy="0" ixz="0" iyy="0.004" iyz="0" izz="0.004"/></inertial>
+      </link>
+      <link name="right_wheel">
+        <visual><geometry><sphere radius="0.1"/></geometry></visual>
+        <inertial><mass value="1"/><inertia ixx="0.004" ixy="0" ixz="0" iyy="0.004" iyz="0" izz="0.004"/></inertial>
+      </link>
+      <joint name="left_wheel_joint" type="continuous">
+        <parent link="base"/><child link="left_wheel"/><origin xyz="0 0.2 0"/><axis xyz="1 0 0"/>
+      </joint>
+      <joint name="right_wheel_joint" type="continuous">
+        <parent link="base"/><child link="right_wheel"/><origin xyz="0 -0.2 0"/><axis xyz="1 0 0"/>
+      </joint>
+    </robot>
+    ```
+
+    ## Use instead
+    ```xml
+    <robot name="cart">
+      <link name="base">
+        <visual><geometry><box size="0.5 0.3 0.1"/></geometry></visual>
+        <inertial>
+          <mass value="8"/>
+          <inertia ixx="0.0667" ixy="0" ixz="0" iyy="0.1733" iyz="0" izz="0.2267"/>
+        </inertial>
+      </link>
+      <link name="left_wheel">
+        <visual><geometry><sphere radius="0.1"/></geometry></visual>
+        <inertial><mass value="1"/><inertia ixx="0.004" ixy="0" ixz="0" iyy="0.004" iyz="0" izz="0.004"/></inertial>
+      </link>
+      <link name="right_wheel">
+        <visual><geometry><sphere radius="0.1"/></geometry></visual>
+        <inertial><mass value="1"/><inertia ixx="0.004" ixy="0" ixz="0" iyy="0.004" iyz="0" izz="0.004"/></inertial>
+      </link>
+      <joint name="left_wheel_joint" type="continuous">
+        <parent link="base"/><child link="left_wheel"/><origin xyz="0 0.2 0"/><axis xyz="0 1 0"/>
+      </joint>
+      <joint name="right_wheel_joint" type="continuous">
+        <parent link="base"/><child link="right_wheel"/><origin xyz="0 -0.2 0"/><axis xyz="0 1 0"/>
+      </joint>
+    </robot>
+    ```
+    """
+
+    code = "S904"
+    name = "axis-contradicts-part"
+    severity = "warning"
+
+    def check(self, model: Model) -> Findings:
+        """Yield a finding for each joint with a wrong axis."""
+        if model.is_incomplete:
+            return
+        pairs = [pair for pair in twins(model) if pair.first.is_movable and links_of(pair, model) is not None]
+        partners = {joint.name: pair for pair in pairs if pair.are_sides for joint in (pair.first, pair.second)}
+        found: set[str] = set()
+        for joint in model.robot.joints:
+            axis = _axis_in_root(joint, model) if joint.is_movable else None
+            message = _defect(joint, axis, partners.get(joint.name), model) if axis is not None else None
+            if message is not None and not _is_disc(joint, model):
+                found.add(joint.name)
+                yield self._at(joint, message, model)
+        for pair in pairs:
+            first, second = pair.first, pair.second
+            message = None if found & {first.name, second.name} else _contradiction(pair)
+            if message is not None and not (_is_disc(first, model) and _is_disc(second, model)):
+                found |= {first.name, second.name}
+                yield self._at(second if second.element.find("axis") is not None else first, message, model)
+
+    def _at(self, joint: Joint, message: str, model: Model) -> Finding:
+        element = joint.element.find("axis") or joint.element
+        help = "check <axis> and the rpy of <origin>"
+        return self.at(model, element, message, attribute="xyz", joint=joint.name, help=help)
+
+
+def _axis_in_root(joint: Joint, model: Model) -> Vector | None:
+    """Return the axis of a joint in the root link; None if it is unknown."""
+    parent, axis = model.frames.get(joint.parent or ""), unit(joint.axis)
+    origin = joint.element.find("origin")
+    if parent is None or axis is None or (origin is not None and model.is_unresolved(origin, "rpy")):
+        return None
+    return rotate(parent.moved(joint.origin).rotation, axis)
+
+
+def _defect(joint: Joint, axis: Vector, pair: Twins | None, model: Model) -> str | None:
+    """Return what is wrong with the axis of a steering joint or wheel; None if it suits its part."""
+    name = f"{joint.name} {joint.child}"
+    if re.search(r"steer(?!ing_?wheel)", joint.name, re.IGNORECASE):
+        return f"axis of steering joint `{joint.name}` is not vertical" if abs(axis[2]) < _MIN_UPRIGHT else None
+    if joint.type != "continuous" or not re.search("wheel", name, re.IGNORECASE) or re.search(_OTHER, name):
+        return None
+    if abs(axis[2]) > _MIN_UPRIGHT:
+        return f"axis of wheel joint `{joint.name}` is vertical"
+    if pair is None:
+        return None
+    x, y, z = (a - b for a, b in zip(pair.first.origin.xyz, pair.second.origin.xyz, strict=True))
+    between = unit((x, y, z))
+    frame = model.frames.get(joint.parent or "")
+    if between is None or frame is None:
+        return None
+    along = abs(sum(a * b for a, b in zip(axis, rotate(frame.rotation, between), strict=True)))
+    if along > _MAX_ACROSS:
+        return None
+    ends = f"`{pair.first.name}` to `{pair.second.name}`"
+    return f"axis of wheel joint `{joint.name}` is perpendicular to the line from {ends}"
+
+
+def _contradiction(pair: Twins) -> str | None:
+    """Return how the axes of twins contradict each other; None if they do not."""
+    first, second = pair.first, pair.second
+    in_parent = [rotate(rotation_of(joint.origin.rpy), joint.axis) for joint in (first, second)]
+    names = f"`{first.name}` and `{second.name}`"
+    both = ((first.axis, second.axis), tuple(in_parent))
+    if all(max(abs(abs(a) - abs(b)) for a, b in zip(*axes, strict=True)) > _UNLIKE for axes in both):
+        return f"the axes of {names} are along different lines"
+    dot = sum(a * b for a, b in zip(*in_parent, strict=True))
+    if first.type == "continuous" and not pair.are_sides and dot < -_MIN_UPRIGHT and "heel" in first.name:
+        return f"the axes of {names} point in opposite directions"
+    return None
+
+
+def _is_disc(joint: Joint, model: Model) -> bool:
+    """Return whether a wheel has the shape of a disc, whose axis J414 checks."""
+    link = model.robot.link_by_name.get(joint.child or "")
+    shapes = [shape.geometry for shape in shapes_of(link)] if link is not None else []
+    return bool(shapes) and all(isinstance(one, Cylinder) and one.length < 2.0 * one.radius for one in shapes)

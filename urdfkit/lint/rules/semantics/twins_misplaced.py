@@ -1,0 +1,157 @@
+"""S909 twins-misplaced."""
+
+from collections import Counter
+from math import hypot
+
+from urdfkit.description.urdf.robot import Link
+from urdfkit.description.xml.element import Element
+from urdfkit.lint.facts.twins import Twins, are_alike, decimal_slip, links_of, twins
+from urdfkit.lint.model.placement import shapes_of
+from urdfkit.lint.rule import Findings, Model, RobotRule
+
+_SAME = 0.02
+"""Largest difference of equal coordinates, as a fraction of the distance from the parent."""
+
+_UNEVEN = 0.25
+"""Largest accepted difference of coordinates, as a fraction of the distance from the parent."""
+
+
+class TwinsMisplaced(RobotRule):
+    """A part and its counterpart on the other side, or at the other end, are not mirrored.
+
+    ## What it does
+    Compares the joint origins of parts with one parent whose names differ in a side (``left`` and ``right``, ``fl``
+    and ``fr``) or an end (``front`` and ``rear``) only. Parts on two sides must have the same coordinates except
+    for one sign, and parts at two ends may differ in one coordinate. Reports counterparts in the same place, signs
+    and decimal points that differ, and joints that move and differ in a coordinate by more than a quarter of their
+    distance from the parent.
+
+    ## Why is this bad?
+    A sign or a decimal point is missing: both wheels are on one side, or one of them is in the air.
+
+    ## Example
+    ```xml
+    <robot name="cart">
+      <link name="base">
+        <visual><geometry><box size="0.5 0.3 0.1"/></geometry></visual>
+        <inertial>
+          <mass value="8"/>
+          <inertia ixx="0.0667" ixy="0" ixz="0" iyy="0.1733" iyz="0" izz="0.2267"/>
+        </inertial>
+      </link>
+      <link name="left_wheel">
+        <visual><geometry><sphere radius="0.1"/></geometry></visual>
+        <inertial><mass value="1"/><inertia ixx="0.004" ixy="0" ixz="0" iyy="0.004" iyz="0" izz="0.004"/></inertial>
+      </link>
+      <link name="right_wheel">
+        <visual><geometry><sphere radius="0.1"/></geometry></visual>
+        <inertial><mass value="1"/><inertia ixx="0.004" ixy="0" ixz="0" iyy="0.004" iyz="0" izz="0.004"/></inertial>
+      </link>
+      <joint name="left_wheel_joint" type="continuous">
+        <parent link="base"/><child link="left_wheel"/><origin xyz="0 0.2 0"/><axis xyz="0 1 0"/>
+      </joint>
+      <joint name="right_wheel_joint" type="continuous">
+        <parent link="base"/><child link="right_wheel"/><origin xyz="0 0.2 0"/><axis xyz="0 1 0"/>
+      </joint>
+    </robot>
+    ```
+
+    ## Use instead
+    ```xml
+    <robot name="cart">
+      <link name="base">
+        <visual><geometry><box size="0.5 0.3 0.1"/></geometry></visual>
+        <inertial>
+          <mass value="8"/>
+          <inertia ixx="0.0667" ixy="0" ixz="0" iyy="0.1733" iyz="0" izz="0.2267"/>
+        </inertial>
+      </link>
+      <link name="left_wheel">
+        <visual><geometry><sphere radius="0.1"/></geometry></visual>
+        <inertial><mass value="1"/><inertia ixx="0.004" ixy="0" ixz="0" iyy="0.004" iyz="0" izz="0.004"/></inertial>
+      </link>
+      <link name="right_wheel">
+        <visual><geometry><sphere radius="0.1"/></geometry></visual>
+        <inertial><mass value="1"/><inertia ixx="0.004" ixy="0" ixz="0" iyy="0.004" iyz="0" izz="0.004"/></inertial>
+      </link>
+      <joint name="left_wheel_joint" type="continuous">
+        <parent link="base"/><child link="left_wheel"/><origin xyz="0 0.2 0"/><axis xyz="0 1 0"/>
+      </joint>
+      <joint name="right_wheel_joint" type="continuous">
+        <parent link="base"/><child link="right_wheel"/><origin xyz="0 -0.2 0"/><axis xyz="0 1 0"/>
+      </joint>
+    </robot>
+    ```
+    """
+
+    code = "S909"
+    name = "twins-misplaced"
+    severity = "warning"
+
+    def check(self, model: Model) -> Findings:
+        """Yield a finding for each joint that does not match its counterpart, at most one for each joint."""
+        if model.is_incomplete:
+            return
+        defects = [(pair, defect) for pair in twins(model) if (defect := _defect(pair, model)) is not None]
+        counts = Counter(joint.name for pair, _ in defects for joint in (pair.first, pair.second))
+        found: set[str] = set()
+        for pair, (message, help) in defects:
+            wrong = pair.first if counts[pair.first.name] > counts[pair.second.name] else pair.second
+            if found.isdisjoint((pair.first.name, pair.second.name)):
+                found.add(wrong.name)
+                origin = wrong.element.find("origin") or wrong.element
+                yield self.at(model, origin, message, attribute="xyz", joint=wrong.name, help=help)
+
+
+def _defect(pair: Twins, model: Model) -> tuple[str, str] | None:
+    """Return the message and help for joints that do not match; None if they do."""
+    first, second, links = pair.first.origin.xyz, pair.second.origin.xyz, links_of(pair, model)
+    if links is None or any(_is_unresolved(joint.element, model) for joint in (pair.first, pair.second)):
+        return None
+    names = f"`{pair.first.name}` and `{pair.second.name}`"
+    distance = max(hypot(*first), hypot(*second))
+    if distance == 0.0 or not (pair.first.is_movable or are_alike(*links, model)):
+        return None
+    differing = [k for k in range(3) if abs(first[k] - second[k]) > _SAME * distance]
+    if not differing:
+        if not _are_in_one_place(pair, links, model):
+            return None
+        return f"joints {names} have the same origin", "check the sign of one of the coordinates"
+    for k in differing:
+        if (factor := decimal_slip(first[k], second[k])) and abs(first[k]) + abs(second[k]) > _SAME * distance:
+            x, y = (f"{value:g}" for value in (first[k], second[k]))
+            return f"{'xyz'[k]} of joints {names} is {x} m and {y} m: a ratio of {factor}", "check the decimal point"
+    flipped = [k for k in differing if abs(first[k] + second[k]) <= _SAME * distance]
+    uneven = [k for k in differing if k not in flipped and abs(abs(first[k]) - abs(second[k])) > _UNEVEN * distance]
+    if not pair.first.is_movable:
+        return None
+    if pair.are_sides and uneven:
+        k = uneven[0]
+        values = f"{first[k]:g} m and {second[k]:g} m"
+        return f"joints {names} are not mirrored: {'xyz'[k]} is {values}", "make the coordinates match"
+    if len(flipped) > 1 or (not pair.are_sides and len(flipped) + len(uneven) > 1):
+        letters = " and ".join("xyz"[k] for k in sorted((*flipped, *([] if pair.are_sides else uneven))))
+        return f"joints {names} differ in {letters}, not in one coordinate", "check the signs of the coordinates"
+    return None
+
+
+def _are_in_one_place(pair: Twins, links: tuple[Link, Link], model: Model) -> bool:
+    """Return whether twins with the same origin have the same axis, and shapes at the same place."""
+    first, second = pair.first, pair.second
+    if first.origin.rpy != second.origin.rpy or (first.is_movable and first.axis != second.axis):
+        return False
+    shapes = [[(shape.geometry, shape.origin) for shape in shapes_of(link)] for link in links]
+    return bool(shapes[0]) and (shapes[0] == shapes[1] or _are_at_one_place(links, model))
+
+
+def _are_at_one_place(links: tuple[Link, Link], model: Model) -> bool:
+    first, second = (model.extents.get(link.name) for link in links)
+    if first is None or second is None:
+        return False
+    corners = zip((*first.low, *first.high), (*second.low, *second.high), strict=True)
+    return all(abs(a - b) <= _SAME * first.diagonal for a, b in corners)
+
+
+def _is_unresolved(joint: Element, model: Model) -> bool:
+    origin = joint.find("origin")
+    return origin is not None and any(model.is_unresolved(origin, name) for name in ("xyz", "rpy"))
