@@ -386,3 +386,51 @@ def test_imports_of_launch_files_need_a_dependency(source, text, is_reported):
     package = ros2_package(source, "<exec_depend>rviz2</exec_depend>")
     write(package / "launch/all.launch.py", text)
     assert any("missing dependency on" in each for each in findings(source)) is is_reported
+
+
+NAVIGATION = """amcl:
+  ros__parameters:
+    robot_base_frame: base_link
+behavior_server:
+  ros__parameters:
+    cycle_frequency: 10.0
+"""
+XML_NODE = '<launch>\n  <node pkg="{}" exec="{}" name="{}"{}\n</launch>\n'
+READS = '><param from="$(find-pkg-share cart_description)/config/nav.yaml"/></node>'
+
+
+@pytest.mark.parametrize(
+    ("node", "message"),
+    [
+        (("teleop_twist_joy", "teleop_twist_joy_node", "joy", "/>"), "no executable `teleop_twist_joy_node`; did you"),
+        (("teleop_twist_joy", "teleop_node", "joy", "/>"), ""),
+        (
+            ("nav2_recoveries", "recoveries_server", "behavior_server", "/>"),
+            "since Humble, the package `nav2_behaviors` replaces `nav2_recoveries`",
+        ),
+        (("nav2_behaviors", "behavior_server", "behavior_server", "/>"), ""),
+        (("nav2_map_server", "map_server", "maps", '><param name="yaml_file" value="m"/></node>'), "`yaml_filename`?"),
+        (("nav2_map_server", "map_server", "maps", '><param name="yaml_filename" value="m"/></node>'), ""),
+        (("nav2_amcl", "amcl", "localizer", READS), "node `localizer` has no section in nav.yaml, which has `amcl`"),
+        (("nav2_amcl", "amcl", "amcl", READS), ""),
+        (
+            ("controller_manager", "spawner", "s", ' args="a --controller_manager /c"/>'),
+            "unknown option `--controller_manager` of `spawner`; did you mean `--controller-manager`?",
+        ),
+        (("controller_manager", "spawner", "s", ' args="a --controller-manager /c --my-option"/>'), ""),
+    ],
+)
+def test_nodes_options_and_parameters_of_released_packages(source, node, message):
+    package = ros2_package(source, f"{node[0]}</exec_depend><exec_depend>launch_ros")
+    write(package / "config/nav.yaml", NAVIGATION)
+    write(package / "launch/drive.launch.xml", XML_NODE.format(*node))
+    found = [text for text in findings(source) if text.startswith(("L103", "L104", "L117", "K968"))]
+    assert (len(found) == 1 and message in found[0]) if message else found == []
+
+
+def test_an_unclosed_substitution_before_another_one_is_reported(source):
+    launch = '<launch>\n  <arg name="x" default="0"/>\n  <arg name="y" default="{}"/>\n</launch>\n'
+    write(source / "cart_description/launch/drive.launch", launch.format("$(arg x $(arg x)"))
+    assert any("`$(arg x ` has no closing parenthesis" in each for each in findings(source))
+    write(source / "cart_description/launch/drive.launch", launch.format("$(arg x) $(arg x)"))
+    assert not any("parenthesis" in each for each in findings(source))

@@ -25,6 +25,7 @@ MANIFEST = """<package format="3">
   <maintainer email="cart@example.com">The maintainers</maintainer>
   <license>MIT</license>
   <buildtool_depend>ament_cmake</buildtool_depend>
+  <exec_depend>diff_drive_controller</exec_depend>
   <exec_depend>imu_sensor_broadcaster</exec_depend>
   <export><build_type>ament_cmake</build_type></export>
 </package>
@@ -130,6 +131,41 @@ FILES = {
 }
 SLAM_SOLVERS = "solver_plugins::CeresSolver, solver_plugins::G2oSolver, solver_plugins::SpaSolver"
 MOTION = "nav2_amcl::DifferentialMotionModel"
+DRIVE = """controller_manager:
+  ros__parameters:
+    wheels:
+      type: diff_drive_controller/DiffDriveController
+wheels:
+  ros__parameters:
+    left_wheel_names: []
+    right_wheel_names: []
+    enable_odom_tf: false
+    pose_covariance_diagonal: [0.001, 0.001, 0.0, 0.0, 0.0, 0.01]
+    linear.x.max_velocity: 1.0
+"""
+BEHAVIORS = """behavior_server:
+  ros__parameters:
+    behavior_plugins: ["spin"]
+    spin:
+      plugin: "nav2_behaviors::Spin"
+
+amcl:
+  ros__parameters:
+    robot_model_type: "nav2_amcl::DifferentialMotionModel"
+
+planner_server:
+  ros__parameters:
+    planner_plugins: ["GridBased"]
+    GridBased:
+      plugin: "nav2_navfn_planner::NavfnPlanner"
+      use_astar: false
+
+global_costmap:
+  global_costmap:
+    ros__parameters:
+      footprint: "[[0.3, 0.2], [0.3, -0.2], [-0.3, 0.0]]"
+"""
+FILES |= {"drive": DRIVE, "behaviors": BEHAVIORS}
 
 BAD = [
     ("controllers", "update_rate: 100", "update_rate: 100.0", "K974", 3, "write 100"),
@@ -181,6 +217,23 @@ BAD = [
     ("map", "room.pgm", "roon.pgm", "K971", 1, "image `roon.pgm` of the map does not exist; did you mean `room.pgm`?"),
     ("map", "trinary", "trinery", "K971", 2, "unknown `mode` `trinery` of the map; did you mean `trinary`?"),
     ("map", "0.05", "0", "K971", 3, "`resolution` is 0 m; it must be positive"),
+    ("drive", "tf: false", "tf: true", "K971", 9, "the filter in filter.yaml publishes the same transform"),
+    ("drive", "[0.001, ", "[", "K971", 10, "has 5 values; it requires 6"),
+    ("drive", "max_velocity", "max_velocty", "K962", 11, "did you mean `linear.x.max_velocity`?"),
+    (
+        "drive",
+        "      type",
+        "      typ",
+        "K962",
+        4,
+        "unknown parameter `typ` of controller `wheels`; did you mean `type`?",
+    ),
+    ("behaviors", '      plugin: "nav2_behaviors::Spin"\n', "      yes: true\n", "K971", 4, "lists, has no `plugin`"),
+    ("behaviors", "nav2_amcl::DifferentialMotionModel", "differential", "K971", 9, "is of Galactic and before; write"),
+    ("behaviors", "use_astar", "use_atar", "L104", 16, "did you mean `use_astar`?"),
+    ("behaviors", "0.0]]", "0.0]", "K971", 21, "`footprint` has 4 `[` and 3 `]`"),
+    ("behaviors", ", [-0.3, 0.0]", "", "K971", 21, "`footprint` has 2 points; a polygon needs at least 3"),
+    ("behaviors", "[-0.3, 0.0]", "[-0.3, x]", "K971", 21, "`footprint` is not a list of points"),
     ("map", "0.25", "0.75", "K971", 6, "`free_thresh` is 0.75, more than `occupied_thresh`, 0.65"),
     ("mux", "100", "300", "K971", 7, "`priority` is 300; twist_mux requires 0 to 255"),
     ("mux", "100", "-1", "K971", 7, "`priority` is -1; twist_mux requires 0 to 255"),
@@ -261,6 +314,9 @@ GOOD = [
     ("navigation", "local_costmap:\n  local_costmap", "rear_costmap:\n  rear_costmap"),
     ("navigation", "max_velocity: [0.5, 0.0, 1.0]", "max_velocity: [0.5, 0.0, 0.0, 0.0, 0.0, 1.0]"),
     ("filter", "world_frame: odom", "world_frame: $(var world)"),
+    ("behaviors", '"[[0.3, 0.2], [0.3, -0.2], [-0.3, 0.0]]"', "[[0.3, 0.2], [0.3, -0.2], [-0.3, 0.0]]"),
+    ("behaviors", "use_astar", "use_my_star"),
+    ("drive", "linear.x.max_velocity", "linear.x.max_deceleration"),
     ("filter", "imu_broadcaster/imu", "imu/data"),
     ("ros1", "imu0: imu", "imu0: imu/data"),
     ("map", "room.pgm", "/maps/room.pgm"),

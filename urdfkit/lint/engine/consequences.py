@@ -54,7 +54,7 @@ The relation is what both have in common: the line, a link, joint or name in the
 robot.
 """
 
-_WITH_FIX = ("E009",)
+_WITH_FIX = ("E009", "I507")
 """Codes of consequences that are kept if they have a fix, which corrects the cause too."""
 
 _CODES = frozenset(code for _, _, (code, _) in _CONSEQUENCES)

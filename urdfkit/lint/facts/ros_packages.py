@@ -157,6 +157,8 @@ def is_slip(name: str, other: str) -> bool:
         left, right = left[:-1], right[:-1]
     if start > 0 and name[start - 1].isdigit():  # ur5 and ur5e are two robots
         return False
-    if ({left, right} == {"", "s"} and not name.endswith("_msg")) or not (left + right).isalpha():
+    end = name[start + len(left) :]
+    is_plural = {left, right} == {"", "s"} and end[:1] in ("", "_", "-") and not name.endswith("_msg")
+    if is_plural or not (left + right).isalpha():
         return False
     return max(len(left), len(right)) <= 1 or sorted(left) == sorted(right)

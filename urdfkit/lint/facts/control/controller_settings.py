@@ -95,6 +95,9 @@ def misspelt_names(source: Source) -> Iterator[tuple[Node, str, str]]:
         if name != "controller_manager" and nearest(name, ("controller_manager",), cutoff=0.9) is not None:
             yield key, "controller_manager", f"unknown node `{name}`"
         for parameter, value in group.entries:
+            kind = next((key for key, node in value.entries if re.fullmatch(r"[\w-]+/[\w-]+", node.text)), None)
+            if kind is not None and value.find("type") is None and nearest(kind.text, ("type",), cutoff=0.7):
+                yield kind, "type", f"unknown parameter `{kind.text}` of controller `{parameter.text}`"
             near = nearest(parameter.text, _MANAGER, cutoff=0.8) if parameter.text not in _MANAGER else None
             if near is not None and value.find("type") is None:
                 yield parameter, near, f"unknown parameter `{parameter.text}` of the controller manager"
@@ -105,6 +108,11 @@ def misspelt_names(source: Source) -> Iterator[tuple[Node, str, str]]:
                 near = nearest(part.text, INTERFACES, cutoff=0.8) if part.text not in INTERFACES else None
                 if near is not None:
                     yield part, near, f"unknown interface `{part.text}` of controller `{one.name}`"
+            axis, _, last = key.text.rpartition(".")
+            limits = _NESTED[axis.partition(".")[0]] if axis in ("linear.x", "angular.z") else ()
+            near = nearest(last, limits, cutoff=0.8) if last not in limits else None
+            if near is not None:
+                yield key, f"{axis}.{near}", f"unknown parameter `{key.text}` of controller `{one.name}`"
             names = (*_NESTED.get(key.text, ()), *joints)
             inner = [each for node in walk(value) for each, _ in node.entries] if key.text in _NESTED else []
             for each in inner:
@@ -122,7 +130,8 @@ def _managers(source: Source) -> Iterator[tuple[Node, Node]]:
         for key, section in root.entries:
             group = section.find(PARAMETERS)
             kinds = [value.find("type") for _, value in group.entries] if group is not None else []
-            if group is not None and any(kind is not None and "/" in kind.text for kind in kinds):
+            is_manager = key.text.strip("/").rpartition("/")[2] == "controller_manager"
+            if group is not None and (is_manager or any(kind is not None and "/" in kind.text for kind in kinds)):
                 yield key, group
 
 

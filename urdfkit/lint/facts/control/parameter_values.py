@@ -118,6 +118,10 @@ def value_defects(node: Node, is_ros2: bool) -> Defects:
         lower, upper = number_of(value), number_of(values.get(above))
         if lower is not None and upper is not None and lower > upper and upper >= 0.0:
             yield value, f"`{name}` {lower:g} is greater than `{above}` {upper:g}"
+    for name in ("pose_covariance_diagonal", "twist_covariance_diagonal"):
+        covariances = values.get(name)
+        if covariances is not None and covariances.kind == "list" and len(covariances.items) != 6:
+            yield covariances, f"`{name}` has {len(covariances.items)} values; it requires 6"
     for key, value in node.entries:
         listed: set[str] = set()
         for item in value.items if key.text in ("joints", "left_wheel_names", "right_wheel_names") else ():

@@ -53,13 +53,31 @@ _ONLY_IN = {
     xacro.py; gazebo_ros: gazebo spawn_model debug perf gdbrun urdf2gazebo libcommon.sh; teleop_twist_keyboard:
     teleop_twist_keyboard.py; robot_localization: ekf_localization_node ukf_localization_node""",
     2: """controller_manager: ros2_control_node hardware_spawner; gazebo_ros: spawn_entity.py; robot_localization:
-    ekf_node ukf_node robot_localization_listener_node""",
+    ekf_node ukf_node robot_localization_listener_node; teleop_twist_keyboard: teleop_twist_keyboard""",
 }
 """Version of ROS → executables that no release of the other version has."""
 
 _UNTIL_GALACTIC = "controller_manager: spawner.py unspawner.py hardware_spawner.py"
 _SINCE_HUMBLE = ("gz_ros2_control", "ros_gz_sim", "ros_gz_bridge")
 """Packages that no release before Humble has."""
+
+_REPLACED = {"nav2_recoveries": ("nav2_behaviors", "behavior_server")}
+"""Package until Galactic → its replacement since Humble, and a name that only the replacement has."""
+
+_COMPLETE = frozenset(
+    (
+        *("joint_state_publisher_gui", "nav2_amcl", "nav2_behaviors", "nav2_bt_navigator", "nav2_controller"),
+        *(
+            "nav2_lifecycle_manager",
+            "nav2_planner",
+            "nav2_smoother",
+            "nav2_velocity_smoother",
+            "nav2_waypoint_follower",
+        ),
+        *("rviz", "rviz2", "ros_gz_image", "ros_ign_image", "teleop_twist_joy", "teleop_twist_keyboard"),
+    )
+)
+"""Packages of the table whose executables are the same in all releases."""
 
 _LITERAL = r"\b(?:add_executable|ament_auto_add_executable|catkin_add_executable)\s*\(\s*([^\s()]+)"
 _ENTRY_POINT = r"(?m)[\"']?\b([\w.-]+)\s*=\s*[\w.]+:\w+"
@@ -84,7 +102,14 @@ class Executables:
 @cache
 def released() -> Mapping[str, Executables]:
     """Return package → the executables of common released packages; others may exist in other releases."""
-    return {name: Executables(tuple(names), frozenset(), False) for name, names in _names(_RELEASED).items()}
+    table = _names(_RELEASED).items()
+    return {name: Executables(tuple(names), frozenset(), name in _COMPLETE) for name, names in table}
+
+
+def replacement_of(package: str, texts: Iterable[str]) -> str | None:
+    """Return the package that replaces one of an old release in a workspace for a newer one; None if none does."""
+    new, word = _REPLACED.get(package, (None, ""))
+    return new if new is not None and any(word in text for text in texts) else None
 
 
 def is_of_other_release(package: str, program: str, version: int, texts: Iterable[str]) -> bool:

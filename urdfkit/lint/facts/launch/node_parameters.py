@@ -50,7 +50,9 @@ _OF_PACKAGES = """
 ros_gz_bridge: config_file expand_gz_topic_names override_timestamps_with_wall_time subscription_heartbeat bridge_names
 override_frame_id; robot_state_publisher: publish_frequency ignore_timestamp frame_prefix use_tf_static tf_prefix;
 joint_state_publisher joint_state_publisher_gui: source_list dependent_joints publish_default_positions use_mimic_tags
-publish_default_velocities publish_default_efforts use_smallest_joint_limits; nav2_lifecycle_manager: node_names
+publish_default_velocities publish_default_efforts use_smallest_joint_limits; nav2_map_server: yaml_filename topic_name
+frame_id save_map_timeout free_thresh_default occupied_thresh_default map_subscribe_transient_local;
+nav2_lifecycle_manager: node_names
 autostart bond_timeout attempt_respawn_reconnection bond_respawn_max_duration service_timeout bond_heartbeat_period;
 gmapping: base_frame odom_frame map_frame map_update_interval maxUrange maxRange sigma kernelSize lstep astep iterations
 lsigma ogain lskip minimumScore linearUpdate angularUpdate temporalUpdate resampleThreshold particles occ_thresh
@@ -96,9 +98,14 @@ def misspelt_in_launch(source: Source) -> Iterator[tuple[Named, str, str]]:
         written = {key.name for key in keys}
         lacking = [each for each in accepted if each not in written and len(each) >= _MIN_LENGTH]
         for key in keys:
-            near = next((each for each in lacking if is_slip(key.name, each)), None)
+            near = next((each for each in lacking if is_slip(key.name, each) or _is_start(key.name, each)), None)
             if near is not None and key.name not in accepted:
                 yield key, package, near
+
+
+def _is_start(name: str, parameter: str) -> bool:
+    """Return whether a name is the longer part of a parameter: ``yaml_file`` of ``yaml_filename``."""
+    return len(name) >= _MIN_LENGTH and parameter.startswith(name) and 2 * len(name) > len(parameter)
 
 
 def _in_xml(source: Source) -> Iterator[tuple[str, list[Named]]]:

@@ -22,6 +22,7 @@ from urdfkit.lint.facts.navigation.tables import (
     FRAMES,
     INTEGERS,
     MAY_BE_ZERO,
+    MOTION_MODELS,
     MUX,
     NODES,
     OTHERS,
@@ -86,6 +87,11 @@ def navigation_defects(source: Source, controllers: frozenset[str]) -> Defects:
             for node in walk(group):
                 yield from _switches(node)
                 yield from _similar(node)
+            model_type = group.find("robot_model_type")
+            since_humble = any(each in source.text for each in ("behavior_server", "nav2_behaviors", "nav2_amcl::"))
+            if model_type is not None and since_humble and model_type.text in MOTION_MODELS:
+                right = MOTION_MODELS[model_type.text]
+                yield model_type, f"`robot_model_type` `{model_type.text}` is of Galactic and before; write `{right}`"
         if name in NODES:
             for node in walk(group):
                 yield from _plugins(node)
@@ -174,7 +180,7 @@ def misspelt_navigation(source: Source) -> Iterator[tuple[Node, str, str]]:
     if PARAMETERS not in source.text:
         yield from _misspelt_in_ros1(source)
         return
-    valid = DOUBLES | INTEGERS | OTHERS
+    valid = DOUBLES | INTEGERS | OTHERS | SWITCHES
     named = [(key, group, key.text.strip("/").rpartition("/")[2]) for key, group in sections(source)]
     written = {name for _, _, name in named}
     for outer, value in (entry for root in documents(source)[0] for entry in root.entries):
@@ -278,6 +284,8 @@ def _plugins(node: Node) -> Defects:
         names = {word for _, word in listed}
         unlisted = [name for name in others if name not in names]
         for item, word in listed:
+            if word in defined and key.text != "observation_sources" and "plugin" not in _keys(defined[word][1]):
+                yield defined[word][0], f"`{word}`, which `{key.text}` lists, has no `plugin`"
             if word in defined or any(each.text.startswith(f"{word}.") for each, _ in node.entries):
                 continue
             near = nearest(word, unlisted, cutoff=0.6) or (unlisted[0] if len(others) == len(unlisted) == 1 else None)
@@ -287,6 +295,33 @@ def _plugins(node: Node) -> Defects:
             elif near is not None or (word not in DEFAULTS and key.text != "observation_sources" and others):
                 what = "topic" if key.text == "observation_sources" else "plugin"
                 yield item, f"`{key.text}` lists `{word}`, which has no section with its `{what}`{suggestion(near)}"
+
+
+def _keys(node: Node) -> set[str]:
+    return {key.text for key, _ in node.entries}
+
+
+def _footprint(value: Node) -> str | None:
+    """Return what is wrong with a footprint; None if it is a list of at least three points."""
+    text = value.text.strip()
+    if value.kind == "text" and text and "$" not in text:
+        pair = rf"\[\s*{_NUMBER}\s*,\s*{_NUMBER}\s*\]"
+        if text.count("[") != text.count("]"):
+            return f"`footprint` has {text.count('[')} `[` and {text.count(']')} `]`"
+        if not re.fullmatch(rf"\[\s*{pair}(?:\s*,\s*{pair})*\s*\]", text):
+            return "`footprint` is not a list of points: write [[x1, y1], [x2, y2], …]"
+        count = len(re.findall(pair, text))
+    elif value.kind == "list" and value.items:
+        count = len(value.items)
+        wrong = next((item for item in value.items if item.kind == "list" and len(item.items) != 2), None)
+        if wrong is not None:
+            return f"a point of `footprint` has {len(wrong.items)} coordinates; write x and y"
+    else:
+        return None
+    return f"`footprint` has {count} points; a polygon needs at least 3" if 0 < count < 3 else None
+
+
+_NUMBER = r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?"
 
 
 def _choices(group: Node) -> Defects:
@@ -311,6 +346,8 @@ def _choices(group: Node) -> Defects:
 def _values(node: Node, positive: frozenset[str] = POSITIVE) -> Defects:
     for key, value in node.entries:
         name = key.text
+        if name == "footprint" and (defect := _footprint(value)) is not None:
+            yield value, defect
         if (
             name == "data_type"
             and node.find("topic") is not None

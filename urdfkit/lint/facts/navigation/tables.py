@@ -101,6 +101,27 @@ global_frame_id goal_checker_plugins lethal_cost_threshold local_frame map_subsc
 navigators observation_sources odom_frame_id odom_topic planner_plugins plugin_lib_names plugins
 progress_checker_plugin progress_checker_plugins robot_base_frame rolling_window scan_topic smoother_plugins stateful
 tf_broadcast track_unknown_space use_astar yaml_filename
+min_approach_linear_velocity approach_velocity_scaling_dist use_velocity_scaled_lookahead_dist
+use_regulated_linear_velocity_scaling use_cost_regulated_linear_velocity_scaling regulated_linear_scaling_min_radius
+regulated_linear_scaling_min_speed use_fixed_curvature_lookahead curvature_lookahead_dist use_rotate_to_heading
+rotate_to_heading_angular_vel rotate_to_heading_min_angle max_angular_accel max_robot_pose_search_dist
+max_allowed_time_to_collision_up_to_carrot use_collision_detection allow_reversing min_speed_xy min_speed_theta
+min_vel_x min_vel_y vx_samples vy_samples vtheta_samples short_circuit_trajectory_evaluation debug_trajectory_details
+publish_cost_grid_pc trans_stopped_velocity critics time_steps model_dt batch_size vx_std vy_std wz_std vx_max vx_min
+vy_max wz_max iteration_count prune_distance temperature motion_model visualize downsample_costmap
+downsampling_factor max_iterations max_on_approach_iterations max_planning_time motion_model_for_search
+angle_quantization_bins analytic_expansion_ratio analytic_expansion_max_length minimum_turning_radius reverse_penalty
+change_penalty non_straight_penalty cost_penalty retrospective_penalty lookup_table_size cache_obstacle_heuristic
+smooth_path node_names autostart smoothing_frequency scale_velocities feedback max_velocity min_velocity max_accel
+max_decel odom_duration deadband_velocity velocity_timeout cmd_vel_in_topic cmd_vel_out_topic state_topic
+source_timeout base_shift_correction stop_pub_timeout polygons action_type max_points slowdown_ratio
+time_before_collision simulation_time_step visualize polygon_pub_topic observation_source stop_on_failure
+waypoint_task_executor_plugin waypoint_pause_duration loop_rate current_goal_checker unknown_cost_value
+trinary_costmap inflate_unknown inflate_around_unknown mark_threshold unknown_threshold combination_method
+obstacle_min_range expected_update_rate observation_persistence inf_is_valid sensor_frame subscribe_to_updates
+error_code_names default_nav_to_pose_bt_xml default_nav_through_poses_bt_xml wait_for_service_timeout
+bt_loop_duration save_map_timeout free_thresh_default occupied_thresh_default map_subscribe_transient_local
+required_movement_angle trans_stopped_velocity rot_stopped_velocity xy_goal_tolerance behavior_server_timeout
 """
 OTHERS = frozenset(_OTHERS.split())
 """Further parameters, for which a similar name is a misspelt one."""
@@ -118,6 +139,12 @@ CHOICES = {
 
 SLAM_MODES = ("mapping", "localization")
 """Values of ``mode`` of slam_toolbox (README.md)."""
+
+MOTION_MODELS = {
+    "differential": "nav2_amcl::DifferentialMotionModel",
+    "omnidirectional": "nav2_amcl::OmniMotionModel",
+}
+"""Motion models of amcl until Galactic → the plugins of Humble and later."""
 
 SIMILAR = {
     "robot_model_type": (

@@ -77,6 +77,9 @@ def misnamed(model: Model) -> Defects:
                 elif keys[0][1] not in started:
                     message = f"node `{name}` has no section in {_short(file)}, whose only section is `{keys[0][1]}`"
                     yield node.source, _span(node), message
+            elif node.name is not None and _default(node) in {other for _, other in keys} - started:
+                message = f"node `{name}` has no section in {_short(file)}, which has `{_default(node)}`"
+                yield node.source, _span(node), message
     yield from _unmanaged(model, {each for each in started if each})
 
 
@@ -84,6 +87,12 @@ def _name(node: LaunchedNode) -> str:
     if node.name is not None:
         return node.name.name
     return "" if node.has_name else _DEFAULTS.get((node.package, node.program), "")
+
+
+def _default(node: LaunchedNode) -> str:
+    """Return the name that a released node has by default; empty if unknown."""
+    is_navigation = node.program in NODES and node.package.startswith("nav2_")
+    return node.program if is_navigation else _DEFAULTS.get((node.package, node.program), "")
 
 
 def _span(node: LaunchedNode) -> Span:

@@ -58,7 +58,12 @@ class ExecutableUnknown(RobotRule):
         from urdfkit.description.packages.related_files import neighbours
         from urdfkit.errors import suggestion
         from urdfkit.lint.facts.launch.actions import launch_files
-        from urdfkit.lint.facts.launch.executables import executables_of, is_of_other_release, released
+        from urdfkit.lint.facts.launch.executables import (
+            executables_of,
+            is_of_other_release,
+            released,
+            replacement_of,
+        )
         from urdfkit.lint.facts.launch.ros_version import reads_version
         from urdfkit.lint.facts.ros_packages import misspelling_of
         from urdfkit.lint.fix_builders import nearest
@@ -76,6 +81,12 @@ class ExecutableUnknown(RobotRule):
                 if node.package is None or node.program is None:
                     continue
                 package, program = node.package.name, node.program.name
+                new = replacement_of(package, texts) if package not in near else None
+                if new is not None:
+                    span = file.source.span(node.package.start, node.package.start + len(package))
+                    message = f"since Humble, the package `{new}` replaces `{package}`"
+                    yield Finding(self.code, self.name, self.severity, message, span, help=f"write `{new}`")
+                    continue
                 if package in near:
                     model.expanded.packages.watch(near[package], ".txt")
                 if package not in by_package:
@@ -94,6 +105,7 @@ class ExecutableUnknown(RobotRule):
                 meant = _RENAMED.get((package, program))
                 if meant not in names:
                     meant = nearest(program, names, cutoff=0.6 if program in others else 0.7)
+                    meant = names[0] if meant is None and found.is_complete and len(names) == 1 else meant
                 if meant is None and not found.is_complete and program not in others:
                     continue
                 release = f" in {_RELEASES[version]}" if program in others else ""

@@ -93,7 +93,7 @@ class LaunchElementInvalid(RobotRule):
             elif use[1] not in defined and (near := nearest(use[1], defined, cutoff=0.6)) is not None:
                 yield self._at(source, use.span(1), f"unknown substitution `{use[1]}`; did you mean `{near}`?")
         # launch reports an unclosed substitution of ROS 2 itself; roslaunch takes it as text.
-        for use in re.finditer(r"\$\((?:find|arg|env|optenv|anon)\s[^()\"'<>$]*(?=[\"'<>])", uncommented(source)):
+        for use in re.finditer(r"\$\((?:find|arg|env|optenv|anon)\s[^()\"'<>$]*(?=[\"'<>]|\$\()", uncommented(source)):
             yield self._at(source, use.span(), f"`{use[0]}` has no closing parenthesis")
 
     def _tag(self, source: Source, tag: Tag, version: int) -> Findings:

@@ -89,10 +89,13 @@ class ParameterValueInvalid(RobotRule):
         from urdfkit.lint.facts.moveit.settings import moveit_yamls
         from urdfkit.lint.facts.navigation.defects import navigation_defects
         from urdfkit.lint.facts.navigation.maps import map_defects
+        from urdfkit.lint.facts.navigation.odometry_transforms import published_twice
 
         of_moveit = {source.file for source, _ in moveit_yamls(model)}
         is_typed_at_start = any(re.search(r"controller.type", file.text) for file in model.related_files.values())
         names = frozenset(name for source in yamls(model) for name in controllers(source))
+        for source, place, message in published_twice(model):
+            yield Finding(self.code, self.name, self.severity, message, span_of(source, place))
         for source in yamls(model):
             for place, message in (*navigation_defects(source, names), *map_defects(source)):
                 yield Finding(self.code, self.name, self.severity, message, span_of(source, place))

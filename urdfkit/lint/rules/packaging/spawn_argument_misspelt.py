@@ -21,6 +21,16 @@ _OPTIONS: dict[str, tuple[str, ...]] = {
 }
 """Program → its options (ros_gz_sim Jazzy; gazebo_ros Humble and Noetic)."""
 
+_SPAWNERS = {
+    1: ("wait-for", "namespace", "timeout", "stopped", "shutdown-timeout"),
+    2: (
+        *("controller-manager", "param-file", "namespace", "load-only", "inactive", "activate-as-group"),
+        *("unload-on-kill", "controller-manager-timeout", "switch-timeout", "service-call-timeout", "stopped"),
+        *("fallback_controllers", "controller-type", "controller-ros-args", "ros-args", "help"),
+    ),
+}
+"""Version of ROS → options of the spawner of controller_manager (Noetic; Humble to Rolling)."""
+
 _PACKAGES = ("ros_gz_sim", "ros_ign_gazebo", "gazebo_ros")
 _SYNONYMS = {
     "create": {"entity": "name", "model": "name", "robot": "name", "yaw": "Y", "pitch": "P", "roll": "R"},
@@ -33,13 +43,13 @@ _DESCRIPTION = "robot_description"
 
 
 class SpawnArgumentMisspelt(RobotRule):
-    """A launch file passes an unknown option to a Gazebo spawner.
+    """A launch file passes an unknown option to a spawner.
 
     ## What it does
-    Checks the arguments of ``create`` (ros_gz_sim), ``spawn_entity.py`` and ``spawn_model`` (gazebo_ros) for misspelt
-    options, for options of another spawner, and for misspellings of the topic or parameter ``robot_description`` and of
-    joints. The spawners of Gazebo Classic need a source of the description. Python launch files are parsed, not
-    executed.
+    Checks the arguments of ``create`` (ros_gz_sim), ``spawn_entity.py`` and ``spawn_model`` (gazebo_ros) and
+    ``spawner`` (controller_manager) for misspelt options, for options of another spawner, and for misspellings of
+    the topic or parameter ``robot_description`` and of joints. The spawners of Gazebo Classic need a source of the
+    description. Python launch files are parsed, not executed.
 
     ## Why is this bad?
     The spawner fails, or waits forever for a description, and the robot does not appear in the world. ``create``
@@ -71,11 +81,17 @@ class SpawnArgumentMisspelt(RobotRule):
     def check(self, model: Model) -> Findings:
         """Yield a finding for each invalid argument."""
         from urdfkit.lint.facts.control.launched_nodes import launches, started
+        from urdfkit.lint.facts.launch.ros_version import reads_ros1
 
         for source in launches(model):
-            if not any(package in source.text for package in _PACKAGES):
+            if not any(package in source.text for package in (*_PACKAGES, "controller_manager")):
                 continue
             for node in started(source):
+                if node.package == "controller_manager" and node.program in ("spawner", "spawner.py"):
+                    for start, text, message in _unknown_options(node, 1 if reads_ros1(source) else 2):
+                        yield Finding(
+                            self.code, self.name, self.severity, message, source.span(start, start + len(text))
+                        )
                 is_own = (node.package == "gazebo_ros") == (node.program != "create")
                 if node.package in _PACKAGES and node.program in _OPTIONS and is_own:
                     invalid = (*_invalid_arguments(node, model), *_unknown_joints(node, model), *_without_source(node))
@@ -83,6 +99,20 @@ class SpawnArgumentMisspelt(RobotRule):
                         span = source.span(start, start + len(text))
                         severity = "warning" if _is_ignored(node, text) else self.severity
                         yield Finding(self.code, self.name, severity, message, span)
+
+
+def _unknown_options(node: Started, version: int) -> Iterator[tuple[int, str, str]]:
+    """Yield the offset, text and message of each misspelt option of the spawner of controllers."""
+    from urdfkit.lint.fix_builders import nearest
+
+    for word in node.arguments:
+        option = re.fullmatch(r"--?([A-Za-z][\w-]{3,})", word.name.partition("=")[0]) if word is not None else None
+        if word is None or option is None or option[1] in _SPAWNERS[version]:
+            continue
+        near = nearest(option[1], _SPAWNERS[version], cutoff=0.8)
+        if near is not None:
+            text = word.name.partition("=")[0]
+            yield word.start, text, f"unknown option `{text}` of `{node.program}`; did you mean `--{near}`?"
 
 
 def _is_ignored(node: Started, option: str) -> bool:

@@ -102,7 +102,8 @@ class AxisContradictsPart(RobotRule):
         partners = {joint.name: pair for pair in pairs if pair.are_sides for joint in (pair.first, pair.second)}
         found: set[str] = set()
         for joint in model.robot.joints:
-            axis = _axis_in_root(joint, model) if joint.is_movable else None
+            is_whole = joint.is_movable and joint.child in model.robot.link_by_name
+            axis = _axis_in_root(joint, model) if is_whole else None
             message = _defect(joint, axis, partners.get(joint.name), model) if axis is not None else None
             if message is not None and not _is_disc(joint, model):
                 found.add(joint.name)
