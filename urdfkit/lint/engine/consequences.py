@@ -40,7 +40,7 @@ _CONSEQUENCES: tuple[tuple[Pattern, Relation, Pattern], ...] = (
     (("C707", "undefined joint"), "robot", ("K965", "lacks joint")),
     (("K972", "the build tool is"), "robot", ("K967", "")),
     (("K973", "needs find_package("), "robot", ("K972", "CMakeLists.txt")),
-    (("K973", "the name in setup.py"), "robot", ("K973", "`resource/")),
+    (("K973", "the name in setup.py"), "robot", ("K973", "does not exist in this package")),
     (("M102", "<disable_collisions>"), "robot", ("M110", "")),
     (("T204", "loop"), "robot", ("M102", "the reason is")),
     (("T204", "loop"), "robot", ("M105", "")),
