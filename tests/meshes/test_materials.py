@@ -201,6 +201,36 @@ def test_the_opacity_of_a_collada_effect_by_its_mode(
     assert found[3] == pytest.approx(alpha, abs=1)
 
 
+PLACES = """<source id="t"><float_array id="u" count="6">0 0 1 0 0 1</float_array>
+<technique_common><accessor source="#u" count="3" stride="2"><param name="S" type="float"/>
+<param name="T" type="float"/></accessor></technique_common></source><vertices id="v">"""
+PICTURE = """<newparam sid="s"><surface type="2D"><init_from>i</init_from></surface></newparam>
+<newparam sid="p"><sampler2D><source>s</source></sampler2D></newparam>"""
+
+
+@pytest.mark.parametrize(("more", "alpha"), [("", 255), ('<transparent><texture texture="p"/></transparent>', 102)])
+def test_the_alpha_of_a_collada_texture_is_used_where_the_opacity_is_a_texture(
+    tmp_path: Path, more: str, alpha: int
+) -> None:
+    Image.fromarray(np.full((2, 2, 4), (10, 20, 30, 102), dtype=np.uint8)).save(tmp_path / "p.png")
+    emission = '<emission><texture texture="p"/></emission>'
+    written = DAE.format(effect=f'<lambert>{emission}<diffuse><texture texture="p"/></diffuse>{more}</lambert>')
+    for before, after in (
+        ('<vertices id="v">', PLACES),
+        ('offset="0"/><p>0 1 2</p>', 'offset="0"/><input semantic="TEXCOORD" source="#t" offset="0"/><p>0 1 2</p>'),
+        ('<technique sid="c">', f'{PICTURE}<technique sid="c">'),
+        (
+            "<library_effects>",
+            '<library_images><image id="i"><init_from>p.png</init_from></image></library_images><library_effects>',
+        ),
+    ):
+        assert before in written
+        written = written.replace(before, after)
+    (tmp_path / "a.dae").write_text(written)
+    (texture,) = MeshLoader().load(tmp_path / "a.dae").textures
+    assert texture.pixels[0, 0].tolist() == [10, 20, 30, alpha]
+
+
 @pytest.mark.parametrize(
     ("effect", "color"),
     [

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+from typing import Any
 from xml.etree import ElementTree
+
+import numpy as np
 
 BEGIN, END = b"<library_effects", b"</library_effects>"
 LUMINANCE = (0.212671, 0.71516, 0.072169)
@@ -12,7 +15,8 @@ LUMINANCE = (0.212671, 0.71516, 0.072169)
 def plain_effects(content: bytes) -> bytes:
     """Return a file with the opacity of effects in ``<transparent>``, and their emission in the diffuse colour.
 
-    Other content, such as textures of the opacity, is kept.
+    An effect whose opacity is a texture gets an emission other than black, as a mark for `has_texture_opacity`. Other
+    content is kept.
     """
     begin, end = content.find(BEGIN), content.rfind(END)
     if begin < 0 or end < begin:
@@ -28,6 +32,12 @@ def plain_effects(content: bytes) -> bytes:
     return content[:begin] + ElementTree.tostring(root) + content[end + len(END) :]
 
 
+def has_texture_opacity(material: Any) -> bool:
+    """Whether the opacity of a material that trimesh read from a `plain_effects` file is a texture."""
+    emission = getattr(material, "emissiveFactor", None)
+    return emission is not None and bool(np.any(emission))
+
+
 def _change(shading: ElementTree.Element) -> bool:
     before = ElementTree.tostring(shading)
     emission = _numbers(shading, "emission/color")
@@ -41,6 +51,12 @@ def _change(shading: ElementTree.Element) -> bool:
         if written is not None and color is not None:
             lit = [min(1.0, a + b) for a, b in zip(color[:3], emission, strict=False)]
             written.text = " ".join(map(str, (*lit, *color[3:])))
+    is_texture = shading.find("transparent/texture") is not None
+    if is_texture or (emission is not None and any(emission[:3])):
+        for written in shading.findall("emission"):
+            shading.remove(written)
+    if is_texture:
+        ElementTree.SubElement(ElementTree.SubElement(shading, "emission"), "color").text = "1 1 1 1"
     transparent, transparency = shading.find("transparent"), shading.find("transparency")
     color, factor = _numbers(shading, "transparent/color"), _numbers(shading, "transparency/float")
     if (transparent is None or color is not None) and (transparency is None or factor is not None):

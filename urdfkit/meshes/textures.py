@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from urdfkit.description.packages.existence import is_file
+from urdfkit.meshes.collada_effects import has_texture_opacity
 from urdfkit.meshes.material_colors import factor_of, linear_of, srgb_bytes, to_bytes
 from urdfkit.meshes.picture_files import PICTURES, places, unreadable
 
@@ -61,7 +62,7 @@ def texture_of(material: Any, *, linear: bool) -> Texture | None:
         return None
     pixels = _pixels(picture)
     factor = factor_of(material)
-    if linear and getattr(material, "alphaMode", None) in (None, "OPAQUE"):
+    if getattr(material, "alphaMode", "") in (None, "OPAQUE") and (linear or not has_texture_opacity(material)):
         pixels[..., 3] = 255
     if factor is not None and (factor != 1.0).any():
         scaled = np.arange(256)[:, None] / 255.0 * factor  # each channel is a function of a byte
