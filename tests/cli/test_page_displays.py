@@ -166,6 +166,34 @@ def test_topics_are_drawn_with_their_options_and_saved_as_a_layout(shown, visits
     visits.problems.clear()  # the browser reports the closed connection
 
 
+def test_a_path_is_drawn_over_the_map(shown, visits, until) -> None:
+    page = visits.open(shown.server.url, ready=False)
+    shown.topics()
+    poses = [{"pose": {"position": {"x": x, "y": 2.0}, "orientation": {"w": 1.0}}} for x in (0.0, 2.0)]
+    shown.simulation.publish("/plan", "nav_msgs/msg/Path", "map", poses=poses)
+    until(lambda: shown.tick() or page.locator("#open-displays").is_visible())
+    panel(page, "displays")
+    for topic in ("/map", "/plan"):
+        until(lambda topic=topic: shown.tick() or page.locator(f"[data-display='{topic}']").is_visible())
+        page.locator(f"[data-display='{topic}'] input[type=checkbox]").check()
+        until(lambda topic=topic: shown.tick() or page.evaluate(DRAWN, topic))
+    page.evaluate("urdfkit.viewport.fit(urdfkit.scene.bounds(), [-0.3, -1, 0.9], 9)")
+    pink = """() => {
+      const { viewport } = urdfkit, canvas = document.createElement("canvas");
+      viewport.draw(400, 300);
+      Object.assign(canvas, { width: 400, height: 300 });
+      const pen = canvas.getContext("2d");
+      pen.drawImage(viewport.viewer.renderer.domElement, 0, 0);
+      viewport.resize();
+      const { data } = pen.getImageData(0, 0, 400, 300);
+      let count = 0;
+      for (let i = 0; i < data.length; i += 4) count += data[i] > 200 && data[i + 1] < 100 && data[i + 2] > 120;
+      return count;
+    }"""
+    until(lambda: shown.tick() or page.evaluate(pink) > 40)
+    assert visits.problems == []
+
+
 def test_the_mesh_of_a_marker_is_drawn(shown, visits, until, keep, tmp_path: Path) -> None:
     page = visits.open(shown.server.url, ready=False)
     shown.simulation.kinematics.robot.packages = package_with_mesh(tmp_path)

@@ -641,6 +641,31 @@ TYPED = """async (text) => {
 }"""
 
 
+def test_plots_below_the_view_have_their_legend_beside_them(page) -> None:
+    page.evaluate("urdfkit.plots.add('/odom', 'twist.twist.linear.y')")
+    shown = page.evaluate(
+        """() => {
+          urdfkit.page.emit("samples", { curve: "field:/odom:twist.twist.linear.y", t: [1e6], values: [1e-39] });
+          return document.querySelector(".legend .value").textContent;
+        }"""
+    )
+    assert shown == "0"
+    page.evaluate("urdfkit.page.panels.places.put(urdfkit.page.panels.all.get('plots'), 'below', true)")
+    canvas, legend = page.locator("#plot").bounding_box(), page.locator(".legend").bounding_box()
+    assert canvas["x"] + canvas["width"] <= legend["x"]
+    page.evaluate("urdfkit.plots.remove('field:/odom:twist.twist.linear.y')")
+    page.evaluate("urdfkit.page.panels.places.put(urdfkit.page.panels.all.get('plots'), 'side', true)")
+
+
+def test_symbols_of_many_centres_of_mass_are_smaller(page) -> None:
+    count, size = page.evaluate(
+        "(() => { const { com } = urdfkit.markers.made;"
+        " return [com.length, com[0].scale.x / urdfkit.viewport.radius / urdfkit.markers.size]; })()"
+    )
+    assert count > 4
+    assert size == pytest.approx(0.07 / math.sqrt(count))
+
+
 def test_the_list_of_objects_keeps_the_focus(page) -> None:
     put_down(page)
     order(page, "spawn", model="crate", pose=[2, 2, 0], name="first")

@@ -1,11 +1,13 @@
 // Three.js objects of the items of a display: lines, arrows, shapes, maps and points.
 /* global MeshCat */
 
+import { inFront } from "../appearance/in_front.js";
 import { COLOURS } from "../handles/gizmo.js";
 
 const THREE = MeshCat.THREE;
 const X = new THREE.Vector3(1, 0, 0);
 const MANY = 40; // arrows beyond this number are lines
+const LIFT = 0.003; // part of the distance by which a path is in front of a map
 const ABOVE = 0.003; // m above its plane, so that a map does not flicker with the ground
 const METRES = { N: 0.02, "N·m": 0.2, "m/s": 1, "rad/s": 0.5, "m/s²": 0.1, "rad/s²": 0.1 }; // length of an arrow per unit
 
@@ -33,7 +35,7 @@ export function dispose(group) {
 }
 
 const MAKE = {
-  line: ({ line, ...item }, options) => placed(new THREE.Line(vertices(line, item.colors), material(THREE.LineBasicMaterial, item, options)), item.pose),
+  line: ({ line, ...item }, options) => placed(new THREE.Line(vertices(line, item.colors), inFront(material(THREE.LineBasicMaterial, item, options), LIFT)), item.pose),
   segments: ({ segments, ...item }, options) => placed(new THREE.LineSegments(vertices(segments, item.colors), material(THREE.LineBasicMaterial, item, options)), item.pose),
   arrow: (item, options) => arrow(new THREE.Vector3(...item.arrow), X.clone().applyQuaternion(turn(item.arrow)), item.length * options.size, colour(item, options)),
   vector: vector,
@@ -146,7 +148,7 @@ function points(item, options) {
   if (item.colors) geometry.setAttribute("color", new THREE.BufferAttribute(bytes(item.colors), 3, true));
   else if (coloured) geometry.setAttribute("color", new THREE.BufferAttribute(scale(floats(item.values), item.range), 3));
   const look = coloured ? { vertexColors: true } : { color: options.color };
-  const made = new THREE.Points(geometry, new THREE.PointsMaterial({ ...look, size: 3 * options.size, sizeAttenuation: false }));
+  const made = new THREE.Points(geometry, inFront(new THREE.PointsMaterial({ ...look, size: 3 * options.size, sizeAttenuation: false })));
   made.frustumCulled = false;
   return made;
 }

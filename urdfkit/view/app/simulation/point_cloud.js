@@ -1,6 +1,8 @@
 // Point clouds in the scene with reused buffers, and a view of the points from above.
 /* global MeshCat */
 
+import { inFront } from "../appearance/in_front.js";
+
 const THREE = MeshCat.THREE;
 const ROOM = 1.5; // factor of spare space in a buffer
 const BACK = { light: "#e9edf2", dark: "#0f141b" };
@@ -14,6 +16,7 @@ export class Cloud {
     this.capacity = 0;
     this.colored = false;
     this.points = new THREE.Points(new THREE.BufferGeometry(), new THREE.PointsMaterial({ color: colour, size, sizeAttenuation: false }));
+    inFront(this.points.material); // points of a wall are noisy
     this.points.frustumCulled = false;
     viewport.viewer.scene.add(this.points);
   }

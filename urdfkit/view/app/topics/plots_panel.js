@@ -88,7 +88,7 @@ export class Plots {
     }
     found.curve.push(t, values);
     const last = values.at(-1);
-    found.value.textContent = last === null || last === undefined ? "" : String(Number(last.toPrecision(4)));
+    found.value.textContent = last === null || last === undefined ? "" : Math.abs(last) < 1e-12 ? "0" : String(Number(last.toPrecision(4))); // integration leaves numbers like 1e-39
     if (this.panel.open) this.plot.dirty();
   }
 

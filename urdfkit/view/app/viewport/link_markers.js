@@ -42,7 +42,7 @@ const SHAPES = {
   frame: bars(),
   shaft: new THREE.CylinderGeometry(0.035, 0.035, 1, 10).translate(0, 0.5, 0),
   tip: new THREE.ConeGeometry(0.1, 0.28, 16).translate(0, 1.1, 0),
-  ball: new THREE.SphereGeometry(1, 28, 18),
+  ball: new THREE.SphereGeometry(1, 64, 40),
   checkered: checkered(),
 };
 const over = { depthTest: false, transparent: true };
@@ -129,7 +129,8 @@ export class Markers {
 
   update() {
     const radius = this.page.viewport.radius * this.size;
-    const sizes = { frames: 0.22 * radius, axes: 0.24 * radius, com: 0.035 * radius };
+    // The more centres of mass, the smaller their symbols, so that robots of many links stay visible.
+    const sizes = { frames: 0.22 * radius, axes: 0.24 * radius, com: 0.035 * radius * Math.min(1, 2 / Math.sqrt(this.made.com.length || 1)) };
     for (const [kind, marks] of Object.entries(this.made)) {
       for (const mark of marks) {
         if (!this.shown[kind]) mark.parent?.remove(mark);
