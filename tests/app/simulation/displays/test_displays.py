@@ -15,6 +15,7 @@ import pytest
 pytest.importorskip("meshcat")
 pytest.importorskip("pinocchio")
 
+from tests.app.simulation.displays.marker_server import MarkerServer
 from urdfkit.app.simulation.displays.displays import DISPLAY, FRAMES, TYPES, Displays
 from urdfkit.app.simulation.displays.drawings import drawing
 from urdfkit.bus import Bus
@@ -227,35 +228,80 @@ def test_a_marker_has_a_mesh_of_a_package_and_no_other_file(made, tmp_path: Path
 
 
 def test_interactive_markers_are_kept_as_their_server_sends_them(made) -> None:
-    simulation, _, displays = made
+    simulation, _, _ = made
     simulation.transform("map", "base", 1.0, 2.0)
-
-    def send(kind: str, topic: str, **fields: Any) -> None:
-        simulation.bus.publish(topic, f"{INTERACTIVE}{kind}", from_fields(f"{INTERACTIVE}{kind}", fields))
+    server = MarkerServer(simulation.bus, "/tool")
 
     def markers() -> dict[str, Any]:
         return {each["items"][0]["name"]: each["items"][0] for each in shown(made, "/tool/update")["groups"]}
 
-    send("Init", "/tool/update_full", markers=[interactive_marker("a"), interactive_marker("b", 1.5)])
-    send("Update", "/tool/update", type=0)
+    server.insert(interactive_marker("a"))
+    server.insert(interactive_marker("b", 1.5))
+    server.apply_changes()
+    server.keep_alive()
     first = markers()
     assert [each["mode"] for each in first["a"]["controls"]] == [2, 3, 5, 3, 5, 3, 5]
     assert first["a"]["controls"][0]["items"][0]["shape"] == "cube"
     assert (first["b"]["pose"][:3], first["b"]["frame"], first["b"]["menu"]) == ([1.5, 0.0, 0.3], "map", [[7, "Home"]])
-    moved = {"name": "b", "header": {"frame_id": "base"}, "pose": {"position": {"y": 2.0}}}
-    send("Update", "/tool/update", type=1, erases=["a"], poses=[moved], markers=[interactive_marker("c")])
+    server.erase("a")
+    server.set_pose("b", {"position": {"y": 2.0}, "orientation": {"w": 1.0}}, "base")
+    server.insert(interactive_marker("c"))
+    server.apply_changes()
+    server.keep_alive()
     after = markers()
     assert after.keys() == {"b", "c"}
     assert (after["b"]["pose"], after["b"]["frame"]) == ([0.0, 2.0, 0.0, 0, 0, 0, 1], "base")
+    again = MarkerServer(simulation.bus, "/tool")  # the node has started again
+    assert markers() == {}
+    again.insert(interactive_marker("d"))
+    again.apply_changes()
+    assert markers().keys() == {"d"}
+
+
+def test_all_interactive_markers_of_ros_2_are_requested_at_first_and_after_a_loss(made) -> None:
+    simulation, _, displays = made
+    simulation.transform("map", "base", 1.0, 2.0)
+    server = MarkerServer(simulation.bus, "/arm", is_ros1=False)
     asked: list[Any] = []
-    displays.request_markers = lambda topic, take: asked.append((topic, take))  # that of a graph of ROS 2
-    send("Update", "/other/update", type=0)
-    shown(made, "/other/update")
+    displays.request_markers = lambda topic, take: asked.append((topic, take))
+
+    def positions() -> dict[str, float]:
+        items = (each["items"][0] for each in shown(made, "/arm/update")["groups"])
+        return {item["name"]: item["pose"][0] for item in items}
+
+    def pose(x: float) -> dict[str, Any]:
+        return {"position": {"x": x}, "orientation": {"w": 1.0}}
+
+    server.insert(interactive_marker("a", 1.0))
+    server.insert(interactive_marker("b", 2.0))
+    server.apply_changes()
+    server.keep_alive()
+    shown(made, "/arm/update")
     ((topic, take),) = asked
-    assert topic == "/other/update"
-    response = {"sequence_number": 4, "markers": [interactive_marker("d")]}
-    take(from_fields("visualization_msgs/srv/GetInteractiveMarkers_Response", response))
-    assert shown(made, "/other/update")["groups"][0]["items"][0]["name"] == "d"
+    assert topic == "/arm/update"
+    response = server.response()  # on its way while the next updates arrive
+    server.set_pose("a", pose(3.0))
+    server.apply_changes()
+    server.erase("b")
+    server.apply_changes()
+    take(response)
+    assert positions() == {"a": 3.0}
+    server.keep_alive()
+    server.insert(interactive_marker("c", 4.0))
+    server.apply_changes(lost=True)
+    server.set_pose("a", pose(5.0))
+    server.apply_changes()
+    assert positions() == {"a": 5.0}
+    assert len(asked) == 2
+    asked[1][1](server.response())
+    assert positions() == {"a": 5.0, "c": 4.0}
+    server.erase("c")
+    server.apply_changes(lost=True)
+    server.keep_alive()
+    shown(made, "/arm/update")
+    asked[2][1](server.response())
+    assert positions() == {"a": 5.0}
+    assert len(asked) == 3
 
 
 def test_frames_have_their_ages(made) -> None:

@@ -219,6 +219,9 @@ class _Display:
         changed, fault = False, None
         links = self._displays.links()
         if self._markers is not None:
+            if isinstance(self._markers, InteractiveMarkerStore) and self._markers.is_stale:
+                self._markers.is_stale = False
+                self._displays.request_markers(self._topic.name, self._take)
             before = self._sent[0] if self._sent is not None else -1
             groups = self._markers.groups()
             changed = before != self._markers.changes

@@ -16,6 +16,8 @@ from urdfkit.app.simulation.displays.markers import drawn_marker
 UPDATE, INIT = "visualization_msgs/msg/InteractiveMarkerUpdate", "visualization_msgs/msg/InteractiveMarkerInit"
 SERVICE = "visualization_msgs/srv/GetInteractiveMarkers"
 KEEP_ALIVE = 0
+RECENT = 100
+"""Number of updates that are kept until all markers arrive."""
 MOST = 500
 """Maximum number of interactive markers of a topic."""
 
@@ -34,19 +36,42 @@ class InteractiveMarkerStore:
     Attributes:
         changes: number of changes.
         fault: why a mesh is not drawn; empty if all are.
+        is_stale: whether an update was lost, so that all markers are to be requested again.
     """
 
     def __init__(self, mesh: Callable[[str], str]) -> None:
         self._mesh = mesh
         self._kept: dict[str, tuple[str, Item]] = {}
-        self.changes, self.fault = 0, ""
+        self._number: int | None = None  # of the last message
+        self._recent: list[Any] = []  # the last updates
+        self.changes, self.fault, self.is_stale = 0, "", False
 
     def take(self, message: Any) -> None:
-        """Apply an InteractiveMarkerUpdate, or an InteractiveMarkerInit or response, which contain all markers."""
+        """Apply an InteractiveMarkerUpdate, or an InteractiveMarkerInit or response, which contain all markers.
+
+        A server numbers its updates. A response contains the updates up to its number; those after it, which may have
+        arrived before the response, are applied again. A server of ROS 1 sends all markers after each update.
+        """
         if not hasattr(message, "erases"):
+            is_response = hasattr(message, "sequence_number")
+            number = int(message.sequence_number if is_response else message.seq_num)
+            self._recent = [update for update in self._recent if is_response and update.seq_num > number]
+            self._number, self.is_stale = int(self._recent[-1].seq_num) if self._recent else number, False
             self._kept.clear()
-        elif message.type == KEEP_ALIVE:
+            for each in (message, *self._recent):
+                self._apply(each)
             return
+        before, self._number = self._number, int(message.seq_num)
+        if before is not None and self._number < before:  # the server has started again
+            self._recent.clear()
+        next_number = before if message.type == KEEP_ALIVE or before is None else before + 1
+        self.is_stale |= before is not None and self._number not in (before, next_number)
+        if message.type == KEEP_ALIVE or (self._number and self._number == before):
+            return
+        self._recent = [*self._recent[1 - RECENT :], message]
+        self._apply(message)
+
+    def _apply(self, message: Any) -> None:
         self.changes += 1
         for name in getattr(message, "erases", ()):
             self._kept.pop(name, None)

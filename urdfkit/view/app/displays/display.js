@@ -100,7 +100,7 @@ export class Display {
     const root = new THREE.Group();
     const options = { ...this.options, changed: () => this.page.viewport.dirty(), mesh: (name) => this.page.scene.mesh(name) };
     const groups = content.map(({ pose, items }) => place(build(items, options), pose));
-    root.add(...groups);
+    for (const group of groups) root.add(group);
     root.traverse((object) => (object.userData.display = this.topic));
     this.page.viewport.viewer.scene.add(root);
     this.drawn.push({ time, root, groups, content });
