@@ -13,6 +13,8 @@ PLACEHOLDER = "structure_needs_at_least_one_member"
 
 TYPE_FUNCTIONS = {"11": (14, (8, 9, 10))}
 """Major version of Cyclone DDS → length of ``struct ddsi_sertype_ops``, and its type_id, type_map and type_info."""
+LOOKUP_VERSIONS = ("11.0.1",)
+"""Versions of Cyclone DDS whose structures were compared with the numbers below."""
 LOOKUP_TYPES = (b"DDS::Builtin::TypeLookup_Request", b"DDS::Builtin::TypeLookup_Reply")
 """Names of the types of the type lookup service."""
 DOMAIN_WORDS, DATA_FUNCTIONS, TO_SAMPLE, TO_NO_SAMPLE = 1024, 18, 9, 11
