@@ -21,7 +21,7 @@ Types = Mapping[str, Mapping[str, str]]
 
 @dataclass(frozen=True)
 class Search:
-    """What a command looks up on a graph.
+    """The names that a command looks up on a graph.
 
     Attributes:
         kind: ``topics``, ``services`` or ``actions``.
@@ -54,8 +54,8 @@ def wait_for_discovery(
     has appeared for some time. A search that finds nothing ends after `DISCOVERY`.
 
     Args:
-        find: returns what is discovered so far; kinds that the library lacks are not searched.
-        search: what is looked up.
+        find: returns the names that are discovered so far; kinds that the library lacks are not searched.
+        search: the names to look up.
         clock: wall clock [s].
         sleep: function that waits for a number of seconds.
     """

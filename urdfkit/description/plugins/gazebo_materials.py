@@ -90,7 +90,7 @@ def unknown_material(material: Element) -> tuple[Element, str, str | None] | Non
     place, name = script_of(material)
     short = name.removeprefix("Gazebo/")
     if short == name:
-        lower = {known.lower(): known for known in names}
+        lower = {each.lower(): each for each in names}
         near = lower.get(name.lower().replace("_", ""))
         return (place, name, f"Gazebo/{near}") if near is not None and not material.children else None
     if short in names:

@@ -82,7 +82,7 @@ def without_consequences(findings: list[Finding]) -> list[Finding]:
 
 
 def _common(finding: Finding, relation: Relation) -> Collection[object]:
-    """Return what a cause and its consequence have in common."""
+    """Return the common part of a cause and its consequence."""
     if relation == "line":
         return ((finding.file, finding.line),)
     if relation == "call":

@@ -13,9 +13,9 @@ from urdfkit.description.xml.source import Source
 from urdfkit.errors import nearest, suggestion
 from urdfkit.lint.facts.control.ros2_controllers import PARAMETERS
 from urdfkit.lint.facts.control.yaml_tree import Node, documents, not_a_number, number_of, walk
+from urdfkit.lint.facts.navigation.sections import costmaps_of_ros1, sections
 from urdfkit.lint.facts.navigation.tables import (
     CHOICES,
-    COSTMAP_ROS1,
     DEFAULTS,
     DOUBLES,
     FILTER_POSITIVE,
@@ -25,8 +25,6 @@ from urdfkit.lint.facts.navigation.tables import (
     MOTION_MODELS,
     MUX,
     NODES,
-    OTHERS,
-    PLUGINS,
     POSITIVE,
     SIMILAR,
     SLAM_DOUBLES,
@@ -39,27 +37,13 @@ from urdfkit.lint.facts.navigation.tables import (
 Defects = Iterator[tuple[Node, str]]
 
 _LISTS = ("plugins", "filters", "navigators")
-_COSTMAPS = ("local_costmap", "global_costmap")
 _INPUT = r"((?:odom|imu|pose|twist)\d+)(?:_(\w+))?"
 _OF_INPUTS = (
     *("config", "differential", "relative", "queue_size", "remove_gravitational_acceleration", "nodelay"),
     *("pose_rejection_threshold", "twist_rejection_threshold", "linear_acceleration_rejection_threshold"),
 )
-_TOPICS = ("scan", "odom", "cmd_vel", "joint_states", "local_costmap", "global_costmap", "costmap_raw")
 _INTEGER = r"[-+]?\d+"
 _DOUBLE = r"[-+]?\d*\.\d*"
-
-
-def sections(source: Source) -> Iterator[tuple[Node, Node]]:
-    """Yield the names of nodes of ROS 2 in a YAML file with their parameters; namespaces are passed over."""
-    waiting = [(entry, 0) for root in documents(source)[0] for entry in root.entries]
-    while waiting:
-        (key, value), depth = waiting.pop(0)
-        group = value.find(PARAMETERS)
-        if group is not None:
-            yield key, group
-        elif depth < 3:
-            waiting += [(entry, depth + 1) for entry in value.entries]
 
 
 def navigation_defects(source: Source, controllers: frozenset[str]) -> Defects:
@@ -112,15 +96,6 @@ def navigation_defects(source: Source, controllers: frozenset[str]) -> Defects:
             yield from _values(group, FILTER_POSITIVE)
 
 
-def costmaps_of_ros1(source: Source) -> Iterator[Node]:
-    """Yield the groups of parameters of costmap_2d in a YAML file of ROS 1."""
-    if "footprint" not in source.text and "frame" not in source.text:
-        return
-    for node in (each for root in documents(source)[0] for each in walk(root) if each.kind == "group"):
-        if len({key.text for key, _ in node.entries} & COSTMAP_ROS1) >= 3:
-            yield node
-
-
 def _switches(node: Node) -> Defects:
     """Yield the values of truth values that are neither true nor false."""
     for key, value in node.entries:
@@ -171,78 +146,6 @@ def _mux(group: Node) -> Defects:
 _TRUTH = r"true|false|yes|no|on|off|y|n"
 _SLIP_OF_TRUTH = r"[Tt](?:ure|reu|ru|rie|ruee|tue|reue)|[Ff](?:asle|lase|ales|als|alsee|lse|ase)"
 """Matches the misspelt truth values that parameter-value-invalid reports in each YAML file."""
-
-
-def misspelt_navigation(source: Source) -> Iterator[tuple[Node, str, str]]:
-    """Yield the misspelt nodes, plugins and parameters of Nav2: YAML node, kind, suggested name."""
-    from urdfkit.lint.facts.ros_packages import is_slip
-
-    if PARAMETERS not in source.text:
-        yield from _misspelt_in_ros1(source)
-        return
-    valid = DOUBLES | INTEGERS | OTHERS | SWITCHES
-    named = [(key, group, key.text.strip("/").rpartition("/")[2]) for key, group in sections(source)]
-    written = {name for _, _, name in named}
-    for outer, value in (entry for root in documents(source)[0] for entry in root.entries):
-        if outer.text in _COSTMAPS and not {outer.text, PARAMETERS} & {key.text for key, _ in value.entries}:
-            yield from ((key, "node", outer.text) for key, inner in value.entries if inner.find(PARAMETERS) is not None)
-    for key, group, name in named:
-        if name not in NODES:
-            near = next((each for each in sorted(NODES - written) if is_slip(name, each)), None)
-            if near is not None:
-                yield key, "node", near
-            continue
-        for node in walk(group) if name != "amcl" else ():  # `node_parameters` has the parameters of amcl
-            names = {each.text for each, _ in node.entries}
-            for parameter, value in node.entries:
-                if parameter.text == "plugin" and value.kind == "text":
-                    written_type = value.text.replace("/", "::")
-                    near = _meant_plugin(written_type)
-                    if near is not None:
-                        yield value, "plugin", near.replace("::", "/" if "/" in value.text else "::")
-                    continue
-                topic = value.text.rpartition("/")[2]
-                if topic not in _TOPICS and (parameter.text == "topic" or parameter.text.endswith("_topic")):
-                    near = next((each for each in _TOPICS if is_slip(topic, each)), None)
-                    if near is not None:
-                        yield value, "topic", value.text.removesuffix(topic) + near
-                if value.kind == "group" or parameter.text in valid or len(parameter.text) < 6:
-                    continue
-                near = next((each for each in sorted(valid - names) if is_slip(parameter.text, each)), None)
-                if near is not None and len(near) >= 6:
-                    yield parameter, "parameter", near
-
-
-def _misspelt_in_ros1(source: Source) -> Iterator[tuple[Node, str, str]]:
-    """Yield the misspelt parameters and namespaces of costmaps in a YAML file of ROS 1."""
-    from urdfkit.lint.facts.ros_packages import is_slip
-
-    costmaps = list(costmaps_of_ros1(source))
-    for node in costmaps:
-        names = {key.text for key, _ in node.entries}
-        for key, _ in node.entries:
-            near = next((each for each in sorted(COSTMAP_ROS1 - names) if is_slip(key.text, each)), None)
-            if key.text not in COSTMAP_ROS1 and len(key.text) >= 6 and near is not None and len(near) >= 6:
-                yield key, "parameter", near
-    for key, value in (entry for root in documents(source)[0] for entry in root.entries):
-        near = next((each for each in _COSTMAPS if is_slip(key.text, each)), None)
-        if key.text not in _COSTMAPS and near is not None and any(value is each for each in costmaps):
-            yield key, "namespace", near
-
-
-def _meant_plugin(name: str) -> str | None:
-    """Return the plugin of Nav2 that a misspelt class stands for, or one with its class in another package of Nav2."""
-    from urdfkit.lint.facts.ros_packages import is_slip
-
-    package, _, kind = name.rpartition("::")
-    if name in PLUGINS:
-        return None
-    same = min((each for each in PLUGINS if each.endswith(f"::{kind}")), default=None)
-    if same is not None and package.startswith("nav2_") and nearest(package, [same.rpartition("::")[0]], cutoff=0.8):
-        return same
-    near = nearest(name, PLUGINS, cutoff=0.93)
-    meant = near.rpartition("::")[2] if near is not None else ""
-    return near if meant and (is_slip(kind, meant) or is_slip(kind.lower(), meant.lower())) else None
 
 
 def wrong_numbers(source: Source) -> Iterator[tuple[Node, str, str]]:
@@ -302,7 +205,7 @@ def _keys(node: Node) -> set[str]:
 
 
 def _footprint(value: Node) -> str | None:
-    """Return what is wrong with a footprint; None if it is a list of at least three points."""
+    """Return the fault of a footprint; None if it is a list of at least three points."""
     text = value.text.strip()
     if value.kind == "text" and text and "$" not in text:
         pair = rf"\[\s*{_NUMBER}\s*,\s*{_NUMBER}\s*\]"

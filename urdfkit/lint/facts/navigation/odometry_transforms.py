@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from urdfkit.description.xml.source import Source
 from urdfkit.lint.facts.control.controller_settings import ControllerSettings, settings
 from urdfkit.lint.facts.control.yaml_tree import Node, documents, yamls
-from urdfkit.lint.facts.navigation.defects import sections
+from urdfkit.lint.facts.navigation.sections import sections
 from urdfkit.lint.model.model import Model
 
 _TRUE = ("true", "True", "TRUE")

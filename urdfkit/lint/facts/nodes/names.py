@@ -10,7 +10,7 @@ from urdfkit.description.xml.source import Source, Span
 from urdfkit.lint.facts.control.launch_package_paths import place
 from urdfkit.lint.facts.control.yaml_tree import documents, span_of
 from urdfkit.lint.facts.launch.executables import released
-from urdfkit.lint.facts.navigation.defects import sections
+from urdfkit.lint.facts.navigation.sections import sections
 from urdfkit.lint.facts.navigation.tables import NODES
 from urdfkit.lint.facts.nodes.started import LaunchedNode, launched_nodes, parameter_files
 from urdfkit.lint.facts.ros_packages import is_slip

@@ -121,7 +121,7 @@ class HardwareMismatch(RobotRule):
     def _unexpanded(self, model: Model) -> Findings:
         """Yield a finding for each misspelt hardware in the files of the robot that its conditions leave out."""
         expanded = {element.text for block in model.robot.ros2_control for element in block.element.find_all("plugin")}
-        known = (*HARDWARE.values(), *MOCKS)
+        usual = (*HARDWARE.values(), *MOCKS)
         for file, source in model.expanded.sources.items():
             if "<hardware" not in source.text or (":if" not in source.text and ":unless" not in source.text):
                 continue
@@ -129,9 +129,9 @@ class HardwareMismatch(RobotRule):
                 if tag.name != "plugin" or tag.close is None or not any(a.name == "hardware" for a in tag.ancestors()):
                     continue
                 text = source.text[tag.end : tag.close].strip()
-                if text in known or text in expanded or "$" in text or is_exported_plugin(model, text):
+                if text in usual or text in expanded or "$" in text or is_exported_plugin(model, text):
                     continue
-                expected = nearest(text, known, cutoff=0.9)
+                expected = nearest(text, usual, cutoff=0.9)
                 if expected is not None:
                     edit = Edit(source.span(tag.end, tag.close), expected)
                     yield self.at(

@@ -88,7 +88,7 @@ class OriginTooFar(RobotRule):
         if largest <= size:
             return
         children = {joint.child for joint in model.robot.joints}
-        is_known = not model.is_incomplete and all(
+        is_complete = not model.is_incomplete and all(
             link.name in model.extents or not shapes_of(link) for link in model.robot.links
         )
         checked = 0
@@ -101,7 +101,7 @@ class OriginTooFar(RobotRule):
             if distance >= max(_MIN_DISTANCE, _TIMES * size):
                 message = f"joint `{joint.name}` is {distance:.4g} m from `{joint.parent}`; "
                 message += f"the largest link extends {size:.3g} m"
-            elif is_known and checked < _MAX_CHECKED:
+            elif is_complete and checked < _MAX_CHECKED:
                 checked += 1
                 gap = _gap(joint, model)
                 if gap > max(size, _MIN_GAP):

@@ -77,7 +77,7 @@ class LaunchNameMisspelt(RobotRule):
         from urdfkit.lint.facts.control.yaml_tree import span_of
         from urdfkit.lint.facts.launch.actions import actions_of
         from urdfkit.lint.facts.launch.node_parameters import misspelt_in_launch, misspelt_parameters
-        from urdfkit.lint.facts.navigation.defects import misspelt_navigation
+        from urdfkit.lint.facts.navigation.misspelt import misspelt_navigation
 
         for source in model.related_files.values():
             is_launch = source.file.endswith(LAUNCH)

@@ -131,7 +131,7 @@ def _axis_in_root(joint: Joint, model: Model) -> Vector | None:
 
 
 def _defect(joint: Joint, axis: Vector, pair: Twins | None, model: Model) -> str | None:
-    """Return what is wrong with the axis of a steering joint or wheel; None if it suits its part."""
+    """Return the fault of the axis of a steering joint or wheel; None if it suits its part."""
     name = f"{joint.name} {joint.child}"
     if re.search(r"steer(?!ing_?wheel)", joint.name, re.IGNORECASE):
         return f"axis of steering joint `{joint.name}` is not vertical" if abs(axis[2]) < _MIN_UPRIGHT else None

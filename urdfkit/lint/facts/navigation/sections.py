@@ -1,0 +1,33 @@
+"""Parameter files of navigation: the sections of nodes of ROS 2, the costmaps of ROS 1."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from urdfkit.description.xml.source import Source
+from urdfkit.lint.facts.control.ros2_controllers import PARAMETERS
+from urdfkit.lint.facts.control.yaml_tree import Node, documents, walk
+from urdfkit.lint.facts.navigation.tables import COSTMAP_ROS1
+
+COSTMAPS = ("local_costmap", "global_costmap")
+
+
+def sections(source: Source) -> Iterator[tuple[Node, Node]]:
+    """Yield the names of nodes of ROS 2 in a YAML file with their parameters; namespaces are passed over."""
+    waiting = [(entry, 0) for root in documents(source)[0] for entry in root.entries]
+    while waiting:
+        (key, value), depth = waiting.pop(0)
+        group = value.find(PARAMETERS)
+        if group is not None:
+            yield key, group
+        elif depth < 3:
+            waiting += [(entry, depth + 1) for entry in value.entries]
+
+
+def costmaps_of_ros1(source: Source) -> Iterator[Node]:
+    """Yield the groups of parameters of costmap_2d in a YAML file of ROS 1."""
+    if "footprint" not in source.text and "frame" not in source.text:
+        return
+    for node in (each for root in documents(source)[0] for each in walk(root) if each.kind == "group"):
+        if len({key.text for key, _ in node.entries} & COSTMAP_ROS1) >= 3:
+            yield node
