@@ -10,6 +10,7 @@ from threading import Condition, Thread
 from typing import Any
 
 from urdfkit.bus import Build
+from urdfkit.scene.gl.drawing_threads import leave_a_core
 
 WAITING = 2
 """Messages of one topic that may wait; a renderer that is slower than its sensor omits the oldest."""
@@ -42,6 +43,7 @@ class MessageBuilder:
                 return
             if self._thread is None:
                 sys.setswitchinterval(SWITCH)
+                leave_a_core()
                 self._thread = Thread(target=self._run, name="urdfkit-messages", daemon=True)
                 self._thread.start()
             jobs = self._topics.setdefault(topic, {})

@@ -15,6 +15,7 @@ from numpy.typing import ArrayLike, NDArray
 from urdfkit.linear_algebra import Array
 from urdfkit.scene.camera_model import Lens
 from urdfkit.scene.gl.draw_calls import Drawing, Shot
+from urdfkit.scene.gl.drawing_threads import lower_priority
 from urdfkit.scene.gl.driver_probe import create, on_processor
 from urdfkit.scene.gl.moving_shadow_rectangles import LARGE, Rectangle, shaded, union
 from urdfkit.scene.gl.pixel_reading import read_pixels
@@ -59,6 +60,8 @@ class GlRenderer:
         self._ctx = create(backend)
         finalize(self, self._ctx.release).atexit = False  # a driver on the processor keeps 40 MB of each context
         self._on_processor = on_processor(str(self._ctx.info["GL_RENDERER"]))
+        if self._on_processor:
+            lower_priority()
         with self._lock, self._ctx:
             self._drawing = Drawing(self._ctx, table, self._rays.paint, lamps)
             self._shadows = {
