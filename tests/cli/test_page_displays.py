@@ -311,8 +311,8 @@ def test_an_image_is_enlarged_with_boxes_and_another_image_over_it(shown, visits
     assert page.locator(".boxes text").text_content() == "crate 0.93"
     page.get_by_role("button", name="Enlarge /eye/image").press("Enter")
     dialog = page.get_by_role("dialog", name="Image of /eye/image")
-    image = dialog.locator("img").first
-    until(lambda: tick() or image.evaluate("(it) => it.naturalWidth") == 400)
+    image = dialog.get_by_role("img", name="image of /eye/image")
+    until(lambda: tick() or image.evaluate("(it) => it.width") == 400)
     frame, rect = image.bounding_box(), page.locator(".boxes rect").bounding_box()
     assert [rect["x"] - frame["x"], rect["y"] - frame["y"]] == pytest.approx(
         [frame["width"] * 0.375, frame["height"] / 3], abs=2
@@ -321,12 +321,12 @@ def test_an_image_is_enlarged_with_boxes_and_another_image_over_it(shown, visits
     assert violations(page) == {"light": [], "dark": []}
     keep(page, "boxes")
     overlay.select_option(label="/eye/labels")
-    until(lambda: tick() or dialog.locator("img.over").is_visible())
+    until(lambda: tick() or dialog.locator("canvas.over").is_visible())
     assert page.locator(".boxes rect").count() == 0
     keep(page, "labels")
     dialog.press("Escape")
     assert dialog.count() == 0
-    assert page.locator("#sensors img").first.is_visible()
+    assert page.locator("#sensors").get_by_role("img", name="image of /eye/image").is_visible()
     assert visits.problems == []
 
 

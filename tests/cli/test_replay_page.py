@@ -88,14 +88,18 @@ def test_a_sensor_without_an_image_says_so_until_the_first_one(
     )
     waiting = page.locator("#sensors p:visible")
     assert waiting.all_inner_texts() == ["Waiting for the first image", "Waiting for the first points"]
-    assert page.locator("#sensors :is(img, canvas):visible").count() == 0
+    assert page.locator("#sensors canvas:visible").count() == 0
     keep(page, "waiting")
     page.evaluate(IMAGE)
-    until(lambda: page.locator("#sensors img:visible").count() == 1)
+    until(lambda: page.locator("#sensors .picture canvas[role=img]:visible").count() == 1)
+    until(lambda: page.evaluate("urdfkit.sensors.shown[0].image.width") == 4)
+    # The last image stays if the next one cannot be read, and the server is answered.
+    page.evaluate("new Promise((shown) => urdfkit.sensors.shown[0].take(new ArrayBuffer(20), 1, shown))")
+    assert page.evaluate("urdfkit.sensors.shown[0].image.width") == 4
     assert waiting.all_inner_texts() == ["Waiting for the first points"]
     page.locator("#sensors input").nth(0).click()
     page.locator("#sensors input").nth(1).click()
-    assert page.locator("#sensors :is(img, p, canvas):visible").count() == 0
+    assert page.locator("#sensors :is(p, canvas):visible").count() == 0
     assert visits.problems == []
 
 

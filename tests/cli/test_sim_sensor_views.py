@@ -221,8 +221,18 @@ def test_the_page_shows_what_the_camera_sees(serve_for_all, visits, keep, until)
     server = serve_for_all("sim", "teleop", "simpleton", "--world", "house")
     page = visits.open(server.url, viewport={"width": 1100, "height": 700})
     page.wait_for_selector("#progress", state="hidden")
-    until(lambda: page.evaluate("urdfkit.sensors.shown[0]?.image?.naturalWidth ?? 0") == 320)
+    until(lambda: page.evaluate("urdfkit.sensors.shown[0]?.image?.width ?? 0") == 320)
     keep(page, "camera")
+    # A URL for each image would keep the memory of many of them.
+    page.evaluate(
+        """() => {
+          Object.assign(window, { images: 0, urls: 0 });
+          urdfkit.page.on("picture", () => (window.images += 1));
+          URL.createObjectURL = () => `about:${(window.urls += 1)}`;
+        }"""
+    )
+    until(lambda: page.evaluate("window.images") > 3)
+    assert page.evaluate("window.urls") == 0
     assert visits.problems == []
 
 
@@ -241,8 +251,8 @@ SEGMENTING = """<robot name="seer"><link name="world"/><link name="eye"/>
     <clip><near>0.1</near><far>20</far></clip></camera></sensor></gazebo></robot>"""
 COLORS = """() => {
   const image = urdfkit.sensors.shown[0]?.image;
-  if (!image?.naturalWidth) return [];
-  const canvas = new OffscreenCanvas(image.naturalWidth, image.naturalHeight), pen = canvas.getContext("2d");
+  if (!image || image.width === 1) return [];
+  const canvas = new OffscreenCanvas(image.width, image.height), pen = canvas.getContext("2d");
   pen.drawImage(image, 0, 0);
   const data = new Uint32Array(pen.getImageData(0, 0, canvas.width, canvas.height).data.buffer);
   return [...new Set(data)];

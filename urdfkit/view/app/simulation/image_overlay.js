@@ -10,7 +10,7 @@ export class ImageOverlay {
     Object.assign(this, { page, topic, image });
     this.key = null; // of the boxes
     this.other = ""; // topic of the other image
-    this.over = h("img.over", { alt: "", hidden: true });
+    this.over = h("canvas.over", { "aria-hidden": "true", hidden: true });
     this.boxes = svg("svg", { class: "boxes", preserveAspectRatio: "none", "aria-hidden": "true" });
     this.figure = h("div.picture", {}, image, this.over, this.boxes);
     this.choice = h("select", { "aria-label": `Overlay of ${topic}` }, h("option", { value: "" }, "no overlay"));
@@ -39,9 +39,9 @@ export class ImageOverlay {
   }
 
   /** Show another image over this one, if it is the chosen one. */
-  follow({ topic, url }) {
+  follow({ topic, image }) {
     if (topic !== this.other) return;
-    this.over.src = url;
+    draw(image, this.over);
     this.over.hidden = false;
   }
 
@@ -49,7 +49,7 @@ export class ImageOverlay {
   take({ source, groups }) {
     const item = groups?.[0]?.items[0];
     if (source !== this.key || !item) return;
-    const [width, height] = item.size ?? [this.image.naturalWidth, this.image.naturalHeight];
+    const [width, height] = item.size ?? [this.image.width, this.image.height];
     const unit = width / 100;
     this.boxes.setAttribute("viewBox", `0 0 ${width} ${height}`);
     this.boxes.replaceChildren(...item.boxes.flatMap(([x, y, w, h, turn, label]) => {
@@ -90,6 +90,15 @@ export class ImageOverlay {
     this.enlarge.hidden = false;
     this.enlarge.focus();
   }
+}
+
+/** Draw an image or a canvas on a canvas, which gets its size. */
+export function draw(image, canvas) {
+  const { width, height } = image;
+  if (canvas.width !== width || canvas.height !== height) Object.assign(canvas, { width, height });
+  const pen = canvas.getContext("2d");
+  pen.globalCompositeOperation = "copy";
+  pen.drawImage(image, 0, 0);
 }
 
 function svg(tag, attributes) {

@@ -2,7 +2,7 @@
 
 import { check, h } from "../page/dom.js";
 import { Cloud } from "./point_cloud.js";
-import { ImageOverlay } from "./image_overlay.js";
+import { draw, ImageOverlay } from "./image_overlay.js";
 
 const HEADER = 16;
 const POINTS = 0;
@@ -147,8 +147,9 @@ class Picture extends Sight {
 
   constructor(page, list, topic, options) {
     super(page, list, topic, options);
-    this.image = h("img", { alt: `image of ${topic}` });
-    this.url = null;
+    // One canvas for all images: an element with a new URL for each would keep the memory of many of them.
+    this.image = h("canvas", { width: 1, height: 1, role: "img", "aria-label": `image of ${topic}` });
+    this.taken = this.drawn = 0;
     this.overlay = new ImageOverlay(page, topic, this.image);
     this.item.append(this.overlay.home);
     this.tick(options.on);
@@ -159,20 +160,20 @@ class Picture extends Sight {
     this.overlay.show(on && this.received);
   }
 
-  take(buffer, kind, shown) {
-    const old = this.url;
-    this.url = URL.createObjectURL(new Blob([new Uint8Array(buffer, HEADER)]));
-    this.image.onload = this.image.onerror = () => {
-      if (old) URL.revokeObjectURL(old);
-      shown();
-    };
-    this.image.src = this.url;
-    this.page.emit("picture", this);
+  async take(buffer, kind, shown) {
+    const number = (this.taken += 1);
+    const bitmap = await createImageBitmap(new Blob([new Uint8Array(buffer, HEADER)])).catch(() => null); // null: not an image
+    if (bitmap && number > this.drawn) {
+      this.drawn = number;
+      draw(bitmap, this.image);
+      this.page.emit("picture", this);
+    }
+    bitmap?.close();
+    shown();
   }
 
   remove() {
     super.remove();
     this.overlay.remove();
-    if (this.url) URL.revokeObjectURL(this.url);
   }
 }
