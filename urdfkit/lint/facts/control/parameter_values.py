@@ -30,7 +30,7 @@ _POSITIVE_IN_ROS2 = frozenset(("wheel_separation", "wheel_radius"))
 _NOT_NEGATIVE = frozenset(
     (
         *("goal_time", "stopped_velocity_tolerance", "cmd_vel_timeout", "cmd_timeout", "max_velocity", "trajectory"),
-        *("max_acceleration", "max_jerk", "max_deceleration", "velocity_rolling_window_size", "goal", "max_effort"),
+        *("max_acceleration", "max_jerk", "velocity_rolling_window_size", "goal", "max_effort"),
         *("wheel_separation", "wheel_radius", "goal_tolerance", "stall_timeout", "stall_velocity_threshold"),
     )
 )
@@ -42,13 +42,18 @@ _LISTS_TOO = frozenset(
         "min_jerk",
         "max_velocity",
         "max_acceleration",
-        "max_deceleration",
         "max_jerk",
         "goal",
         "trajectory",
     )
 )
 """Numbers in controllers that are lists in other nodes."""
+
+_SIGNS = {"max_deceleration": -1, "max_acceleration_reverse": -1, "max_deceleration_reverse": 1}
+"""Limit of diff_drive_controller since Jazzy → the sign that it may have."""
+
+_SIGNS_OF_MINIMA = {"min_velocity": -1, "min_jerk": -1}
+"""Limit of diff_drive_controller → the sign that it may have since Jazzy; any in Humble."""
 
 _TRUTHS = frozenset(
     (
@@ -118,6 +123,8 @@ def value_defects(node: Node, is_ros2: bool) -> Defects:
         lower, upper = number_of(value), number_of(values.get(above))
         if lower is not None and upper is not None and lower > upper and upper >= 0.0:
             yield value, f"`{name}` {lower:g} is greater than `{above}` {upper:g}"
+    if is_ros2:
+        yield from _signs(node)
     for name in ("pose_covariance_diagonal", "twist_covariance_diagonal"):
         covariances = values.get(name)
         if covariances is not None and covariances.kind == "list" and len(covariances.items) != 6:
@@ -149,6 +156,31 @@ def _of_number(name: str, value: Node, is_ros2: bool) -> Defects:
     is_positive = last in _POSITIVE or (is_ros2 and last in _POSITIVE_IN_ROS2)
     if number is not None and (number < 0.0 or (number == 0.0 and is_positive)):
         yield value, f"`{name}` is {number:g}; it must {'be positive' if is_positive else 'not be negative'}"
+
+
+def _signs(node: Node) -> Defects:
+    """Yield the limits of the linear and angular velocity, with dots or nested, that diff_drive_controller refuses."""
+    for axis in ("linear.x", "angular.z"):
+        limits = _below(node, axis)
+        signs = _SIGNS | (_SIGNS_OF_MINIMA if not _SIGNS.keys().isdisjoint(limits) else {})
+        for name, value in limits.items():
+            number = number_of(value)
+            if number is not None and number * signs.get(name, 0) < 0.0:
+                wanted = "negative" if signs[name] > 0 else "positive"
+                yield value, f"`{axis}.{name}` is {number:g}; it must not be {wanted}"
+
+
+def _below(node: Node, path: str) -> dict[str, Node]:
+    """Return the values below a path of names that are nested or joined by dots: name → value."""
+    found = {}
+    for key, value in node.entries:
+        if key.text.startswith(f"{path}."):
+            found[key.text.removeprefix(f"{path}.")] = value
+        elif key.text == path:
+            found |= {inner.text: each for inner, each in value.entries}
+        elif path.startswith(f"{key.text}."):
+            found |= _below(value, path.removeprefix(f"{key.text}."))
+    return found
 
 
 def incomplete_controllers(source: Source, is_typed_at_start: bool) -> Defects:

@@ -16,6 +16,7 @@ from urdfkit.lint.facts.control.yaml_tree import Node, documents, not_a_number, 
 from urdfkit.lint.facts.navigation.sections import costmaps_of_ros1, sections
 from urdfkit.lint.facts.navigation.tables import (
     CHOICES,
+    DEFAULT_LISTS,
     DEFAULTS,
     DOUBLES,
     FILTER_POSITIVE,
@@ -187,7 +188,8 @@ def _plugins(node: Node) -> Defects:
         names = {word for _, word in listed}
         unlisted = [name for name in others if name not in names]
         for item, word in listed:
-            if word in defined and key.text != "observation_sources" and "plugin" not in _keys(defined[word][1]):
+            has_type = key.text == "observation_sources" or names in DEFAULT_LISTS
+            if word in defined and not has_type and "plugin" not in _keys(defined[word][1]):
                 yield defined[word][0], f"`{word}`, which `{key.text}` lists, has no `plugin`"
             if word in defined or any(each.text.startswith(f"{word}.") for each, _ in node.entries):
                 continue

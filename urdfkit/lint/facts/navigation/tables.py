@@ -39,6 +39,18 @@ simple_smoother smooth_path spin static_layer voxel_layer wait wait_at_waypoint 
 DEFAULTS = frozenset(_DEFAULTS.split())
 """Names of plugins that need no section, because their nodes have types for them."""
 
+_BEHAVIORS = ("spin", "backup", "wait")
+DEFAULT_LISTS = frozenset(
+    frozenset(names)
+    for names in (
+        *(("GridBased",), ("FollowPath",), ("simple_smoother",), ("progress_checker",), ("goal_checker",)),
+        *(_BEHAVIORS, (*_BEHAVIORS, "drive_on_heading"), (*_BEHAVIORS, "drive_on_heading", "assisted_teleop")),
+        *(("navigate_to_pose", "navigate_through_poses"), ("static_layer", "obstacle_layer", "inflation_layer")),
+        ("wait_at_waypoint",),
+    )
+)
+"""Lists of plugins for which nodes set the types of their plugins; not for a part of them."""
+
 _DOUBLES = """
 acc_lim_theta acc_lim_x acc_lim_y angular_granularity bond_heartbeat_period controller_frequency cost_scaling_factor
 cycle_frequency decel_lim_theta decel_lim_x decel_lim_y desired_linear_vel expected_planner_frequency failure_tolerance
