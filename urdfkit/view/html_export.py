@@ -19,6 +19,7 @@ from urdfkit.view.server.broadcast import pack
 from urdfkit.view.server.http_handlers import APP, OFFLINE, meshcat_bundle
 
 _IMPORT = re.compile(r"""(\bfrom\s*|\bimport\s*)(["'])(\.\.?/[\w./-]+\.js)\2""")
+_COMMENT = re.compile(r"^[ \t]*(?:/\*.*?\*/|//[^\n]*)[ \t]*\n", re.DOTALL | re.MULTILINE)
 _PREFIX = "urdfkit/"
 
 
@@ -112,13 +113,13 @@ def _json(value: Any) -> str:
 
 
 def _bare(name: str, text: str) -> str:
-    """Return a module with its relative imports replaced by names of the import map."""
+    """Return a module without comments on lines of their own, its relative imports as names of the import map."""
 
     def bare(found: re.Match[str]) -> str:
         path = posixpath.normpath(posixpath.join(posixpath.dirname(name), found[3]))
         return f"{found[1]}{found[2]}{_PREFIX}{path}{found[2]}"
 
-    return _IMPORT.sub(bare, text)
+    return _IMPORT.sub(bare, _COMMENT.sub("", text))
 
 
 def _style(found: re.Match[str]) -> str:
