@@ -851,6 +851,16 @@ def test_a_phone_shows_the_panels_as_a_sheet(served, visits, keep, until) -> Non
         keep(page, f"phone-{panel}")
     wide = page.evaluate("document.documentElement.scrollWidth")
     assert wide <= 390
+    keys, pause = page.get_by_role("button", name="Keys", exact=True), page.locator("#pause")
+    for paused in (False, True):  # a paused simulation has more controls in the bar
+        until(lambda paused=paused: page.locator("#step").is_visible() == paused)
+        box = keys.bounding_box()
+        assert box["x"] + box["width"] <= 390
+        keys.tap()
+        page.locator("#help").get_by_role("button", name="Close").tap()
+        keep(page, f"phone-bar-{paused}")
+        pause.tap()
+    until(lambda: page.locator("#step").is_hidden())
 
 
 def test_measuring_and_publishing_a_point(page, keep, until) -> None:

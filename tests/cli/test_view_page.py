@@ -303,6 +303,22 @@ def test_panels_are_docked_by_dragging_and_columns_are_split(page, keep, until) 
     drop("joints", 600, 300)
     assert page.locator("#stage > #panel-joints.floating").is_visible()
     keep(page, "columns")
+    for name, selector in (("joints", "#stage > #panel-joints.floating"), ("show", "#left #panel-show")):
+        before, kept = (
+            page.locator(selector).bounding_box(),
+            page.evaluate("JSON.stringify(urdfkit.layout.state.panels)"),
+        )
+        title = page.locator(f"#title-{name}").bounding_box()
+        page.mouse.move(title["x"] + 20, title["y"] + 8)
+        page.mouse.down()
+        page.mouse.move(700, 400, steps=3)
+        assert page.locator("#dock-target").is_visible() == (name == "show")
+        page.keyboard.press("Escape")
+        page.mouse.move(600, 795)
+        page.mouse.up()
+        assert not page.locator("#dock-target").is_visible()
+        assert page.locator(selector).bounding_box() == before
+        assert page.evaluate("JSON.stringify(urdfkit.layout.state.panels)") == kept
     drop("joints", 600, 795)
     assert page.locator("#strip #panel-joints").is_visible()
 

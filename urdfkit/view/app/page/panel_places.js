@@ -106,6 +106,7 @@ export class PanelPlaces {
     event.preventDefault();
     const box = panel.section.getBoundingClientRect();
     const grip = [event.clientX - box.left, event.clientY - box.top].map((value, i) => (isFloating ? value : Math.min(value, FLOATING[i] - DOCK)));
+    const before = panel.at;
     let place = null;
     this.#follow(event, (move) => {
       if (place === null && Math.hypot(move.clientX - event.clientX, move.clientY - event.clientY) < START) return;
@@ -121,6 +122,9 @@ export class PanelPlaces {
       if (place !== "floating") this.#sort(panel, place, last.clientY);
       if (place !== panel.place) this.put(panel, place, true, at);
       else this.panels.sort();
+    }, () => {
+      this.target.hidden = true;
+      if (isFloating) this.#move(panel, ...before);
     });
   }
 
@@ -156,18 +160,30 @@ export class PanelPlaces {
     else panel.order = next ? (others[next - 1].order + others[next].order) / 2 : Math.min(panel.order, others[0].order - 0.5);
   }
 
-  // Call `moved` while the pointer is down, and `done` with its last result and the last event.
-  #follow(event, moved, done = () => {}) {
+  // Call `moved` while the pointer is down, and `done` with its last result and the last event, or `cancelled` on Escape.
+  #follow(event, moved, done = () => {}, cancelled = null) {
     let result = null;
     let last = event;
     const go = (move) => move.pointerId === event.pointerId && ((last = move), (result = moved(move) ?? result));
     const end = (up) => {
       if (up.pointerId !== event.pointerId) return;
-      removeEventListener("pointermove", go);
-      for (const each of ["pointerup", "pointercancel"]) removeEventListener(each, end);
+      stop();
       done(result, last);
       this.panels.changed();
     };
+    const cancel = (press) => {
+      if (press.key !== "Escape") return;
+      press.preventDefault();
+      press.stopPropagation();
+      stop();
+      cancelled();
+    };
+    const stop = () => {
+      removeEventListener("pointermove", go);
+      for (const each of ["pointerup", "pointercancel"]) removeEventListener(each, end);
+      removeEventListener("keydown", cancel, true);
+    };
+    if (cancelled) addEventListener("keydown", cancel, true);
     addEventListener("pointermove", go);
     for (const each of ["pointerup", "pointercancel"]) addEventListener(each, end);
   }
