@@ -411,6 +411,7 @@ READS = '><param from="$(find-pkg-share cart_description)/config/nav.yaml"/></no
         (("nav2_behaviors", "behavior_server", "behavior_server", "/>"), ""),
         (("nav2_map_server", "map_server", "maps", '><param name="yaml_file" value="m"/></node>'), "`yaml_filename`?"),
         (("nav2_map_server", "map_server", "maps", '><param name="yaml_filename" value="m"/></node>'), ""),
+        (("nav2_map_server", "map_server", "maps", '><param name="frame_ids" value="m"/></node>'), "mean `frame_id`?"),
         (("nav2_amcl", "amcl", "localizer", READS), "node `localizer` has no section in nav.yaml, which has `amcl`"),
         (("nav2_amcl", "amcl", "amcl", READS), ""),
         (

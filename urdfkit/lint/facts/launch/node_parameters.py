@@ -98,14 +98,15 @@ def misspelt_in_launch(source: Source) -> Iterator[tuple[Named, str, str]]:
         written = {key.name for key in keys}
         lacking = [each for each in accepted if each not in written and len(each) >= _MIN_LENGTH]
         for key in keys:
-            near = next((each for each in lacking if is_slip(key.name, each) or _is_start(key.name, each)), None)
+            near = next((each for each in lacking if is_slip(key.name, each) or _is_other_form(key.name, each)), None)
             if near is not None and key.name not in accepted:
                 yield key, package, near
 
 
-def _is_start(name: str, parameter: str) -> bool:
-    """Return whether a name is the longer part of a parameter: ``yaml_file`` of ``yaml_filename``."""
-    return len(name) >= _MIN_LENGTH and parameter.startswith(name) and 2 * len(name) > len(parameter)
+def _is_other_form(name: str, parameter: str) -> bool:
+    """Return whether a name is the plural or the longer part of a parameter: ``yaml_file`` of ``yaml_filename``."""
+    is_start = len(name) >= _MIN_LENGTH and parameter.startswith(name) and 2 * len(name) > len(parameter)
+    return is_start or name == f"{parameter}s"
 
 
 def _in_xml(source: Source) -> Iterator[tuple[str, list[Named]]]:

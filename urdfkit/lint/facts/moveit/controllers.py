@@ -42,10 +42,39 @@ def contradictions(
     if kind is not None and not any(each.partition("/")[2] in classes for each in kinds):
         yield kind, f"controller `{entry.name.text}` has no action for `{kind.text}`: its type is {next(iter(kinds))}"
         return
-    listed = [one.group.find(key) for one in controllers for key in ("joints", "joint")]
-    names = {name for node in listed if node is not None for name in node.texts()}
+    names = {name for one in controllers for name in _joints(one)}
     joints = entry.settings.find("joints")
     is_complete = names <= model.robot.joint_by_name.keys()  # a joint that no robot has is reported where it is listed
     for node in joints.items if joints is not None and names and is_complete else ():
         if node.text in model.robot.joint_by_name and node.text not in names:
             yield node, f"controller `{entry.name.text}` does not control joint `{node.text}` and refuses trajectories"
+
+
+def meant_controller(
+    entry: MoveitEntry, controllers: dict[str, list[ControllerSettings]], taken: set[str]
+) -> str | None:
+    """Return the one controller with the joints of a controller of MoveIt; None if none or several have them.
+
+    Args:
+        entry: a controller of MoveIt.
+        controllers: name → settings of the controllers of ros_control.
+        taken: names of the controllers of MoveIt.
+    """
+    joints = entry.settings.find("joints")
+    wanted = set(joints.texts()) if joints is not None else set()
+    if not wanted or any(one.kind not in TYPES for each in controllers.values() for one in each):
+        return None
+    kind = entry.settings.find("type")
+    classes = _ACTIONS.get(kind.text, ()) if kind is not None else ()
+    same = {
+        name
+        for name, each in controllers.items()
+        for one in each
+        if one.kind.partition("/")[2] in classes and wanted == _joints(one)
+    }
+    return same.pop() if len(same) == 1 and same.isdisjoint(taken) else None
+
+
+def _joints(one: ControllerSettings) -> set[str]:
+    listed = [one.group.find(key) for key in ("joints", "joint")]
+    return {name for node in listed if node is not None for name in node.texts()}

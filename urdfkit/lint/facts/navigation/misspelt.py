@@ -13,6 +13,12 @@ from urdfkit.lint.facts.navigation.tables import COSTMAP_ROS1, DOUBLES, INTEGERS
 
 _TOPICS = ("scan", "odom", "cmd_vel", "joint_states", "local_costmap", "global_costmap", "costmap_raw")
 
+_WITH_COLONS = (
+    *("dwb_core", "nav2_controller", "nav2_costmap_2d", "nav2_graceful_controller", "nav2_mppi_controller"),
+    *("nav2_regulated_pure_pursuit_controller", "nav2_rotation_shim_controller", "nav2_smoother"),
+)
+"""Packages whose plugins have `::` in their names in each release; others had `/` up to Iron."""
+
 
 def misspelt_navigation(source: Source) -> Iterator[tuple[Node, str, str]]:
     """Yield the misspelt nodes, plugins and parameters of Nav2: YAML node, kind, suggested name."""
@@ -39,7 +45,10 @@ def misspelt_navigation(source: Source) -> Iterator[tuple[Node, str, str]]:
                 if parameter.text == "plugin" and value.kind == "text":
                     written_type = value.text.replace("/", "::")
                     near = _meant_plugin(written_type)
-                    if near is not None:
+                    package = value.text.partition("/")[0]
+                    if written_type in PLUGINS and package in _WITH_COLONS and package != value.text:
+                        yield value, "plugin", written_type
+                    elif near is not None:
                         yield value, "plugin", near.replace("::", "/" if "/" in value.text else "::")
                     continue
                 topic = value.text.rpartition("/")[2]

@@ -130,6 +130,11 @@ def _unmanaged(model: Model, started: set[str]) -> Defects:
                 listed += ((item.text, span_of(source, item)) for item in (names_node.items if names_node else ()))
         names_listed = {name for name, _ in listed}
         for name, span in listed:
-            near = next((each for each in sorted(started - names_listed) if is_slip(name, each)), None)
+            near = next((each for each in sorted(started - names_listed) if _is_meant(each, name)), None)
             if name not in started | _RELEASED_NAMES and near is not None:
                 yield source, span, f"no node is called `{name}`; did you mean `{near}`?"
+
+
+def _is_meant(node: str, name: str) -> bool:
+    """Return whether a name in a list means a node: it is misspelt, or it has a word more than a released node."""
+    return is_slip(name, node) or (node in _RELEASED_NAMES and name.startswith(f"{node}_"))

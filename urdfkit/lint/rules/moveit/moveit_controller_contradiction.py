@@ -5,11 +5,11 @@ from urdfkit.lint.rule import Findings, Model, RobotRule
 
 
 class MoveitControllerContradiction(RobotRule):
-    """A controller of MoveIt has another type or other joints than the controller that it commands.
+    """A controller of MoveIt has another name, type or joints than the controller that it commands.
 
     ## What it does
     Compares the ``type`` and the ``joints`` of MoveIt's controllers with the controllers of the same name in the YAML
-    files of these packages.
+    files of these packages. Reports a name that no controller has if exactly one other has its joints.
 
     ## Why is this bad?
     MoveIt waits for an action that the controller does not offer, or the controller refuses the trajectory: "Joints on
@@ -49,13 +49,19 @@ class MoveitControllerContradiction(RobotRule):
     def check(self, model: Model) -> Findings:
         """Yield a finding for each type and joint that differs."""
         from urdfkit.lint.facts.control.yaml_tree import span_of
-        from urdfkit.lint.facts.moveit.controllers import contradictions, started_controllers
+        from urdfkit.lint.facts.moveit.controllers import contradictions, meant_controller, started_controllers
         from urdfkit.lint.facts.moveit.settings import entries, moveit_yamls
 
         started = started_controllers(model)
         for source, _ in moveit_yamls(model):
             for entry in entries(source):
                 name = entry.name.text.strip("/").rpartition("/")[2]
-                if entry.kind == "controller":
+                if entry.kind == "controller" and name not in started:
+                    taken = {each.name.text.strip("/").rpartition("/")[2] for each in entries(source)}
+                    meant = meant_controller(entry, started, taken)
+                    if meant is not None:
+                        message = f"no controller is called `{name}`; did you mean `{meant}`?"
+                        yield Finding(self.code, self.name, self.severity, message, span_of(source, entry.name))
+                elif entry.kind == "controller":
                     for node, message in contradictions(entry, started.get(name, []), model):
                         yield Finding(self.code, self.name, self.severity, message, span_of(source, node))
