@@ -1,7 +1,7 @@
 """S909 twins-misplaced."""
 
 from collections import Counter
-from math import hypot
+from math import dist, hypot, inf
 
 from urdfkit.description.urdf.robot import Link
 from urdfkit.description.xml.element import Element
@@ -114,7 +114,7 @@ def _defect(pair: Twins, model: Model) -> tuple[str, str] | None:
         return None
     differing = [k for k in range(3) if abs(first[k] - second[k]) > _SAME * distance]
     if not differing:
-        if not _are_in_one_place(pair, links, model):
+        if not _are_in_one_place(pair, links, model) or dist(first, second) > _size(links[0], model):
             return None
         return f"joints {names} have the same origin", "check the sign of one of the coordinates"
     for k in differing:
@@ -142,6 +142,11 @@ def _are_in_one_place(pair: Twins, links: tuple[Link, Link], model: Model) -> bo
         return False
     shapes = [[(shape.geometry, shape.origin) for shape in shapes_of(link)] for link in links]
     return bool(shapes[0]) and (shapes[0] == shapes[1] or _are_at_one_place(links, model))
+
+
+def _size(link: Link, model: Model) -> float:
+    extent = model.extents.get(link.name)
+    return extent.diagonal if extent is not None else inf
 
 
 def _are_at_one_place(links: tuple[Link, Link], model: Model) -> bool:
