@@ -7,14 +7,17 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
+from unittest.mock import Mock
 
 import pytest
 
 from tests.time_limit import PATIENCE
+from urdfkit.bridges.actions import ActionServer
 from urdfkit.bridges.bridge import CallQueue
 from urdfkit.bridges.node.node import Done, End, Quality, UnknownTypeError
 from urdfkit.bridges.node.node_bridge import GOAL_DELAY, NodeBridge, check_namespace
 from urdfkit.bridges.ros2.environment import keep_on_this_machine, on_this_machine, ros_domain, share_long_messages
+from urdfkit.bridges.ros2.rclpy_action_client import UNANSWERED, RclpyGoal
 from urdfkit.bridges.service import Service
 from urdfkit.bus import Bus
 from urdfkit.cli import main
@@ -239,3 +242,20 @@ def test_without_a_library_one_line_names_it(
     monkeypatch.setattr("urdfkit.bridges.ros2.node_selection.find_spec", lambda name: None)
     assert main(["sim", "run", "simpleton", "--for", "1", "--ros2"]) == 2
     assert "pip install 'urdfkit[ros2]'" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("accepted", [True, False])
+def test_a_goal_without_a_response_ends(accepted: bool) -> None:
+    ended = list[tuple[int, Any, str]]()
+    action = ActionServer("/arm/move", "control_msgs/action/FollowJointTrajectory", is_rcl=True)
+    goal = RclpyGoal(action, lambda call: call(), lambda _: None, lambda *end: ended.append(end), lambda: True)
+    if accepted:
+        response, future = Mock(accepted=True), Mock()
+        future.result.return_value = response
+        goal.take_response(future)
+    for _ in range(UNANSWERED - 1):
+        goal.check_server()
+    assert ended == []
+    goal.check_server()
+    goal.check_server()
+    assert ended == ([] if accepted else [(6, None, "/arm/move has not responded within 30 s")])

@@ -18,6 +18,8 @@ from urdfkit.messages.conversion import converted
 
 CHECKED = 1.0
 """Seconds between two checks whether the server of a goal is still on the graph."""
+UNANSWERED = 30
+"""Checks after which a goal ends that its server has neither accepted nor rejected: the request can get lost."""
 
 
 class RclpyActions:
@@ -85,7 +87,7 @@ class RclpyGoal:
         self._post, self._feedback, self._ended = post, feedback, ended
         self._part = action.goal.removesuffix("Goal")
         self._handle: Any = None
-        self._cancelled = False
+        self._cancelled, self._checks = False, 0
 
     def cancel(self) -> None:
         """Request that the goal is cancelled; its end is reported as that of other goals."""
@@ -120,9 +122,15 @@ class RclpyGoal:
         self._end(response.status, result)
 
     def check_server(self) -> None:
-        """End the goal if its server has left the graph: by itself, or as DDS notices some seconds after it died."""
+        """End the goal if its server has left the graph, or has not responded.
+
+        A server leaves by itself, or as DDS notices some seconds after it died.
+        """
+        self._checks += 1
         if not self._is_served():
             self._end(ABORTED, None, f"the server of {self._name} has left the graph")
+        elif self._handle is None and self._checks >= UNANSWERED:
+            self._end(ABORTED, None, f"{self._name} has not responded within {UNANSWERED * CHECKED:g} s")
 
     def _end(self, state: int, result: Any, reason: str = "") -> None:
         if self._is_open:
