@@ -288,6 +288,7 @@ def test_messages_that_wait_for_a_busy_simulation_are_bounded(server, simulated,
     """A client publishes while the simulation takes nothing; the oldest wait, the others are dropped."""
     simulated.bus.subscribe("/image", "sensor_msgs/msg/Image", lambda message: None)
     client = Client(server, simulated)
+    client.send(op="set_level", level="error")
     content = json.dumps({"op": "publish", "topic": "/image", "msg": {"data": "AAAA" * 1_000_000}})
     before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
     for _ in range(80):
