@@ -259,3 +259,13 @@ def test_a_goal_without_a_response_ends(accepted: bool) -> None:
     goal.check_server()
     goal.check_server()
     assert ended == ([] if accepted else [(6, None, "/arm/move has not responded within 30 s")])
+
+
+def test_a_goal_that_is_accepted_after_its_end_is_cancelled() -> None:
+    action = ActionServer("/arm/move", "control_msgs/action/FollowJointTrajectory", is_rcl=True)
+    goal = RclpyGoal(action, lambda call: call(), lambda _: None, lambda *_: None, lambda: True)
+    for _ in range(UNANSWERED):
+        goal.check_server()
+    future = Mock()
+    goal.take_response(future)
+    future.result.return_value.cancel_goal_async.assert_called_once_with()

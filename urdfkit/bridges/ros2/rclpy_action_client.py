@@ -130,6 +130,7 @@ class RclpyGoal:
         if not self._is_served():
             self._end(ABORTED, None, f"the server of {self._name} has left the graph")
         elif self._handle is None and self._checks >= UNANSWERED:
+            self._cancelled = True  # if it is accepted later
             self._end(ABORTED, None, f"{self._name} has not responded within {UNANSWERED * CHECKED:g} s")
 
     def _end(self, state: int, result: Any, reason: str = "") -> None:
