@@ -4,7 +4,10 @@ from __future__ import annotations
 
 import csv
 import json
+import logging
 import math
+import os
+import signal
 import subprocess
 import sys
 import time
@@ -22,6 +25,7 @@ from tests.processes import kill_group, running
 from tests.time_limit import PATIENCE
 from urdfkit import sweep
 from urdfkit.app.simulation.runs.run_options import RunOptions
+from urdfkit.app.sweeps.execution import _client, execute
 from urdfkit.app.sweeps.metrics import after, commanded_path
 from urdfkit.app.sweeps.scenario import Scenario
 from urdfkit.app.sweeps.variations import Interval, SweepRun, combine, parse_variation
@@ -214,3 +218,26 @@ def test_an_error_of_the_first_run_comes_before_any_worker(tmp_path: Path) -> No
     with pytest.raises(UrdfkitError, match="no link or model `x`"):
         sweep(BOX, vary={"x.mass": [1.0]}, metrics=["x"], duration=0.1, output=tmp_path / "none")
     assert not (tmp_path / "none").exists()
+
+
+def _log_an_error() -> None:
+    logging.getLogger("distributed.worker").error("Failed to communicate with scheduler during heartbeat.")
+
+
+@pytest.mark.slow
+def test_what_workers_log_while_they_close_is_not_printed(capfd: pytest.CaptureFixture[str]) -> None:
+    with _client(1, None) as client:
+        client.run(_log_an_error)
+    assert capfd.readouterr() == ("", "")
+
+
+def _kill_itself(scenario: Scenario, run: SweepRun) -> None:
+    os.kill(os.getpid(), signal.SIGKILL)
+
+
+@pytest.mark.slow
+def test_a_sweep_whose_processes_are_killed_ends_with_one_line(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(Scenario, "simulate", _kill_itself)
+    runs = [SweepRun(number, 0, {}) for number in range(2)]
+    with pytest.raises(UrdfkitError, match="a process of the sweep was killed"):
+        list(execute(None, runs, workers=2, scheduler=None))  # type: ignore[arg-type]

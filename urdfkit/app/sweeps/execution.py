@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from concurrent.futures import CancelledError
 from contextlib import contextmanager
 from itertools import islice
 from typing import TYPE_CHECKING
 
 from urdfkit.app.sweeps.scenario import RunOutcome, Scenario
 from urdfkit.app.sweeps.variations import SweepRun
-from urdfkit.errors import UsageError
+from urdfkit.errors import UrdfkitError, UsageError
 
 if TYPE_CHECKING:
     from distributed import Client
@@ -31,14 +32,14 @@ def execute(
 
     Raises:
         UsageError: the scheduler cannot be reached.
-        UrdfkitError: a parameter or metric is invalid.
+        UrdfkitError: a parameter or metric is invalid, or a process was killed.
     """
     if not runs:
         return
     if scheduler is None and min(workers, len(runs)) == 1:
         yield from map(scenario.simulate, runs)
         return
-    from distributed import as_completed
+    from distributed import KilledWorker, as_completed
 
     with _client(min(workers, len(runs)), scheduler) as client:
         shared = client.scatter(scenario, hash=False)
@@ -50,7 +51,14 @@ def execute(
         cores = sum(client.nthreads().values()) or workers
         finished = as_completed(submit(cores * WAITING))
         for future in finished:
-            yield future.result()
+            try:
+                outcome = future.result()
+            except (KilledWorker, CancelledError):  # cancelled: the scenario was in the killed process
+                raise UrdfkitError(
+                    f"a process of the sweep was killed; where memory is short, use fewer --workers than {workers}, "
+                    "and the same command goes on with the runs that are left"
+                ) from None
+            yield outcome
             for following in submit(1):
                 finished.add(following)
 
@@ -64,6 +72,7 @@ def _client(workers: int, scheduler: str | None) -> Iterator[Client]:
     """
     import logging
 
+    import dask
     from distributed import Client, LocalCluster, Security
 
     if scheduler is not None:
@@ -75,14 +84,18 @@ def _client(workers: int, scheduler: str | None) -> Iterator[Client]:
             yield client
         return
     # Dask executes what its sockets receive: certificates of this process keep other users of the machine out.
+    # Workers that close log connections that are cut off as errors, with tracebacks. Failures of runs are raised by
+    # their futures.
+    quiet = {"distributed.nanny.pre-spawn-environ.DASK_LOGGING__DISTRIBUTED": "critical"}
     with (
+        dask.config.set(quiet),
         LocalCluster(
             n_workers=workers,
             threads_per_worker=1,
             dashboard_address=None,
             memory_limit=None,
             security=Security.temporary(),
-            silence_logs=logging.ERROR,
+            silence_logs=logging.CRITICAL,
         ) as cluster,
         Client(cluster) as client,
     ):
