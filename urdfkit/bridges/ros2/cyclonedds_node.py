@@ -28,12 +28,13 @@ SILENT = '<CycloneDDS><Domain Id="any"><Tracing><OutputFile>/dev/null</OutputFil
 """Cyclone DDS would report the type information of other participants that it cannot read."""
 LOCALHOST = """\
 <CycloneDDS><Domain Id="any"><Tracing><OutputFile>/dev/null</OutputFile></Tracing>
-<General><AllowMulticast>false</AllowMulticast>
+<General><AllowMulticast>false</AllowMulticast><MaxMessageSize>65000B</MaxMessageSize><FragmentSize>64000B</FragmentSize>
 <Interfaces><NetworkInterface address="127.0.0.1"/></Interfaces></General>
 <Discovery><ParticipantIndex>auto</ParticipantIndex><MaxAutoParticipantIndex>99</MaxAutoParticipantIndex>
 <Peers><Peer address="127.0.0.1"/></Peers></Discovery></Domain></CycloneDDS>"""
 """Discovery on this machine: without multicast, participants are searched for at the loopback ports of their
-indices."""
+indices. Datagrams are as large as the loopback interface allows: with the default, 14,720 bytes in fragments of 1,344,
+a reliable subscriber with Fast DDS received 6 instead of 29 images of 1.9 MB per second."""
 
 
 class CycloneddsNode:
