@@ -185,3 +185,11 @@ def test_names_that_begin_alike_are_other_folders(tmp_path) -> None:
     assert not inside.permits(tmp_path / "ab" / "x")
     assert not inside.permits(tmp_path / "a" / ".." / "x")
     assert not inside.permits(tmp_path / "a" / "out" / "x")
+
+
+def test_bytecode_outside_of_the_modules_may_be_read(lint, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("PYTHONPYCACHEPREFIX", str(tmp_path / "bytecode"))
+    monkeypatch.delenv("PYTHONDONTWRITEBYTECODE", raising=False)
+    lint(NAMED["a package"], "--package-path", lint.secret)  # writes the bytecode
+    findings, _, _ = lint(NAMED["a package"], "--confined", "--package-path", lint.secret)
+    assert not [each for each in findings if each["code"] in ("X112", "X113", "X125")]

@@ -91,9 +91,10 @@ def _is_in(path: str, folders: tuple[str, ...]) -> bool:
 
 
 def _programs() -> Iterable[str]:
-    """Yield the folders of Python's modules, of urdfkit and of its bundled robots."""
+    """Yield the folders of Python's modules and their bytecode, of urdfkit and of its bundled robots."""
     from urdfkit.resources import robots_dir
 
     here = os.path.realpath(".")
     folders = [*sys.path, *sysconfig.get_paths().values(), str(Path(__file__).parents[2]), str(robots_dir())]
+    folders.append(sys.pycache_prefix or "")
     yield from (real for folder in folders if folder and (real := os.path.realpath(folder)) not in (here, os.sep))
