@@ -11,6 +11,7 @@ sample is within the limits.
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Callable
 from dataclasses import dataclass
 from itertools import pairwise
@@ -97,7 +98,9 @@ def retime(waypoints: ArrayLike, limits: MotionLimits, *, rate: float = 100.0) -
     if len(points) < 2:
         raise KinematicsError("a path needs at least two different waypoints")
     try:
-        import toppra
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")  # of the compilation of toppra's source, where it has no bytecode yet
+            import toppra
     except ImportError:
         raise MissingDependencyError("retiming needs toppra: pip install 'urdfkit[time]'") from None
     # Progress is the length of the way, each joint in parts of its velocity limit: the spline then bends little.
