@@ -65,6 +65,8 @@ class Finding:
         fix: the edits of `urdfkit lint --fix`; None if there is no automatic fix.
         chains: chains of macro calls, innermost call first, one for each expansion; empty outside of macros.
         cause: words that findings of one rule share if they have one cause; empty if the message is the same.
+        kind: which of the rule's defects it is, where other rules depend on it, see `consequences`; not in the output.
+        names: further names that the finding is about, such as both joints of a pair; not in the output.
         related: the findings of other places with the same cause, where findings are grouped.
         variant: the xacro arguments of a launch file, and the launch file, if the robot has the defect only with them.
 
@@ -85,6 +87,8 @@ class Finding:
     fix: Fix | None = None
     chains: tuple[tuple[Expansion, ...], ...] = ()
     cause: str = ""
+    kind: str = ""
+    names: tuple[str, ...] = ()
     related: tuple[Finding, ...] = ()
     variant: str = ""
 

@@ -68,6 +68,8 @@ class Rule:
         fix: Fix | None = None,
         severity: Severity | None = None,
         cause: str = "",
+        kind: str = "",
+        names: tuple[str, ...] = (),
     ) -> Finding:
         """Create a finding.
 
@@ -82,6 +84,8 @@ class Rule:
             fix: edits that correct the defect.
             severity: overrides the rule's severity.
             cause: see `Finding.cause`.
+            kind: see `Finding.kind`.
+            names: see `Finding.names`.
         """
         message = shortened(message)
         place: Any = where if isinstance(where, Position) else getattr(where, "origin", where)
@@ -98,6 +102,8 @@ class Rule:
             fix,
             (chain,) if chain else (),
             cause,
+            kind,
+            names,
         )
 
 
@@ -133,11 +139,20 @@ class FaultRule(Rule):
             ):  # whose repairs are findings
                 return  # include-not-found reports the missing file.
             help = f"it may be defined in {missing}, which was not found"
-            yield self.at(
-                model, fault, fault.message, attribute=fault.attribute, help=help, severity="note", cause=missing
-            )
+            severity: Severity | None = "note"
         else:
-            yield self.at(model, fault, fault.message, attribute=fault.attribute)
+            help, severity, missing = None, None, ""
+        names = (fault.name,) if fault.name else ()
+        yield self.at(
+            model,
+            fault,
+            fault.message,
+            attribute=fault.attribute,
+            help=help,
+            severity=severity,
+            cause=missing,
+            names=names,
+        )
 
 
 class RobotRule(Rule):

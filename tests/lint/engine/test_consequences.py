@@ -17,15 +17,25 @@ def finding(code: str, message: str, line: int = 1, **others: object) -> Finding
 
 
 CASES = {
-    "line": (finding("E014", "<mass> lacks its attribute `value`"), finding("E007", "unexpected text"), True),
-    "other line": (finding("E014", "<mass> lacks its attribute `value`"), finding("E007", "text", 2), False),
-    "name": (finding("S907", "wheels `a` and `b`", 1), finding("S909", "joints `b` and `c`", 2), True),
-    "other name": (finding("S907", "wheels `a` and `b`", 1), finding("S909", "joints `c` and `d`", 2), False),
+    "line": (
+        finding("E014", "<mass> lacks its attribute `value`", kind="attribute"),
+        finding("E007", "unexpected text"),
+        True,
+    ),
+    "other line": (
+        finding("E014", "<mass> lacks its attribute `value`", kind="attribute"),
+        finding("E007", "text", 2),
+        False,
+    ),
+    "name": (finding("S907", "wheels", joint="a", names=("b",)), finding("S909", "joints", names=("b", "c")), True),
+    "other name": (finding("S907", "wheels", joint="a"), finding("S909", "joints `a`", names=("c", "d")), False),
     "call": (finding("T206", "link", chains=(("c",),)), finding("T207", "joint", 9, chains=(("c",),)), True),
     "other call": (finding("T206", "link", chains=(("c",),)), finding("T207", "joint", 9, chains=(("d",),)), False),
     "no call": (finding("T206", "duplicate link `a`"), finding("T207", "duplicate joint `b`", 9), False),
     "robot": (finding("T207", "duplicate joint `a`"), finding("K959", "joint `b` does not exist", 9), True),
-    "other words": (finding("C707", "undefined joint `a`"), finding("K965", "commands the position", 9), False),
+    "kind": (finding("C707", "a", kind="undefined"), finding("K965", "b", 9, kind="joint"), True),
+    "other kind": (finding("C707", "a", kind="undefined"), finding("K965", "b", 9, kind="interface"), False),
+    "words": (finding("C707", "undefined joint `a`"), finding("K965", "lacks joint `b`", 9), False),
     "no cause": (finding("E010", "bad number"), finding("K959", "joint `b` does not exist", 9), False),
 }
 

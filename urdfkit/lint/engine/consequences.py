@@ -2,27 +2,25 @@
 
 from __future__ import annotations
 
-import re
-
 TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from collections.abc import Collection
+    from collections.abc import Collection, Iterator
     from typing import Literal
 
     from urdfkit.lint.finding import Finding
 
     Relation = Literal["line", "name", "call", "robot"]
     Pattern = tuple[str, str]
-    """Code of a rule, and words of its message."""
+    """Code of a rule, and `Finding.kind`; an empty kind matches all findings of the rule."""
 
 _CONSEQUENCES: tuple[tuple[Pattern, Relation, Pattern], ...] = (
     (("E010", ""), "line", ("X124", "")),
-    (("E014", "lacks its attribute"), "line", ("E009", "")),
-    (("E014", "lacks its attribute"), "line", ("E007", "")),
-    (("K956", "unknown package"), "line", ("L104", "unknown name")),
-    (("K962", "unknown interface"), "line", ("K965", "")),
-    (("K962", "unknown parameter"), "line", ("K971", "")),
-    (("K963", ""), "line", ("K956", "which has the controller type")),
+    (("E014", "attribute"), "line", ("E009", "")),
+    (("E014", "attribute"), "line", ("E007", "")),
+    (("K956", "misspelt"), "line", ("L104", "name")),
+    (("K962", ""), "line", ("K965", "")),
+    (("K962", ""), "line", ("K971", "")),
+    (("K963", ""), "line", ("K956", "controller type")),
     (("K971", ""), "line", ("K974", "")),
     (("C701", ""), "name", ("J418", "")),
     (("C701", ""), "name", ("K963", "")),
@@ -30,28 +28,30 @@ _CONSEQUENCES: tuple[tuple[Pattern, Relation, Pattern], ...] = (
     (("J414", ""), "name", ("J413", "")),
     (("J414", ""), "name", ("S904", "")),
     (("J421", ""), "name", ("S909", "")),
-    (("K973", "the package is"), "name", ("K956", "")),
-    (("L103", ""), "name", ("K968", "unknown option")),
+    (("K973", "name"), "name", ("K956", "")),
+    (("L103", ""), "name", ("K968", "option")),
     (("L104", ""), "name", ("L113", "")),
     (("S904", ""), "name", ("J413", "")),
-    (("S907", "in the same place"), "name", ("K970", "at the same place")),
+    (("S907", ""), "name", ("K970", "place")),
     (("S907", ""), "name", ("S909", "")),
     (("T206", ""), "call", ("T207", "")),
-    (("C707", "undefined joint"), "robot", ("K965", "lacks joint")),
-    (("K972", "the build tool is"), "robot", ("K967", "")),
-    (("K973", "needs find_package("), "robot", ("K972", "CMakeLists.txt")),
-    (("K973", "the name in setup.py"), "robot", ("K973", "does not exist in this package")),
-    (("M102", "<disable_collisions>"), "robot", ("M110", "")),
-    (("T204", "loop"), "robot", ("M102", "the reason is")),
-    (("T204", "loop"), "robot", ("M105", "")),
-    (("T206", ""), "robot", ("Z801", "neither")),
-    (("T207", ""), "robot", ("C707", "undefined joint")),
+    (("C707", "undefined"), "robot", ("K965", "joint")),
+    (("K972", "build tool"), "robot", ("K967", "")),
+    (("K973", "find_package"), "robot", ("K972", "build tool")),
+    (("K973", "find_package"), "robot", ("K972", "build type")),
+    (("K973", "setup.py"), "robot", ("K973", "missing")),
+    (("M102", "disable_collisions"), "robot", ("M110", "")),
+    (("T204", ""), "robot", ("M102", "reason")),
+    (("T204", ""), "robot", ("M105", "")),
+    (("T204", ""), "robot", ("M110", "")),
+    (("T206", ""), "robot", ("Z801", "reference")),
+    (("T207", ""), "robot", ("C707", "undefined")),
     (("T207", ""), "robot", ("K959", "")),
 )
 """Cause, relation and consequence.
 
-The relation is what both have in common: the line, a link, joint or name in the message, the macro call, or only the
-robot.
+The relation is what both have in common: the line, the link, the joint or one of `Finding.names`, the macro call, or
+only the robot.
 """
 
 _WITH_FIX = ("E009", "I507")
@@ -66,19 +66,21 @@ def without_consequences(findings: list[Finding]) -> list[Finding]:
     if _CODES.isdisjoint(codes):
         return findings
     dropped: set[int] = set()
-    for (code, words), relation, (other, other_words) in _CONSEQUENCES:
+    for (code, kind), relation, (other, other_kind) in _CONSEQUENCES:
         if code not in codes or other not in codes:
             continue
-        causes = [finding for finding in findings if finding.code == code and words in finding.message]
+        causes = list(_matching(findings, code, kind))
         shared = {common for cause in causes for common in _common(cause, relation)}
-        for effect in findings:
-            if effect.code != other or other_words not in effect.message or id(effect) in dropped:
-                continue
-            if effect.fix is not None and other in _WITH_FIX:
+        for effect in _matching(findings, other, other_kind):
+            if id(effect) in dropped or (effect.fix is not None and other in _WITH_FIX):
                 continue
             if not shared.isdisjoint(_common(effect, relation)) and not any(effect is cause for cause in causes):
                 dropped.add(id(effect))
     return [finding for finding in findings if id(finding) not in dropped]
+
+
+def _matching(findings: list[Finding], code: str, kind: str) -> Iterator[Finding]:
+    return (finding for finding in findings if finding.code == code and kind in ("", finding.kind))
 
 
 def _common(finding: Finding, relation: Relation) -> Collection[object]:
@@ -89,4 +91,4 @@ def _common(finding: Finding, relation: Relation) -> Collection[object]:
         return finding.chains
     if relation == "robot":
         return ("robot",)
-    return {name for name in (finding.link, finding.joint, *re.findall("`([^`]+)`", finding.message)) if name}
+    return {name for name in (finding.link, finding.joint, *finding.names) if name}

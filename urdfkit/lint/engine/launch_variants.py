@@ -122,6 +122,4 @@ def with_variants(
 def _is_passed(finding: Finding, variants: list[Variant]) -> bool:
     """Return whether a finding reports an argument without a value, although a launch file passes one."""
     names = (name for variant in variants for name in variant.arguments)
-    return (
-        finding.code == "X106" and finding.severity == "note" and any(f"`{name}`" in finding.message for name in names)
-    )
+    return finding.code == "X106" and finding.severity == "note" and any(name in finding.names for name in names)

@@ -45,13 +45,14 @@ _FOLDERS = ("launch", "urdf", "meshes", "rviz", "worlds")
 
 @record(eq=False)
 class BuildDefect:
-    """A defect of a build file, with its text and the offset of it."""
+    """A defect of a build file, with its text, the offset of it, and the kind of the finding."""
 
     source: Source
     start: int
     text: str
     message: str
     severity: Severity = "error"
+    kind: str = ""
 
 
 def unbalanced(source: Source) -> BuildDefect | None:
@@ -140,7 +141,7 @@ def _calls(source: Source, every: list[CMakeCommand]) -> Iterator[BuildDefect]:
         near = nearest(tools[0], [name for name in packages if name not in names()], cutoff=0.85)
         if near is None and not any("cmake" in name and name not in names() for name in packages):
             message = f"{command.name}() needs find_package({tools[0]} REQUIRED)"
-            yield BuildDefect(source, command.start, command.name, message)
+            yield BuildDefect(source, command.start, command.name, message, kind="find_package")
         elif near is not None and misspelling_of(near, ()) is None:  # the rule reports other misspelt packages
             message = f"unknown package `{near}`; did you mean `{tools[0]}`?"
             yield BuildDefect(source, dict(found)[near], near, message)

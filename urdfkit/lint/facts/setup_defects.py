@@ -104,9 +104,10 @@ def _data_files(
         if is_pattern and hint:
             misspelt.add(folder)
             message = f"folder `{folder}` does not exist in this package{hint}"
-            yield BuildDefect(source, start, source.text[start:end], message)
+            yield BuildDefect(source, start, source.text[start:end], message, kind="missing")
         elif not is_pattern and not files.has(text):
-            yield BuildDefect(source, start, source.text[start:end], f"`{text}` does not exist in this package{hint}")
+            message = f"`{text}` does not exist in this package{hint}"
+            yield BuildDefect(source, start, source.text[start:end], message, kind="missing")
     left_out: dict[int, list[tuple[str, str]]] = {}
     ends: dict[int, int] = {}
     for path, use in used.items():
@@ -154,14 +155,17 @@ def _entry_point(files: BuildFiles, source: Source, text: str, start: int) -> It
     if not (files.has(top) or files.has(f"{top}.py")):
         near, hint = meant(top, [files.name])
         if near is not None and files.has(near):  # others are modules of other packages
-            yield BuildDefect(source, at, top, f"module `{top}` does not exist in this package{hint}")
+            message = f"module `{top}` does not exist in this package{hint}"
+            yield BuildDefect(source, at, top, message, kind="missing")
         return
     path = parts[2].replace(".", "/")
     module = next((file for file in (f"{path}.py", f"{path}/__init__.py") if files.has(file)), None)
     if module is None:
         folder = files.folder / path.rpartition("/")[0]
         hint = meant(parts[2].rpartition(".")[2], sorted(file.stem for file in folder.glob("*.py")))[1] if inner else ""
-        yield BuildDefect(source, at, parts[2], f"module `{parts[2]}` does not exist in this package{hint}")
+        yield BuildDefect(
+            source, at, parts[2], f"module `{parts[2]}` does not exist in this package{hint}", kind="missing"
+        )
         return
     defined = _defined(files, module)
     if defined is not None and parts[3].partition(".")[0] not in defined:

@@ -84,5 +84,6 @@ class Ros2ControlJointUndefined(RobotRule):
                     attribute="name",
                     joint=name,
                     fix=new_value(model, element, "name", near, "unsafe", f"Replace with `{near}`") if near else None,
+                    kind="undefined",
                 )
                 yield from unless_masked(model, name, near, finding)

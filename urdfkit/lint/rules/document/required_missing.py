@@ -59,4 +59,5 @@ class RequiredMissing(RobotRule):
                 continue  # Exporters write empty textures, which every reader ignores.
             if model.is_incomplete and problem.attribute is None:
                 continue  # The element may be in a part that could not be expanded.
-            yield self.at(model, problem.element, problem.message, attribute=problem.attribute)
+            kind = "attribute" if problem.attribute is not None else ""
+            yield self.at(model, problem.element, problem.message, attribute=problem.attribute, kind=kind)

@@ -85,5 +85,6 @@ class GazeboReferenceUndefined(RobotRule):
                 if near
                 else None,
                 severity="warning" if is_leftover else None,
+                kind="reference",
             )
             yield from unless_masked(model, name, near, finding)

@@ -111,4 +111,4 @@ class ExecutableUnknown(RobotRule):
                 release = f" in {_RELEASES[version]}" if program in others else ""
                 message = f"package `{package}` has no executable `{program}`{release}{suggestion(meant)}"
                 span = file.source.span(node.program.start, node.program.start + len(program))
-                yield Finding(self.code, self.name, self.severity, message, span)
+                yield Finding(self.code, self.name, self.severity, message, span, names=(program,))

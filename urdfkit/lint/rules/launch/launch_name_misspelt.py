@@ -105,7 +105,7 @@ class LaunchNameMisspelt(RobotRule):
             for parameter, package, near in misspelt_in_launch(source) if is_launch else ():
                 message = f"unknown parameter `{parameter.name}` of a node of `{package}`; did you mean `{near}`?"
                 span = source.span(parameter.start, parameter.start + len(parameter.name))
-                yield Finding(self.code, self.name, "warning", message, span)
+                yield Finding(self.code, self.name, "warning", message, span, names=(near,))
             for world in re.finditer(_WORLD, uncommented(source)) if is_launch and "gz" in source.text else ():
                 near = _nearest(world[1], _WORLDS)
                 if near is not None and world[1] not in _WORLDS:
@@ -115,8 +115,8 @@ class LaunchNameMisspelt(RobotRule):
                     yield self._at(source, topic.name, topic.start, near)
 
     def _at(self, source: Source, written: str, start: int, near: str) -> Finding:
-        message = f"unknown name `{written}`; did you mean `{near}`?"
-        return Finding(self.code, self.name, self.severity, message, source.span(start, start + len(written)))
+        message, span = f"unknown name `{written}`; did you mean `{near}`?", source.span(start, start + len(written))
+        return Finding(self.code, self.name, self.severity, message, span, kind="name", names=(near,))
 
 
 @lru_cache(maxsize=4096)

@@ -65,7 +65,8 @@ class RobotDescriptionMissing(RobotRule):
                 continue
             if not any(is_slip(name, "robot_description") for name in names):  # launch-name-misspelt reports these
                 message = "`robot_state_publisher` is started without the parameter `robot_description`"
-                yield Finding(self.code, self.name, self.severity, message, node.source.span(node.start, node.end))
+                span = node.source.span(node.start, node.end)
+                yield Finding(self.code, self.name, self.severity, message, span, names=("robot_description",))
         yield from self._in_ros1(model)
 
     def _in_ros1(self, model: Model) -> Findings:

@@ -65,7 +65,7 @@ class SrdfElementUnknown(RobotRule):
                     suggestion = nearest(tag, tags, cutoff=0.8)
                     if suggestion is not None:
                         message = f"unknown element <{tag}> of SRDF; did you mean <{suggestion}>?"
-                        yield self.at(model, element, message, severity=severity)
+                        yield self.at(model, element, message, severity=severity, kind=suggestion)
                     continue
                 missing = [name for name in attributes if name not in element.attributes and name not in OPTIONAL]
                 for name in element.attributes:
@@ -73,9 +73,10 @@ class SrdfElementUnknown(RobotRule):
                     if suggestion is not None:
                         missing.remove(suggestion)
                         message = f"unknown attribute `{name}` of <{element.tag}>; did you mean `{suggestion}`?"
-                        yield self.at(model, element, message, attribute=name, severity=severity)
+                        yield self.at(model, element, message, attribute=name, severity=severity, kind=element.tag)
                 for name in missing:
-                    yield self.at(model, element, f"<{element.tag}> has no attribute `{name}`", severity=severity)
+                    message = f"<{element.tag}> has no attribute `{name}`"
+                    yield self.at(model, element, message, severity=severity, kind=element.tag)
                 if key == "group" and not element.children:
                     yield self.at(model, element, f"group `{element.get('name')}` is empty", severity=weaker)
                 if key == "disable_collisions":
@@ -102,7 +103,7 @@ class SrdfElementUnknown(RobotRule):
             return
         elif other not in _adjacent(one, model):
             message = f"the reason is `Adjacent`, but several joints separate links `{one}` and `{other}`"
-            yield self.at(model, pair, message, attribute="reason", severity="note")
+            yield self.at(model, pair, message, attribute="reason", severity="note", kind="reason")
 
 
 def _adjacent(link: str, model: Model) -> set[str]:

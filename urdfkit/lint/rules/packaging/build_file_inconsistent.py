@@ -96,7 +96,7 @@ class BuildFileInconsistent(RobotRule):
                 yield from self._setup(files, files.setup)
                 defects = list(setup_defects(files, files.setup, paths))
             for defect in defects:
-                yield self._at(defect.source, defect.start, defect.text, defect.message, defect.severity)
+                yield self._at(defect.source, defect.start, defect.text, defect.message, defect.severity, defect.kind)
             if broken is None:
                 yield from self._folders(files, folders)
                 yield from self._programs(model, files)
@@ -130,13 +130,14 @@ class BuildFileInconsistent(RobotRule):
             if word != files.name and word == files.folder.name:
                 tag = files.tags("name")[0][1]
                 message = f"the package is `{files.name}`, but its folder and its project are `{word}`"
-                yield self._at(files.manifest, tag.start, f"<name>{files.name}", message)
+                names = (files.name, word)
+                yield self._at(files.manifest, tag.start, f"<name>{files.name}", message, kind="name", names=names)
             elif word != files.name:
                 yield self._at(source, start, word, f"project `{word}` has another name than package `{files.name}`")
-        names = {command.name for command in every}
+        called = {command.name for command in every}
         found = {command.words[0][0] for command in every if command.name == "find_package" and command.words}
         for tool, call in (("catkin", "catkin_package"), ("ament_cmake", "ament_package")):
-            is_called = any(nearest(name, [call, "ament_auto_package"], cutoff=0.8) for name in names)
+            is_called = any(nearest(name, [call, "ament_auto_package"], cutoff=0.8) for name in called)
             if tool in found and project is not None and not is_called:
                 yield self._at(source, every[-1].start, every[-1].name, f"CMakeLists.txt does not call {call}()")
 
@@ -165,13 +166,13 @@ class BuildFileInconsistent(RobotRule):
 
         if "$" not in word and not files.has(word):
             hint = near_path(files.folder / word)
-            yield self._at(source, start, word, f"`{word}` does not exist in this package{hint}")
+            yield self._at(source, start, word, f"`{word}` does not exist in this package{hint}", kind="missing")
 
     def _setup(self, files: BuildFiles, source: Source) -> Findings:
         name = re.search(r"(?m)^\s*(?:package_name\s*=|name\s*=)\s*[\"']([^\"']+)[\"']", source.text)
         if name is not None and name[1] != files.name:
             message = f"the name in setup.py is `{name[1]}`, but that of the package is `{files.name}`"
-            yield self._at(source, name.start(1), name[1], message)
+            yield self._at(source, name.start(1), name[1], message, kind="setup.py")
         marker = re.search(r"share/ament_index/resource_index/packages", source.text)
         data = re.search(r"data_files\s*=", source.text)
         if marker is None and data is not None and "resource_index" not in source.text:
@@ -222,9 +223,18 @@ class BuildFileInconsistent(RobotRule):
                 severity: Severity = "note" if files.build_tool == "catkin" else "warning"
                 yield self._at(source, installs[0].start, installs[0].name, message, severity)
 
-    def _at(self, source: Source, start: int, text: str, message: str, severity: Severity = "error") -> Finding:
+    def _at(
+        self,
+        source: Source,
+        start: int,
+        text: str,
+        message: str,
+        severity: Severity = "error",
+        kind: str = "",
+        names: tuple[str, ...] = (),
+    ) -> Finding:
         span = source.span(start, min(start + len(text), len(source.text)))
-        return Finding(self.code, self.name, severity, message, span)
+        return Finding(self.code, self.name, severity, message, span, kind=kind, names=names)
 
 
 def _used_paths(model: Model) -> dict[str, dict[str, str]]:

@@ -99,7 +99,8 @@ class ControllerContradictsWheels(RobotRule):
         if first.joint is not other.joint and first.place == other.place and first.place[1] != 0.0:
             position = f"{first.place[0]:g} {first.place[1]:g} {first.place[2]:g} m"
             message = f"wheels `{node.text}` and `{right[0][0].text}` are at the same place, {position}"
-            yield self._at(source, node, message, node.text, "check the signs of the joint origins")
+            help, names = "check the signs of the joint origins", (right[0][0].text,)
+            yield self._at(source, node, message, node.text, help, "place", names)
         separation_of_joints = abs(lateral)
         max_ratio = SKID_STEER_RATIO if len(left) > 1 else 1.0 + TOLERANCE
         distances = [
@@ -126,10 +127,22 @@ class ControllerContradictsWheels(RobotRule):
                 message = f"`wheel_radius` is {value:g} m, but the radius of the wheels is {radii[0]:.6g} m"
                 yield self._at(source, parameter, message, first.joint.name, f"write {radii[0]:.6g}")
 
-    def _at(self, source: Source, node: Node, message: str, joint: str, help: str) -> Finding:
+    def _at(
+        self,
+        source: Source,
+        node: Node,
+        message: str,
+        joint: str,
+        help: str,
+        kind: str = "",
+        names: tuple[str, ...] = (),
+    ) -> Finding:
         from urdfkit.lint.facts.control.yaml_tree import span_of
 
-        return Finding(self.code, self.name, self.severity, message, span_of(source, node), joint=joint, help=help)
+        span = span_of(source, node)
+        return Finding(
+            self.code, self.name, self.severity, message, span, joint=joint, help=help, kind=kind, names=names
+        )
 
 
 def _positive_number(controller: ControllerSettings, name: str) -> Iterator[tuple[Node, float]]:

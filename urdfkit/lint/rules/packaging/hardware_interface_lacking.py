@@ -150,5 +150,6 @@ class HardwareInterfaceLacking(RobotRule):
                 help = f'add <{tag} name="{requirement.interface}"/> to the hardware, or change the controller'
                 help = help if near is None else f"write `{near}`"
             reported.add(position)
-            span = span_of(source, requirement.where)
-            yield Finding(self.code, self.name, self.severity, message, span, joint=requirement.joint, help=help)
+            span, kind = span_of(source, requirement.where), "joint" if interfaces is None else "interface"
+            joint = requirement.joint
+            yield Finding(self.code, self.name, self.severity, message, span, joint=joint, help=help, kind=kind)

@@ -119,7 +119,7 @@ class ManifestInvalid(RobotRule):
             and expected not in names
         ):
             message = f"the build tool is `{tools[0][0]}`, but CMakeLists.txt uses `{expected}`"
-            yield self._at(files, tools[0][1], message)
+            yield self._at(files, tools[0][1], message, kind="build tool")
         elif expected in ("catkin", "ament_cmake") and not any(
             text.startswith(expected) and tag.name != "test_depend" for text, tag in files.tags(*depends)
         ):
@@ -135,12 +135,18 @@ class ManifestInvalid(RobotRule):
         if suggestion is not None:
             yield self._at(files, tag, f"unknown build type `{text}`; did you mean `{suggestion}`?")
         elif expected and text in _TYPES and text != expected:
-            source = "CMakeLists.txt" if files.cmake is not None else "setup.py"
-            yield self._at(files, tag, f"the build type is `{text}`, but {source} is for `{expected}`")
+            source, kind = ("CMakeLists.txt", "build type") if files.cmake is not None else ("setup.py", "")
+            yield self._at(files, tag, f"the build type is `{text}`, but {source} is for `{expected}`", kind=kind)
 
     def _at(
-        self, files: BuildFiles, tag: Tag, message: str, severity: Severity = "error", in_start: bool = False
+        self,
+        files: BuildFiles,
+        tag: Tag,
+        message: str,
+        severity: Severity = "error",
+        in_start: bool = False,
+        kind: str = "",
     ) -> Finding:
         text = files.manifest.text[tag.start : tag.close_end]
         span = files.manifest.span(tag.start, tag.end if in_start or "\n" in text else tag.close_end)
-        return Finding(self.code, self.name, severity, message, span)
+        return Finding(self.code, self.name, severity, message, span, kind=kind)

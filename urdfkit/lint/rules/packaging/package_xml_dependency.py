@@ -101,7 +101,7 @@ class PackageXmlDependency(RobotRule):
                     declared.add(name)
                     span = source.span(match.start(), match.end())
                     message = f"`{name}` is the folder of this package; its name in package.xml is `{own}`"
-                    yield Finding(self.code, self.name, self.severity, message, span)
+                    yield Finding(self.code, self.name, self.severity, message, span, names=(name, own))
                     continue
                 finding = self._missing(name, source, match.start(), match.end(), {*near, *declared})
                 if finding.severity == self.severity:
@@ -195,7 +195,7 @@ class PackageXmlDependency(RobotRule):
                 span = source.span(reference.start, reference.start + len(reference.name))
                 message = f"missing dependency on `{name}`, which has the controller type `{reference.name}`"
                 help = f"add <exec_depend>{name}</exec_depend> to package.xml"
-                yield Finding(self.code, self.name, self.severity, message, span, help=help)
+                yield Finding(self.code, self.name, self.severity, message, span, help=help, kind="controller type")
 
     def _missing(self, name: str, source: Source, start: int, end: int, near: set[str]) -> Finding:
         from urdfkit.lint.facts.launch.ros_version import reads_version
@@ -205,7 +205,7 @@ class PackageXmlDependency(RobotRule):
         version = reads_version(source) if source.file.endswith(LAUNCH) else 0
         if (meant := misspelling_of(name, near, version)) is not None:
             message = f"unknown package `{name}`; did you mean `{meant}`?"
-            return Finding(self.code, self.name, "error", message, span, cause=f"package {name}")
+            return Finding(self.code, self.name, "error", message, span, cause=f"package {name}", kind="misspelt")
         return Finding(
             self.code,
             self.name,
@@ -213,6 +213,7 @@ class PackageXmlDependency(RobotRule):
             f"missing dependency on `{name}`",
             span,
             help=f"add <exec_depend>{name}</exec_depend> to package.xml",
+            names=(name,),
         )
 
 

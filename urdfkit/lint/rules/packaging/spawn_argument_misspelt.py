@@ -89,16 +89,16 @@ class SpawnArgumentMisspelt(RobotRule):
             for node in started(source):
                 if node.package == "controller_manager" and node.program in ("spawner", "spawner.py"):
                     for start, text, message in _unknown_options(node, 1 if reads_ros1(source) else 2):
-                        yield Finding(
-                            self.code, self.name, self.severity, message, source.span(start, start + len(text))
-                        )
+                        span, names = source.span(start, start + len(text)), (node.program,)
+                        yield Finding(self.code, self.name, self.severity, message, span, kind="option", names=names)
                 is_own = (node.package == "gazebo_ros") == (node.program != "create")
                 if node.package in _PACKAGES and node.program in _OPTIONS and is_own:
                     invalid = (*_invalid_arguments(node, model), *_unknown_joints(node, model), *_without_source(node))
                     for start, text, message in invalid:
                         span = source.span(start, start + len(text))
                         severity = "warning" if _is_ignored(node, text) else self.severity
-                        yield Finding(self.code, self.name, severity, message, span)
+                        kind, names = "option" if text.startswith("-") else "", (node.program or "",)
+                        yield Finding(self.code, self.name, severity, message, span, kind=kind, names=names)
 
 
 def _unknown_options(node: Started, version: int) -> Iterator[tuple[int, str, str]]:

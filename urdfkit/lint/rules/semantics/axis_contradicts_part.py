@@ -113,12 +113,13 @@ class AxisContradictsPart(RobotRule):
             message = None if found & {first.name, second.name} else _contradiction(pair)
             if message is not None and not (_is_disc(first, model) and _is_disc(second, model)):
                 found |= {first.name, second.name}
-                yield self._at(second if second.element.find("axis") is not None else first, message, model)
+                wrong = second if second.element.find("axis") is not None else first
+                yield self._at(wrong, message, model, (first.name, second.name))
 
-    def _at(self, joint: Joint, message: str, model: Model) -> Finding:
+    def _at(self, joint: Joint, message: str, model: Model, names: tuple[str, ...] = ()) -> Finding:
         element = joint.element.find("axis") or joint.element
         help = "check <axis> and the rpy of <origin>"
-        return self.at(model, element, message, attribute="xyz", joint=joint.name, help=help)
+        return self.at(model, element, message, attribute="xyz", joint=joint.name, help=help, names=names)
 
 
 def _axis_in_root(joint: Joint, model: Model) -> Vector | None:

@@ -5,6 +5,7 @@ from itertools import pairwise
 from math import dist
 
 from urdfkit.lint.facts.gazebo.drive_wheels import Wheel, drives
+from urdfkit.lint.finding import Finding
 from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
 
 _MIN_DISTANCE = 0.01
@@ -113,9 +114,7 @@ class DriveWheelsMisaligned(RobotRule):
                 defect = _defect(left, right)
                 if defect is not None:
                     message, help = defect
-                    yield self.at(
-                        model, right.joint.element, message, attribute="name", joint=right.joint.name, help=help
-                    )
+                    yield self._at(model, left, right, message, help)
             for side in (drive.left, drive.right):
                 yield from self._same_place(model, side)
         yield from self._of_controllers(model)
@@ -134,8 +133,7 @@ class DriveWheelsMisaligned(RobotRule):
             for one, other in zip(left, right, strict=True):
                 defect = _defect(one, other) if one.joint is not other.joint else None
                 if defect is not None:
-                    joint = other.joint
-                    yield self.at(model, joint.element, defect[0], attribute="name", joint=joint.name, help=defect[1])
+                    yield self._at(model, one, other, *defect)
             for side in (left, right):
                 yield from self._same_place(model, side)
 
@@ -145,8 +143,11 @@ class DriveWheelsMisaligned(RobotRule):
             pairs = zip(first.middles, other.middles, strict=False)
             if first.joint is not other.joint and max(dist(a, b) for a, b in pairs) < _MIN_DISTANCE:
                 message = f"drive wheels `{first.joint.name}` and `{other.joint.name}` are in the same place"
-                help = "correct the <origin> of one of the joints"
-                yield self.at(model, other.joint.element, message, attribute="name", joint=other.joint.name, help=help)
+                yield self._at(model, first, other, message, "correct the <origin> of one of the joints")
+
+    def _at(self, model: Model, first: Wheel, other: Wheel, message: str, help: str) -> Finding:
+        joint, names = other.joint, (first.joint.name,)
+        return self.at(model, joint.element, message, attribute="name", joint=joint.name, help=help, names=names)
 
 
 def _defect(left: Wheel, right: Wheel) -> tuple[str, str] | None:

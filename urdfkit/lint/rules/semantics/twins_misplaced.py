@@ -100,7 +100,8 @@ class TwinsMisplaced(RobotRule):
             if found.isdisjoint((pair.first.name, pair.second.name)):
                 found.add(wrong.name)
                 origin = wrong.element.find("origin") or wrong.element
-                yield self.at(model, origin, message, attribute="xyz", joint=wrong.name, help=help)
+                names = (pair.first.name, pair.second.name)
+                yield self.at(model, origin, message, attribute="xyz", joint=wrong.name, help=help, names=names)
 
 
 def _defect(pair: Twins, model: Model) -> tuple[str, str] | None:

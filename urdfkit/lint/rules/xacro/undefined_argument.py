@@ -1,6 +1,7 @@
 """X106 undefined-arg."""
 
 from urdfkit.description.xacro.faults import Fault
+from urdfkit.errors import did_you_mean
 from urdfkit.lint.rule import FaultRule, Findings, Model
 
 
@@ -41,9 +42,9 @@ class UndefinedArgument(FaultRule):
         from urdfkit.lint.facts.required_inputs import is_required_argument
 
         name = fault.name or ""
-        if model.missing_file or "did you mean" in fault.message or not is_required_argument(model, name):
+        if model.missing_file or did_you_mean(name, fault.candidates) or not is_required_argument(model, name):
             yield from super().check(fault, model)
         else:
             message = f"argument `{name}` has no value, which the robot requires"
             help = f"pass {name}:=value to lint the robot with it"
-            yield self.at(model, fault, message, attribute=fault.attribute, help=help, severity="note")
+            yield self.at(model, fault, message, attribute=fault.attribute, help=help, severity="note", names=(name,))
