@@ -76,17 +76,18 @@ def late_share(z: float) -> float:
 
 
 @inlined
-def smooth_motion(w: KernelWorld, first: int, beyond: int, dt: float) -> int:
+def smooth_motion(w: KernelWorld, first: int, beyond: int, dt: float, factored: bool) -> int:
     """Factor M + dt·D + dt²·K = LᵀL and leave L⁻ᵀ·(impulse) in u; the change of v without rows is L⁻¹·u.
 
     Damping and servos act on the velocity at the end of the step, so no stiffness makes them unstable. Returns
-    `NO_SERVO`, `RIGID_MOTORS` or `SERVOS`.
+    `NO_SERVO`, `RIGID_MOTORS` or `SERVOS`. With `factored`, only velocities have changed since L was computed.
     """
     servos = rigid = 0
     for d in range(first, beyond):
         row = w.dof_row[d]
-        for e in range(first, d + 1):
-            w.L[row + e] = w.M[row + e]
+        if not factored:
+            for e in range(first, d + 1):
+                w.L[row + e] = w.M[row + e]
         effort = w.applied[d] - w.bias[d] + friction_with_motor(w, d, w.v_start)
         softness = 0.0
         if w.damping[d] != 0.0:
@@ -107,9 +108,11 @@ def smooth_motion(w: KernelWorld, first: int, beyond: int, dt: float) -> int:
                 softness += w.kd[d] + dt * w.kp[d]
             else:
                 effort += w.saturated[d] * w.servo_effort[d]
-        w.L[row + d] += dt * softness
+        if not factored:
+            w.L[row + d] += dt * softness
         w.u[d] = dt * effort
-    factor(w, first, beyond)
+    if not factored:
+        factor(w, first, beyond)
     solve_transposed(w, first, beyond, w.u, 0)
     if servos > 0 or (rigid > 0 and rigid == beyond - first):
         return SERVOS

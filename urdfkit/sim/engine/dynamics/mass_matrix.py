@@ -98,8 +98,8 @@ def place(w: KernelWorld, tree: int, s: Any, ahead: bool) -> None:
 
 
 @inlined
-def forward_sweep(w: KernelWorld, tree: int) -> None:
-    """Compute velocities, inertias and the forces that make the bodies follow at zero joint acceleration."""
+def forward_sweep(w: KernelWorld, tree: int, inertias: bool) -> None:
+    """Compute velocities and the forces that make the bodies follow at zero joint acceleration; store `inertias`."""
     v = w.v
     g = load_vector(w.gravity, 0)
     for i in range(w.tree_body[tree], w.tree_body[tree + 1]):
@@ -135,9 +135,10 @@ def forward_sweep(w: KernelWorld, tree: int) -> None:
             T[4] - h[1] * c[2],
             T[5] + square - h[2] * c[2],
         )
-        w.composite_mass[i] = m
-        store_vector(w.composite_h, i, h)
-        store_tensor(w.composite_T, i, T)
+        if inertias:
+            w.composite_mass[i] = m
+            store_vector(w.composite_h, i, h)
+            store_tensor(w.composite_T, i, T)
         needed = spatial_add(momentum(m, h, T, acceleration), force_cross(velocity, momentum(m, h, T, velocity)))
         weight = scale(m, g)
         needed = (sub(needed[0], weight), sub(needed[1], cross(c, weight)))
@@ -179,8 +180,21 @@ def backward_sweep(w: KernelWorld, tree: int) -> None:
 @inlined
 def terms(w: KernelWorld, tree: int) -> None:
     """Compute M and bias of a tree whose bodies have been placed."""
-    forward_sweep(w, tree)
+    forward_sweep(w, tree, True)
     backward_sweep(w, tree)
+
+
+@inlined
+def bias_forces(w: KernelWorld, tree: int) -> None:
+    """Compute the bias of a tree at other velocities than before, where its bodies have not moved: M is the same."""
+    forward_sweep(w, tree, False)
+    for i in range(w.tree_body[tree + 1] - 1, w.tree_body[tree] - 1, -1):
+        f = load_spatial(w.force, i)
+        for d in range(w.first_v[i], w.first_v[i + 1]):
+            w.bias[d] = spatial_dot(load_spatial(w.S, d), f)
+        above = w.parent[i]
+        if above >= 0:
+            store_spatial(w.force, above, spatial_add(load_spatial(w.force, above), f))
 
 
 @inlined

@@ -54,7 +54,7 @@ def rk4_step(w: KernelWorld, tree: int, dt: float) -> None:
             w.v_start[d] = w.v[d]
         place(w, tree, w.s, False)
         terms(w, tree)
-        smooth_motion(w, first, beyond, dt)
+        smooth_motion(w, first, beyond, dt, False)
         solve_forward(w, first, beyond)
         time_derivatives(w, tree, ahead, dt)
         weight = 1.0 / 6.0 if evaluation in (0, 3) else 1.0 / 3.0

@@ -24,7 +24,7 @@ from urdfkit.sim.engine.contacts.anisotropic_friction import orient_friction
 from urdfkit.sim.engine.contacts.ground_contacts import collide_with_plane, near_plane
 from urdfkit.sim.engine.dynamics.integration import move
 from urdfkit.sim.engine.dynamics.link_poses import place_links
-from urdfkit.sim.engine.dynamics.mass_matrix import place, solve_forward, terms
+from urdfkit.sim.engine.dynamics.mass_matrix import bias_forces, place, solve_forward, terms
 from urdfkit.sim.engine.dynamics.odometry import update_odometry
 from urdfkit.sim.engine.kernel_world import world
 from urdfkit.sim.engine.simulation_memory import (
@@ -105,12 +105,16 @@ def advance(floats: Any, integers: Any, steps: int, action: int) -> int:
         # Without contacts and servos, the velocity is computed twice, the second time from the velocity at half the
         # step, unless a limit is near and all joints are slow; ballistic trees use RK4. If servos saturate, or limits
         # are near, the second part is repeated.
-        halfway = False
+        halfway = factored = ahead = False
         solved = True
         attempt = 0
         moved = True
         while True:
-            if moved:
+            if factored:
+                if ahead:
+                    place(w, 0, w.s, False)
+                bias_forces(w, 0)
+            elif moved:
                 moved = False
                 for k in range(3):
                     w.P[k] = w.s[k] if floating else w.base[k]
@@ -118,7 +122,8 @@ def advance(floats: Any, integers: Any, steps: int, action: int) -> int:
                 terms(w, 0)
                 if only_terms:
                     return 0
-                if not halfway and w.numbers[HAS_FLOOR] != 0.0 and near_plane(w, 0, shapes, floor - w.P[2], dt):
+                ahead = w.numbers[HAS_FLOOR] != 0.0 and near_plane(w, 0, shapes, floor - w.P[2], dt)
+                if ahead:
                     for k in range(coordinates):
                         w.s_ahead[k] = w.s[k]
                     for d in range(dofs):
@@ -129,7 +134,8 @@ def advance(floats: Any, integers: Any, steps: int, action: int) -> int:
                         w.contact_origin[k] = w.P[k]
                     contacts = collide_with_plane(w, 0, 0, shapes, most_contacts, floor - w.P[2], dt)
                     orient_friction(w, contacts, first_contact_slot, 0, w.memory, dt)
-            servos = smooth_motion(w, 0, dofs, dt)
+            servos = smooth_motion(w, 0, dofs, dt, factored)
+            factored = False
             rows = joint_rows(w, 0, 0, dofs, dofs, dt, ALONE)
             free = not halfway and contacts == 0 and servos != SERVOS
             if free and limited(w, rows, dofs):
@@ -162,7 +168,7 @@ def advance(floats: Any, integers: Any, steps: int, action: int) -> int:
             for d in range(dofs):
                 w.v[d] = w.v_start[d] + (0.5 * w.u[d] if free else w.u[d])
             if free:
-                halfway = moved = True
+                halfway = factored = True
                 continue
             attempt += 1
             again = servos != NO_SERVO and overloaded(w, 0, dofs, dt, attempt < SERVO_ATTEMPTS)

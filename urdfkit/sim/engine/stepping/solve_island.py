@@ -12,8 +12,7 @@ from urdfkit.sim.engine.constraints.joint_servos import (
     smooth_motion,
 )
 from urdfkit.sim.engine.constraints.limit_crossings import passes_limits, whirls
-from urdfkit.sim.engine.dynamics.mass_matrix import solve_forward
-from urdfkit.sim.engine.dynamics.tree_motion import evaluate
+from urdfkit.sim.engine.dynamics.mass_matrix import bias_forces, place, solve_forward
 from urdfkit.sim.engine.island_solver.gauss_seidel import sweep
 from urdfkit.sim.engine.island_solver.velocity_blocks import hold
 from urdfkit.sim.engine.kernel_world import KernelWorld
@@ -70,7 +69,7 @@ def solve_island(w: KernelWorld, root: int) -> int:
     # Without contacts and servos, the velocity is computed twice, the second time from the velocity at half the step,
     # unless a limit is near and all joints are slow; ballistic trees use RK4. If servos saturate, or limits are near,
     # the second part is repeated.
-    halfway = False
+    halfway = factored = False
     attempt = 0
     # Islands with too many trees or rows for `velocity_blocks` are solved by Gauss-Seidel sweeps.
     swept = False
@@ -81,10 +80,11 @@ def solve_island(w: KernelWorld, root: int) -> int:
         tree = root
         while tree >= 0:
             first, beyond = tree_dof[tree], tree_dof[tree + 1]
-            servos = max(servos, smooth_motion(w, first, beyond, dt))
+            servos = max(servos, smooth_motion(w, first, beyond, dt, factored))
             island_dofs += beyond - first
             rows = joint_rows(w, rows, tree, dofs, width, dt, False)
             tree = w.island_next[tree]
+        factored = False
         # An island without contacts is one tree.
         free = not halfway and w.island_contact[root] < 0 and servos != SERVOS
         if free and limited(w, rows, dofs):
@@ -151,8 +151,10 @@ def solve_island(w: KernelWorld, root: int) -> int:
                 again = True
             tree = w.island_next[tree]
         if free:
-            evaluate(w, root)
-            halfway = True
+            if w.near[root] != 0:  # contacts were searched for at the predicted poses
+                place(w, root, w.s, False)
+            bias_forces(w, root)
+            halfway = factored = True
         elif not again:
             break
     for k in range(rows):
