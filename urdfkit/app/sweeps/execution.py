@@ -56,7 +56,7 @@ def execute(
             except (KilledWorker, CancelledError):  # cancelled: the scenario was in the killed process
                 raise UrdfkitError(
                     f"a process of the sweep was killed; where memory is short, use fewer --workers than {workers}, "
-                    "and the same command goes on with the runs that are left"
+                    "and the same command continues with the runs that are left"
                 ) from None
             yield outcome
             for following in submit(1):
