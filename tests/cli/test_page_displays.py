@@ -14,8 +14,8 @@ import pytest
 pytest.importorskip("meshcat")
 pytest.importorskip("pinocchio")
 
+from tests.app.simulation.displays.marker_server import MarkerServer
 from tests.app.simulation.displays.test_displays import (
-    INTERACTIVE,
     MARK,
     Simulation,
     interactive_marker,
@@ -217,16 +217,13 @@ def test_the_mesh_of_a_marker_is_drawn(shown, visits, until, keep, tmp_path: Pat
 
 
 def test_interactive_markers_are_dragged_clicked_and_moved_by_keys(shown, visits, until, keep) -> None:
-    from urdfkit.messages import from_fields
-
     page = visits.open(shown.server.url, ready=False)
-    simulation, kind = shown.simulation, f"{INTERACTIVE}Update"
+    simulation = shown.simulation
     simulation.transform("map", "base", 1.0, 2.0)
-    feedback: list[Any] = []
-    simulation.bus.subscribe("/tool/feedback", f"{INTERACTIVE}Feedback", feedback.append)
-    simulation.bus.publish(
-        "/tool/update", kind, from_fields(kind, {"type": 1, "markers": [interactive_marker("grip", 1.8, 2.0)]})
-    )
+    server = MarkerServer(simulation.bus, "/tool")
+    feedback = server.feedback
+    server.insert(interactive_marker("grip", 1.8, 2.0))
+    server.apply_changes()
     until(lambda: shown.tick() or page.locator("#open-displays").is_visible())
     panel(page, "displays")
     until(lambda: shown.tick() or page.locator("[data-display='/tool/update']").first.is_visible())
@@ -254,6 +251,7 @@ def test_interactive_markers_are_dragged_clicked_and_moved_by_keys(shown, visits
         until(lambda: shown.tick() or any(each.event_type == 1 for each in feedback))
         page.mouse.up()
         until(lambda: shown.tick() or (feedback and feedback[-1].event_type == 5))
+        until(lambda: shown.tick() or page.evaluate("!urdfkit.page.interactive.awaited"))
         assert [feedback[0].event_type, feedback[0].marker_name] == [4, "grip"]
         return feedback[-1]
 
@@ -279,6 +277,36 @@ def test_interactive_markers_are_dragged_clicked_and_moved_by_keys(shown, visits
     drawn(page)
     assert violations(page) == {"light": [], "dark": []}
     keep(page, "interactive-markers-moved")
+
+    # An echo of an earlier pose does not move the marker back, and a step that follows begins where the marker is.
+    place = "urdfkit.page.displays.all.get('/tool/update').drawn.at(-1).groups.map((each) => each.children[0])"
+    position = f"({place}).map((each) => each.position.toArray())[0]"
+    until(lambda: shown.tick() or page.evaluate("!urdfkit.page.interactive.awaited"))
+    echo = f"""() => {{
+      const display = urdfkit.page.displays.all.get("/tool/update"), echo = structuredClone({{ groups: display.drawn.at(-1).content, time: 99 }});
+      const button = document.querySelector("[data-marker=grip]"), heights = [];
+      button.focus();
+      for (const key of ["ArrowUp", "ArrowDown"]) {{
+        button.dispatchEvent(new KeyboardEvent("keydown", {{ key, shiftKey: true, bubbles: true }}));
+        display.take(echo);
+        heights.push(({position})[2]);
+      }}
+      return heights;
+    }}"""
+    assert page.evaluate(echo) == pytest.approx([0.4, 0.35])
+    until(lambda: shown.tick() or len(feedback) == 5)
+
+    # Each change came back from the server; others that it makes are shown too.
+    assert server.markers["grip"]["pose"]["position"]["z"] == pytest.approx(0.35)
+    until(lambda: shown.tick() or page.evaluate(position)[2] == pytest.approx(0.35, abs=1e-5))
+    server.keep_alive()
+    server.set_pose("grip", {"position": {"x": 1.0, "y": 1.0, "z": 1.0}, "orientation": {"w": 1.0}})
+    server.apply_changes()
+    until(lambda: shown.tick() or page.evaluate(position) == pytest.approx([1.0, 1.0, 1.0], abs=1e-5))
+    server.erase("grip")
+    server.apply_changes()
+    until(lambda: shown.tick() or page.evaluate(f"({place}).length") == 0)
+    assert page.get_by_role("button", name="Move grip").count() == 0
     assert visits.problems == []
 
 

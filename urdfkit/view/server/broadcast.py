@@ -48,6 +48,10 @@ class Hub:
         """The keys that any browser has subscribed to; may be called from any thread."""
         return frozenset().union(*(channel.subscribed_keys for channel in self._channels))
 
+    def subscribers(self, key: str) -> frozenset[Channel]:
+        """The browsers that have subscribed to a key; may be called from any thread."""
+        return frozenset(channel for channel in self._channels if key in channel.subscribed_keys)
+
     def accepts(self, key: str) -> bool:
         """Whether a browser has subscribed to a source and can receive another frame; may be called from any thread."""
         return any(channel.accepts(key) for channel in self._channels)

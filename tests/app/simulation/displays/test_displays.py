@@ -86,7 +86,8 @@ class Simulation:
 
 class Page:
     def __init__(self) -> None:
-        self.hub = SimpleNamespace(subscribed_keys=set())
+        self.readers = frozenset({1})
+        self.hub = SimpleNamespace(subscribed_keys=set(), subscribers=lambda key: self.readers)
         self.geometries = GeometryStore()
         self.sent: list[tuple[str, dict[str, Any]]] = []
 
@@ -114,7 +115,7 @@ def shown(made: tuple[Simulation, Page, Displays], topic: str, field: str = "") 
 
 
 def test_a_path_is_drawn_in_its_frame_which_transforms_connect_with_the_robot(made) -> None:
-    simulation, _, _ = made
+    simulation, page, _ = made
     poses = [{"pose": {"position": {"x": x, "y": 0.0, "z": 0.0}}} for x in (0.0, 1.0)]
     simulation.publish("/plan", "nav_msgs/msg/Path", poses=poses)
     lost = shown(made, "/plan")
@@ -122,14 +123,15 @@ def test_a_path_is_drawn_in_its_frame_which_transforms_connect_with_the_robot(ma
     assert "no transform from frame map" in lost["fault"]
     simulation.transform("map", "odom", 5.0, 0.0, TURNED)
     simulation.transform("odom", "base", 1.0, 0.0)
-    simulation.publish("/plan", "nav_msgs/msg/Path", poses=poses)
-    (group,) = shown(made, "/plan")["groups"]
+    (group,) = shown(made, "/plan")["groups"]  # of the message that came before the transforms
     # base is at (1, 2): odom at (0, 2), and map, in which odom is at (5, 0) and turned by 90°, at (0, 2) + (0, 5).
     assert group["pose"][:3] == pytest.approx([0.0, 7.0, 0.0])
     assert group["pose"][3:] == pytest.approx([0, 0, -TURNED["z"], TURNED["w"]])
     assert group["items"] == [{"line": [0.0, 0, 0, 1, 0, 0]}]
     simulation.transform("map", "odom", 6.0, 0.0, TURNED)  # a corrected localization moves the drawing
     assert shown(made, "/plan")["poses"][0][:3] == pytest.approx([0.0, 8.0, 0.0])
+    page.readers = frozenset({1, 2})  # another page
+    assert shown(made, "/plan")["groups"][0]["items"] == group["items"]
 
 
 def test_a_covariance_is_the_ellipsoid_of_one_standard_deviation() -> None:

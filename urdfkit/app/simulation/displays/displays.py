@@ -180,6 +180,7 @@ class _Display:
         self._groups: list[tuple[str, Array | None, list[Item]]] = []
         self._waiting: tuple[Any, Array | None] | None = None
         self._sent: tuple[int, list[Any]] | None = None
+        self._pages: frozenset[Any] = frozenset()  # that have the drawing
         self._size: tuple[int, int] | None = None  # of the image of boxes, whose topic is the field
         self._due = 0.0
         displays.frames.rows()  # follow the transforms from now on
@@ -238,6 +239,11 @@ class _Display:
         elif self._topic.type in FIXED:
             self._groups = [(frame, self._displays.pose(frame, links), items) for frame, _, items in self._groups]
         poses = [None if pose is None else [round(x, 6) for x in seven_of(pose)] for _, pose, _ in self._groups]
+        pages = self._displays.server.hub.subscribers(self._key)
+        if self._sent is not None:  # new pages and newly connected frames need the whole drawing
+            earlier, current = ([pose is not None for pose in each] for each in (self._sent[1], poses))
+            changed |= current != earlier or not pages <= self._pages
+        self._pages = pages
         if not changed and (self._sent is None or poses == self._sent[1]):
             return
         self._sent = self._markers.changes if self._markers is not None else 0, poses

@@ -16,7 +16,7 @@ export class Display {
     Object.assign(this, { page, topic, type, points });
     this.options = { on: false, color: COLOURS[count++ % COLOURS.length], size: 1, decay: 0, field: "", ...options };
     this.drawn = []; // {time, root, groups}
-    this.late = null; // the newest message during a drag
+    this.late = null; // the newest message that waits for the end of a drag
     this.handles = h("div.handles");
     this.#row();
     if (this.options.on) this.#subscribe(true);
@@ -73,19 +73,20 @@ export class Display {
     this.page.connection.subscribe(this.key, on);
   }
 
-  /** Show the last message that arrived during a drag. */
+  /** Show the last message that waits. */
   release() {
     if (this.late) this.take(this.late);
-    this.late = null;
   }
 
   take(message) {
-    if (this.page.interactive.holds(this)) return (this.late = message);
-    const { groups, poses, fault, time } = message;
+    const { poses, fault, time } = message;
+    const groups = poses && this.late ? this.late.groups.map((group, i) => ({ ...group, pose: poses[i] })) : message.groups;
+    this.late = null;
+    if (groups && this.page.interactive.holds(this, groups)) return (this.late = { ...message, groups, poses: null });
     this.fault.hidden = !fault;
     this.fault.textContent = fault ?? "";
     const last = this.drawn.at(-1);
-    if (poses && last?.content.length === poses.length) {
+    if (!groups && last?.content.length === poses.length) {
       last.content.forEach((group, i) => (group.pose = poses[i]));
       last.groups.forEach((group, i) => place(group, poses[i]));
       this.page.viewport.dirty();
@@ -118,6 +119,7 @@ export class Display {
 
   clear() {
     while (this.drawn.length) this.#drop();
+    this.late = null;
     this.fault.hidden = true;
     this.page.viewport.dirty();
   }

@@ -16,12 +16,15 @@ const SHIFTED = { 6: "about", 9: "turn" }; // with Shift
 const FIXED = 1; // orientation_mode
 const FACING = 2;
 const STEP = 0.05; // m by an arrow key
+const PATIENCE = 1000; // ms until the markers of a server that answered no pose are drawn where it has them
+const NEAR = 1e-6; // greatest difference of the pose of an answer
 const UP = new THREE.Vector3(0, 0, 1);
 
 class InteractiveMarkers {
   constructor(page) {
     this.page = page;
     this.held = null; // {drag, display, group, control}
+    this.awaited = null; // {display, name, pose}: the last pose that is published and not yet part of a message of the server
     this.queue = []; // feedback that is not yet sent: [topic, message]
     this.sending = false;
     const { pane } = page.viewport;
@@ -33,9 +36,21 @@ class InteractiveMarkers {
     page.on("handles", (display) => this.#list(display));
   }
 
-  /** Whether markers of a display are being dragged, so that its messages wait. */
-  holds(display) {
-    return this.held?.display === display;
+  /** Whether a message of a display waits: during a drag, and until the server has applied the last pose. */
+  holds(display, groups) {
+    if (this.held?.display === display) return true;
+    if (this.awaited?.display !== display) return false;
+    const { name, pose } = this.awaited;
+    const marker = groups.map(({ items: [item] }) => item).find((item) => item.name === name);
+    if (!marker || marker.pose.every((value, i) => Math.abs(value - pose[i]) < NEAR)) this.awaited = null;
+    return this.awaited !== null;
+  }
+
+  // Draw the last message of the server, e.g. with a pose within its limits.
+  #settle() {
+    const { display } = this.awaited ?? {};
+    this.awaited = null;
+    display?.release();
   }
 
   // A recording has no server that reads feedback.
@@ -137,6 +152,8 @@ class InteractiveMarkers {
     const last = this.queue.at(-1)?.[1];
     if (event === POSE_UPDATE && last?.event_type === event && last.marker_name === name) this.queue.pop();
     this.queue.push([topic, message]);
+    if (event === POSE_UPDATE) this.awaited = { display, name, pose };
+    clearTimeout(this.timer);
     if (this.sending) return;
     this.sending = true;
     try {
@@ -149,6 +166,7 @@ class InteractiveMarkers {
       this.page.toast(error.message, "error");
     } finally {
       this.sending = false;
+      this.timer = setTimeout(() => this.#settle(), PATIENCE);
     }
   }
 
