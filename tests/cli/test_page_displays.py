@@ -283,7 +283,8 @@ def test_interactive_markers_are_dragged_clicked_and_moved_by_keys(shown, visits
     position = f"({place}).map((each) => each.position.toArray())[0]"
     until(lambda: shown.tick() or page.evaluate("!urdfkit.page.interactive.awaited"))
     echo = f"""() => {{
-      const display = urdfkit.page.displays.all.get("/tool/update"), echo = structuredClone({{ groups: display.drawn.at(-1).content, time: 99 }});
+      const display = urdfkit.page.displays.all.get("/tool/update");
+      const echo = structuredClone({{ groups: display.drawn.at(-1).content, time: 99 }});
       const button = document.querySelector("[data-marker=grip]"), heights = [];
       button.focus();
       for (const key of ["ArrowUp", "ArrowDown"]) {{

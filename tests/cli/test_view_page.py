@@ -338,9 +338,46 @@ def test_panels_are_docked_by_dragging_and_columns_are_split(page, keep, until) 
     page.reload()
     page.wait_for_selector("#left #panel-show:visible")
     assert page.evaluate("JSON.stringify(urdfkit.layout.state.panels)") == panels
+    for name, x, y in (("Height of Show", 50, 3), ("Width of the panels at the left", 0, 50)):
+        line = page.get_by_role("separator", name=name)
+        before = line.bounding_box()
+        page.mouse.move(before["x"] + x, before["y"] + y)
+        page.mouse.down()
+        page.mouse.move(before["x"] + x - 40, before["y"] + y - 40)
+        assert line.bounding_box() != before
+        page.keyboard.press("Escape")
+        page.mouse.up()
+        assert line.bounding_box() == before
+        assert page.evaluate("JSON.stringify(urdfkit.layout.state.panels)") == panels
     page.get_by_role("separator", name="Height of Show").dblclick()
     assert page.evaluate(f"{places}.show.size ?? null") is None
     assert violations(page) == {"light": [], "dark": []}
+
+
+def test_panels_are_docked_and_sized_by_touch(lab_served, visits) -> None:
+    page = visits.open(lab_served.url, viewport={"width": 1024, "height": 768}, has_touch=True)
+    panel(page, "tree")
+    finger = page.context.new_cdp_session(page)
+
+    def swipe(start: tuple[float, float], by: tuple[float, float], end: str = "touchEnd") -> None:
+        points = [{"x": start[0] + k / 4 * by[0], "y": start[1] + k / 4 * by[1]} for k in range(5)]
+        finger.send("Input.dispatchTouchEvent", {"type": "touchStart", "touchPoints": points[:1]})
+        for point in points[1:]:
+            finger.send("Input.dispatchTouchEvent", {"type": "touchMove", "touchPoints": [point]})
+        finger.send("Input.dispatchTouchEvent", {"type": end, "touchPoints": []})
+
+    def middle(selector: str) -> tuple[float, float]:
+        box = page.locator(selector).bounding_box()
+        return box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
+
+    start = middle("#title-tree")
+    swipe(start, (10 - start[0], 300))
+    assert page.locator("#left #panel-tree").is_visible()
+    width, start = page.locator("#left").bounding_box()["width"], middle("[data-divides=left]")
+    swipe(start, (60, 0), "touchCancel")
+    assert page.evaluate("urdfkit.layout.state.panels.sizes") == {}
+    swipe((start[0] + 8, start[1]), (60, 0))  # a finger is wider than the line
+    assert page.locator("#left").bounding_box()["width"] == pytest.approx(width + 60, abs=0.5)
 
 
 @pytest.mark.parametrize("scheme", ["light", "dark"])

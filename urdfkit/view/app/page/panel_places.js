@@ -7,6 +7,7 @@ const ICONS = { side: "M4 5h16v14H4zM14 5v14", below: "M4 5h16v14H4zM4 14h16", f
 const WORDS = { side: "at the side", below: "below the view", floating: "floating", left: "at the left" };
 const STEP = 16; // px per arrow key
 const LIMITS = { width: [240, 0.6], left: [240, 0.6], height: [120, 0.6] }; // least px, and largest part of the window
+const INITIAL = { width: 344, left: 344, height: 224 }; // px, as in the style sheet
 const SMALLEST = 96; // px of a panel next to others
 const FLOATING = [336, 384]; // px
 const START = 6; // px that the pointer moves before a panel does
@@ -40,6 +41,7 @@ export class PanelPlaces {
     this.#resizes(panel.edge, {
       isVertical: () => panel.place === "below",
       sized: () => panel.section[panel.place === "below" ? "offsetWidth" : "offsetHeight"],
+      kept: () => panel.size,
       set: (value) => this.#size(panel, value),
     });
     panel.edge.addEventListener("dblclick", () => (this.#size(panel, null), this.panels.changed()));
@@ -102,7 +104,6 @@ export class PanelPlaces {
   #drag(panel, event) {
     if (event.button !== 0 || this.panels.narrow.matches || event.target.closest("button, input, select, a")) return;
     const isFloating = panel.place === "floating";
-    if (!isFloating && event.pointerType === "touch") return; // scrolls
     event.preventDefault();
     const box = panel.section.getBoundingClientRect();
     const grip = [event.clientX - box.left, event.clientY - box.top].map((value, i) => (isFloating ? value : Math.min(value, FLOATING[i] - DOCK)));
@@ -160,14 +161,16 @@ export class PanelPlaces {
     else panel.order = next ? (others[next - 1].order + others[next].order) / 2 : Math.min(panel.order, others[0].order - 0.5);
   }
 
-  // Call `moved` while the pointer is down, and `done` with its last result and the last event, or `cancelled` on Escape.
-  #follow(event, moved, done = () => {}, cancelled = null) {
+  // Call `moved` while the pointer is down, and `done` with its last result and the last event; or `cancelled` on Escape, and
+  // where the browser ends a touch.
+  #follow(event, moved, done, cancelled) {
     let result = null;
     let last = event;
     const go = (move) => move.pointerId === event.pointerId && ((last = move), (result = moved(move) ?? result));
     const end = (up) => {
       if (up.pointerId !== event.pointerId) return;
       stop();
+      if (up.type === "pointercancel") return cancelled();
       done(result, last);
       this.panels.changed();
     };
@@ -183,7 +186,7 @@ export class PanelPlaces {
       for (const each of ["pointerup", "pointercancel"]) removeEventListener(each, end);
       removeEventListener("keydown", cancel, true);
     };
-    if (cancelled) addEventListener("keydown", cancel, true);
+    addEventListener("keydown", cancel, true);
     addEventListener("pointermove", go);
     for (const each of ["pointerup", "pointercancel"]) addEventListener(each, end);
   }
@@ -199,20 +202,21 @@ export class PanelPlaces {
 
   // A line between two parts of the page.
   #divider(name, orientation, words, sized, sign) {
-    const line = h("div.divider", { role: "separator", tabindex: "0", "aria-orientation": orientation, "aria-label": words, "aria-valuemin": LIMITS[name][0], "aria-valuenow": name === "height" ? 224 : 352, "data-divides": name });
-    this.#resizes(line, { isVertical: () => orientation === "vertical", sized, set: (value) => this.size(name, value), sign });
+    const line = h("div.divider", { role: "separator", tabindex: "0", "aria-orientation": orientation, "aria-label": words, "aria-valuemin": LIMITS[name][0], "aria-valuenow": INITIAL[name], "data-divides": name });
+    this.#resizes(line, { isVertical: () => orientation === "vertical", sized, kept: () => this.sizes[name] ?? null, set: (value) => this.size(name, value), sign });
     this[name] = line;
     return line;
   }
 
-  // Drag a line, or move it by the arrow keys. @param sign 1 if the part grows to the right or downwards
-  #resizes(line, { isVertical, sized, set, sign = 1 }) {
+  // Drag a line, or move it by the arrow keys. @param kept size that the user chose, or null @param sign 1 if the part grows
+  // to the right or downwards
+  #resizes(line, { isVertical, sized, kept, set, sign = 1 }) {
     line.addEventListener("pointerdown", (event) => {
       if (event.button !== 0) return;
       event.preventDefault();
       const along = isVertical() ? "clientX" : "clientY";
-      const [start, size] = [event[along], sized()];
-      this.#follow(event, (move) => set(size + sign * (move[along] - start)));
+      const [start, size, before] = [event[along], sized(), kept()];
+      this.#follow(event, (move) => set(size + sign * (move[along] - start)), () => {}, () => set(before));
     });
     line.addEventListener("keydown", (event) => {
       const by = { ArrowLeft: -STEP, ArrowUp: -STEP, ArrowRight: STEP, ArrowDown: STEP }[event.key];
@@ -224,12 +228,18 @@ export class PanelPlaces {
     });
   }
 
-  /** Set the width of a column or the height of the strip [px]. */
+  /** Set the width of a column or the height of the strip [px], or null for the initial one. */
   size(name, value) {
+    const { style } = document.documentElement;
+    if (value === null) {
+      delete this.sizes[name];
+      style.removeProperty(`--panel-${name}`);
+      return this[name].setAttribute("aria-valuenow", INITIAL[name]);
+    }
     const [least, part] = LIMITS[name];
     const kept = Math.round(Math.max(least, Math.min(value, part * (name === "height" ? innerHeight : innerWidth))));
     this.sizes[name] = kept;
-    document.documentElement.style.setProperty(`--panel-${name}`, `${kept}px`);
+    style.setProperty(`--panel-${name}`, `${kept}px`);
     this[name].setAttribute("aria-valuenow", kept);
   }
 
