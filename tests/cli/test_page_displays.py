@@ -177,7 +177,7 @@ def test_a_path_is_drawn_over_the_map(shown, visits, until) -> None:
         until(lambda topic=topic: shown.tick() or page.locator(f"[data-display='{topic}']").is_visible())
         page.locator(f"[data-display='{topic}'] input[type=checkbox]").check()
         until(lambda topic=topic: shown.tick() or page.evaluate(DRAWN, topic))
-    page.evaluate("urdfkit.viewport.fit(urdfkit.scene.bounds(), [-0.3, -1, 0.9], 9)")
+    page.evaluate("urdfkit.viewport.fit(urdfkit.scene.bounds(), [-0.3, -1, 0.9], 3)")
     pink = """() => {
       const { viewport } = urdfkit, canvas = document.createElement("canvas");
       viewport.draw(400, 300);
@@ -190,7 +190,7 @@ def test_a_path_is_drawn_over_the_map(shown, visits, until) -> None:
       for (let i = 0; i < data.length; i += 4) count += data[i] > 200 && data[i + 1] < 100 && data[i + 2] > 120;
       return count;
     }"""
-    until(lambda: shown.tick() or page.evaluate(pink) > 40)
+    until(lambda: shown.tick() or page.evaluate(pink) > 500)  # 3 cm wide
     assert visits.problems == []
 
 

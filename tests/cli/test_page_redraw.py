@@ -78,6 +78,19 @@ def test_moving_surfaces_take_little_time_and_keep_their_colours(serve, visits, 
     assert visits.problems == []
 
 
+def test_a_still_view_has_smooth_edges(lab_served, visits, until) -> None:
+    page = visits.open(lab_served.url, device_scale_factor=1)
+    pixels = "document.querySelector('#pane canvas').width / document.getElementById('pane').clientWidth"
+    until(lambda: page.evaluate(pixels) == 2)
+    page.evaluate("urdfkit.viewport.budget.hold(true); urdfkit.viewport.dirty()")  # the camera moves
+    until(lambda: page.evaluate(pixels) <= 1)
+    page.evaluate("urdfkit.viewport.budget.hold(false); urdfkit.viewport.draw(300, 200)")
+    assert page.evaluate("document.querySelector('#pane canvas').width") == 300
+    page.evaluate("urdfkit.viewport.resize()")
+    until(lambda: page.evaluate(pixels) == 2)
+    assert visits.problems == []
+
+
 def test_a_million_triangles_are_simplified_and_moved_quickly(serve, visits, until, tmp_path: Path) -> None:
     torus = trimesh.creation.torus(0.3, 0.1, 710, 710)
     torus.export(tmp_path / "torus.stl")

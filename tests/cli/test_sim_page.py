@@ -849,6 +849,10 @@ def test_a_phone_shows_the_panels_as_a_sheet(served, visits, keep, until) -> Non
         page.locator(f"#open-{panel}").tap()
         until(lambda panel=panel: page.locator(f"#panel-{panel}").is_visible())
         keep(page, f"phone-{panel}")
+    page.evaluate("document.getElementById('robot-name').textContent = 'diff_wheeled_robot_with_laser'")
+    assert page.evaluate(
+        "(({ scrollWidth, clientWidth }) => scrollWidth <= clientWidth)(document.getElementById('robot-name'))"
+    )
     wide = page.evaluate("document.documentElement.scrollWidth")
     assert wide <= 390
     keys, pause = page.get_by_role("button", name="Keys", exact=True), page.locator("#pause")

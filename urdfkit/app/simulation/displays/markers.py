@@ -107,7 +107,7 @@ def items(marker: Any) -> list[Item]:
             return [{"vector": [b - a for a, b in zip(*points, strict=True)], "from": points[0], "pose": pose, **look}]
         return [{"arrow": pose, "length": scale[0] or 1.0, **look}]
     if marker.type in (STRIP, LINES):
-        return [{"line" if marker.type == STRIP else "segments": flat, "pose": pose, **look}]
+        return [{"line" if marker.type == STRIP else "segments": flat, "pose": pose, "width": scale[0], **look}]
     if marker.type == POINTS:
         return [{"dots": flat, "pose": pose, "size": scale[0], **look}]
     if marker.type == TEXT:

@@ -15,10 +15,9 @@ class Arrows {
     this.longest = 0;
     this.count = 0;
     const material = { color: colour, depthTest: false, transparent: true, opacity: 0.95 };
-    const geometry = new THREE.BufferGeometry();
-    geometry.setAttribute("position", new THREE.BufferAttribute(new Float32Array(6 * ROOM), 3).setUsage(THREE.DynamicDrawUsage));
-    this.shafts = new THREE.LineSegments(geometry, new THREE.LineBasicMaterial(material));
-    this.heads = new THREE.InstancedMesh(new THREE.ConeGeometry(0.28, 1, 10).translate(0, -0.5, 0), new THREE.MeshBasicMaterial(material), ROOM);
+    const copies = (geometry) => new THREE.InstancedMesh(geometry, new THREE.MeshBasicMaterial(material), ROOM);
+    this.shafts = copies(new THREE.CylinderGeometry(0.09, 0.09, 1, 8).translate(0, 0.5, 0));
+    this.heads = copies(new THREE.ConeGeometry(0.28, 1, 16).translate(0, -0.5, 0));
     for (const object of [this.shafts, this.heads]) {
       object.frustumCulled = false;
       object.renderOrder = 25;
@@ -40,7 +39,6 @@ class Arrows {
     this.longest = longest;
     this.measure = Math.max(longest, (this.measure ?? 0) * 0.98); // decreases slowly, so that the scale is steady
     const reach = this.measure > 0 ? (0.9 * this.viewport.radius) / this.measure : 0;
-    const at = this.shafts.geometry.getAttribute("position");
     const [up, from, along, turn, size] = [new THREE.Vector3(0, 1, 0), new THREE.Vector3(), new THREE.Vector3(), new THREE.Quaternion(), new THREE.Vector3()];
     const matrix = new THREE.Matrix4();
     for (let i = 0; i < this.count; i += 1) {
@@ -48,15 +46,14 @@ class Arrows {
       along.fromArray(values, 6 * i + 3).multiplyScalar(reach);
       const length = along.length();
       const end = along.clone().add(from);
-      at.setXYZ(2 * i, from.x, from.y, from.z);
-      at.setXYZ(2 * i + 1, end.x, end.y, end.z);
       turn.setFromUnitVectors(up, length > 0 ? along.divideScalar(length) : up);
       size.setScalar(Math.min(0.3 * length, 0.16 * this.viewport.radius) || 1e-9);
       this.heads.setMatrixAt(i, matrix.compose(end, turn, size));
+      size.y = Math.max(length - size.y, 1e-9);
+      this.shafts.setMatrixAt(i, matrix.compose(from, turn, size));
     }
-    at.needsUpdate = this.heads.instanceMatrix.needsUpdate = true;
-    this.shafts.geometry.setDrawRange(0, 2 * this.count);
-    this.heads.count = this.count;
+    for (const { instanceMatrix } of [this.shafts, this.heads]) instanceMatrix.needsUpdate = true;
+    this.shafts.count = this.heads.count = this.count;
     this.viewport.dirty();
   }
 }

@@ -43,7 +43,7 @@ export class Plots {
       const taken = this.plot.curves.map(({ colour }) => colour);
       const colour = COLOURS.find((each) => !taken.includes(each)) ?? COLOURS[taken.length % COLOURS.length];
       const curve = new Curve(`${topic} ${path}`, colour);
-      const words = h("span.name", { title: curve.name }, `${topic}:${path}`);
+      const words = h("span.name", { title: curve.name }, `${topic}:${path}`.split(/(?<=[./:])/).flatMap((part) => [part, h("wbr")]));
       const value = h("span.value");
       const away = h("button.bare", { type: "button", "aria-label": `Remove ${topic}:${path}`, title: "Remove" }, "×");
       const swatch = h("span.swatch", { "aria-hidden": "true" });

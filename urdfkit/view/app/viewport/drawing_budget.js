@@ -1,5 +1,6 @@
 // Keeps the view moving where the processor draws: while something moves, frames that take too long are drawn without
-// shadows and reflections, then with fewer pixels and triangles. A moment after the motion, one full frame is drawn.
+// shadows and reflections, then with fewer pixels and triangles. A moment after the motion, one full frame is drawn, and when
+// nothing has changed for a second one with smooth edges.
 
 import { coarsen } from "../appearance/coarse_geometry.js";
 import { quicken } from "../appearance/surfaces.js";
@@ -7,6 +8,8 @@ import { soft } from "./graphics_device.js";
 
 const SLOW = 60; // ms per frame, above which a coarser level is used
 const REST = 250; // ms, and twice the time of a frame: without motion for so long, the full frame is drawn
+const STILL = 1000; // ms
+const SMOOTH = 2; // pixels per pixel of the page of a frame with smooth edges
 const CHECKED = 3; // every third frame is measured
 const TRUSTED = 6000; // ms for which a level that was too slow is not tried again
 const LEVELS = [
@@ -32,6 +35,8 @@ export class DrawingBudget {
     this.cost = 0; // of the last measured frame [ms]
     this.refused = LEVELS.map(() => -Infinity); // when each level was too slow
     this.on = soft;
+    this.next = false; // whether the next frame has smooth edges
+    this.smooth = false; // whether the last one has
     addEventListener("pointerdown", ({ target }) => target.matches?.("input[type=range]") && this.hold(true));
     for (const end of ["pointerup", "pointercancel"]) addEventListener(end, () => this.held && this.hold(false));
   }
@@ -55,6 +60,7 @@ export class DrawingBudget {
   draw(render) {
     const moves = this.on && (this.held || performance.now() < this.until);
     const isNew = this.#use(moves ? this.level : 0); // its programs are compiled first: not measured
+    this.#refine(this.next && this.on && !moves);
     const start = performance.now();
     render();
     if (!moves || isNew || this.count++ % CHECKED) return;
@@ -69,6 +75,17 @@ export class DrawingBudget {
     } else if (this.level > 0 && now - this.refused[this.level - 1] > TRUSTED) {
       this.level -= 1;
     }
+  }
+
+  // Draw the frame with smooth edges or without them, and the next one with them if nothing changes; not where a frame takes long.
+  #refine(smooth) {
+    const { viewer } = this.viewport;
+    if (smooth !== this.smooth) viewer.renderer.setPixelRatio(smooth ? SMOOTH : LEVELS[this.used].pixels);
+    this.smooth = smooth;
+    this.next = false;
+    clearTimeout(this.later);
+    if (smooth || !this.on || LEVELS[this.level].isCoarse) return;
+    this.later = setTimeout(() => ((this.next = true), viewer.set_dirty()), STILL + 2 * this.cost);
   }
 
   // Return whether the level has changed.
