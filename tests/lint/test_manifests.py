@@ -55,6 +55,15 @@ def test_a_dependency_on_the_package_itself_stands_for_the_missing_one(tmp_path,
     assert "missing dependency on `arm_gazebo`" in {each.message for each in lint(tmp_path)}
 
 
+@pytest.mark.parametrize(("build", "codes"), [("ament_cmake", ["K972"]), ("catkin", ["K956"])])
+def test_in_ros_2_the_name_of_a_package_of_ros_1_stands_for_its_successor(tmp_path, monkeypatch, build, codes):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "package.xml").write_text(manifest("arm_description", "rviz").replace("ament_cmake", build))
+    (tmp_path / "arm.urdf").write_text('<robot name="arm"><link name="a"/></robot>')
+    (tmp_path / "arm.launch.xml").write_text('<launch><include file="$(find-pkg-share rviz2)/a.xml"/></launch>')
+    assert [each.code for each in lint(tmp_path) if "rviz" in each.message] == codes
+
+
 def test_a_cycle_of_dependencies_is_reported_once(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     needs = {"a_description": ["b_control"], "b_control": ["c_bringup"], "c_bringup": ["a_description"]}

@@ -15,6 +15,7 @@ import pytest
 from tests.lint.test_messages import CASES
 from urdfkit.lint import RULES, lint
 from urdfkit.lint.catalogue import SECTIONS, page, sections, title
+from urdfkit.lint.finding import Finding
 from urdfkit.lint.fixes.apply import fix
 from urdfkit.lint.project.entry_files import Entry, find_entries
 from urdfkit.lint.project.options import Options
@@ -46,10 +47,15 @@ def marks(path: Path) -> Counter:
     return expected
 
 
-def report(path: Path) -> str:
-    """Return all texts and places of the findings of a file in the current folder."""
+def found_in(path: Path) -> list[Finding]:
+    """Return the findings of a file in the current folder."""
+    return list(lint(path.name, target=target(BY_NAME[path.parent.name])))
+
+
+def report(found: list[Finding]) -> str:
+    """Return all texts and places of findings in the current folder."""
     lines = []
-    for finding in lint(path.name, target=target(BY_NAME[path.parent.name])):
+    for finding in found:
         span = finding.span
         place = f"{span.line}:{span.column}-{span.end_line}:{span.end_column}"
         lines.append(f"{span.file}:{place}: {finding.code} {finding.severity}: {finding.message}")
@@ -64,17 +70,13 @@ def report(path: Path) -> str:
 
 
 @pytest.mark.parametrize("path", files("bad"))
-def test_bad_files_are_found_out_exactly_where_marked(path):
-    found = lint(path, target=target(BY_NAME[path.parent.name]))
-    assert Counter((finding.code, finding.line) for finding in found) == marks(path), [str(f) for f in found]
-    assert BY_NAME[path.parent.name].code in {finding.code for finding in found}
-
-
-@pytest.mark.parametrize("path", files("bad"))
-def test_findings_have_their_place_message_help_and_fix(path, monkeypatch):
+def test_bad_files_have_the_marked_findings_with_their_texts(path, monkeypatch):
     """After an intended change, write the expected files with ``python -m tests.lint.test_rules`` and read the diff."""
     monkeypatch.chdir(path.parent)
-    assert report(path) == path.with_name(f"findings.{path.name}.txt").read_text()
+    found = found_in(path)
+    assert Counter((finding.code, finding.line) for finding in found) == marks(path), [str(f) for f in found]
+    assert BY_NAME[path.parent.name].code in {finding.code for finding in found}
+    assert report(found) == path.with_name(f"findings.{path.name}.txt").read_text()
 
 
 NOT_HELD = HERE.parent / "texts_not_held.txt"
@@ -411,4 +413,4 @@ if __name__ == "__main__":
     for parameter in files("bad"):
         bad: Path = parameter.values[0]
         os.chdir(bad.parent)
-        Path(f"findings.{bad.name}.txt").write_text(report(bad))
+        Path(f"findings.{bad.name}.txt").write_text(report(found_in(bad)))

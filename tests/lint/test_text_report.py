@@ -95,13 +95,14 @@ def test_the_caret_has_the_length_of_the_marked_text(line, span, caret):
     ("line", "start", "width", "shown", "caret"),
     [
         ("<link/>" + "y" * 18, 1, 29, "<link/>" + "y" * 18, "^^^^^^^"),
+        ("y" * 18 + "<link/>", 19, 29, "y" * 18 + "<link/>", " " * 18 + "^^^^^^^"),
         ("<link/>" + "y" * 19, 1, 29, "<link/>" + "y" * 17 + "…", "^^^^^^^"),
         ("x" * 50 + "<link/>" + "y" * 50, 51, 29, "…xxxxx<link/>" + "y" * 11 + "…", "      ^^^^^^^"),
         ("x" * 50 + "<link/>", 51, 29, "…xxxxx<link/>", "      ^^^^^^^"),
         ("x" * 17 + "<link/>yy", 18, 29, "x" * 17 + "<link/>…", " " * 17 + "^^^^^^^"),
         ("<link/>" + "y" * 30, 1, 1, "<link/>" + "y" * 12 + "…", "^^^^^^^"),
     ],
-    ids=["fits", "end cut", "both cut", "beginning cut", "at the end", "at least 20 columns"],
+    ids=["fits", "mark at its end", "end cut", "both cut", "beginning cut", "at the end", "at least 20 columns"],
 )
 def test_a_cut_line_shows_what_fits(line, start, width, shown, caret):
     finding = at(1, start, start + 7)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from itertools import pairwise
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -69,6 +70,16 @@ def test_an_animated_picture(robot: Path, tmp_path: Path, name: str, motion: str
             film.seek(k)
             pictures.append(np.asarray(film.convert("RGB")).astype(int))
     assert all(np.abs(a - b).max() > 30 for a, b in pairwise(pictures))
+
+
+@pytest.mark.parametrize("turn", [0.0, 40.0, 200.0])
+def test_all_pictures_of_a_turn_have_the_same_distance_from_the_middle(turn: float) -> None:
+    points = np.array([[1.0, 0.0, 0.0], [3.0, 0.0, 0.0], [2.0, 1.0, 0.5]])
+    studio = SimpleNamespace(points=lambda pose: points)
+    first, frame = (films._turned(studio, np.eye(4), (40, 30), (30.0, 20.0, 2.0), each) for each in (0.0, turn))  # type: ignore[arg-type]
+    middle = np.array([2.0, 0.5, 0.25])
+    distance = np.linalg.norm(first[:3, 3] - middle)
+    assert frame[:3, 3] + distance * frame[:3, 0] == pytest.approx(middle)  # it looks along its x axis
 
 
 def test_a_joint_moves_to_both_limits_and_back() -> None:

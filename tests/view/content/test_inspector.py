@@ -62,18 +62,20 @@ def test_poses_and_axes(found: dict) -> None:
     assert found["links"][1]["visuals"][0]["geometry"] == "sphere, radius 0.1 m"
 
 
-def test_the_ellipsoid_has_the_inertia() -> None:
+@pytest.mark.parametrize("mass", [0.5, 5.0])
+def test_the_ellipsoid_has_the_inertia(mass: float) -> None:
     rotation = pin.rpy.rpyToMatrix(0.3, -0.4, 1.1)
     half = np.array([0.1, 0.2, 0.3])
-    moments = 5.0 / 5 * np.array([0.2**2 + 0.3**2, 0.1**2 + 0.3**2, 0.1**2 + 0.2**2])
+    moments = mass / 5 * np.array([0.2**2 + 0.3**2, 0.1**2 + 0.3**2, 0.1**2 + 0.2**2])
     tensor = rotation @ np.diag(moments) @ rotation.T
-    made = ellipsoid(5.0, [tensor[0, 0], tensor[0, 1], tensor[0, 2], tensor[1, 1], tensor[1, 2], tensor[2, 2]])
+    made = ellipsoid(mass, [tensor[0, 0], tensor[0, 1], tensor[0, 2], tensor[1, 1], tensor[1, 2], tensor[2, 2]])
     assert made is not None
     assert sorted(made["axes"]) == pytest.approx(sorted(half))
     R = pin.Quaternion(np.array(made["turn"])).matrix()
     assert R @ np.diag(made["moments"]) @ R.T == pytest.approx(tensor)
     a = np.array(made["axes"])
-    assert made["moments"] == pytest.approx([a[1] ** 2 + a[2] ** 2, a[0] ** 2 + a[2] ** 2, a[0] ** 2 + a[1] ** 2])
+    sums = np.array([a[1] ** 2 + a[2] ** 2, a[0] ** 2 + a[2] ** 2, a[0] ** 2 + a[1] ** 2])
+    assert made["moments"] == pytest.approx(mass / 5 * sums)
 
 
 @pytest.mark.parametrize("tensor", [[0.4, 0, 0, 0.1, 0, 0.1], [-1, 0, 0, 1, 0, 1], [0, 0, 0, 0, 0, 0]])

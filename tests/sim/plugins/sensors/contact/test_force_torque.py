@@ -42,6 +42,7 @@ ARM = f"""<robot name="arm"><link name="world"/><link name="upper">{inertial(1.5
 <axis xyz="0 1 0"/><limit lower="-9" upper="9" effort="100" velocity="100"/></joint>
 <joint name="wrist" type="fixed"><parent link="upper"/><child link="hand"/>
 <origin xyz="0.4 0 0" rpy="0 0 1.5707963267948966"/></joint>
+<link name="tip"/><joint name="end" type="fixed"><parent link="hand"/><child link="tip"/></joint>
 <gazebo>{{plugin}}</gazebo><gazebo reference="{{joint}}">{{sensor}}</gazebo></robot>"""
 
 
@@ -146,11 +147,17 @@ def test_what_lies_on_the_ground_and_what_is_pushed_counts(arm) -> None:
     simulator.run(3.0)  # the hand lies on the ground, the arm leans on it
     assert simulator.state.contacts
     simulator.world.push("hand", force=(0.0, 3.0, 0.0))
-    force = wrench(heard(simulator, "/ft", 0.05)[-1])[0]
-    ground = sum(np.array(contact.force) for contact in simulator.state.contacts)
-    in_world = np.array(rotate(simulator.link_poses()[1][3:], force))
+    force, torque = wrench(heard(simulator, "/ft", 0.05)[-1])
+    contacts = [(np.array(contact.position), np.array(contact.force)) for contact in simulator.state.contacts]
+    ground, push = sum(force for _, force in contacts), np.array([0.0, 3.0, 0.0])
+    upper, hand = simulator.link_poses()[1:3]
     assert ground[2] > 5.0
-    assert in_world == pytest.approx(ground + np.array([0.0, 3.0, -2.0 * G]), abs=1e-6)
+    assert rotate(upper[3:], force) == pytest.approx(ground + push + [0.0, 0.0, -2.0 * G], abs=1e-6)
+    centres = [np.array(rotate(upper[3:], (0.2, 0.0, 0.0))), hand[:3] + rotate(hand[3:], (0.1, 0.05, 0.0)) - upper[:3]]
+    moment = sum(np.cross(position - upper[:3], force) for position, force in contacts)
+    moment += np.cross(hand[:3] - upper[:3], push)
+    moment += sum(np.cross(at, [0.0, 0.0, -m * G]) for at, m in zip(centres, (1.5, 0.5), strict=True))
+    assert rotate(upper[3:], torque) == pytest.approx(moment, abs=1e-6)
 
 
 @pytest.mark.slow
