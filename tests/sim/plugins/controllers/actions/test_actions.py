@@ -93,6 +93,8 @@ def test_a_goal_succeeds_when_it_is_over(make: Make, velocities: bool) -> None:
     assert set(statuses) == {ACTIVE}
     simulator.run(0.1)
     assert client.outcome == ("g", SUCCEEDED, 0)
+    stamp = client.results[-1].header.stamp
+    assert (stamp.sec, stamp.nanosec) == (1, 0)
     assert statuses[-1] == SUCCEEDED
     assert positions(simulator) == pytest.approx((0.5, -0.5), abs=1e-6)
     assert len(client.feedback) == 20  # action_monitor_rate

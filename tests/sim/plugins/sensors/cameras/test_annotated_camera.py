@@ -8,7 +8,9 @@ import pytest
 from tests.sim.plugins.sensors.cameras.test_cameras import camera, eye, pixels
 from tests.sim.plugins.sensors.conftest import heard, wall
 from urdfkit.description.urdf.robot import Pose
+from urdfkit.scene.camera_model import Lens
 from urdfkit.scene.pose_matrices import pose_matrices, pose_matrix
+from urdfkit.sim.plugins.sensors.cameras.bounding_boxes import Box3D, draw
 
 LABEL = '<plugin filename="gz-sim-label-system" name="gz::sim::systems::Label"><label>{label}</label></plugin>'
 
@@ -180,6 +182,16 @@ def test_boxes_in_space_have_place_axes_and_size_of_the_thing(post) -> None:
     assert axes == pytest.approx(pose_matrix(Pose((0, 0, 0), (0.1, 0.2, 0.3)))[:3, :3], abs=1e-6)
     (picture,) = heard(simulator, "/boxes_image")
     assert 100 < (pixels(picture) == (0, 255, 0)).all(axis=2).sum() < 1000
+
+
+def test_a_box_that_is_wider_than_the_picture_is_drawn_to_its_borders() -> None:
+    lens = Lens(20, 10, 2 * np.arctan(1.0))  # focal length 10 px
+    picture = np.zeros((10, 20), dtype=np.uint8)
+    draw(picture, Box3D(1, np.array([5.0, 0.0, 0.0]), np.eye(3), np.array([2.0, 12.0, 2.0])), lens, 255)  # type: ignore[arg-type]
+    assert np.flatnonzero(picture.all(axis=1)).tolist() == [2, 3, 6, 7]  # edges 4 m and 6 m away
+    picture[:] = 0
+    draw(picture, Box3D(1, np.array([5.0, 0.0, 0.0]), np.eye(3), np.array([2.0, 2.0, 12.0])), lens, 255)  # type: ignore[arg-type]
+    assert np.flatnonzero(picture.all(axis=0)).tolist() == [7, 8, 11, 12]
 
 
 def test_a_thing_of_several_shapes_has_the_principal_axes_of_its_corners(post) -> None:

@@ -7,7 +7,11 @@ import pytest
 
 from tests.sim.plugins.sensors.conftest import LASER, ROOM, heard, noise, scan, sensor, wall
 from tests.suggestions import contains
+from urdfkit.description.urdf.robot import SensorTag
+from urdfkit.description.xml.reader import document_of
+from urdfkit.description.xml.source import Source
 from urdfkit.sim import Spawn
+from urdfkit.sim.plugins.sensors.lidars.scan_pattern import Scan, scan_of
 
 
 def distances(angles, *, far=30.0):
@@ -178,3 +182,22 @@ def test_a_sensor_that_makes_no_sense_is_left_out_by_name_and_the_rest_runs(post
     assert "post.urdf:" in note
     assert "; sensor `lidar` is left out" in note
     assert heard(simulator, "/good")
+
+
+FAN = "<samples>8</samples><max_angle>1</max_angle>"
+RANGE = "<range><min>0.5</min><max>2</max></range>"
+
+
+@pytest.mark.parametrize(
+    ("written", "pattern"),
+    [
+        ("<range><max>inf</max></range>", Scan(640, 0.0, 0.0, 1, 0.0, 0.0, 0.0, np.inf)),
+        (
+            f"<scan><horizontal>{FAN}<resolution>0.5</resolution></horizontal><vertical>{FAN}</vertical></scan>{RANGE}",
+            Scan(4, 0.0, 1.0, 8, 0.0, 1.0, 0.5, 2.0),
+        ),
+    ],
+)
+def test_what_a_lidar_lacks_has_the_defaults_of_sdformat(written: str, pattern: Scan) -> None:
+    element = document_of(Source("s.urdf", f"<sensor><lidar>{written}</lidar></sensor>"))
+    assert scan_of(SensorTag("s", "gpu_lidar", (), element)) == pattern
