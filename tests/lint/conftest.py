@@ -11,6 +11,14 @@ HEAD = '<robot name="r" xmlns:xacro="http://www.ros.org/wiki/xacro">'
 
 
 @pytest.fixture
+def tmp_path(tmp_path: Path) -> Path:
+    """Return a folder alone in its parent: a package is linted with those next to it, which other tests have left."""
+    alone = tmp_path / "own"
+    alone.mkdir()
+    return alone
+
+
+@pytest.fixture
 def write(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Callable[..., Path]:
     """Write a file below the working folder; ``<robot …>`` is put around text that has none."""
     monkeypatch.chdir(tmp_path)
