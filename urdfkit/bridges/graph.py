@@ -9,7 +9,7 @@ from typing import Any
 
 from urdfkit.bridges.bridge import CAPACITY, MOST_BYTES, CallQueue, is_latched, message_topics, publish_received
 from urdfkit.bridges.message_builder import MessageBuilder
-from urdfkit.bridges.published_message import PublishedMessage, approximate_size
+from urdfkit.bridges.published_message import PublishedMessage
 from urdfkit.bridges.service import Service, respond
 from urdfkit.bus import Build, Bus, Subscription, absolute, nearest_topic
 from urdfkit.errors import UsageError, suggestion
@@ -128,21 +128,24 @@ class Graph:
                 f"{CAPACITY} calls or {MOST_BYTES >> 20} MB of messages wait for the simulation; this one is dropped"
             )
 
-    def publish(self, topic: str, message: Any, failed: Callable[[str], None]) -> None:
-        """Publish a message; `failed` receives the reason if a subscriber cannot use it."""
+    def publish(self, topic: str, message: Any, size: int, failed: Callable[[str], None]) -> None:
+        """Publish a message of a number of bytes; `failed` receives the reason if a subscriber cannot use it."""
 
         def publish() -> None:
             publish_received(self.bus, topic, message, lambda reason: self.post(lambda: failed(reason)))
 
-        self.call(publish, approximate_size(message))
+        self.call(publish, size)
 
-    def request(self, service: Service, message: Any, done: Callable[[Any, str | None], None]) -> None:
-        """Call a service; `done` receives its response, or None and the reason, in the thread of the server."""
+    def request(self, service: Service, message: Any, size: int, done: Callable[[Any, str | None], None]) -> None:
+        """Call a service with a message of a number of bytes.
+
+        `done` receives its response, or None and the reason, in the thread of the server.
+        """
 
         def answer(found: Any, reason: str | None) -> None:
             self.post(lambda: done(found, reason))
 
-        self.call(lambda: respond(service, message, answer))
+        self.call(lambda: respond(service, message, answer), size)
 
     def deliver(self, receivers: tuple[Receive, ...], sample: PublishedMessage) -> None:
         """Hand a message to peers, in the thread of the server; called by the thread of the simulation."""

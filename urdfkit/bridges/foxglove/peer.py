@@ -150,7 +150,7 @@ class FoxglovePeer:
         if message.channel not in self._published:
             raise UsageError(f"the channel {message.channel} is not advertised")
         topic, type, encoding = self._published[message.channel]
-        self._graph.publish(topic, decode(type, encoding, message.content), self._fail)
+        self._graph.publish(topic, decode(type, encoding, message.content), len(message.content), self._fail)
 
     def _call(self, request: ServiceRequest) -> None:
         def fail(reason: str) -> None:
@@ -169,7 +169,8 @@ class FoxglovePeer:
                 self._queue.reply(response_frame(request, content))
 
         try:
-            self._graph.request(service, decode(service.request, request.encoding, request.content), done)
+            message = decode(service.request, request.encoding, request.content)
+            self._graph.request(service, message, len(request.content), done)
         except UrdfkitError as error:
             fail(str(error))
 

@@ -36,6 +36,7 @@ class RosbridgePeer:
 
     def __init__(self, graph: Graph, queue: SendQueue, report: Callable[[str], None]) -> None:
         self._graph, self._queue, self._report = graph, queue, report
+        self._size = 0  # of the frame that is processed [bytes]
         self._level = "none"  # as rosbridge_suite, which sends no status: roslibpy fails at one
         self._subscriptions: dict[tuple[str, str], tuple[SubscriptionQueue, Callable[[], None]]] = {}
         self._advertised: dict[str, str] = {}
@@ -55,6 +56,7 @@ class RosbridgePeer:
     def receive(self, frame: str | bytes) -> None:
         """Process a frame; an error is reported to the client and the user, and has no other effect."""
         number: Any = None
+        self._size = len(frame)
         try:
             message = json.loads(frame)
             if not isinstance(message, dict):
@@ -71,6 +73,8 @@ class RosbridgePeer:
                 self._operations[op](message)
         except (UrdfkitError, RecursionError, ValueError) as error:
             self._fail(number, str(error))
+        except (AttributeError, KeyError, TypeError) as error:
+            self._fail(number, f"a field is missing or of a wrong kind: {error}")
 
     def close(self) -> None:
         """End all subscriptions."""
@@ -99,11 +103,10 @@ class RosbridgePeer:
         from_json(self._advertised[topic], None)  # raises if the type is unknown
 
     def _publish(self, message: dict[str, Any]) -> None:
-        topic = _text(message, "topic")
+        topic, number = _text(message, "topic"), message.get("id")
         type = self._graph.type_of(topic, self._advertised.get(topic) or message.get("type"))
-        self._graph.publish(
-            topic, from_json(type, message.get("msg") or None), lambda reason: self._fail(message.get("id"), reason)
-        )
+        built = from_json(type, message.get("msg") or None)
+        self._graph.publish(topic, built, self._size, lambda reason: self._fail(number, reason))
 
     def _subscribe(self, message: dict[str, Any]) -> None:
         topic = _text(message, "topic")
@@ -136,11 +139,11 @@ class RosbridgePeer:
             self._queue.remove(queue)
 
     def _call_service(self, message: dict[str, Any]) -> None:
-        name, number = _text(message, "service"), message.get("id")
+        name, number, requested = _text(message, "service"), message.get("id"), message["service"]
         arguments = message.get("args") or {}
 
         def respond(values: str, result: bool) -> None:
-            head = {"op": "service_response", "service": message["service"], "result": result}
+            head = {"op": "service_response", "service": requested, "result": result}
             if number is not None:
                 head["id"] = number
             self._queue.reply(f'{json.dumps(head)[:-1]}, "values": {values}}}')
@@ -156,7 +159,7 @@ class RosbridgePeer:
             if service is None:
                 near = suggestion(nearest_topic(name, list(self._graph.services)))
                 raise UsageError(f"no service `{name}`{near}")
-            self._graph.request(service, from_json(service.request, arguments or None), done)
+            self._graph.request(service, from_json(service.request, arguments or None), self._size, done)
         except UrdfkitError as error:
             respond(json.dumps(str(error)), False)
 
