@@ -1,6 +1,6 @@
 """Setup: interfaces and options with which the simulator configures a plugin."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -14,6 +14,14 @@ from urdfkit.kinematics import Kinematics
 from urdfkit.sim.construction.repairs.collector import Repairs
 from urdfkit.sim.plugins.ros_distro import Distro
 from urdfkit.sim.scene_view import Surroundings
+
+LARGEST = 1e9
+"""Largest number of a command [m/s, rad, N, …]; products of larger ones overflow, and the simulation diverges."""
+
+
+def is_command(numbers: Iterable[float]) -> bool:
+    """Whether all numbers of a command are finite and not larger than `LARGEST`."""
+    return all(abs(number) <= LARGEST for number in numbers)
 
 
 @dataclass(frozen=True)

@@ -255,7 +255,7 @@ def test_gz_sim_can_be_disabled(make: Make) -> None:
     assert simulator.state.base_velocity[0] == pytest.approx(0.3)
 
 
-@pytest.mark.parametrize("bad", [(math.nan, 0.0), (0.0, math.nan), (math.inf, 0.0), (0.0, -math.inf)])
+@pytest.mark.parametrize("bad", [(math.nan, 0.0), (0.0, math.nan), (math.inf, 0.0), (0.0, -math.inf), (1e308, 0.0)])
 @pytest.mark.parametrize("generation", GENERATIONS)
 def test_commands_that_are_not_finite_are_dropped_with_one_warning(
     make: Make, generation: str, bad: tuple[float, float]

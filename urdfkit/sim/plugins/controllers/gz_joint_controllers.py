@@ -7,7 +7,7 @@ src/systems/joint_controller/JointController.cc; gz-math PID.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from math import inf, isfinite
+from math import inf
 from typing import Any
 
 from urdfkit.description.plugins import PluginSpec
@@ -17,7 +17,7 @@ from urdfkit.messages import FLOAT
 from urdfkit.sim.plugins.base import Controller
 from urdfkit.sim.plugins.controllers.joint_handle import JointHandle, JointPid
 from urdfkit.sim.plugins.parameters import Parameters
-from urdfkit.sim.plugins.setup import Setup
+from urdfkit.sim.plugins.setup import LARGEST, Setup, is_command
 from urdfkit.sim.plugins.topic_names import Topics
 from urdfkit.sim.state.joint_commands import Motors
 from urdfkit.sim.state.periodic_steps import NEVER
@@ -65,13 +65,13 @@ class _GzJoint:
         self.topic = topics.resolve(topic)
 
     def listen(self, take: Any) -> None:
-        """Subscribe, and pass every finite command to `take`."""
+        """Subscribe, and pass every command that is finite and not too large to `take`."""
 
         def receive(message: Any) -> None:
-            if isfinite(message.data):
+            if is_command([message.data]):
                 take(float(message.data))
             else:
-                self.setup.note(f"dropped a command on {self.topic} that is not finite")
+                self.setup.note(f"dropped a command on {self.topic} that is not finite, or above {LARGEST:g}")
 
         self.setup.bus.subscribe(self.topic, FLOAT, receive)
 

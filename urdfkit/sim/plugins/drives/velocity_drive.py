@@ -2,7 +2,6 @@
 
 from collections.abc import Callable
 from copy import copy
-from math import isfinite
 from typing import Any
 
 from urdfkit.bus import Topic
@@ -12,7 +11,7 @@ from urdfkit.sim.plugins.base import Drive
 from urdfkit.sim.plugins.drives.wheel_messages import Wheels
 from urdfkit.sim.plugins.odometry import Estimate, OdometryTopics, Pose, from_world, planar
 from urdfkit.sim.plugins.parameters import Parameters
-from urdfkit.sim.plugins.setup import Setup
+from urdfkit.sim.plugins.setup import LARGEST, Setup, is_command
 from urdfkit.sim.plugins.speed_limits import SpeedLimits
 from urdfkit.sim.plugins.wheel_odometry import EncoderOdometry, WheelOdometry
 from urdfkit.sim.state.joint_commands import Motors
@@ -23,7 +22,7 @@ ZERO = (0.0, 0.0, 0.0)
 
 
 class Command:
-    """Last Twist on a topic. A Twist that is not finite is dropped with a warning.
+    """Last Twist on a topic. A Twist that is not finite, or too large, is dropped with a warning.
 
     Args:
         setup: setup of the drive.
@@ -50,10 +49,10 @@ class Command:
         linear, angular = (
             (float(vector.x), float(vector.y), float(vector.z)) for vector in (message.linear, message.angular)
         )
-        if not all(isfinite(part) for part in (*linear, *angular)):
+        if not is_command((*linear, *angular)):
             self._note(
                 f"dropped a command on {self.topic}: {linear[0]:g} {linear[1]:g} {linear[2]:g} m/s, "
-                f"{angular[0]:g} {angular[1]:g} {angular[2]:g} rad/s is not finite"
+                f"{angular[0]:g} {angular[1]:g} {angular[2]:g} rad/s is not finite, or above {LARGEST:g}"
             )
             return
         self.linear, self.angular = linear, angular

@@ -4,13 +4,13 @@ Sources: ros_controllers noetic, forward_command_controller, {position,velocity,
 forward_command_controller.
 """
 
-from math import isfinite
 from typing import ClassVar
 
 from urdfkit.errors import DescriptionError, did_you_mean
 from urdfkit.messages import FLOAT, FLOATS
 from urdfkit.sim.plugins.controllers.command_output import INTERFACES, PositionOutput
 from urdfkit.sim.plugins.controllers.controller import RosController
+from urdfkit.sim.plugins.setup import LARGEST, is_command
 from urdfkit.sim.state.joint_commands import Motors
 from urdfkit.sim.state.robot_state import State
 
@@ -50,8 +50,8 @@ class Forward(RosController):
         """Accept a command; drop it with a warning if its length is wrong or a value is not finite."""
         if len(values) != len(self.outputs):
             self.note(f"dropped a command of {len(values)} values; it has {len(self.outputs)} joints")
-        elif not all(map(isfinite, values)):
-            self.note("dropped a command that is not finite")
+        elif not is_command(values):
+            self.note(f"dropped a command that is not finite, or above {LARGEST:g}")
         else:
             self._values = values
 

@@ -10,6 +10,7 @@ from urdfkit.errors import DescriptionError
 from urdfkit.sim.plugins.controllers.actions.action_goal import ABORTED, SUCCEEDED, Action, RefusalError
 from urdfkit.sim.plugins.controllers.controller import RosController
 from urdfkit.sim.plugins.controllers.joint_handle import JointPid
+from urdfkit.sim.plugins.setup import is_command
 from urdfkit.sim.state.joint_commands import Motors
 from urdfkit.sim.state.pid import read_gains
 from urdfkit.sim.state.robot_state import State
@@ -89,7 +90,7 @@ class Gripper(RosController):
             RefusalError: the goal is not finite, or not for exactly one joint.
         """
         position, most = self._read(goal.command)
-        if not (abs(position) < float("inf") and abs(most) < float("inf")):
+        if not is_command((position, most)):
             raise RefusalError(f"a gripper cannot go to {position} with {most}")
         self._wanted, self._most = position, abs(most)
         self._moved = self._present.t

@@ -5,7 +5,7 @@ joint_velocity_controller.cpp, joint_group_position_controller.cpp.
 """
 
 from collections.abc import Callable
-from math import inf, isfinite
+from math import inf
 from typing import Any, ClassVar
 
 import numpy as np
@@ -14,6 +14,7 @@ from urdfkit.errors import DescriptionError
 from urdfkit.messages import FLOAT, FLOATS, JOINT_CONTROLLER_STATE, header, message_type
 from urdfkit.sim.plugins.controllers.controller import RosController
 from urdfkit.sim.plugins.controllers.joint_handle import JointPid
+from urdfkit.sim.plugins.setup import LARGEST, is_command
 from urdfkit.sim.state.joint_commands import Motors
 from urdfkit.sim.state.pid import Gains, read_gains
 from urdfkit.sim.state.robot_state import State
@@ -66,10 +67,10 @@ class PidPosition(RosController):
         return state.position(self.joint_pid.handle.name)
 
     def _take(self, message: Any) -> None:
-        if isfinite(message.data):
+        if is_command([message.data]):
             self._wanted = float(message.data)
         else:
-            self.note("dropped a command that is not finite")
+            self.note(f"dropped a command that is not finite, or above {LARGEST:g}")
 
     def update(self, state: State, motors: Motors) -> float:
         """Write the command of the joint."""
@@ -163,7 +164,7 @@ class PidGroup(RosController):
 
     def _take(self, message: Any) -> None:
         values = np.asarray(message.data, dtype=float)
-        if values.shape == self._wanted.shape and np.isfinite(values).all():
+        if values.shape == self._wanted.shape and is_command(values):
             self._wanted = values
         else:
             self.note(f"dropped a command: {len(self._wanted)} finite values are wanted")

@@ -1,10 +1,11 @@
 """Reference: last commanded twist of a wheeled robot, valid until a timeout."""
 
-from math import inf, isfinite
+from math import inf
 from typing import Any
 
 from urdfkit.messages import TWIST, TWIST_STAMPED
 from urdfkit.sim.plugins.controllers.controller import RosController
+from urdfkit.sim.plugins.setup import LARGEST, is_command
 from urdfkit.sim.plugins.wheel_odometry import Twist
 
 
@@ -50,8 +51,8 @@ class Reference:
         stamp = getattr(message, "header", None)
         plain = getattr(message, "twist", message)
         target = (float(plain.linear.x), float(plain.linear.y), float(plain.angular.z))
-        if not all(map(isfinite, target)):
-            self._controller.note("dropped a command that is not finite")
+        if not is_command(target):
+            self._controller.note(f"dropped a command that is not finite, or above {LARGEST:g}")
             return
         sent = stamp.stamp.sec + 1e-9 * stamp.stamp.nanosec if self._dated and stamp is not None else 0.0
         self._target, self._sent, self._fresh = target, sent or None, True

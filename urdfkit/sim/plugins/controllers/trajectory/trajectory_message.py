@@ -6,7 +6,7 @@ Sources: ros_controllers noetic, init_joint_trajectory.h; ros2_controllers, join
 from __future__ import annotations
 
 from collections.abc import Sequence
-from math import isfinite, pi
+from math import pi
 from typing import Any
 
 import numpy as np
@@ -16,6 +16,7 @@ from urdfkit.linear_algebra import Array
 from urdfkit.messages import from_fields, message_type
 from urdfkit.sim.plugins.controllers.actions.action_goal import RefusalError
 from urdfkit.sim.plugins.controllers.trajectory.spline import ROUNDING, Trajectory, Waypoint
+from urdfkit.sim.plugins.setup import LARGEST, is_command
 
 INVALID_GOAL, INVALID_JOINTS, OLD_STAMP = -1, -2, -3
 """Error codes of FollowJointTrajectory."""
@@ -114,8 +115,8 @@ def _row(values: Any, count: int) -> Array | None:
     found = np.asarray(values, dtype=float)
     if found.size == 0:
         return None
-    if found.shape != (count,) or not all(map(isfinite, found.tolist())):
-        raise ValueError(f"a point needs {count} finite numbers")
+    if found.shape != (count,) or not is_command(found.tolist()):
+        raise ValueError(f"a point needs {count} finite numbers, at most {LARGEST:g}")
     return found
 
 
