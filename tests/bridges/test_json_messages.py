@@ -59,7 +59,7 @@ def test_bytes_of_a_client_may_be_base64_or_numbers_also_inside_messages() -> No
         ("geometry_msgs/Twits", {}, "no message type"),
         ("geometry_msgs/Twist", 3, "write its fields"),
         ("sensor_msgs/Image", {"data": "§"}, "not a sensor_msgs/msg/Image|not base64"),
-        ("sensor_msgs/Image", {"data": [256]}, "not a sensor_msgs/msg/Image"),
+        ("sensor_msgs/Image", {"data": [256]}, "it must be uint8, 0 to 255"),
         ("sensor_msgs/Image", {"height": 1.5e400}, "not a sensor_msgs/msg/Image|must be uint32"),
     ],
 )

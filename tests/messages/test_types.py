@@ -103,6 +103,29 @@ def test_wrong_fields(fields: object, reported: str) -> None:
     assert reported in str(caught.value)
 
 
+@pytest.mark.parametrize(
+    ("type", "value", "reported"),
+    [
+        (
+            "Int32",
+            2**40,
+            "field `data` of std_msgs/msg/Int32 is 1099511627776; it must be int32, -2147483648 to 2147483647",
+        ),
+        ("UInt8", -1, "it must be uint8, 0 to 255"),
+        (
+            "UInt8MultiArray",
+            [1, 256],
+            "field `data` of std_msgs/msg/UInt8MultiArray is 256; it must be uint8, 0 to 255",
+        ),
+        ("String", "\ud800", r"field `data` of std_msgs/msg/String is '\ud800', which is not Unicode"),
+    ],
+)
+def test_values_that_cannot_be_encoded(type: str, value: object, reported: str) -> None:
+    with pytest.raises(UsageError) as caught:
+        from_fields(f"std_msgs/{type}", {"data": value})
+    assert reported in str(caught.value)
+
+
 def test_transforms() -> None:
     link = transform(1.0, "odom", "base", (1, 2, 3), (0, 0, 0, 1))
     assert (link.header.frame_id, link.child_frame_id, link.transform.translation.y) == ("odom", "base", 2.0)

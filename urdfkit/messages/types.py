@@ -310,6 +310,16 @@ def _layouts() -> dict[str, Any]:
     return dict(_store().fielddefs)
 
 
+@cache
+def _range(base: str) -> tuple[float, float]:
+    """Return the least and the greatest number of a base type."""
+    import numpy as np
+
+    if "int" not in base:
+        return -np.inf, np.inf
+    return int(np.iinfo(base).min), int(np.iinfo(base).max)
+
+
 def _value(type: str, name: str, description: Any, value: Any) -> Any:
     """Return the value of one field, by rosbags' description of it: (node type, details).
 
@@ -327,10 +337,18 @@ def _value(type: str, name: str, description: Any, value: Any) -> Any:
         base = details[0]
         try:
             if base == "string":
-                return "" if value is None else str(value)
+                text = "" if value is None else str(value)
+                text.encode()  # raises for half of a pair of surrogates, which JSON can express
+                return text
             if base == "bool":
                 return bool(value)
-            return (float if base.startswith("float") else int)(0 if value is None else value)
+            number = (float if base.startswith("float") else int)(0 if value is None else value)
+            least, most = _range(base)
+            if number < least or number > most:
+                raise UsageError(f"field `{name}` of {type} is {value}; it must be {base}, {least} to {most}")
+            return number
+        except UnicodeEncodeError:
+            raise UsageError(f"field `{name}` of {type} is {value!a}, which is not Unicode") from None
         except (TypeError, ValueError):
             raise UsageError(f"field `{name}` of {type} is `{value}`; it must be {base}") from None
     inner, length = details
