@@ -22,7 +22,7 @@ from urdfkit.bridges.service import Service
 from urdfkit.bus import Bus
 from urdfkit.cli import main
 from urdfkit.errors import UsageError
-from urdfkit.messages import from_fields, typestore
+from urdfkit.messages import from_fields, message_type, typestore
 from urdfkit.messages.conversion import decode_cdr, encode_cdr
 
 STRING, TWIST = "std_msgs/msg/String", "geometry_msgs/msg/Twist"
@@ -166,6 +166,35 @@ def test_topics_are_followed_and_missing_types_reported_in_one_line() -> None:
         f"/r1/a, /r1/b: not on ROS 2; no {STRING}",
     ]
     bridge.close()
+
+
+def test_a_topic_with_another_type_on_the_graph_is_one_line() -> None:
+    class Graph(RecordedNode):
+        def types(self) -> dict[str, set[str]]:
+            checks.append(1)
+            return {"/cmd_vel": {TWIST, STRING}, "/chatter": {STRING}}
+
+    bus, calls, node, lines, checks = Bus(), CallQueue(), Graph(), list[str](), list[int]()
+    bus.subscribe("/cmd_vel", TWIST, lambda message: None)
+    bridge = NodeBridge(bus, calls, node, report=lines.append)
+    until(lambda: len(checks) > 1, calls)
+    bridge.close()
+    assert lines == [f"`/cmd_vel` has type {TWIST}; a node uses {STRING}, and so exchanges no messages with it"]
+
+
+def test_a_message_that_cannot_be_encoded_is_one_line_and_the_next_ones_are_sent() -> None:
+    bus, calls, node, lines = Bus(), CallQueue(), RecordedNode(), list[str]()
+    bus.advertise("/a", STRING)
+    bridge = NodeBridge(bus, calls, node, report=lines.append)
+    node.published["/a"].matched = True
+    until(lambda: bus.has_subscribers("/a"), calls)
+    for text in ("\ud800", "next"):
+        bus.publish("/a", STRING, message_type(STRING)(text))
+    until(lambda: node.published["/a"].sent, calls)
+    bridge.close()
+    assert [decode_cdr(data, STRING).data for data in node.published["/a"].sent] == ["next"]
+    assert len(lines) == 1
+    assert lines[0].startswith("`/a`: a message cannot be sent to ROS 2: ")
 
 
 def test_actions_without_a_server_are_one_line() -> None:

@@ -144,6 +144,14 @@ class Node(Protocol):
 
 
 @runtime_checkable
+class TypedGraph(Protocol):
+    """A node of a graph on which a topic can have several types, whose publishers and subscribers ignore each other."""
+
+    def types(self) -> dict[str, set[str]]:
+        """Return topic → types of its publishers and subscribers."""
+
+
+@runtime_checkable
 class ActionNode(Protocol):
     """A node that serves actions by the library's own servers instead of their topics."""
 

@@ -13,7 +13,7 @@ from typing import Any
 from urdfkit.bridges.actions import REJECTED, ActionServer, SentGoal, actions
 from urdfkit.bridges.bridge import CallQueue, message_topics, publish_received
 from urdfkit.bridges.message_builder import MessageBuilder
-from urdfkit.bridges.node.node import ActionNode, Done, Node, Quality, UnknownTypeError, publisher_quality
+from urdfkit.bridges.node.node import ActionNode, Done, Node, Quality, TypedGraph, UnknownTypeError, publisher_quality
 from urdfkit.bridges.node.published_topics import OutputThread
 from urdfkit.bridges.service import Service, respond
 from urdfkit.bus import Bus, Topic, absolute
@@ -80,8 +80,9 @@ class NodeBridge:
         self._replaced: set[str] = set()
         self._reported: set[str] = set()
         self._seen: set[str] = set()
+        self._types: dict[str, str] = {}
         self._closed = False
-        self._outputs = OutputThread(calls, node, builder, self._report)
+        self._outputs = OutputThread(calls, node, builder, self._report, self._compare_types)
         self.served = sum(self._serve(service) for service in services.values())
         self.update()
 
@@ -102,6 +103,7 @@ class NodeBridge:
                 continue
             try:
                 self._follow(topic, name)
+                self._types = {**self._types, name: topic.type}
             except UnknownTypeError as error:
                 missing.setdefault(str(error), []).append(name)
         for reason, names in missing.items():
@@ -193,6 +195,14 @@ class NodeBridge:
             self._calls.add(lambda: publish_received(bus, name, message, self._report), len(data))
 
         return receive
+
+    def _compare_types(self) -> None:
+        """Report topics that other nodes use with another type, in the thread of the outputs."""
+        if isinstance(self._node, TypedGraph):
+            used = self._node.types()
+            for name, type in self._types.items():
+                for other in sorted(used.get(name, {type}) - {type}):
+                    self._report(f"`{name}` has type {type}; a node uses {other}, and so exchanges no messages with it")
 
     def _report(self, line: str) -> None:
         if line not in self._reported:

@@ -11,9 +11,12 @@ from urdfkit.bridges.bridge import CallQueue
 from urdfkit.bridges.message_builder import MessageBuilder
 from urdfkit.bridges.node.node import Node, Quality, Writer
 from urdfkit.bus import Bus, Subscription, Topic
+from urdfkit.errors import UsageError
 
 MATCH_PERIOD = 0.05
 """Seconds between two checks for subscribers."""
+WATCH_PERIOD = 1.0
+"""Seconds between two calls of the function that watches the graph."""
 
 
 class PublishedTopic:
@@ -67,10 +70,19 @@ class PublishedTopic:
             self._subscription = None
 
     def send(self) -> None:
-        """Encode and publish the oldest message that waits, if it was not replaced by newer ones."""
+        """Encode and publish the oldest message that waits, if it was not replaced by newer ones.
+
+        Raises:
+            UsageError: it cannot be encoded.
+        """
         if self._pending:
             message = self._pending.popleft()
-            self.writer.publish(self._node.encode(message, self._topic.type))
+            try:
+                data = self._node.encode(message, self._topic.type)
+            except Exception as error:  # of several classes: a number or text that the type cannot contain
+                line = f"`{self._topic.name}`: a message cannot be sent to {self._node.ros}: {error}"
+                raise UsageError(line.splitlines()[0]) from error
+            self.writer.publish(data)
 
     def _receive(self, message: Any) -> None:
         self._pending.append(message)
@@ -85,12 +97,18 @@ class OutputThread:
         node: on the graph.
         builder: builds messages that take long, see `PublishedTopic`.
         report: receives a line if a message cannot be sent.
+        watch: called once a second.
     """
 
     def __init__(
-        self, calls: CallQueue, node: Node, builder: MessageBuilder | None, report: Callable[[str], None]
+        self,
+        calls: CallQueue,
+        node: Node,
+        builder: MessageBuilder | None,
+        report: Callable[[str], None],
+        watch: Callable[[], None],
     ) -> None:
-        self._calls, self._node, self._builder, self._report = calls, node, builder, report
+        self._calls, self._node, self._builder, self._report, self._watch = calls, node, builder, report, watch
         self._outputs: tuple[PublishedTopic, ...] = ()
         self._ready: deque[PublishedTopic] = deque()
         self._wake, self._stopped = Event(), False
@@ -117,18 +135,23 @@ class OutputThread:
     def _run(self) -> None:
         import time
 
-        checked = 0.0
+        checked, watched = 0.0, time.monotonic()
         while not self._stopped:
             if time.monotonic() - checked >= MATCH_PERIOD:
                 checked = time.monotonic()
                 for output in self._outputs:
                     self._match(output)
+            if checked - watched >= WATCH_PERIOD:
+                watched = checked
+                self._watch()
             self._wake.wait(MATCH_PERIOD)
             self._wake.clear()
             while self._ready and not self._stopped and time.monotonic() - checked < MATCH_PERIOD:
                 output = self._ready.popleft()
                 try:
                     output.send()
+                except UsageError as error:
+                    self._report(str(error))
                 except Exception as error:  # of a middleware; the simulation continues
                     self._stopped = True
                     self._report(f"{self._node.option} stops publishing: {str(error).splitlines()[0]}")

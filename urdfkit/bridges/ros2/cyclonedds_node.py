@@ -6,7 +6,7 @@ Messages are written and read as CDR; the typed interface of the wheel takes 70 
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from threading import Thread
 from typing import Any
 
@@ -102,6 +102,18 @@ class CycloneddsNode:
 
     def topics(self) -> dict[str, str]:
         """Return topic → type of the participants of the domain; they are discovered within a second."""
+        self._topics.update(self._used())
+        return dict(sorted(self._topics.items()))
+
+    def types(self) -> dict[str, set[str]]:
+        """Return topic → types of its publishers and subscribers."""
+        found: dict[str, set[str]] = {}
+        for name, type in self._used():
+            found.setdefault(name, set()).add(type)
+        return found
+
+    def _used(self) -> Iterator[tuple[str, str]]:
+        """Yield topic and type of each publisher and subscriber."""
         if not self._discovered:
             from cyclonedds.builtin import (
                 BuiltinDataReader,
@@ -116,8 +128,7 @@ class CycloneddsNode:
                 # A publisher that has left the graph is a sample without a name.
                 if (sample.topic_name or "").startswith("rt/"):
                     type = sample.type_name.replace("::dds_::", "/").replace("::", "/").removesuffix("_")
-                    self._topics[sample.topic_name[2:]] = type
-        return dict(sorted(self._topics.items()))
+                    yield sample.topic_name[2:], type
 
     def serve(self, service: Service, call: Callable[[Any, Done], None]) -> None:
         """Refuse the service: Cyclone DDS for Python has none.

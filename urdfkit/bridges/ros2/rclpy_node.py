@@ -8,17 +8,20 @@ from contextlib import suppress
 from importlib.util import find_spec
 from queue import Queue
 from threading import Event, Thread
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from urdfkit.bridges.actions import ActionServer
 from urdfkit.bridges.json_messages import json_values
-from urdfkit.bridges.node.node import RESPONSE, Begin, Done, End, Node, Quality, UnknownTypeError, Writer
+from urdfkit.bridges.node.node import RESPONSE, Begin, Done, End, Quality, UnknownTypeError, Writer
 from urdfkit.bridges.ros2.rclpy_actions import serve_action
 from urdfkit.bridges.ros2.rclpy_messages import rclpy_type
 from urdfkit.bridges.service import Service
 from urdfkit.errors import MissingDependencyError, ResourceError
 from urdfkit.messages import from_fields
 from urdfkit.messages.conversion import decode_cdr, encode_cdr
+
+if TYPE_CHECKING:
+    from urdfkit.bridges.ros2.cyclonedds_node import CycloneddsNode
 
 NAME = "urdfkit"
 DISCOVERY = 8.0
@@ -70,7 +73,7 @@ class RclpyNode:
         middleware = rclpy.get_rmw_implementation_identifier()
         self.description = f"rclpy, {middleware}"
         self._domain, self._is_dds = domain, middleware in DDS
-        self._other: Node | None = None
+        self._other: CycloneddsNode | None = None
         self._executor = SingleThreadedExecutor(context=self._context)
         self._executor.add_node(self._node)
 
@@ -105,6 +108,13 @@ class RclpyNode:
         """Return topic → type of the graph."""
         found = {name: kinds[0] for name, kinds in self._node.get_topic_names_and_types() if kinds}
         return found | ({} if self._other is None else self._other.topics())
+
+    def types(self) -> dict[str, set[str]]:
+        """Return topic → types of its publishers and subscribers."""
+        found = {name: set(kinds) for name, kinds in self._node.get_topic_names_and_types()}
+        for name, kinds in ({} if self._other is None else self._other.types()).items():
+            found.setdefault(name, set()).update(kinds)
+        return found
 
     def serve(self, service: Service, call: Callable[[Any, Done], None]) -> None:
         """Serve a service, if its type is installed."""
@@ -204,7 +214,7 @@ class RclpyNode:
         self._node.destroy_node()
         self._context.try_shutdown()
 
-    def _fallback(self, type: str) -> Node:
+    def _fallback(self, type: str) -> CycloneddsNode:
         if self._other is None:
             if not (self._is_dds and find_spec("cyclonedds") is not None):
                 raise UnknownTypeError(f"rclpy lacks {type}: install its ROS package, or pip install cyclonedds")
