@@ -171,6 +171,27 @@ def test_patterns_select_topics(tmp_path: Path) -> None:
     ]  # fmt: skip
 
 
+def test_topics_have_the_quality_with_which_they_are_published(tmp_path: Path) -> None:
+    """``ros2 bag play`` publishes with it; without it, nodes that start later would miss fixed transforms."""
+    from rosbags.rosbag2 import Reader
+
+    bus = Bus()
+    for name, type in (
+        ("/tf_static", "tf2_msgs/msg/TFMessage"),
+        ("/clock", "rosgraph_msgs/msg/Clock"),
+        ("/odom", FLOAT),
+    ):
+        bus.publish(name, type, from_fields(type, None))
+    Recorder(bus, tmp_path / "a.mcap", lambda: 0.0).close()
+    with Reader(tmp_path / "a.mcap") as reader:
+        found = {each.topic: each.ext.offered_qos_profiles for each in reader.connections}
+    assert {name: (qos.reliability.name, qos.durability.name, qos.depth) for name, (qos,) in found.items()} == {
+        "/tf_static": ("RELIABLE", "TRANSIENT_LOCAL", 1),
+        "/clock": ("BEST_EFFORT", "VOLATILE", 1),
+        "/odom": ("RELIABLE", "VOLATILE", 10),
+    }
+
+
 @pytest.mark.parametrize("compression", [True, False])
 def test_compression_is_lossless_and_makes_images_small(tmp_path: Path, compression: bool) -> None:
     bus, path = Bus(), tmp_path / "a.mcap"

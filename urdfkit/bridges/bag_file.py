@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import sys
 from collections.abc import Collection, Iterator
 from contextlib import contextmanager
@@ -116,6 +117,20 @@ class BagFile:
                 yield RecordedMessage(topic, time / NANOSECONDS, bytes(data))
         except Exception as error:
             raise ResourceError(f"{self.path} is damaged: {_first_line(error)}") from error
+
+    def period(self, topic: str) -> tuple[float, float]:
+        """Return the times of the first and the last message of a topic [s].
+
+        Raises:
+            ResourceError: the file is damaged.
+        """
+        begin = end = next(self.messages(topics=[topic])).time
+        start, window = math.inf, 1.0
+        while end == begin and start > begin:  # the last message is usually near the end of the file
+            start, window = max(begin, self.end - window), 4 * window
+            for message in self.messages(begin=start, topics=[topic]):
+                end = message.time
+        return begin, end
 
     def message(self, recorded: RecordedMessage) -> Any:
         """Return the message of its bytes.

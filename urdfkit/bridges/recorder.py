@@ -15,6 +15,7 @@ from typing import Any
 
 from urdfkit.atomic import staging, undisturbed
 from urdfkit.bridges.jpeg_image import COMPRESSED_IMAGE, IMAGE, jpeg_image
+from urdfkit.bridges.node.node import Quality, publisher_quality
 from urdfkit.bridges.recording_options import RecordingOptions
 from urdfkit.bus import Bus, Subscription, Topic
 from urdfkit.errors import MissingDependencyError, ResourceError, UsageError
@@ -170,7 +171,9 @@ class Recorder:
     def _connection(self, name: str, kind: str) -> Any:
         found = self._connections.get((name, kind))
         if found is None:
-            found = self._connections[name, kind] = self._writer.add_connection(name, kind, typestore=self._types)
+            found = self._connections[name, kind] = self._writer.add_connection(
+                name, kind, typestore=self._types, offered_qos_profiles=[_offered(publisher_quality(name))]
+            )
         return found
 
     def _record(self, name: str, kind: str, message: Any) -> None:
@@ -204,3 +207,21 @@ class Recorder:
             self._writer.write(connection, round(self._last * 1e9), data)
         self.count += 1
         self._size += len(data)
+
+
+def _offered(quality: Quality) -> Any:
+    """Return a quality of service as ``ros2 bag`` stores it, which publishes with it again; durations are infinite."""
+    from rosbags.interfaces import Qos, QosDurability, QosHistory, QosLiveliness, QosReliability, QosTime
+
+    forever = QosTime(9223372036, 854775807)
+    return Qos(
+        QosHistory.KEEP_LAST,
+        quality.depth,
+        QosReliability.RELIABLE if quality.reliable else QosReliability.BEST_EFFORT,
+        QosDurability.TRANSIENT_LOCAL if quality.latched else QosDurability.VOLATILE,
+        forever,
+        forever,
+        QosLiveliness.AUTOMATIC,
+        forever,
+        avoid_ros_namespace_conventions=False,
+    )

@@ -158,15 +158,18 @@ def test_frames_without_a_common_ancestor_have_no_transform_and_loops_end() -> N
 
 def test_bag_info(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     ros = Messages(1)
-    file = write_bag(tmp_path / "a.bag", [("/joint_states", 0.5 * k, ros.joints(k, {})) for k in range(5)])
+    joints = [("/joint_states", 0.5 * k, ros.joints(k, {})) for k in range(21)]
+    late = [("/late", 1.55 + 0.1 * k, ros.joints(k, {})) for k in range(4)]
+    file = write_bag(tmp_path / "a.bag", sorted(joints + late, key=lambda message: message[1]))
     assert main(["bag", "info", str(file)]) == 0
     assert capsys.readouterr().out.splitlines() == [
-        f"{file}: ROS 1, 5 messages in 2.000 s, from 0.000 s",
-        "/joint_states  sensor_msgs/msg/JointState        5     2.00 Hz",
+        f"{file}: ROS 1, 25 messages in 10.000 s, from 0.000 s",
+        "/joint_states  sensor_msgs/msg/JointState       21     2.00 Hz",
+        "/late          sensor_msgs/msg/JointState        4    10.00 Hz",
     ]
     assert main(["bag", "info", str(file), "--json"]) == 0
     found = json.loads(capsys.readouterr().out)
-    assert found["topics"] == [{"name": "/joint_states", "type": "sensor_msgs/msg/JointState", "messages": 5}]
+    assert found["topics"][0] == {"name": "/joint_states", "type": "sensor_msgs/msg/JointState", "messages": 21}
 
 
 @pytest.mark.parametrize(("name", "content"), [("a.mcap", b"nothing"), ("a.bag", b""), ("a.txt", b"")])

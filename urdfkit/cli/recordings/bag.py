@@ -31,6 +31,7 @@ def run(arguments: argparse.Namespace) -> int:
         width = max((len(each.name) for each in bag.topics), default=0)
         kinds = max((len(each.type) for each in bag.topics), default=0)
         for topic in sorted(bag.topics):
-            rate = f"{(topic.messages - 1) / duration:8.2f} Hz" if topic.messages > 1 and duration > 0.0 else ""
+            begin, end = bag.period(topic.name) if topic.messages > 1 else (0.0, 0.0)
+            rate = f"{(topic.messages - 1) / (end - begin):8.2f} Hz" if end > begin else ""
             print(f"{topic.name:{width}}  {topic.type:{kinds}}  {topic.messages:7} {rate}".rstrip())
     return 0

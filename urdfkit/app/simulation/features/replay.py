@@ -106,7 +106,6 @@ class Replay(Feature):
         self.playing, self._revision = False, self.simulator.world.revision
         if request.values.get("topics"):
             from urdfkit.app.simulation.bridging.description_text import publish_description
-            from urdfkit.bridges.recorder import Recorder
 
             publish_description(self.simulator)  # `replay` then needs no robot
             folder = self._folder.enter_context(TemporaryDirectory())
