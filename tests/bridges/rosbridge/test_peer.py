@@ -185,7 +185,8 @@ def test_rosapi_describes_topics_services_types_and_parameters(client) -> None:
     assert client.call("/rosapi/topics_for_type", type="nav_msgs/Odometry") == {"topics": ["/odom"]}
     assert "/delete" in client.call("/rosapi/services")["services"]
     assert client.call("/rosapi/service_type", service="/delete") == {"type": "gazebo_msgs/srv/DeleteModel"}
-    (details,) = client.call("/rosapi/service_request_details", type="gazebo_msgs/srv/DeleteModel")["typedefs"]
+    assert client.call("/rosapi/services_for_type", type="gazebo_msgs/DeleteModel") == {"services": ["/delete"]}
+    (details,) = client.call("/rosapi/service_request_details", type="gazebo_msgs/DeleteModel")["typedefs"]
     assert (details["fieldnames"], details["fieldtypes"], details["fieldarraylen"]) == (
         ["model_name"],
         ["string"],

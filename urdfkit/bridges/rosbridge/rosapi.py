@@ -38,10 +38,10 @@ class Rosapi:
             "topics_and_raw_types": lambda _: self._topics_with_definitions(),
             "topic_type": lambda it: {"type": graph.topics.get(absolute(_text(it, "topic")), "")},
             "services": lambda _: {"services": self._services},
-            "services_for_type": lambda it: {"services": _named(self._service_types, _text(it, "type"))},
+            "services_for_type": lambda it: {"services": _named(self._service_types, _service_type(it))},
             "service_type": lambda it: {"type": self._service_types.get(absolute(_text(it, "service")), "")},
-            "service_request_details": lambda it: {"typedefs": type_details(_text(it, "type") + "_Request")},
-            "service_response_details": lambda it: {"typedefs": type_details(_text(it, "type") + "_Response")},
+            "service_request_details": lambda it: {"typedefs": type_details(_service_type(it) + "_Request")},
+            "service_response_details": lambda it: {"typedefs": type_details(_service_type(it) + "_Response")},
             "message_details": lambda it: {"typedefs": type_details(_text(it, "type"))},
             "nodes": lambda _: {"nodes": [NODE]},
             "node_details": lambda it: self._node(_text(it, "node")),
@@ -124,6 +124,10 @@ def _text(arguments: Arguments, name: str) -> str:
     if not isinstance(value, str):
         raise UsageError(f"the argument `{name}` is missing; it is a text")
     return value
+
+
+def _service_type(arguments: Arguments) -> str:
+    return full_type_name(_text(arguments, "type"), "srv")
 
 
 def _time(t: float) -> dict[str, int]:
