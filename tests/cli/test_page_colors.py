@@ -125,8 +125,8 @@ def test_parts_have_the_colours_of_their_file(serve, visits, tmp_path: Path, suf
 
 LIT = """() => {
   const { viewport } = urdfkit, { viewer } = viewport, { renderer } = viewer, pixel = new Uint8Array(4);
+  viewer.render(); // a smooth frame before it had more pixels
   const gl = renderer.getContext(), { drawingBufferWidth: width, drawingBufferHeight: height } = gl;
-  viewer.render();
   const at = urdfkit.scene.byLink.get("top").localToWorld(new MeshCat.THREE.Vector3()).project(viewer.camera);
   gl.readPixels((at.x / 2 + 0.5) * width, (at.y / 2 + 0.5) * height, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, pixel);
   return [...pixel].slice(0, 3);
