@@ -124,13 +124,6 @@ class Teleop:
         x, y, z, turn = (max(-1.0, min(1.0, float(sum(d[i] for d in directions)))) for i in range(4))
         return self._motion(x, y, z, turn)
 
-    def speed_key(self, key: str) -> bool:
-        """Change the speeds for a key that went down in the browser; whether it was a speed key."""
-        if key not in HELD_SPEEDS:
-            return False
-        self._scale(*HELD_SPEEDS[key])
-        return True
-
     def axes(self, x: float, turn: float, y: float = 0.0, z: float = 0.0) -> Motion | None:
         """Return the command for stick positions in -1..1 (clamped); None, to be dropped, when one is not finite."""
         values = (x, y, z, turn)

@@ -10,7 +10,6 @@ from typing import TYPE_CHECKING, Any
 from urdfkit.app.page import note
 from urdfkit.description.urdf.repair_record import grouped
 from urdfkit.description.xml.source import Source
-from urdfkit.errors import ResourceError
 
 if TYPE_CHECKING:
     from urdfkit.description.urdf.repair_record import Repair
@@ -53,7 +52,7 @@ def with_repairs(rows: list[Row], repairs: Iterable[Repair], *, first: int = 1) 
     by_place = {(row["code"], _real(row["file"]), row["line"]): row for row in reversed(rows)}
     by_name = {(row["code"], row["link"] or row["joint"]): row for row in reversed(rows) if row.get("chains")}
     added: list[Row] = []
-    source = cache(_source)
+    source = cache(Source.read_if_possible)
     for message, group in groups.items():
         places = ((repair.code, repair.position) for repair in group if repair.position is not None)
         findings = (by_place.get((code, _real(at.file), at.line)) for code, at in places)
@@ -100,13 +99,6 @@ def _row(repair: Repair, number: int, source: Callable[[str], Source | None]) ->
         "lines": [] if at is None or text is None else [text.excerpt(at.line, at.column)],
         "about": [],
     }
-
-
-def _source(file: str) -> Source | None:
-    try:
-        return Source.read(Path(file), shown_as=file)
-    except ResourceError:
-        return None
 
 
 def _real(file: str) -> Path:

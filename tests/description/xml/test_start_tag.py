@@ -1,6 +1,5 @@
 from __future__ import annotations
 
-from urdfkit.description.xml.reader import document_of
 from urdfkit.description.xml.source import Position, Source
 from urdfkit.description.xml.start_tag import element_span, start_tag
 
@@ -28,9 +27,6 @@ def test_the_parts_of_a_start_tag() -> None:
     assert slice_of(tag.attributes["name"].whole) == '\n     name = "a>b"'
     assert (tag.attributes["kind"].quote, tag.attributes["kind"].raw) == ("'", '"q"')
     assert tag.is_empty
-    at = SOURCE.offset(tag.end_of_attributes.line, tag.end_of_attributes.column)
-    mended = TEXT[:at] + ' new="1"' + TEXT[at:]
-    assert document_of(Source("f", mended)).children[0].get("new") == "1"
 
 
 def test_a_whole_element() -> None:

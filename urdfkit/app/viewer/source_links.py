@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING
 
 from urdfkit.description.xml.source import Source
 from urdfkit.description.xml.start_tag import element_span
-from urdfkit.errors import ResourceError
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -34,7 +33,7 @@ class SourceLinks:
     def __init__(self, robot: Robot) -> None:
         self._parts: dict[Path, list[tuple[Place, Place, Hit]]] = {}
         self._robot: Robot | None = robot
-        self._source = cache(_read)
+        self._source = cache(Source.read_if_possible)
 
     def of(self, span: Span) -> list[Hit]:
         """Return the links and joints that a span belongs to, in document order."""
@@ -70,13 +69,6 @@ class SourceLinks:
 def _owners(robot: Robot) -> Iterator[tuple[str, str, Element]]:
     yield from (("link", link.name, link.element) for link in robot.links)
     yield from (("joint", joint.name, joint.element) for joint in robot.joints)
-
-
-def _read(file: str) -> Source | None:
-    try:
-        return Source.read(Path(file), shown_as=file)
-    except ResourceError:
-        return None
 
 
 def _real(file: str) -> Path:

@@ -129,6 +129,16 @@ class Source:
         return cls.decode(shown_as or str(path), content)
 
     @classmethod
+    def read_if_possible(cls, file: str) -> Source | None:
+        """Read a file; return None if it cannot be read."""
+        from urdfkit.errors import ResourceError
+
+        try:
+            return cls.read(Path(file), shown_as=file)
+        except ResourceError:
+            return None
+
+    @classmethod
     def decode(cls, file: str, content: bytes) -> Source:
         """Decode UTF-8, UTF-16 or UTF-32, with or without byte order mark; undecodable bytes become U+FFFD."""
         if b"\0" in content[:4] or content[:2] in (b"\xff\xfe", b"\xfe\xff"):

@@ -42,14 +42,12 @@ class StartTag:
         span: from ``<`` to after ``>``.
         name: span of the tag's name.
         attributes: name → attribute, in order.
-        end_of_attributes: position at which another attribute (after a space) can be inserted.
         is_empty: whether the tag ends with ``/>``.
     """
 
     span: Span
     name: Span
     attributes: dict[str, AttributeText]
-    end_of_attributes: Position
     is_empty: bool
 
 
@@ -74,9 +72,7 @@ def start_tag(source: Source, position: Position) -> StartTag | None:
     close = _CLOSE.match(text, at)
     if close is None:
         return None
-    return StartTag(
-        source.span(start, close.end()), source.span(*named.span(1)), attributes, source.position(at), close[1] == "/"
-    )
+    return StartTag(source.span(start, close.end()), source.span(*named.span(1)), attributes, close[1] == "/")
 
 
 def element_span(source: Source, position: Position) -> Span | None:

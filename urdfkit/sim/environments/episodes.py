@@ -56,7 +56,6 @@ class Episodes:
         self.batch, self._task, self._time_limit = Batch(model, n, **options), task, float(time_limit)
         self._steps = max(1, round(action_period / self.batch.dt))
         self._low, self._high = finite_ranges(self.batch.control)
-        self._seeded = False
         self.read()
 
     def step(self, actions: ArrayLike) -> None:

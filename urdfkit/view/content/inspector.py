@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from functools import cache
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -16,7 +15,6 @@ from urdfkit.description.urdf.robot import Box, Capsule, Cylinder, Mesh, Sphere
 from urdfkit.description.urdf.version import RATES
 from urdfkit.description.xml.source import Source
 from urdfkit.description.xml.start_tag import element_span
-from urdfkit.errors import ResourceError
 from urdfkit.kinematics.pinocchio_model import joint_model
 from urdfkit.scene.pose_matrices import pose_matrix
 
@@ -53,13 +51,7 @@ def inspection(kinematics: Kinematics) -> dict[str, Any]:
 
 def excerpts() -> Callable[[Element], dict[str, Any]]:
     """Return a function for the location of an element: file, line, column, source lines and chain of macro calls."""
-
-    @cache
-    def source(file: str) -> Source | None:
-        try:
-            return Source.read(Path(file), shown_as=file)
-        except ResourceError:
-            return None
+    source = cache(Source.read_if_possible)
 
     def excerpt(element: Element) -> dict[str, Any]:
         at = element.origin.position
