@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import io
+
 import pytest
 
 import urdfkit
@@ -24,6 +26,14 @@ def test_every_command_helps_with_two_examples_in_80_columns(command: str, capsy
     printed = capsys.readouterr().out
     assert printed.count(f"\n  urdfkit {command}") >= 2
     assert [line for line in printed.splitlines() if len(line) > 80] == []
+
+
+@pytest.mark.parametrize(("encoding", "errors"), [("ascii", "replace"), ("utf-8", "strict"), ("UTF8", "strict")])
+def test_characters_that_a_terminal_lacks_are_replaced(monkeypatch, encoding: str, errors: str) -> None:
+    stream = io.TextIOWrapper(io.BytesIO(), encoding=encoding)
+    monkeypatch.setattr("sys.stdout", stream)
+    assert main(["rule", "I502"]) == 0
+    assert stream.errors == errors
 
 
 def test_a_typo_gets_the_nearest_command(capsys: pytest.CaptureFixture[str]) -> None:

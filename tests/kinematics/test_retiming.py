@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from ruckig import InputParameter, Ruckig
 from ruckig import Trajectory as Profile
+from scipy.interpolate import CubicSpline
 
 from urdfkit.errors import KinematicsError
 from urdfkit.kinematics.retiming import MotionLimits, retime
@@ -41,6 +42,15 @@ def test_motions_pass_all_waypoints_within_the_limits(count, jerk):
     # It is as fast as the limits allow: one of them is nearly reached.
     used = np.max(np.abs(motion.acceleration) / limits.acceleration), np.max(np.abs(motion.velocity) / limits.velocity)
     assert max(used) > 0.98
+
+
+def test_the_way_between_waypoints_bends_by_the_time_that_each_part_takes():
+    points = np.zeros((3, JOINTS))
+    points[1:, 0], points[2, 4] = 0.2, 1.0
+    parts = [0.2 / 1.0, 1.0 / 2.0]  # at the limits of velocity of the first and of the last joint
+    way = CubicSpline([0.0, parts[0], sum(parts)], points, bc_type="natural")(np.linspace(0.0, sum(parts), 5001))
+    passed = retime(points, limits_of()).position
+    assert max(np.abs(way - each).max(axis=1).min() for each in passed) < 1e-3
 
 
 def test_a_straight_line_takes_the_time_of_a_trapezoid():

@@ -47,6 +47,12 @@ def test_collision_shapes_give_the_box_of_visual_shapes_and_vice_versa(tmp_path:
     assert placeholder(scene, role="collision").geometry.size == pytest.approx((1, 2, 3))
 
 
+def test_a_placeholder_of_a_thin_plate_is_thick_enough_to_be_seen(tmp_path: Path) -> None:
+    plate = '<collision><geometry><box size="1 2 0.001"/></geometry></collision>'
+    links = f'<link name="a">{GONE}{plate}</link><link name="b"/>{joint("b", "0.5 0 0")}'
+    assert placeholder(shown(tmp_path, links)[0]).geometry.size == pytest.approx((1, 2, 0.02 * 0.5))
+
+
 def test_the_box_contains_the_solid_box_of_the_inertia_and_the_joints(tmp_path: Path) -> None:
     a, b, c, m = 0.3, 0.1, 0.2, 5.0  # along the principal axes
     i = [m / 12 * (b * b + c * c), m / 12 * (a * a + c * c), m / 12 * (a * a + b * b)]

@@ -31,8 +31,9 @@ def test_only_links_fixed_to_a_much_heavier_one_are_small(tmp_path: Path) -> Non
     assert not any(found.is_fixed_to_world(link) for link in links)
 
 
-def test_two_equal_links_are_not_small(tmp_path: Path) -> None:
-    found, links = bodies(tmp_path, [1.0, 1.0], [(1, 0, "fixed")])
+@pytest.mark.parametrize("mass", [1.0, 0.001])
+def test_two_equal_links_are_not_small(mass: float, tmp_path: Path) -> None:
+    found, links = bodies(tmp_path, [mass, mass], [(1, 0, "fixed")])
     assert [found.is_small(link) for link in links] == [False, False]
 
 

@@ -28,6 +28,29 @@ def place(tmp_path, monkeypatch):
     return tmp_path
 
 
+def test_doors_of_a_room_are_in_the_middle_of_free_stretches():
+    plan = one_room(4.0, 3.0, doors=6, door_width=0.8, thickness=0.1)
+    assert [(room.x, room.y) for room in plan.rooms] == [((-2.0, 2.0), (-1.5, 1.5))]
+    assert [(wall.axis, wall.at) for wall in plan.walls] == [(1, -2.0), (1, 2.0), (0, -1.5), (0, 1.5)]
+    second = -(0.4 + 1.5 - 0.05) / 2  # between the first door and the end of the wall
+    assert [wall.doors for wall in plan.walls] == [pytest.approx((second, 0.0))] * 2 + [(0.0,)] * 2
+
+
+def test_rooms_of_an_office_share_the_length_on_both_sides_of_the_corridor():
+    plan = office(10.0, 8.0, rooms=5, doors=1, door_width=0.8, thickness=0.1)
+    corridor, *rooms = plan.rooms
+    assert (corridor.x, corridor.y) == ((-5.0, 5.0), (-rooms[0].y[0], rooms[0].y[0]))
+    thirds = [-5.0, -5.0 / 3, 5.0 / 3, 5.0]
+    assert [end for room in rooms for end in room.x] == pytest.approx(
+        [*itertools.chain(*itertools.pairwise(thirds)), -5.0, 0.0, 0.0, 5.0]
+    )
+    assert [room.y[1] for room in rooms[:3]] + [room.y[0] for room in rooms[3:]] == [4.0] * 3 + [-4.0] * 2
+    assert [wall.doors for wall in plan.walls if wall.axis == 0 and abs(wall.at) < 4.0] == [
+        pytest.approx((-10.0 / 3, 0.0, 10.0 / 3)),
+        pytest.approx((-2.5, 2.5)),
+    ]
+
+
 def new(name, *options):
     return main(["new", "world", name, *options, "--yes"])
 
