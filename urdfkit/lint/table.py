@@ -225,6 +225,7 @@ RELATED_FILES: tuple[Row, ...] = (
     (_LAUNCH, "launch.xacro_argument_malformed", "XacroArgumentMalformed"),
     (_LAUNCH, "launch.launch_argument_duplicate", "LaunchArgumentDuplicate"),
     (_LAUNCH, "launch.launch_include_cycle", "LaunchIncludeCycle"),
+    (_LAUNCH, "launch.static_transform_invalid", "StaticTransformInvalid"),
     (_SRDF, "moveit.srdf_not_well_formed", "SrdfNotWellFormed"),
     (_SRDF, "moveit.srdf_element_unknown", "SrdfElementUnknown"),
     (_SRDF, "moveit.srdf_of_other_robot", "SrdfOfOtherRobot"),

@@ -1,0 +1,47 @@
+"""L118 static-transform-invalid."""
+
+from urdfkit.lint.finding import Finding
+from urdfkit.lint.rule import Findings, Model, RobotRule
+
+
+class StaticTransformInvalid(RobotRule):
+    """A launch file starts ``static_transform_publisher`` with wrong arguments.
+
+    ## What it does
+    Checks the arguments of ``static_transform_publisher`` of tf and tf2_ros: their number and order, unknown and
+    missing options, angles in degrees, quaternions that are not normalized, a frame that is its own parent, misspelt
+    parent frames, and children that a joint of the robot already places.
+
+    ## Why is this bad?
+    The node exits, or the transform is missing or wrong. With two parents, a frame jumps between two places.
+
+    ## Example
+    ```xml
+    <launch>
+      <node name="map_to_odom" pkg="tf2_ros" type="static_transform_publisher" args="0 0 0 0 0 0 map odom 100"/>
+    </launch>
+    ```
+
+    ## Use instead
+    ```xml
+    <launch>
+      <node name="map_to_odom" pkg="tf2_ros" type="static_transform_publisher" args="0 0 0 0 0 0 map odom"/>
+    </launch>
+    ```
+
+    ## Fix safety
+    Unsafe: the fix writes the nearest name in place of a misspelt one; another name may be meant.
+    """
+
+    code = "L118"
+    name = "static-transform-invalid"
+    severity = "warning"
+    fix = "unsafe"
+
+    def check(self, model: Model) -> Findings:
+        """Yield a finding for each wrong argument."""
+        from urdfkit.lint.facts.nodes.static_transforms import static_transform_defects
+
+        for source, word, message in static_transform_defects(model):
+            span = source.span(word.start, word.start + len(word.name))
+            yield Finding(self.code, self.name, self.severity, message, span)
