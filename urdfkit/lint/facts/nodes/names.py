@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import re
 from collections.abc import Iterator
 
 from urdfkit.description.launch.python_constants import launch_reader, parsed
@@ -33,6 +34,12 @@ _DEFAULTS = {
 """Package and executable → the name that the node has by default (Humble to Rolling)."""
 
 _RELEASED_NAMES = NODES | {*_DEFAULTS.values()}
+
+_UNMANAGED = ("map_saver_server", "lifecycle_manager", "costmap_filter_info_server")
+"""Programs of Nav2 that often start without a lifecycle manager of their own file."""
+
+_COMPUTED = r"\.(?:append|extend|insert)\(|\+=|IncludeLaunchDescription|OpaqueFunction|ComposableNode"
+"""Matches a launch file in Python whose lists of nodes may be longer than they are written."""
 
 _SEVERAL = ("controller_manager", "moveit_ros_move_group", "moveit_servo", "gazebo_ros", "ros_gz_sim", "rviz2")
 """Packages whose processes contain nodes of further names."""
@@ -80,7 +87,7 @@ def misnamed(model: Model) -> Defects:
             elif node.name is not None and _default(node) in {other for _, other in keys} - started:
                 message = f"node `{name}` has no section in {_short(file)}, which has `{_default(node)}`"
                 yield node.source, _span(node), message
-    yield from _unmanaged(model, {each for each in started if each})
+    yield from _unmanaged(model, nodes, {each for each in started if each})
 
 
 def _name(node: LaunchedNode) -> str:
@@ -108,7 +115,7 @@ def _has_one_node(node: LaunchedNode) -> bool:
     return node.package in released() and node.package not in _SEVERAL
 
 
-def _unmanaged(model: Model, started: set[str]) -> Defects:
+def _unmanaged(model: Model, nodes: list[LaunchedNode], started: set[str]) -> Defects:
     """Yield the misspelt names in ``node_names`` of a lifecycle manager, in launch files and YAML."""
     for file, source in model.related_files.items():
         if "node_names" not in source.text:
@@ -129,10 +136,42 @@ def _unmanaged(model: Model, started: set[str]) -> Defects:
                 names_node = group.find("node_names")
                 listed += ((item.text, span_of(source, item)) for item in (names_node.items if names_node else ()))
         names_listed = {name for name, _ in listed}
+        own = {node.program if not node.has_name else _name(node) for node in nodes if node.source is source}
+        if file.endswith(".py"):
+            yield from _unlisted(source, names_listed, nodes)
         for name, span in listed:
             near = next((each for each in sorted(started - names_listed) if _is_meant(each, name)), None)
             if name not in started | _RELEASED_NAMES and near is not None:
                 yield source, span, f"no node is called `{name}`; did you mean `{near}`?"
+            elif (
+                near is None
+                and name in NODES - own - started
+                and len(names_listed & own) > 1
+                and not _lists_more(source)
+            ):
+                yield source, span, f"no launch file of these packages starts the node `{name}`"
+
+
+def _unlisted(source: Source, listed: set[str], nodes: list[LaunchedNode]) -> Defects:
+    """Yield the servers of Nav2 that no list of their launch file names, although another server is listed."""
+    own = [node for node in nodes if node.source is source]
+    servers = [(node, node.program if not node.has_name else _name(node)) for node in own if _is_server(node)]
+    if not any(name in listed for _, name in servers) or _lists_more(source):
+        return
+    for node, name in servers:
+        is_misspelt = any(_is_meant(name, other) for other in listed)
+        if name and name not in listed and not is_misspelt and node.place is not None:
+            message = f"no lifecycle manager of this file lists the node `{name}`, so that it is never activated"
+            yield source, source.span(*node.place), message
+
+
+def _is_server(node: LaunchedNode) -> bool:
+    return node.package.startswith("nav2_") and node.program in NODES and node.program not in _UNMANAGED
+
+
+def _lists_more(source: Source) -> bool:
+    """Return whether a launch file may list more nodes than its constant lists do."""
+    return re.search(_COMPUTED, source.text) is not None
 
 
 def _is_meant(node: str, name: str) -> bool:

@@ -36,6 +36,7 @@ class LaunchedNode:
         has_name: whether the launch file names it.
         files: package and path of the parameter files that it loads.
         remappings: old and new name of each remapping with constant names.
+        place: first and last offset of its package in a Python launch file.
     """
 
     source: Source
@@ -45,6 +46,7 @@ class LaunchedNode:
     has_name: bool
     files: tuple[tuple[str, str], ...]
     remappings: tuple[tuple[Named, Named], ...]
+    place: tuple[int, int] | None = None
 
 
 def launched_nodes(model: Model) -> list[LaunchedNode]:
@@ -131,6 +133,7 @@ def _in_python(source: Source) -> Iterator[LaunchedNode]:
                 "name" in words,
                 tuple(file for file in files if file is not None),
                 tuple(_remappings(source, values.get("remappings"), reader, binding)),
+                place(source, words["executable"]) if "executable" in words else None,
             )
 
 
@@ -181,6 +184,9 @@ def _remappings(
 ) -> Iterator[tuple[Named, Named]]:
     if isinstance(node, ast.Name):
         node = reader.assigned.get(node.id)
+    if isinstance(node, ast.BinOp):
+        for part in (node.left, node.right):
+            yield from _remappings(source, part, reader, binding)
     for item in node.elts if isinstance(node, (ast.List, ast.Tuple)) else ():
         pair = reader.assigned.get(item.id) if isinstance(item, ast.Name) else item
         if isinstance(pair, ast.Tuple) and len(pair.elts) == 2:
