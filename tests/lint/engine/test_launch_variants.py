@@ -127,3 +127,24 @@ def test_an_interface_is_compared_with_the_variants_that_have_hardware(
         )
         main(["lint", ".", "--target", "gz", "--select", "K962,K965", "--format", "json"])
         assert [each["code"] for each in json.loads(capsys.readouterr().out)] == expected
+
+
+def test_a_topic_is_compared_with_the_variants_that_have_sensors(
+    package: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    sensor = '<gazebo reference="base"><sensor name="laser" type="gpu_lidar"><topic>scan</topic></sensor></gazebo>'
+    robot = ROBOT.replace('"lidar" default="false"', '"sim" default="true"').replace("$(arg lidar)", "$(arg sim)")
+    (package / "urdf/cart.urdf.xacro").write_text(
+        robot.replace("bse", "base").replace("</xacro:if>", f"{sensor}</xacro:if>")
+    )
+    (package / "launch/sim.launch.py").unlink()
+    display = LAUNCH.replace("lidar:=VALUE", "sim:=false").replace("ros_gz_sim", "rviz2").replace("create", "rviz2")
+    (package / "launch/display.launch.py").write_text(display)
+    (package / "config").mkdir()
+    for topic, expected in (("laser", ["K969"]), ("scan", [])):
+        (package / "config/bridge.yaml").write_text(
+            f"- ros_topic_name: scan\n  gz_topic_name: {topic}\n  ros_type_name: sensor_msgs/msg/LaserScan\n"
+            "  gz_type_name: gz.msgs.LaserScan\n  direction: GZ_TO_ROS\n"
+        )
+        main(["lint", ".", "--target", "gz", "--select", "K969", "--format", "json"])
+        assert [each["code"] for each in json.loads(capsys.readouterr().out)] == expected

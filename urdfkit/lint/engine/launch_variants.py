@@ -18,6 +18,9 @@ if TYPE_CHECKING:
 HARDWARE = "K965"
 """Code of the rule that compares controllers with ``<ros2_control>``; robots without it cannot contradict it."""
 
+_SIMULATED = ("K969", "K977")
+"""Codes of rules that compare topics with the sensors and plugins for Gazebo."""
+
 MOST = 4
 """Maximum number of variants of one robot that are linted."""
 
@@ -80,7 +83,7 @@ def with_variants(
 
     A finding in the description is added if the robot with the default arguments does not have it. A finding in another
     file, such as a YAML file that names an undefined joint, stays only if every variant has it; one on interfaces of
-    the hardware, if every variant with ``<ros2_control>`` has it.
+    the hardware, if every variant with ``<ros2_control>`` has it; one on topics, if every variant with sensors has it.
 
     Args:
         found: the result with the default arguments.
@@ -98,14 +101,14 @@ def with_variants(
     complete = [(result, each) for result, each, _ in every if not each.is_incomplete]
     common = [{(one.code, one.span) for one in result.findings} for result, _ in complete]
     with_hardware = [keys for keys, (_, each) in zip(common, complete, strict=True) if each.robot.ros2_control]
+    gazebo = [keys for keys, (_, each) in zip(common, complete, strict=True) if _has_sensors(each)]
+    common_of = {HARDWARE: with_hardware, **dict.fromkeys(_SIMULATED, gazebo or common)}
     findings: list[Finding] = []
     for result, _, variant in every:
         present = {(one.code, one.span) for one in findings}
         for one in result.findings:
             key = one.code, one.span
-            is_defect = one.file in sources or all(
-                key in keys for keys in (with_hardware if one.code == HARDWARE else common)
-            )
+            is_defect = one.file in sources or all(key in keys for keys in common_of.get(one.code, common))
             if is_defect and key not in present and not _is_passed(one, variants):
                 findings.append(Finding(**{**one.__dict__, "variant": variant, "fix": None}) if variant else one)
     merged = EntryResult(
@@ -117,6 +120,10 @@ def with_variants(
         found.unused,
     )
     return merged, [each for _, each, _ in every[1:]]
+
+
+def _has_sensors(model: Model) -> bool:
+    return any(block.sensors or block.plugins for block in model.robot.gazebo)
 
 
 def _is_passed(finding: Finding, variants: list[Variant]) -> bool:

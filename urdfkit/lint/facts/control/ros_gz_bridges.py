@@ -10,6 +10,10 @@ from urdfkit.lint.facts.control.controller_joints import Named
 from urdfkit.lint.facts.control.yaml_tree import Node
 from urdfkit.record import record
 
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from urdfkit.lint.model.model import Model
+
 _PAIRS = """
 actuator_msgs/Actuators=Actuators builtin_interfaces/Time=Time geometry_msgs/Point=Vector3d geometry_msgs/Pose=Pose
 geometry_msgs/PoseArray=Pose_V geometry_msgs/PoseStamped=Pose geometry_msgs/PoseWithCovariance=PoseWithCovariance
@@ -98,6 +102,35 @@ def in_yaml(source: Source) -> Iterator[tuple[Bridged, tuple[Node, ...]]]:
             topic = named(entry, "gz_topic_name", "ign_topic_name", "topic_name", "ros_topic_name")
             types = named(entry, "ros_type_name"), named(entry, "gz_type_name", "ign_type_name")
             yield Bridged(topic, *types, named(entry, "direction")), keys
+
+
+def bridged_topics(model: Model) -> Iterator[tuple[str, str, bool]]:
+    """Yield the ROS topic of each bridge without slashes at its ends, its ROS type and whether Gazebo reads it."""
+    from urdfkit.description.packages.related_files import LAUNCH
+    from urdfkit.lint.facts.control.yaml_tree import documents, yamls
+
+    for source in yamls(model):
+        for entry in (item for root in documents(source)[0] for item in root.items):
+            keys = ("ros_topic_name", "topic_name", "gz_topic_name", "ign_topic_name")
+            topic = next((node for key in keys if (node := entry.find(key)) is not None), None)
+            kind, direction = entry.find("ros_type_name"), entry.find("direction")
+            if topic is not None and kind is not None:
+                is_read = direction is None or not direction.text.endswith("_TO_ROS")
+                yield topic.text.strip("/"), kind.text, is_read
+    for name, source in model.related_files.items():
+        for bridge in in_launch(source) if name.endswith(LAUNCH) and "parameter_bridge" in source.text else ():
+            if bridge.topic is not None and bridge.ros is not None and bridge.direction is not None:
+                yield bridge.topic.name.strip("/"), bridge.ros.name, bridge.direction.name != "GZ_TO_ROS"
+
+
+def malformed_in_launch(source: Source) -> Iterator[Named]:
+    """Yield the arguments of a bridge that have a ROS message type but no Gazebo type."""
+    from urdfkit.lint.facts.control.launched_nodes import started
+
+    for node in started(source):
+        for word in node.arguments if node.program == "parameter_bridge" else ():
+            if word is not None and re.fullmatch(r"[^@\s]+@\w+/msg/\w+", word.name):
+                yield word
 
 
 def in_launch(source: Source) -> Iterator[Bridged]:

@@ -41,6 +41,21 @@ _GZ = {
 }
 """Sensor type of gz sim → suffixes of its topics (gz-sensors)."""
 
+_TYPES = {
+    **dict.fromkeys(("gpu_lidar", "gpu_ray", "lidar", "ray"), "LaserScan"),
+    **dict.fromkeys(("camera", "depth", "depth_camera", "rgbd", "rgbd_camera"), "Image"),
+    "imu": "IMU",
+    "magnetometer": "Magnetometer",
+    "navsat": "NavSat",
+}
+"""Sensor type of gz sim → type of its messages."""
+
+_ROS_TYPES = {
+    **dict.fromkeys(("laser", "ray_sensor"), "LaserScan"),
+    **dict.fromkeys(("imu", "imu_sensor", "hector_imu"), "Imu"),
+}
+"""Kind of a plugin of Gazebo Classic → ROS type of its messages."""
+
 
 @record(eq=False)
 class Published:
@@ -51,12 +66,14 @@ class Published:
         name: name of the sensor or plugin.
         key: identity of the sensor; duplicates of one sensor have the same key and are reported separately.
         element: the element that names the topic; the plugin or sensor for a default topic.
+        type: type of the message without its package, in Gazebo for gz sim, else in ROS; empty if unknown.
     """
 
     topic: str
     name: str
     key: tuple[str, str]
     element: Element
+    type: str = ""
 
 
 def published(model: Model) -> Iterator[Published]:
@@ -73,7 +90,7 @@ def published(model: Model) -> Iterator[Published]:
         found = _of_ros_1(plugin, spec) if spec.generation == "ros1" else _of_ros_2(plugin, spec, sensor)
         for topic, element in found:
             if not model.is_unresolved(element) and "$" not in topic:
-                yield Published(topic, name, key, element)
+                yield Published(topic, name, key, element, _ROS_TYPES.get(spec.kind, ""))
     for block in model.robot.gazebo:
         for sensor in block.sensors:
             written = sensor.element.find("topic")
@@ -81,7 +98,9 @@ def published(model: Model) -> Iterator[Published]:
                 continue
             for behind in _GZ.get(sensor.type or "", ("",)):
                 topic = f"/{written.text.strip('/')}{behind}"
-                yield Published(topic, sensor.name or "", (block.reference or "", sensor.name or ""), written)
+                kind = "PointCloudPacked" if behind == "/points" else _TYPES.get((sensor.type or "").strip(), "")
+                key = (block.reference or "", sensor.name or "")
+                yield Published(topic, sensor.name or "", key, written, kind)
 
 
 def _of_ros_1(plugin: Plugin, spec: PluginSpec) -> Iterator[tuple[str, Element]]:

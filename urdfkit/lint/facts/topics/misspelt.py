@@ -7,25 +7,24 @@ from __future__ import annotations
 
 import ast
 import re
-from collections import Counter
 from collections.abc import Iterator
-from functools import cached_property
-from itertools import islice
-from pathlib import Path
 
 from urdfkit.description.launch.python_constants import launch_reader, name_of, parsed
-from urdfkit.description.packages.related_files import CODE, LAUNCH, package_of
+from urdfkit.description.packages.related_files import LAUNCH
 from urdfkit.description.xml.source import Source, Span
 from urdfkit.lint.facts.control.controller_joints import Named
 from urdfkit.lint.facts.control.launch_package_paths import place
+from urdfkit.lint.facts.control.ros_gz_bridges import bridged_topics
 from urdfkit.lint.facts.control.yaml_tree import documents, start_of, walk
+from urdfkit.lint.facts.gazebo.plugins import plugins
+from urdfkit.lint.facts.gazebo.sensor_topics import published
 from urdfkit.lint.facts.launch.actions import all_elements
 from urdfkit.lint.facts.navigation.misspelt import misspelt_navigation
 from urdfkit.lint.facts.nodes.started import launched_nodes
 from urdfkit.lint.facts.ros_packages import is_slip
 from urdfkit.lint.facts.topics.robot_topics import BRIDGE_KEYS, RobotTopics, last, robot_topics
+from urdfkit.lint.facts.topics.words import Words
 from urdfkit.lint.model.model import Model
-from urdfkit.lint.project.code_files import code_texts
 from urdfkit.record import record
 
 _COMMON = """
@@ -41,13 +40,11 @@ _ACCEPTED = (
 _PARAMETER = r"(?:\w+_)?topic|(?:odom|imu|twist|pose)\d+"
 """Matches parameters whose values are topics: of Nav2, slam_toolbox, twist_mux, robot_localization and others."""
 
+_TYPES = {"scan_topic": "LaserScan", "odom": "Odometry", "imu": "Imu"}
+"""Parameter without its number → type of the messages that the node reads."""
+
 _ADDED = ("data", "in", "input", "laser", "lidar", "out", "output", "raw", "topic")
 """Words added to the topic of a sensor that give a topic without publisher."""
-
-_NAMING_TOPICS = (*CODE, ".rviz", ".xacro", ".sdf", ".world", ".md", ".lua", ".json")
-"""Endings of the other files that can name a topic."""
-
-_MAX_FILES = 400
 
 
 @record(eq=False)
@@ -59,18 +56,20 @@ class Mention:
         topic: the whole name, and its offset.
         reads: whether a node only subscribes to the topic.
         is_input: whether it is an input of robot_localization; parameter-value-invalid compares its controller.
+        type: ROS type of the messages that a node reads from it, without its package; empty if unknown.
     """
 
     source: Source
     topic: Named
     reads: bool = False
     is_input: bool = False
+    type: str = ""
 
 
 def misspelt_topics(model: Model) -> Iterator[tuple[Span, str, str]]:
     """Yield the place of each misspelt topic, the topic, and the topic that is meant."""
     topics = robot_topics(model)
-    words = _Words(model)
+    words = Words(model)
     seen = {
         (source.file, start_of(source, node))
         for source in model.related_files.values()
@@ -85,6 +84,9 @@ def misspelt_topics(model: Model) -> Iterator[tuple[Span, str, str]]:
         if near is not None and words.occurs_once(_part(mention.topic.name, near)):
             seen.add((mention.source.file, mention.topic.start))
             start = mention.topic.start
+            yield mention.source.span(start, start + len(mention.topic.name)), mention.topic.name, near
+    for mention, near in unpublished(model, words):
+        if (mention.source.file, start := mention.topic.start) not in seen:
             yield mention.source.span(start, start + len(mention.topic.name)), mention.topic.name, near
     for name, elements in topics.elements.items():
         if name in COMMON or name in topics.bridged or len(elements) > 1:
@@ -114,7 +116,45 @@ def mentions(model: Model) -> Iterator[Mention]:
                     if is_topic and value.kind == "text" and re.fullmatch(r"[\w/]+", value.text):
                         reads = key.text == "scan_topic" or group.find("data_type") is not None
                         is_input = key.text[-1].isdigit()
-                        yield Mention(source, Named(value.text, start_of(source, value)), reads, is_input)
+                        kind = group.find("data_type")
+                        type = _TYPES.get(key.text.rstrip("0123456789"), kind.text if kind is not None else "")
+                        yield Mention(source, Named(value.text, start_of(source, value)), reads, is_input, type)
+
+
+def unpublished(model: Model, words: Words) -> Iterator[tuple[Mention, str]]:
+    """Yield the topics that a node reads and no file publishes, with the only topic of the robot of that type."""
+    read = [mention for mention in mentions(model) if mention.type and "$" not in mention.topic.name]
+    by_type = _published_by_type(model) if read else {}
+    places = [(mention.source.file, mention.topic.start) for mention in read]
+    for file, source in model.related_files.items():
+        if file.endswith((".yaml", ".yml")):
+            places += (
+                (file, at.start(1)) for at in re.finditer(r"(?:gz|ign)_topic_name\s*:\s*[\"']?([\w/]+)", source.text)
+            )
+    for mention in read:
+        topic, topics = mention.topic.name.strip("/"), by_type.get(mention.type, set())
+        is_below = any(
+            f"/{one}".endswith(f"/{other}") for each in topics for one, other in ((each, topic), (topic, each))
+        )
+        if len(topics) == 1 and not is_below and not topic.startswith("odometry/") and not words.names(topic, places):
+            yield mention, next(iter(topics))
+
+
+def _published_by_type(model: Model) -> dict[str, set[str]]:
+    """Return ROS type without package → topics of the sensors, drives and bridges of the robot."""
+    found: dict[str, set[str]] = {}
+    for publication in published(model):
+        if publication.type in ("LaserScan", "Imu"):
+            found.setdefault(publication.type, set()).add(publication.topic.strip("/"))
+    for topic, kind, is_read in bridged_topics(model):
+        if not is_read:
+            found.setdefault(last(kind), set()).add(topic)
+    for plugin, _, _ in plugins(model.robot):
+        for rule in (each for ros in plugin.element.find_all("ros") for each in ros.find_all("remapping")):
+            old, _, new = rule.text.partition(":=")
+            if old.strip() == "odom" and new:
+                found.setdefault("Odometry", set()).add(new.strip().strip("/"))
+    return found
 
 
 def _in_elements(source: Source) -> Iterator[Mention]:
@@ -126,7 +166,7 @@ def _in_elements(source: Source) -> Iterator[Mention]:
         elif element.tag in ("arg", "param", "let") and "name" in at and re.fullmatch(_PARAMETER, at["name"].name):
             value = at.get("default") or at.get("value")
             if value is not None and re.fullmatch(r"[\w/]+", value.name):
-                yield Mention(source, value, at["name"].name == "scan_topic")
+                yield Mention(source, value, at["name"].name == "scan_topic", type=_TYPES.get(at["name"].name, ""))
 
 
 def _in_python(source: Source) -> Iterator[Mention]:
@@ -148,7 +188,8 @@ def _in_python(source: Source) -> Iterator[Mention]:
         if isinstance(value.value, str) and re.fullmatch(r"[\w/]+", value.value):
             start, end = place(source, value)
             offset = source.text[start:end].find(value.value)
-            yield Mention(source, Named(value.value, start + max(offset, 0)), name == "scan_topic")
+            topic = Named(value.value, start + max(offset, 0))
+            yield Mention(source, topic, name == "scan_topic", type=_TYPES.get(name, ""))
 
 
 def _meant(mention: Mention, topics: RobotTopics) -> str | None:
@@ -194,38 +235,3 @@ def _part(name: str, near: str) -> str:
     """Return the part of a name that differs from the meant one."""
     pairs = zip(name.strip("/").split("/"), near.strip("/").split("/"), strict=False)
     return next((a for a, b in pairs if a != b), last(name))
-
-
-class _Words:
-    """Words in the related files, the description and the code of their packages."""
-
-    def __init__(self, model: Model) -> None:
-        self._model = model
-
-    def occurs_once(self, word: str) -> bool:
-        """Return whether a word occurs in one place of the files, and not in the code of their packages."""
-        if self._counts[word] > 1:
-            return False
-        return not any(re.search(rf"\b{re.escape(word)}\b", text) for text in self._code) and not self._is_cut
-
-    @cached_property
-    def _counts(self) -> Counter[str]:
-        sources = {**self._model.expanded.sources, **self._model.related_files}
-        return Counter(at for each in sources.values() for at in re.findall(r"\w+", each.text))
-
-    @cached_property
-    def _code(self) -> list[str]:
-        """Texts of the code and other files that can name a topic, one more than `_MAX_FILES` at most."""
-        model = self._model
-        folders = {package for file in model.related_files if (package := package_of(Path(file))) is not None}
-        read = {str(Path(file).absolute()) for file in model.expanded.sources}
-        for folder in folders:
-            model.expanded.packages.watch(folder, ".py")
-        files = (each for folder in sorted(folders) for each in code_texts(folder, _NAMING_TOPICS, LAUNCH))
-        texts = (text for path, text in files if str(path.absolute()) not in read)
-        return list(islice(texts, _MAX_FILES + 1))
-
-    @property
-    def _is_cut(self) -> bool:
-        """Whether there is more code than was read, so that every word may occur in it."""
-        return len(self._code) > _MAX_FILES

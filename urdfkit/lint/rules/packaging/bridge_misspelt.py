@@ -14,6 +14,15 @@ if TYPE_CHECKING:
     from urdfkit.lint.facts.control.controller_joints import Named
     from urdfkit.lint.facts.control.ros_gz_bridges import Bridged
 
+_PUBLISHED = frozenset(
+    (
+        *("Altimeter", "BatteryState", "CameraInfo", "Clock", "Contacts", "FluidPressure", "Image", "IMU", "LaserScan"),
+        *("Magnetometer", "Model", "NavSat", "Odometry", "OdometryWithCovariance", "PointCloudPacked"),
+        "WorldStatistics",
+    )
+)
+"""Types that only sensors and systems of Gazebo publish."""
+
 _BRIDGES = ("gz_type_name", "gz_topic_name", "ros_type_name", "ign_type_name", "parameter_bridge")
 
 
@@ -61,7 +70,7 @@ class BridgeMisspelt(RobotRule):
         sources = [source for source in model.related_files.values() if any(word in source.text for word in _BRIDGES)]
         if not sources:
             return
-        from urdfkit.lint.facts.control.ros_gz_bridges import KEYS, REQUIRED, in_launch, in_yaml
+        from urdfkit.lint.facts.control.ros_gz_bridges import KEYS, REQUIRED, in_launch, in_yaml, malformed_in_launch
         from urdfkit.lint.facts.control.yaml_tree import span_of
         from urdfkit.lint.fix_builders import nearest
 
@@ -82,6 +91,9 @@ class BridgeMisspelt(RobotRule):
                     if suggestion is not None:
                         message = f"unknown key `{key.text}` of ros_gz_bridge; did you mean `{suggestion}`?"
                         yield Finding(self.code, self.name, self.severity, message, span_of(source, key))
+        for source in (each for each in sources if not each.file.endswith((".yaml", ".yml"))):
+            for word in malformed_in_launch(source):
+                yield self._at(source, word, f"`{word.name}` is not of the form `topic@ROS type@Gazebo type`")
         for source, bridge in bridges:
             defect = _type_defect(bridge) or _direction_defect(bridge)
             if defect is not None:
@@ -140,16 +152,18 @@ def _direction_defect(bridge: Bridged) -> tuple[Named, str] | None:
 
 def _topic_defects(bridges: list[tuple[Source, Bridged]], model: Model) -> Iterator[tuple[Source, Named, str]]:
     """Yield misspelt topics and wrong directions with their messages."""
+    from urdfkit.errors import suggestion as suggestion_of
     from urdfkit.lint.facts.gazebo.plugins import references
     from urdfkit.lint.facts.gazebo.sensor_topics import published
     from urdfkit.lint.facts.topics.misspelt import COMMON
+    from urdfkit.lint.facts.topics.words import Words
     from urdfkit.lint.fix_builders import nearest
 
-    if model.is_incomplete:
-        return
+    words = Words(model)
     commands: set[str] = set()
-    others = {"clock", *(publication.topic.strip("/") for publication in published(model))}
-    for text, _, parameter, _ in references(model, ("topic",)):
+    sensors = [] if model.is_incomplete else list(published(model))
+    others = {"clock", *(publication.topic.strip("/") for publication in sensors)}
+    for text, _, parameter, _ in references(model, ("topic",)) if not model.is_incomplete else ():
         (commands if parameter.meaning == "command_topic" else others).add(text.strip().strip("/"))
     robot_topics = commands | others
     bridged_topics = {
@@ -173,6 +187,27 @@ def _topic_defects(bridges: list[tuple[Source, Bridged]], model: Model) -> Itera
             yield source, bridge.direction, f"`{topic}` is a command topic; bridge it from ROS to Gazebo"
         elif bridge.direction is not None and topic in others - commands and direction in ("ROS_TO_GZ", "ROS_TO_IGN"):
             yield source, bridge.direction, f"`{topic}` is published in Gazebo; bridge it from Gazebo to ROS"
+        elif bridge.direction is not None and _type(bridge) in _PUBLISHED and direction.startswith("ROS_TO_"):
+            message = f"Gazebo publishes `{_type(bridge)}` and does not read it; bridge it from Gazebo to ROS"
+            yield source, bridge.direction, message
+        elif topic not in robot_topics and not topic.startswith(("world/", "model/")) and "$" not in topic:
+            kinds = [(each.topic.strip("/"), each.type) for each in sensors if each.type == _type(bridge)]
+            free = sorted({name for name, _ in kinds if (source.file, name) not in bridged_topics})
+            pattern = rf"topic>\s*/?{re.escape(topic)}\s*<"
+            texts = [each.text for each in model.expanded.sources.values()]
+            if free and not any(re.search(pattern, text) for text in texts) and not words.match(pattern):
+                near = free[0] if len(free) == 1 else None
+                what = suggestion_of(near) if near is not None else f"; its sensors publish {_listed(free)}"
+                yield source, bridge.topic, f"the robot has no Gazebo topic `{bridge.topic.name}`{what}"
+
+
+def _type(bridge: Bridged) -> str:
+    """Return the Gazebo type of a bridge without its package."""
+    return re.split(r"[.:]", bridge.gazebo.name)[-1] if bridge.gazebo is not None else ""
+
+
+def _listed(names: list[str]) -> str:
+    return ", ".join(f"`{name}`" for name in names[:3])
 
 
 def _is_misspelling(topic: str, suggestion: str) -> bool:

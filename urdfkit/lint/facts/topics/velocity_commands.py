@@ -1,0 +1,140 @@
+"""Remappings of common nodes: names that the node does not have, and velocity commands that no node reads.
+
+Sources: teleop_twist_joy, teleop_twist_keyboard, joy, twist_mux, robot_state_publisher, joint_state_publisher and
+diff_drive_controller (README and source files), Noetic to Rolling.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+
+from urdfkit.errors import suggestion
+from urdfkit.lint.facts.control.controller_joints import Named, controllers
+from urdfkit.lint.facts.control.ros2_controllers import declared
+from urdfkit.lint.facts.control.ros_gz_bridges import bridged_topics
+from urdfkit.lint.facts.control.yaml_tree import documents, walk, yamls
+from urdfkit.lint.facts.gazebo.plugins import plugins, references
+from urdfkit.lint.facts.nodes.started import LaunchedNode, launched_nodes
+from urdfkit.lint.facts.topics.words import Words
+from urdfkit.lint.fix_builders import nearest
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from urdfkit.description.xml.source import Source
+    from urdfkit.lint.model.model import Model
+
+_NAMES = {
+    "joint_state_publisher": "joint_states robot_description",
+    "joint_state_publisher_gui": "joint_states robot_description",
+    "joy": "joy joy/set_feedback diagnostics",
+    "robot_state_publisher": "joint_states robot_description",
+    "teleop_twist_joy": "cmd_vel joy",
+    "teleop_twist_keyboard": "cmd_vel key_vel",
+    "twist_mux": "cmd_vel_out diagnostics",
+}
+"""Package → topics of its nodes; twist_mux has those of its parameters too."""
+
+_EVERY_NODE = ("tf", "tf_static", "clock", "rosout", "parameter_events")
+
+_COMMANDS = {
+    "nav2_behaviors": "cmd_vel",
+    "nav2_controller": "cmd_vel",
+    "nav2_recoveries": "cmd_vel",
+    "teleop_twist_joy": "cmd_vel",
+    "teleop_twist_keyboard": "cmd_vel",
+    "twist_mux": "cmd_vel_out",
+}
+"""Package → the topic on which its node publishes velocity commands."""
+
+_DRIVES = r"drive|planar|velocity|mecanum|holonomic|ackermann|steer|force|prius"
+
+
+def misnamed_remappings(model: Model) -> Iterator[tuple[Source, Named, str]]:
+    """Yield the launch file, the old name and the message of each remapping that has no effect."""
+    inputs = set(_mux_topics(model, ("topics", "locks")))
+    for node in launched_nodes(model):
+        names = _NAMES.get(node.package, "").split()
+        if not names or (node.package == "twist_mux" and (not inputs or node.program != "twist_mux")):
+            continue
+        accepted = {*names, *_EVERY_NODE, *(inputs if node.package == "twist_mux" else ())}
+        written = {old.name.strip("/") for old, _ in node.remappings}
+        for old, new in node.remappings:
+            name = old.name.removeprefix("~").strip("/")
+            if name in accepted or not re.fullmatch(r"\w+", name):
+                continue
+            left = [each for each in names if each not in written]
+            near = new.name if new.name in left else nearest(name, left, cutoff=0.6)
+            yield node.source, old, f"`{node.package}` has no topic `{name}`{suggestion(near)}"
+
+
+def unread_commands(model: Model) -> Iterator[tuple[Source, Named, str]]:
+    """Yield the launch file, the new name and the message of each velocity topic that no node reads."""
+    nodes = [node for node in launched_nodes(model) if node.package in _COMMANDS]
+    written = [(node, old, new) for node in nodes for old, new in node.remappings if _is_command(node, old)]
+    readers = _readers(model) if written else frozenset()
+    if not readers:
+        return
+    own = [(node.source.file, name.start) for node, old, new in written for name in (old, new)]
+    used = {new.name.strip("/") for _, _, new in written}
+    words, seen = Words(model), set[str]()
+    for node, _, new in written:
+        topic = new.name.strip("/")
+        if topic in readers | seen or not re.fullmatch(r"[\w/]+", topic) or words.names(topic, own):
+            continue
+        if (
+            "/" in topic
+            and words.names(topic.rpartition("/")[0], own)
+            and topic.partition("/")[0] not in _drives(model)
+        ):
+            continue  # a namespace
+        if topic == "cmd_vel" and _has_drive(model):
+            continue
+        seen.add(topic)
+        unfed = sorted(readers - used)
+        near = unfed[0] if len(unfed) == 1 else nearest(topic, unfed, cutoff=0.7)
+        shown = ", ".join(f"`{name}`" for name in sorted(readers)[:3])
+        what = suggestion(near) if near is not None else f"; the nodes of these packages read {shown}"
+        yield node.source, new, f"no node reads the velocity commands on `{new.name}`{what}"
+
+
+def _is_command(node: LaunchedNode, old: Named) -> bool:
+    return old.name.removeprefix("~").strip("/") == _COMMANDS[node.package]
+
+
+def _mux_topics(model: Model, kinds: tuple[str, ...] = ("topics",)) -> Iterator[str]:
+    """Yield the topics that a twist_mux reads, those of velocity commands by default."""
+    for source in yamls(model):
+        if "priority" not in source.text:
+            continue
+        for group in (each for root in documents(source)[0] for each in walk(root)):
+            for key, inputs in group.entries:
+                for node in walk(inputs) if key.text in kinds else ():
+                    topic = node.find("topic")
+                    if topic is not None and node.find("priority") is not None and topic.text:
+                        yield topic.text.strip("/")
+
+
+def _drives(model: Model) -> dict[str, str]:
+    """Return the names of the drive controllers of ROS 2 → their type."""
+    found = {each.name: each.kind.text for source in yamls(model) for each in declared(source)}
+    return {name: kind for name, kind in found.items() if "diff_drive" in kind}
+
+
+def _readers(model: Model) -> frozenset[str]:
+    """Return the topics of velocity commands that nodes, controllers, plugins and bridges read."""
+    found = set(_mux_topics(model))
+    for name in _drives(model):
+        is_unstamped = any(re.search(r"use_stamped_vel\s*:\s*false", source.text, re.I) for source in yamls(model))
+        found.add(f"{name}/cmd_vel_unstamped" if is_unstamped else f"{name}/cmd_vel")
+    for text, _, parameter, _ in references(model, ("topic",)):
+        if parameter.meaning == "command_topic":
+            found.add(text.strip().strip("/"))
+    found |= {topic for topic, kind, is_read in bridged_topics(model) if is_read and "geometry_msgs/msg/Twist" in kind}
+    return frozenset(found)
+
+
+def _has_drive(model: Model) -> bool:
+    """Return whether a plugin may read velocity commands on its default topic."""
+    is_ros1 = any(controllers(source) and not list(declared(source)) for source in yamls(model))
+    return is_ros1 or any(re.search(_DRIVES, plugin.filename or "") for plugin, _, _ in plugins(model.robot))

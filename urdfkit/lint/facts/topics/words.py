@@ -1,0 +1,70 @@
+"""Words: the names in the related files, the description and the code of their packages."""
+
+from __future__ import annotations
+
+import re
+from collections import Counter
+from collections.abc import Collection
+from functools import cached_property
+from itertools import islice
+from pathlib import Path
+
+from urdfkit.description.packages.related_files import CODE, LAUNCH, package_of
+from urdfkit.lint.project.code_files import code_texts
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from urdfkit.lint.model.model import Model
+
+_NAMING_TOPICS = (*CODE, ".rviz", ".xacro", ".sdf", ".world", ".md", ".lua", ".json")
+"""Endings of the other files that can name a topic."""
+
+_MAX_FILES = 400
+
+
+class Words:
+    """Words in the related files, the description and the code of their packages."""
+
+    def __init__(self, model: Model) -> None:
+        self._model = model
+
+    def occurs_once(self, word: str) -> bool:
+        """Return whether a word occurs in one place of the files, and not in the code of their packages."""
+        if self._counts[word] > 1:
+            return False
+        return not any(re.search(rf"\b{re.escape(word)}\b", text) for text in self._code) and not self._is_cut
+
+    def names(self, topic: str, places: Collection[tuple[str, int]]) -> bool:
+        """Return whether a file names a whole topic, apart from places that are known: file and offset."""
+        pattern = re.compile(rf"(?<![\w/~])(?<!name=[\"'])/?{re.escape(topic)}(?![\w/])")
+        model = self._model
+        for file, source in {**model.expanded.sources, **model.related_files}.items():
+            if any((file, at.start()) not in places for at in pattern.finditer(source.text)):
+                return True
+        return self.match(pattern.pattern)
+
+    def match(self, pattern: str) -> bool:
+        """Return whether the code, a world or another file besides the related ones matches a pattern."""
+        return self._is_cut or any(re.search(pattern, text) for text in self._code)
+
+    @cached_property
+    def _counts(self) -> Counter[str]:
+        sources = {**self._model.expanded.sources, **self._model.related_files}
+        return Counter(at for each in sources.values() for at in re.findall(r"\w+", each.text))
+
+    @cached_property
+    def _code(self) -> list[str]:
+        """Texts of the code and other files that can name a topic, one more than `_MAX_FILES` at most."""
+        model = self._model
+        folders = {package for file in model.related_files if (package := package_of(Path(file))) is not None}
+        read = {str(Path(file).absolute()) for file in model.expanded.sources}
+        for folder in folders:
+            model.expanded.packages.watch(folder, ".py")
+        files = (each for folder in sorted(folders) for each in code_texts(folder, _NAMING_TOPICS, LAUNCH))
+        texts = (text for path, text in files if str(path.absolute()) not in read)
+        return list(islice(texts, _MAX_FILES + 1))
+
+    @property
+    def _is_cut(self) -> bool:
+        """Whether there is more code than was read, so that every word may occur in it."""
+        return len(self._code) > _MAX_FILES

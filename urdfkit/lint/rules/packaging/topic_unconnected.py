@@ -1,0 +1,48 @@
+"""K978 topic-unconnected."""
+
+from urdfkit.lint.finding import Finding
+from urdfkit.lint.rule import Findings, Model, RobotRule
+
+
+class TopicUnconnected(RobotRule):
+    """A remapping of a common node connects it with no other node.
+
+    ## What it does
+    Checks the remappings of ``teleop_twist_joy``, ``teleop_twist_keyboard``, ``joy``, ``twist_mux``,
+    ``robot_state_publisher`` and ``joint_state_publisher`` for topics that the node does not have. Also reports the
+    velocity commands of these nodes and of Nav2 on a topic that no other file of the packages names, if a
+    ``twist_mux``, a drive controller, a plugin or a bridge of the packages reads velocity commands.
+
+    ## Why is this bad?
+    The robot does not move, and no node reports an error.
+
+    ## Example
+    ```xml
+    <launch>
+      <node pkg="teleop_twist_joy" exec="teleop_node">
+        <remap from="cmd_velocity" to="joy_vel"/>
+      </node>
+    </launch>
+    ```
+
+    ## Use instead
+    ```xml
+    <launch>
+      <node pkg="teleop_twist_joy" exec="teleop_node">
+        <remap from="cmd_vel" to="joy_vel"/>
+      </node>
+    </launch>
+    ```
+    """
+
+    code = "K978"
+    name = "topic-unconnected"
+    severity = "warning"
+
+    def check(self, model: Model) -> Findings:
+        """Yield a finding for each remapping without an effect, and for each topic that no node reads."""
+        from urdfkit.lint.facts.topics.velocity_commands import misnamed_remappings, unread_commands
+
+        for source, name, message in (*misnamed_remappings(model), *unread_commands(model)):
+            span = source.span(name.start, name.start + len(name.name))
+            yield Finding(self.code, self.name, self.severity, message, span)
