@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
 
 _RELEASED = """
-robot_state_publisher: robot_state_publisher state_publisher; joint_state_publisher: joint_state_publisher;
+robot_state_publisher: robot_state_publisher; joint_state_publisher: joint_state_publisher;
 joint_state_publisher_gui: joint_state_publisher_gui; rviz: rviz; rviz2: rviz2; rqt_gui: rqt_gui; rqt_graph:
 rqt_graph; controller_manager: spawner spawner.py unspawner unspawner.py hardware_spawner hardware_spawner.py
 ros2_control_node controller_manager controller_group; gazebo_ros: gazebo gzserver gzclient spawn_model
@@ -49,7 +49,7 @@ pointcloud_to_laserscan: pointcloud_to_laserscan_node laserscan_to_pointcloud_no
 """Package: executables; of Noetic, Humble, Jazzy and Rolling (their CMakeLists.txt and setup.py)."""
 
 _ONLY_IN = {
-    1: """robot_state_publisher: state_publisher; controller_manager: controller_manager controller_group; xacro:
+    1: """controller_manager: controller_manager controller_group; xacro:
     xacro.py; gazebo_ros: gazebo spawn_model debug perf gdbrun urdf2gazebo libcommon.sh; teleop_twist_keyboard:
     teleop_twist_keyboard.py; robot_localization: ekf_localization_node ukf_localization_node""",
     2: """controller_manager: ros2_control_node hardware_spawner; gazebo_ros: spawn_entity.py; robot_localization:

@@ -54,6 +54,10 @@ publish_default_velocities publish_default_efforts use_smallest_joint_limits; na
 frame_id save_map_timeout free_thresh_default occupied_thresh_default map_subscribe_transient_local;
 nav2_lifecycle_manager: node_names
 autostart bond_timeout attempt_respawn_reconnection bond_respawn_max_duration service_timeout bond_heartbeat_period;
+moveit_ros_move_group: planning_plugin planning_plugins request_adapters response_adapters moveit_controller_manager
+moveit_manage_controllers allow_trajectory_execution publish_monitored_planning_scene capabilities disable_capabilities
+max_safe_path_cost use_controller_manager default_planning_pipeline planning_pipelines planning_scene_monitor_options
+publish_robot_description publish_robot_description_semantic jiggle_fraction start_state_max_bounds_error;
 gmapping: base_frame odom_frame map_frame map_update_interval maxUrange maxRange sigma kernelSize lstep astep iterations
 lsigma ogain lskip minimumScore linearUpdate angularUpdate temporalUpdate resampleThreshold particles occ_thresh
 throttle_scans transform_publish_period inverted_laser delta llsamplerange llsamplestep lasamplerange lasamplestep;
@@ -95,9 +99,9 @@ def misspelt_in_launch(source: Source) -> Iterator[tuple[Named, str, str]]:
 
     for package, keys in _in_python(source) if source.file.endswith(".py") else _in_xml(source):
         accepted = _parameters(_OF_PACKAGES).get(package) or _parameters().get(_NODES.get(package, ""), ())
-        written = {key.name for key in keys}
+        written = {key.name.partition(".")[0] for key in keys}
         lacking = [each for each in accepted if each not in written and len(each) >= _MIN_LENGTH]
-        for key in keys:
+        for key in (Named(each.name.partition(".")[0], each.start) for each in keys):
             near = next((each for each in lacking if is_slip(key.name, each) or _is_other_form(key.name, each)), None)
             if near is not None and key.name not in accepted:
                 yield key, package, near

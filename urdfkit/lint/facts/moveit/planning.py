@@ -105,17 +105,24 @@ def _hint(name: str, names: Iterable[str]) -> str:
 
 
 def _plugins(document: Node) -> Defects:
-    from urdfkit.lint.fix_builders import nearest
-
-    names = {*_PLUGINS.split(), *(f"geometric::{name}" for name in _PLANNERS.split())}
     for node in walk(document):
         values = [value for key, value in node.entries if key.text not in ("description", "name")]
         for value in (*values, *node.items):
-            is_name = value.kind == "text" and ("/" in value.text or "::" in value.text) and value.text not in names
-            near = nearest(value.text, names, cutoff=0.9) if is_name else None
-            if near is not None and abs(len(near) - len(value.text)) <= 1:
+            near = meant_plugin(value.text) if value.kind == "text" else None
+            if near is not None:
                 kind = "planner" if near.startswith("geometric::") else "plugin"
                 yield value, f"unknown {kind} `{value.text}`; did you mean `{near}`?"
+
+
+def meant_plugin(text: str) -> str | None:
+    """Return the plugin or planner of MoveIt that a misspelt one stands for; None if the text may be right."""
+    from urdfkit.lint.fix_builders import nearest
+
+    if "/" not in text and "::" not in text:
+        return None
+    names = {*_PLUGINS.split(), *(f"geometric::{name}" for name in _PLANNERS.split())}
+    near = nearest(text, names, cutoff=0.9) if text not in names else None
+    return near if near is not None and abs(len(near) - len(text)) <= 1 else None
 
 
 def _planners(group: Node, settings: Node, defined: Node | None) -> Defects:

@@ -12,11 +12,12 @@ if TYPE_CHECKING:
 _RELEASES = {1: "ROS 1", 2: "this release of ROS 2"}
 
 _RENAMED = {
+    ("robot_state_publisher", "state_publisher"): "robot_state_publisher",
     ("robot_localization", "ekf_localization_node"): "ekf_node",
     ("robot_localization", "ukf_localization_node"): "ukf_node",
     ("ros_gz_sim", "spawn_entity.py"): "create",
 }
-"""Package and executable of ROS 1 or Gazebo Classic → the executable that replaces it."""
+"""Package and executable of older releases or Gazebo Classic → the executable that replaces it."""
 
 
 class ExecutableUnknown(RobotRule):
@@ -106,6 +107,7 @@ class ExecutableUnknown(RobotRule):
                 if meant not in names:
                     meant = nearest(program, names, cutoff=0.6 if program in others else 0.7)
                     meant = names[0] if meant is None and found.is_complete and len(names) == 1 else meant
+                    meant = f"{program}_node" if f"{program}_node" in names else meant
                 if meant is None and not found.is_complete and program not in others:
                     continue
                 release = f" in {_RELEASES[version]}" if program in others else ""

@@ -16,9 +16,11 @@ if TYPE_CHECKING:
     from urdfkit.lint.facts.control.controller_joints import Named
 
 _NAMES = ("use_sim_time", "robot_description")
-_TOPICS = (*_NAMES, "joint_states", "controller_manager")
-_QUOTED = r"[\"'](?:(?:[\w~/]*/)?(?P<name>[A-Za-z]\w{8,20})|[\w~/]*/(?P<dashed>[A-Za-z][\w-]{8,20}))[\"']"
+_OF_MOVEIT = tuple(f"robot_description_{name}" for name in ("semantic", "planning", "kinematics"))
+_TOPICS = (*_NAMES, "joint_states", "controller_manager", *_OF_MOVEIT)
+_QUOTED = r"[\"'](?:(?:[\w~/]*/)?(?P<name>[A-Za-z]\w{8,28})|[\w~/]*/(?P<dashed>[A-Za-z][\w-]{8,20}))[\"']"
 _KEY = r"(?m)(?<=[\s{,])(?P<name>[A-Za-z]\w{8,20})(?=[ \t]*:)(?P<dashed>)"
+_COMMAND = r"(?:\$\(command\s+[\"']?|\bCommand\(\s*\[\s*[\"']|\bfind\s+xacro\)/)(\w+)(?=[\s\"'])"
 _WORLD = r"(?<![\w/.-])([A-Za-z]\w+)\.sdf\b"
 _WORLDS = ("empty", "shapes", "sensors", "visualize_lidar", "diff_drive", "gpu_lidar_sensor")
 """Worlds of gz-sim (examples/worlds), which need no path."""
@@ -36,13 +38,12 @@ class LaunchNameMisspelt(RobotRule):
     """A launch file or YAML file misspells ``use_sim_time``, ``robot_description`` or another common name.
 
     ## What it does
-    Compares quoted words in launch files with ``use_sim_time``, ``robot_description``, ``joint_states`` and
-    ``controller_manager``, keys in YAML files with the first two, and the topics that remappings of common nodes
-    replace with the topics of these nodes. Also compares the parameters of common nodes, such as
-    ``teleop_twist_joy_node``, ``slam_toolbox``, ``amcl`` and ``parameter_bridge``, with the parameters of these nodes,
-    the namespaces of costmaps with ``local_costmap`` and ``global_costmap``, and worlds without a path with those of
-    Gazebo. Words that differ by more than one letter, or that the file declares as a launch argument, are
-    accepted.
+    Compares quoted words in launch files with ``use_sim_time``, ``robot_description``, ``joint_states``,
+    ``controller_manager`` and the plugins of MoveIt, keys in YAML files with the first two, and the topics that
+    remappings of common nodes replace with the topics of these nodes. Also compares the parameters of common nodes,
+    such as ``teleop_twist_joy_node``, ``slam_toolbox`` and ``parameter_bridge``, with those of these nodes, the
+    namespaces of costmaps with ``local_costmap`` and ``global_costmap``, and worlds without a path with those of
+    Gazebo. Words that differ by more than one letter, or that the file declares as a launch argument, are accepted.
 
     ## Why is this bad?
     The node does not use the simulated time, or waits for a description that is never published.
@@ -102,6 +103,11 @@ class LaunchNameMisspelt(RobotRule):
                 of = "Nav2" if "ros__parameters" in source.text else "costmap_2d"
                 message = f"unknown {kind} `{key.text}` in the parameters of {of}; did you mean `{near}`?"
                 yield Finding(self.code, self.name, "warning", message, span_of(source, key))
+            for word in re.finditer(_COMMAND, uncommented(source)) if is_launch else ():
+                if _nearest(word[1], ("xacro",)) is not None:
+                    yield self._at(source, word[1], word.start(1), "xacro")
+            if is_launch and "moveit" in source.text:
+                yield from self._of_moveit(source)
             for parameter, package, near in misspelt_in_launch(source) if is_launch else ():
                 message = f"unknown parameter `{parameter.name}` of a node of `{package}`; did you mean `{near}`?"
                 span = source.span(parameter.start, parameter.start + len(parameter.name))
@@ -113,6 +119,22 @@ class LaunchNameMisspelt(RobotRule):
             if is_launch and not source.file.endswith(".py"):
                 for topic, near in _remapped(source):
                     yield self._at(source, topic.name, topic.start, near)
+
+    def _of_moveit(self, source: Source) -> Findings:
+        """Yield a finding for each misspelt plugin and for each misspelt parameter behind an argument."""
+        from urdfkit.lint.facts.control.launch_package_paths import uncommented
+        from urdfkit.lint.facts.moveit.planning import meant_plugin
+
+        text = uncommented(source)
+        for word in re.finditer(r"(?<=[\"'\s])[a-z]\w+(?:/|::)[A-Z]\w+(?=[\"'\s])", text):
+            plugin = meant_plugin(word[0])
+            if plugin is not None:
+                yield self._at(source, word[0], word.start(), plugin)
+        for word in re.finditer(r"\$\((?:arg|var)\s+robot_description\)(_\w+)", text):
+            name = f"robot_description{word[1]}"
+            near = _nearest(name, _OF_MOVEIT) or (f"{name}s" if f"{name}s" in _OF_MOVEIT else None)
+            if near is not None:
+                yield self._at(source, word[1], word.start(1), near.removeprefix("robot_description"))
 
     def _at(self, source: Source, written: str, start: int, near: str) -> Finding:
         message, span = f"unknown name `{written}`; did you mean `{near}`?", source.span(start, start + len(written))

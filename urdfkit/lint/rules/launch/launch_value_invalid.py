@@ -72,8 +72,17 @@ class LaunchValueInvalid(RobotRule):
                 yield Finding(self.code, self.name, self.severity, message, span)
 
 
+_TYPES = {
+    1: ("str", "int", "double", "bool", "yaml", "auto", "string"),
+    2: tuple(f"{before}{name}" for before in ("", "list_of_") for name in ("str", "int", "float", "bool")),
+}
+"""Version of ROS → types of parameters (roslaunch 1.17, launch_frontend of Humble to Rolling)."""
+
+_SYNONYMS = {"string": "str", "double": "float", "integer": "int", "boolean": "bool"}
+
+
 def _invalid(tag: Tag, version: int, model: Model) -> Iterator[tuple[Attribute, str]]:
-    from urdfkit.errors import did_you_mean
+    from urdfkit.errors import did_you_mean, nearest, suggestion
     from urdfkit.lint.facts.launch.xml_elements import OUTPUTS, is_output
 
     attributes = tag.attributes
@@ -93,6 +102,10 @@ def _invalid(tag: Tag, version: int, model: Model) -> Iterator[tuple[Attribute, 
         yield from _parameter_command(attributes, model)
     elif version == 1 and tag.name == "param":
         yield from _parameter(attributes, model)
+    type = attributes.get("type") if tag.name == "param" else None
+    if type is not None and "$(" not in type.value and type.value not in _TYPES[version]:
+        near = _SYNONYMS.get(type.value) or nearest(type.value, _TYPES[version])
+        yield type, f"unknown type `{type.value}` of a parameter{suggestion(near if near in _TYPES[version] else None)}"
 
 
 def _conditions(tags: list[Tag]) -> Iterator[tuple[Attribute, str]]:

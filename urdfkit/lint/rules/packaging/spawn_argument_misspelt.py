@@ -10,6 +10,8 @@ from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
+    from urdfkit.description.xml.source import Source
+    from urdfkit.lint.facts.control.controller_joints import Named
     from urdfkit.lint.facts.control.launched_nodes import Started
 
 _CREATE = "world file param string topic name allow_renaming x y z R P Y"
@@ -40,6 +42,7 @@ _SYNONYMS = {
 """Spawner → option of another spawner, or common name → the corresponding option."""
 
 _DESCRIPTION = "robot_description"
+_FORMATS = frozenset(("urdf", "sdf", "trimesh", "gazebo"))
 
 
 class SpawnArgumentMisspelt(RobotRule):
@@ -49,7 +52,9 @@ class SpawnArgumentMisspelt(RobotRule):
     Checks the arguments of ``create`` (ros_gz_sim), ``spawn_entity.py`` and ``spawn_model`` (gazebo_ros) and
     ``spawner`` (controller_manager) for misspelt options, for options of another spawner, and for misspellings of
     the topic or parameter ``robot_description`` and of joints. The spawners of Gazebo Classic need a source of the
-    description. Python launch files are parsed, not executed.
+    description. Also reports a controller manager or a description in a namespace if the launch file
+    starts the robot and no file names a namespace.
+    Python launch files are parsed, not executed.
 
     ## Why is this bad?
     The spawner fails, or waits forever for a description, and the robot does not appear in the world. ``create``
@@ -87,6 +92,10 @@ class SpawnArgumentMisspelt(RobotRule):
             if not any(package in source.text for package in (*_PACKAGES, "controller_manager")):
                 continue
             for node in started(source):
+                for word in _in_unknown_namespaces(node, source, model):
+                    message = f"no node of these packages is in the namespace of `{word.name}`"
+                    span = source.span(word.start, word.start + len(word.name))
+                    yield Finding(self.code, self.name, "warning", message, span)
                 if node.package == "controller_manager" and node.program in ("spawner", "spawner.py"):
                     for start, text, message in _unknown_options(node, 1 if reads_ros1(source) else 2):
                         span, names = source.span(start, start + len(text)), (node.program,)
@@ -99,6 +108,25 @@ class SpawnArgumentMisspelt(RobotRule):
                         severity = "warning" if _is_ignored(node, text) else self.severity
                         kind, names = "option" if text.startswith("-") else "", (node.program or "",)
                         yield Finding(self.code, self.name, severity, message, span, kind=kind, names=names)
+
+
+def _in_unknown_namespaces(node: Started, source: Source, model: Model) -> Iterator[Named]:
+    """Yield the controller manager or description in a namespace, if the file starts a robot without a namespace."""
+    for word in node.arguments if "robot_state_publisher" in source.text else ():
+        at = (
+            re.fullmatch(r"/?([\w/]+)/(?:controller_manager|robot_description)", word.name)
+            if word is not None
+            else None
+        )
+        if word is None or at is None or node.package not in ("controller_manager", *_PACKAGES):
+            continue
+        pattern = rf"namespace|\bns\s*[=:]|PushR|(?<!\w){re.escape(at[1])}(?:/|\s*:)"
+        files = (*model.related_files.values(), *model.expanded.sources.values())
+        uses = [(each.file, use.start()) for each in files for use in re.finditer(pattern, each.text)]
+        if not any(
+            file != source.file or not word.start <= start < word.start + len(word.name) for file, start in uses
+        ):
+            yield word
 
 
 def _unknown_options(node: Started, version: int) -> Iterator[tuple[int, str, str]]:
@@ -180,12 +208,14 @@ def _without_source(node: Started) -> Iterator[tuple[int, str, str]]:
     )
     first = node.arguments[0] if node.arguments else None
     sources = {"file", "topic", "param", "database", "stdin"}
-    misspelt = {_nearest_option(option, tuple(sources)) for option in options} | {
+    misspelt = {_nearest_option(option, (*sources, *_FORMATS)) for option in options} | {
         _SYNONYMS[node.program].get(option) for option in options
     }
     if node.program != "create" and first is not None and not is_open and not sources & (options | misspelt):
         named = "topic" if node.program == "spawn_entity.py" else "param"
         yield first.start, first.name, f"`{node.program}` needs a source of the description, such as `-{named}`"
+    elif node.program == "spawn_model" and first is not None and not is_open and not (options | misspelt) & _FORMATS:
+        yield first.start, first.name, "`spawn_model` needs the format of the description, `-urdf` or `-sdf`"
 
 
 def _nearest_option(option: str, options: tuple[str, ...]) -> str | None:
