@@ -76,6 +76,17 @@ def test_only_neighbours_that_depend_on_the_package_are_searched(package: Packag
     assert list(neighbours(own)) == ["bot", "bot_bringup", "other"]
 
 
+def test_packages_named_after_the_robot_belong_to_it_unless_they_use_another_description(
+    package: Package, write: Write
+) -> None:
+    own = package("bot_description")
+    package("bot_navigation", "nav2_amcl")
+    package("bot_arm", "nav2_amcl", "other_description")
+    for name in ("bot_description", "bot_navigation", "bot_arm"):
+        write(f"src/{name}/a.yaml", "")
+    assert names(own, own.parent) == ["bot_description/a.yaml", "bot_navigation/a.yaml"]
+
+
 def test_the_package_of_a_file_is_the_nearest_folder_with_a_manifest(package: Package, write: Write) -> None:
     own = package("bot")
     assert package_of(write("src/bot/urdf/arm/r.urdf", "")) == own
