@@ -117,3 +117,8 @@ def test_a_simulated_robot_follows_the_motion(place, capsys):
             wanted = np.interp(seconds, table[:, 0], table[:, column])
             assert joints[name]["position"] == pytest.approx(wanted, abs=1e-3)  # half of a time step of 1 ms
     assert "has no column `time`" in refusal(capsys, "sim", "run", "arm.urdf", "--trajectory", "path.csv")
+
+
+def test_the_nearest_file_of_a_missing_path_is_suggested(place, capsys):
+    (place / "path.csv").write_text("shoulder,elbow\n0,0\n1,1\n")
+    assert "paht.csv: no such file; did you mean `path.csv`?" in refusal(capsys, "retime", "arm.urdf", "paht.csv")

@@ -8,7 +8,8 @@ from datetime import datetime, timezone
 from pathlib import Path
 
 from urdfkit.cli.parser import Parser
-from urdfkit.errors import ResourceError, UsageError, did_you_mean
+from urdfkit.description.packages.similar_names import near_path
+from urdfkit.errors import ResourceError, UsageError
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -123,8 +124,7 @@ def _file(word: str) -> Path:
             raise ResourceError(f"{word} is a folder with {len(models)} descriptions; name the file: {listed}")
         path = models[0]
     if not path.is_file():
-        siblings = [each.name for each in path.parent.iterdir()] if path.parent.is_dir() else []
-        raise ResourceError(f"no such file: {word}{did_you_mean(path.name, siblings)}")
+        raise ResourceError(f"no such file: {word}{near_path(path)}")
     if (instead := _OTHER_FORMATS.get(path.suffix.lower())) is not None:
         raise UsageError(f"{word} is {instead}")
     if path.suffix == ".xacro":

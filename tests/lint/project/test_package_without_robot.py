@@ -117,6 +117,18 @@ def test_an_empty_folder_of_a_package_has_nothing_to_lint(package, capsys):
     assert "no robot description" in capsys.readouterr().err
 
 
+def test_a_package_with_parts_of_robots_is_not_said_to_have_none(package, capsys):
+    part = package / "urdf/arm.xacro"
+    part.parent.mkdir()
+    part.write_text('<robot xmlns:xacro="http://www.ros.org/wiki/xacro"><xacro:macro name="arm" params=""/></robot>\n')
+    robot = package.parent / "cell_description/cell.urdf.xacro"
+    robot.parent.mkdir()
+    (robot.parent / "package.xml").write_text(MANIFEST.format(name="cell_description", needed="arm_bringup"))
+    include = '<xacro:include filename="$(find arm_bringup)/urdf/arm.xacro"/><link name="base"/>'
+    robot.write_text(f'<robot name="cell" xmlns:xacro="http://www.ros.org/wiki/xacro">{include}</robot>\n')
+    assert "has no robot" not in lint_json(capsys, ".")[2]
+
+
 def test_packages_of_no_robot_in_a_workspace_with_a_robot_are_linted_too(package, capsys):
     for name in ("cart_description", "deep/joy_bringup"):
         (package.parent / name).mkdir(parents=True)

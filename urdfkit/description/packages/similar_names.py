@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable
 from pathlib import Path
 
@@ -18,7 +19,7 @@ def near_package(name: str, packages: Iterable[str]) -> str:
     return did_you_mean(name, [other for other, own, end in parts if end != last or nearest(stem, [own], cutoff=0.7)])
 
 
-def near_path(path: Path, hints: dict[Path, str] | None = None) -> str:
+def near_path(path: Path, hints: dict[Path, str] | None = None, user: Path | None = None) -> str:
     """Return a did-you-mean hint for the first part of `path` that does not exist, ignoring case.
 
     A common suffix from the first dot on does not make two names similar, and only a folder stands for a folder.
@@ -26,6 +27,7 @@ def near_path(path: Path, hints: dict[Path, str] | None = None) -> str:
     Args:
         path: a path that does not exist.
         hints: earlier hints by the first part that does not exist, to be used again; None to search again.
+        user: the file that names the path, which cannot be meant.
     """
     if not may_suggest():
         return ""
@@ -35,14 +37,25 @@ def near_path(path: Path, hints: dict[Path, str] | None = None) -> str:
     if hints is not None and missing in hints:
         return hints[missing]
     try:
-        names = sorted(child.name for child in parent.iterdir() if missing is path or child.is_dir())
+        children = (child for child in parent.iterdir() if missing is path or child.is_dir())
+        names = sorted(child.name for child in children if user is None or not _is_same(child, user))
     except OSError:
         return ""
     stem = _stem(missing.name)
-    hint = did_you_mean(missing.name, [name for name in names if did_you_mean(stem, [_stem(name)])])
+    written = [name for name in names if _letters(name) == _letters(missing.name)]
+    hint = did_you_mean(missing.name, written or [name for name in names if did_you_mean(stem, [_stem(name)])])
     if hints is not None:
         hints[missing] = hint
     return hint
+
+
+def _is_same(path: Path, other: Path) -> bool:
+    return path.name == other.name and path.absolute() == other.absolute()
+
+
+def _letters(name: str) -> str:
+    """Return a name without its separators: ``arm.gazebo.xacro`` and ``arm_gazebo.xacro`` are similar."""
+    return re.sub(r"[\W_]", "", name).lower()
 
 
 def _stem(name: str) -> str:

@@ -6,6 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
+from urdfkit.description.packages.similar_names import near_path
 from urdfkit.errors import ResourceError
 from urdfkit.linear_algebra import Array
 
@@ -39,6 +40,8 @@ def read_path(file: Path) -> JointPath:
     """
     try:
         text = file.read_text("utf-8-sig")
+    except FileNotFoundError:
+        raise ResourceError(f"{file}: no such file{near_path(file)}") from None
     except (OSError, UnicodeDecodeError) as error:
         reason = error.strerror if isinstance(error, OSError) else "not a text in UTF-8"
         raise ResourceError(f"{file}: cannot be read: {reason}") from None

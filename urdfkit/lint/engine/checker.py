@@ -234,8 +234,10 @@ class Checker:
         findings = [finding for rule in rules for finding in self.runner.robot_findings(rule, entry.path, model)]
         files = {name: os.path.join(str(Path.cwd()), name) for name in model.related_files}  # noqa: PTH118
         self.sources.update(model.related_files)
-        without = f"{entry.path.absolute().parent.name}{WITHOUT_ROBOT}"
-        note = f"{note}; {without}" if note else without
+        folder = entry.path.absolute().parent
+        if not any(next(folder.rglob(end), None) for end in ("*.urdf", "*.xacro")):  # other packages include them
+            without = f"{folder.name}{WITHOUT_ROBOT}"
+            note = f"{note}; {without}" if note else without
         result = EntryResult(tuple(_only(entry, findings, files)), files, note, refused="; ".join(self.runner.failures))
         return result, model
 

@@ -125,7 +125,7 @@ class Files(Texts):
             self.file_stack.pop()
             missing = OSError(str(error))
             missing.filename = file
-            failure = unreadable(missing, is_include=True)
+            failure = unreadable(missing, is_include=True, user=Path(self.file_stack[-1]) if self.file_stack else None)
             failure.is_missing_file = not isinstance(error, ValueError)
             raise self.placed(failure) from None
         return next(document.tags())

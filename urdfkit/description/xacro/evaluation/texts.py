@@ -32,6 +32,7 @@ from urdfkit.description.xml.reader import shown_path
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
+    from pathlib import Path
     from typing import Any
 
     from urdfkit.description.xacro.evaluation.expressions.interpreter import Expressions
@@ -216,7 +217,7 @@ def _shown(kind: int, source: str) -> str:
     return {EXPRESSION: "${%s}", COMMAND: "$(%s)"}.get(kind, "%s") % short(source)
 
 
-def unreadable(error: OSError, *, is_include: bool) -> Failure:
+def unreadable(error: OSError, *, is_include: bool, user: Path | None = None) -> Failure:
     """Return the failure for a file that cannot be read."""
     import errno
     from pathlib import Path
@@ -233,7 +234,7 @@ def unreadable(error: OSError, *, is_include: bool) -> Failure:
             elif path.is_symlink() and not path.exists():
                 why = f"is a symbolic link to {path.readlink()}, which does not exist or leads back to the link"
             else:
-                why = f"{'cannot be read' if path.is_file() else 'does not exist'}{near_path(path)}"
+                why = f"{'cannot be read' if path.is_file() else 'does not exist'}{near_path(path, user=user)}"
         except PermissionError:  # of a folder above it
             why = "cannot be read"
     kind = "include-not-found" if is_include else "other"

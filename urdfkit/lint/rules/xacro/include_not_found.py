@@ -79,10 +79,11 @@ def _nearest_file(fault: Fault, model: Model) -> Fix | None:
         return None
     try:
         files = sorted(file.name for file in path.parent.iterdir() if file.is_file() and file.suffix == path.suffix)
+        files = [name for name in files if not f"/{fault.position.file}".endswith(f"/{name}")]
     except OSError:
         return None
     suggestion = nearest(path.name, files, cutoff=0.75)
-    if suggestion is None or fault.position.file.endswith(suggestion):
+    if suggestion is None:
         return None
     start = attribute.value_end - len(path.name)
     span = model.document(fault.position.file).source.span(start, attribute.value_end)
