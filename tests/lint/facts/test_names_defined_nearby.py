@@ -70,7 +70,7 @@ def test_the_nearest_names_are_given(workspace):
 
 
 def test_of_a_package_that_does_not_depend_on_it_only_the_files_it_names_are_checked(workspace):
-    (workspace / "arm_start" / "package.xml").write_text("<package><name>arm_start</name></package>")
+    (workspace / "arm_start" / "package.xml").write_text("<package><name>start</name></package>")
     assert found(workspace) == [("K958", "arm.launch.py", 7, 13)]
 
 
@@ -338,7 +338,7 @@ def test_interfaces_that_may_come_from_elsewhere_are_let_pass(tmp_path, interfac
 
 
 def test_a_package_whose_settings_a_plugin_reads_is_looked_at(tmp_path):
-    description, control = tmp_path / "arm_description", tmp_path / "arm_control"
+    description, control = tmp_path / "arm_description", tmp_path / "own_control"
     description.mkdir()
     control.mkdir()
     for folder in (description, control):

@@ -110,10 +110,10 @@ def _frames(parent: Named | None, child: Named | None, model: Model) -> Iterator
     if parent is not None and names[0] and names[0] == names[1]:
         yield parent, f"frame `{names[0]}` is its own parent"
         return
-    if parent is not None and names[0] and not _is_known(parent, names[0], model):
+    if parent is not None and names[0] and not _is_defined(parent, names[0], model):
         near = _meant(names[0], links)
-        is_apart = child is not None and names[1] not in links and not re.search(_OF_OTHERS, names[0])
-        if near is not None or (is_apart and not model.is_incomplete):
+        is_separate = child is not None and names[1] not in links and not re.search(_OF_OTHERS, names[0])
+        if near is not None or (is_separate and not model.is_incomplete):
             yield parent, f"robot `{model.robot.name}` has no link `{names[0]}`{suggestion(near)}"
     if child is None or names[1] not in links or model.is_incomplete:
         return
@@ -124,7 +124,7 @@ def _frames(parent: Named | None, child: Named | None, model: Model) -> Iterator
         yield child, f"`{names[1]}` is the root of robot `{model.robot.name}` and cannot be below `{names[0]}`"
 
 
-def _is_known(word: Named, name: str, model: Model) -> bool:
+def _is_defined(word: Named, name: str, model: Model) -> bool:
     """Return whether a description or another place of the related files names a frame."""
     if name in model.robot.link_by_name or model.neighbouring_descriptions.define("link", name):
         return True

@@ -72,15 +72,16 @@ def unread_commands(model: Model) -> Iterator[tuple[Source, Named, str]]:
     """Yield the launch file, the new name and the message of each velocity topic that no node reads."""
     nodes = [node for node in launched_nodes(model) if node.package in _COMMANDS]
     written = [(node, old, new) for node in nodes for old, new in node.remappings if _is_command(node, old)]
-    readers = _readers(model) if written else frozenset()
-    if not readers:
-        return
+    drives = _drive_topics(model) if written else frozenset()
+    every = drives | frozenset(_mux_topics(model))
     own = [(node.source.file, name.start) for node, old, new in written for name in (old, new)]
     used = {new.name.strip("/") for _, _, new in written}
     words, seen = Words(model), set[str]()
     for node, _, new in written:
         topic = new.name.strip("/")
-        if topic in readers | seen or not re.fullmatch(r"[\w/]+", topic) or words.names(topic, own):
+        # A driver in another package may read the output of twist_mux, and cmd_vel.
+        readers = drives if node.package == "twist_mux" or topic.endswith("cmd_vel") else every
+        if not readers or topic in every | seen or not re.fullmatch(r"[\w/]+", topic) or words.names(topic, own):
             continue
         if (
             "/" in topic
@@ -121,9 +122,9 @@ def _drives(model: Model) -> dict[str, str]:
     return {name: kind for name, kind in found.items() if "diff_drive" in kind}
 
 
-def _readers(model: Model) -> frozenset[str]:
-    """Return the topics of velocity commands that nodes, controllers, plugins and bridges read."""
-    found = set(_mux_topics(model))
+def _drive_topics(model: Model) -> frozenset[str]:
+    """Return the topics of velocity commands that controllers, plugins and bridges read."""
+    found = set[str]()
     for name in _drives(model):
         is_unstamped = any(re.search(r"use_stamped_vel\s*:\s*false", source.text, re.I) for source in yamls(model))
         found.add(f"{name}/cmd_vel_unstamped" if is_unstamped else f"{name}/cmd_vel")
