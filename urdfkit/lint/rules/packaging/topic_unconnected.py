@@ -1,4 +1,4 @@
-"""K978 topic-unconnected."""
+"""K980 topic-unconnected."""
 
 from urdfkit.lint.finding import Finding
 from urdfkit.lint.rule import Findings, Model, RobotRule
@@ -35,7 +35,7 @@ class TopicUnconnected(RobotRule):
     ```
     """
 
-    code = "K978"
+    code = "K980"
     name = "topic-unconnected"
     severity = "warning"
 
