@@ -43,6 +43,12 @@ _NAMES = (
 )
 _VARIANCES = ("pose_covariance_diagonal", "twist_covariance_diagonal")
 
+SIGNS = {"max_deceleration": -1, "max_acceleration_reverse": -1, "max_deceleration_reverse": 1}
+"""Limit of diff_drive_controller since Jazzy → the sign that it may have."""
+
+SIGNS_OF_MINIMA = {"min_velocity": -1, "min_jerk": -1}
+"""Limit of diff_drive_controller → the sign that it may have since Jazzy; any in Humble."""
+
 JOINT_NAMES = ("joint", *_CORNERS, *_NAMES)
 """Parameters that name joints."""
 
@@ -208,3 +214,9 @@ def track_and_radius(settings: Settings) -> tuple[tuple[str, ...], tuple[str, ..
     rear = "rear" if settings.flag("front_steering", True) else "front"
     radius = ("traction_wheels_radius", "traction_wheel_radius", f"{rear}_wheels_radius", f"{rear}_wheel_radius")
     return ("traction_track_width", f"{rear}_wheel_track", "wheel_track"), radius
+
+
+def sign_defect(limit: str, value: float, sign: int) -> str | None:
+    """Return why diff_drive_controller refuses the sign of a limit; None if it accepts it."""
+    wanted = "negative" if sign > 0 else "positive"
+    return f"`{limit}` is {value:g}; it must not be {wanted}" if value * sign < 0.0 else None

@@ -8,6 +8,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
+from urdfkit.description.control.parameter_defects import SIGNS, SIGNS_OF_MINIMA, sign_defect
 from urdfkit.lint.facts.control.controller_settings import ControllerSettings, settings
 from urdfkit.lint.facts.control.ros2_controllers import PARAMETERS, declared
 from urdfkit.lint.facts.control.yaml_tree import Node, documents, not_a_number, number_of, walk
@@ -48,12 +49,6 @@ _LISTS_TOO = frozenset(
     )
 )
 """Numbers in controllers that are lists in other nodes."""
-
-_SIGNS = {"max_deceleration": -1, "max_acceleration_reverse": -1, "max_deceleration_reverse": 1}
-"""Limit of diff_drive_controller since Jazzy → the sign that it may have."""
-
-_SIGNS_OF_MINIMA = {"min_velocity": -1, "min_jerk": -1}
-"""Limit of diff_drive_controller → the sign that it may have since Jazzy; any in Humble."""
 
 _TRUTHS = frozenset(
     (
@@ -162,12 +157,12 @@ def _signs(node: Node) -> Defects:
     """Yield the limits of the linear and angular velocity, with dots or nested, that diff_drive_controller refuses."""
     for axis in ("linear.x", "angular.z"):
         limits = _below(node, axis)
-        signs = _SIGNS | (_SIGNS_OF_MINIMA if not _SIGNS.keys().isdisjoint(limits) else {})
+        signs = SIGNS | (SIGNS_OF_MINIMA if not SIGNS.keys().isdisjoint(limits) else {})
         for name, value in limits.items():
             number = number_of(value)
-            if number is not None and number * signs.get(name, 0) < 0.0:
-                wanted = "negative" if signs[name] > 0 else "positive"
-                yield value, f"`{axis}.{name}` is {number:g}; it must not be {wanted}"
+            defect = sign_defect(f"{axis}.{name}", number, signs.get(name, 0)) if number is not None else None
+            if defect is not None:
+                yield value, defect
 
 
 def _below(node: Node, path: str) -> dict[str, Node]:

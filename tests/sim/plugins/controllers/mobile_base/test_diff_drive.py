@@ -283,6 +283,26 @@ def test_limits_of_slowing_down_and_of_going_backwards(make: Make) -> None:
     assert slope(0.0, 0.1) == pytest.approx(4.0)
 
 
+@pytest.mark.parametrize(
+    ("limits", "message"),
+    [
+        ("linear: {x: {max_deceleration: 2.0}}", "`linear.x.max_deceleration` is 2; it must not be positive"),
+        (
+            "angular: {z: {max_deceleration_reverse: -4.0}}",
+            "`angular.z.max_deceleration_reverse` is -4; it must not be negative",
+        ),
+        (
+            "linear: {x: {max_deceleration: -2.0, min_velocity: 0.1}}",
+            "`linear.x.min_velocity` is 0.1; it must not be positive",
+        ),
+    ],
+)
+def test_limits_with_the_sign_that_ros_2_refuses_are_errors(make: Make, limits: str, message: str) -> None:
+    with pytest.raises(UrdfkitError) as caught:
+        make(2, limits, strict=True)
+    assert message in str(caught.value)
+
+
 def test_frames_of_ros_2_are_below_a_prefix_or_the_namespace(make: Make) -> None:
     for more, prefix in (
         ("", ""),

@@ -10,6 +10,8 @@ from typing import ClassVar
 
 import numpy as np
 
+from urdfkit.description.control import Settings
+from urdfkit.description.control.parameter_defects import SIGNS, SIGNS_OF_MINIMA, sign_defect
 from urdfkit.errors import DescriptionError
 from urdfkit.linear_algebra import vector_norm
 from urdfkit.messages import TWIST_STAMPED, header, message_type, twist
@@ -47,6 +49,8 @@ class DiffDriveController(WheeledBase):
         read = self.settings
         self._open = read.flag("open_loop", False)
         limits = limits_of_ros_1 if self._ros1 else limits_of_ros_2
+        for axis in () if self._ros1 else ("linear/x", "angular/z"):
+            _check_signs(read.group(axis), axis.replace("/", "."))
         self.limits = SpeedLimits(*(limits(read.group(name)) for name in ("linear/x", "angular/z")))
         self.rate = read.number("publish_rate", RATE)
         self.odometry = DifferentialOdometry(self._separation, exact=True)
@@ -155,3 +159,13 @@ class DiffDriveController(WheeledBase):
         odometry.update(state.t, *(self._mean(wheels, state.position) * radius for wheels, radius in pairs))
         left, right = (self._mean(wheels, state.velocity) * radius for wheels, radius in pairs)
         return (left + right) / 2, 0.0, (right - left) / self._separation
+
+
+def _check_signs(group: Settings, axis: str) -> None:
+    """Raise an error for a limit with the sign that diff_drive_controller refuses since Jazzy."""
+    is_new = any(group.find(name) is not None for name in SIGNS)
+    for name, sign in (SIGNS | SIGNS_OF_MINIMA if is_new else SIGNS).items():
+        if group.find(name) is not None:
+            defect = sign_defect(f"{axis}.{name}", group.number(name, 0.0, unset=True), sign)
+            if defect is not None:
+                raise DescriptionError(defect, position=group.group(name).position)
