@@ -60,8 +60,12 @@ def meant_type(name: str) -> str | None:
     """Return the type that a misspelt name stands for; None for a type, or for a name of another package."""
     package, _, kind = name.partition("/")
     of_package = {each.partition("/")[2]: each for each in TYPES if each.startswith(f"{package}/")}
-    if name not in TYPES and kind.endswith("Controller") and (inner := similar(kind, of_package, cutoff=0.8)):
+    if name not in TYPES and (inner := similar(kind, of_package, cutoff=0.5)):
         return of_package[inner[0]]
+    words = set(package.split("_"))
+    longer = [each for each in TYPES if each.endswith(f"/{kind}") and words < set(each.partition("/")[0].split("_"))]
+    if name not in TYPES and len(longer) == 1 and len(words) > 1:
+        return longer[0]
     if name in TYPES or not (near := similar(name, TYPES, cutoff=0.9)):
         return None
     parts = zip(name.split("/"), near[0].split("/"), strict=False)

@@ -16,6 +16,7 @@ from urdfkit.lint.facts.control.yaml_tree import Node, documents, not_a_number, 
 from urdfkit.lint.facts.navigation.sections import costmaps_of_ros1, sections
 from urdfkit.lint.facts.navigation.tables import (
     CHOICES,
+    CRITICS,
     DEFAULT_LISTS,
     DEFAULTS,
     DOUBLES,
@@ -26,6 +27,7 @@ from urdfkit.lint.facts.navigation.tables import (
     MOTION_MODELS,
     MUX,
     NODES,
+    ORDERED,
     POSITIVE,
     SIMILAR,
     SLAM_DOUBLES,
@@ -81,6 +83,7 @@ def navigation_defects(source: Source, controllers: frozenset[str]) -> Defects:
             for node in walk(group):
                 yield from _plugins(node)
                 yield from _values(node)
+                yield from _contradictions(node)
             if name == "velocity_smoother":
                 yield from _velocity_limits(group)
         elif name == "slam_toolbox":
@@ -200,6 +203,28 @@ def _plugins(node: Node) -> Defects:
             elif near is not None or (word not in DEFAULTS and key.text != "observation_sources" and others):
                 what = "topic" if key.text == "observation_sources" else "plugin"
                 yield item, f"`{key.text}` lists `{word}`, which has no section with its `{what}`{suggestion(near)}"
+
+
+def _contradictions(node: Node) -> Defects:
+    """Yield a minimum above its maximum, an inflation that ends inside of the robot, and misspelt critics."""
+    from urdfkit.lint.facts.ros_packages import is_slip
+
+    numbers = {key.text: number_of(value) for key, value in node.entries if value.kind == "text"}
+    for low, high in ORDERED:
+        least, most, value = numbers.get(low), numbers.get(high), node.find(low)
+        if value is not None and least is not None and most is not None and least > most:
+            yield value, f"`{low}` is {least:g}, more than `{high}`, {most:g}"
+    radius = numbers.get("robot_radius")
+    for _, inner in node.entries if radius is not None and node.find("footprint") is None else ():
+        inflated = inner.find("inflation_radius")
+        reach = number_of(inflated) if inflated is not None else None
+        if inflated is not None and reach is not None and radius is not None and 0.0 < reach < radius:
+            yield inflated, f"`inflation_radius` is {reach:g} m, less than `robot_radius`, {radius:g} m"
+    critics = node.find("critics")
+    for item in critics.items if critics is not None else ():
+        near = next((each for each in sorted(CRITICS) if is_slip(item.text, each)), None)
+        if item.text not in CRITICS and near is not None:
+            yield item, f"unknown critic `{item.text}`; did you mean `{near}`?"
 
 
 def _keys(node: Node) -> set[str]:

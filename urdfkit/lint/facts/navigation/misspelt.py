@@ -90,6 +90,11 @@ def _meant_plugin(name: str) -> str | None:
     same = min((each for each in PLUGINS if each.endswith(f"::{kind}")), default=None)
     if same is not None and package.startswith("nav2_") and nearest(package, [same.rpartition("::")[0]], cutoff=0.8):
         return same
+    inside = [each.rpartition("::")[2] for each in PLUGINS if each.startswith(f"{package}::")]
+    longer = [each for each in inside if kind and (each.startswith(kind) or each.endswith(kind))]
+    close = longer[0] if len(longer) == 1 else nearest(kind, inside, cutoff=0.8)
+    if close is not None:
+        return f"{package}::{close}"
     near = nearest(name, PLUGINS, cutoff=0.93)
     meant = near.rpartition("::")[2] if near is not None else ""
     return near if meant and (is_slip(kind, meant) or is_slip(kind.lower(), meant.lower())) else None

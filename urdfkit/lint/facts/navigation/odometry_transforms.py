@@ -32,6 +32,12 @@ def published_twice(model: Model) -> Iterator[tuple[Source, Node, str]]:
                 yield source, enabled, message
 
 
+def filters(model: Model) -> list[tuple[str, str]]:
+    """Return the file of each filter that publishes the transform from the odometry frame, and this frame."""
+    found = [(source.file, group.find("odom_frame")) for source in yamls(model) for group in _filters(source)]
+    return [(file, frame.text.strip("/")) for file, frame in found if frame is not None]
+
+
 def _filters(source: Source) -> Iterator[Node]:
     """Yield the parameters of each filter that publishes the transform from the odometry frame."""
     if "world_frame" not in source.text:

@@ -189,3 +189,22 @@ FRAMES = ("global_frame", "global_frame_id", "local_frame", "map_frame", "odom_f
 
 VELOCITY_LIMITS = {"max_velocity": -1, "min_velocity": 1, "max_accel": -1, "max_decel": 1}
 """List of velocity_smoother → the sign that its values must not have."""
+
+ORDERED = (
+    *(("min_vel_x", "max_vel_x"), ("min_vel_y", "max_vel_y"), ("min_speed_xy", "max_speed_xy")),
+    *(("min_speed_theta", "max_vel_theta"), ("min_rotational_vel", "max_rotational_vel")),
+    *(("min_obstacle_height", "max_obstacle_height"), ("obstacle_min_range", "obstacle_max_range")),
+    *(("raytrace_min_range", "raytrace_max_range"), ("min_lookahead_dist", "max_lookahead_dist")),
+    *(("min_lookahead_dist", "lookahead_dist"), ("lookahead_dist", "max_lookahead_dist"), ("vx_min", "vx_max")),
+)
+"""Pairs of a minimum and its maximum."""
+
+CRITICS = frozenset(
+    (
+        *("BaseObstacle", "GoalAlign", "GoalDist", "ObstacleFootprint", "Oscillation", "PathAlign", "PathDist"),
+        *("PreferForward", "RotateToGoal", "Twirling", "ConstraintCritic", "CostCritic", "GoalCritic"),
+        *("GoalAngleCritic", "ObstaclesCritic", "PathAlignCritic", "PathAlignLegacyCritic", "PathAngleCritic"),
+        *("PathFollowCritic", "PreferForwardCritic", "TwirlingCritic", "VelocityDeadbandCritic"),
+    )
+)
+"""Critics of dwb_critics and nav2_mppi_controller (Humble to Kilted)."""
