@@ -310,7 +310,7 @@ def test_wheels_that_sink_a_mass_that_lacks_and_what_a_foreign_plugin_hides(tmp_
         return sorted(f.code for f in lint(tmp_path, target=target) if f.severity != "note")
 
     assert serious("ros1") == ["G610", "G610", "I501", "S901", "S902", "S908", "Z805"]
-    assert serious("gz") == ["I501", "Z807"]
+    assert serious("gz") == ["I501", "S908", "Z807"]
 
 
 def test_launch_files_in_python_are_read_and_never_run(tmp_path, monkeypatch):

@@ -412,13 +412,13 @@ def test_followers_and_what_a_mixed_chain_can_be_told(place):
 
 def test_gazebo_classic_passes_over_followers_so_they_are_told_too(place, capsys):
     mirrored = ARM.replace(
-        '<mimic joint="finger_joint"/>', '<mimic joint="finger_joint" multiplier="-1" offset="0.5"/>'
+        '<mimic joint="finger_joint"/>', '<mimic joint="finger_joint" multiplier="-1" offset="1.5"/>'
     )
     bent = part("wrist", "elbow", more='<mimic joint="shoulder_joint"/>')
     folder = robot(place, mirrored + bent, "catkin")
     assert new() == 0
     reported = capsys.readouterr().err
-    assert "`other_joint` is -1 × `finger_joint` +0.5, but Gazebo Classic ignores <mimic>" in reported
+    assert "`other_joint` is -1 × `finger_joint` +1.5, but Gazebo Classic ignores <mimic>" in reported
     settings = yaml.safe_load((place / "rover_control/config/controllers.yaml").read_text())["rover"]
     assert settings["gripper_controller"]["joints"] == ["finger_joint", "other_joint"]
     assert settings["arm_controller"]["joints"] == ["shoulder_joint", "wrist_joint", "elbow_joint"]

@@ -53,3 +53,24 @@ def test_a_consequence_whose_fix_corrects_the_cause_is_kept(tmp_path: Path) -> N
     (tmp_path / "leg.urdf").write_text(robot.format('tall="1"'))
     assert {found.code for found in lint(tmp_path / "arm.urdf") if found.line == 2} == {"E014", "E009"}
     assert {found.code for found in lint(tmp_path / "leg.urdf") if found.line == 2} == {"E014"}
+
+
+RULES = Path(__file__).parents[1] / "rules"
+
+
+@pytest.mark.parametrize(
+    ("rule", "file", "old", "new", "codes"),
+    [
+        ("fingers-not-opposed", "good.urdf", 'upper="0.03"', 'upper="40"', {"J422"}),
+        ("fingers-not-opposed", "good.urdf", 'lower="0" upper="0.03"', 'lower="0.03" upper="0"', {"J405"}),
+        ("joint-without-controller", "bad.yaml", "[position]", "[velocity]", {"K965"}),
+    ],
+)
+def test_one_mistake_has_one_finding(tmp_path: Path, rule: str, file: str, old: str, new: str, codes: set[str]) -> None:
+    for source in (RULES / rule).iterdir():
+        if source.name in ("package.xml", "arm.urdf"):
+            (tmp_path / source.name).write_text(source.read_text())
+    text = (RULES / rule / file).read_text()
+    assert old in text
+    (tmp_path / file).write_text(text.replace(old, new, 1))
+    assert {found.code for found in lint(tmp_path)} == codes

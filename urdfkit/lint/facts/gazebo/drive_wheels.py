@@ -96,6 +96,19 @@ def written(model: Model, drive: TwoSided, meaning: str) -> tuple[float, Element
     return float(parameter.default), drive.plugin.element, parameter.tag
 
 
+def further(model: Model, drive: TwoSided, meaning: str) -> Iterator[tuple[int, tuple[float, Element, str]]]:
+    """Yield the values of a parameter for the second pair of wheels and those after it, with the index of the pair."""
+    from urdfkit.description.plugins import values
+    from urdfkit.description.xml.numbers import number
+
+    parameter = drive.spec.by_meaning(meaning)
+    for pair, (text, element) in enumerate(values(drive.plugin, parameter) if parameter is not None else ()):
+        value = number(text)
+        is_resolved = value is not None and not model.is_unresolved(element)
+        if parameter is not None and value is not None and is_resolved and 0 < pair < len(drive.left):
+            yield pair, (value, element, parameter.tag)
+
+
 def _is_meant(drive: TwoSided, meaning: str, tag: str) -> bool:
     """Return whether a parameter is misspelt, or spelt as in another generation of the plugin."""
     from urdfkit.description.plugins.unread_parameters import tables, unread
@@ -199,4 +212,4 @@ def same_turn(first: Vector, second: Vector) -> float:
     )
 
 
-__all__ = ["Frame", "TwoSided", "Wheel", "drives", "mismatch", "same_turn", "track", "wheel_of", "written"]
+__all__ = ["Frame", "TwoSided", "Wheel", "drives", "further", "mismatch", "same_turn", "track", "wheel_of", "written"]

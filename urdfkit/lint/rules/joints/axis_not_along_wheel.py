@@ -1,7 +1,7 @@
 """J414 axis-not-along-wheel."""
 
 from urdfkit.description.urdf.geometry import rotate, rotation_of, unit
-from urdfkit.description.urdf.robot import Cylinder, Joint, Vector
+from urdfkit.description.urdf.robot import Cylinder, Joint, Mesh, Vector
 from urdfkit.description.xml.numbers import numbers
 from urdfkit.lint.model.placement import shapes_of
 from urdfkit.lint.rule import Findings, Model, RobotRule
@@ -15,7 +15,8 @@ class AxisNotAlongWheel(RobotRule):
 
     ## What it does
     Compares the axis of each continuous joint with the symmetry axis of its child link, if all shapes of that link are
-    discs (cylinders wider than long). Deviations of up to 10 degrees, such as the camber of a wheel, are accepted.
+    discs (cylinders wider than long), or discs and meshes if ``wheel`` is in its name. Deviations of up to 10 degrees,
+    such as the camber of a wheel, are accepted.
 
     ## Why is this bad?
     The wheel tumbles instead of rolling, and the robot does not drive.
@@ -78,7 +79,9 @@ class AxisNotAlongWheel(RobotRule):
                 for shape in shapes_of(wheel)
                 if isinstance(shape.geometry, Cylinder) and shape.geometry.length < 2.0 * shape.geometry.radius
             ]
-            if len(discs) != len(wheel.visuals) + len(wheel.collisions) or not discs:
+            others = [shape for shape in shapes_of(wheel) if not isinstance(shape.geometry, Mesh)]
+            is_wheel = "wheel" in f"{joint.name} {wheel.name}".lower()
+            if not discs or len(discs) != (len(others) if is_wheel else len(shapes_of(wheel))):
                 continue  # The link has other shapes, and any of them may be the wheel.
             cosines = [abs(sum(a * b for a, b in zip(axis, disc, strict=True))) for disc in discs]
             if max(cosines) < PARALLEL:

@@ -1,6 +1,6 @@
 """J421 joint-origin-too-far."""
 
-from math import dist, sqrt
+from math import dist, inf, sqrt
 
 from urdfkit.description.urdf.robot import Joint, Pose
 from urdfkit.lint.model.placement import Extent, Frame, shapes_of
@@ -11,6 +11,9 @@ _MIN_DISTANCE = 10.0
 
 _TIMES = 20.0
 """Ratio of the distance to the largest link above which the parts of the robot cannot be connected."""
+
+_TIMES_ITS_LINKS = 4.0
+"""Ratio of a gap to the sizes of both links of a joint above which a part is missing between them."""
 
 _MIN_GAP = 0.05
 """Smallest gap between parts that is checked [m]."""
@@ -31,7 +34,8 @@ class OriginTooFar(RobotRule):
     ## What it does
     Checks for joints that are at least 10 m from the frame of their parent link, and 20 times as far as the largest
     link extends. If the sizes of all shapes are known, also reports joints whose child link, with all that is attached
-    to it, is farther from the rest of the robot than the largest link extends and than most of the robot is long.
+    to it, is farther from the rest of the robot than most of the robot is long, and than the largest link, or four
+    times the two links of the joint, extends.
     Joints of a root link without shapes are not checked, because they place the robot in the world.
 
     ## Why is this bad?
@@ -85,8 +89,6 @@ class OriginTooFar(RobotRule):
         if largest < _MIN_GAP or not model.extents:
             return
         size = max(extent.diagonal for extent in model.extents.values())
-        if largest <= size:
-            return
         children = {joint.child for joint in model.robot.joints}
         is_complete = not model.is_incomplete and all(
             link.name in model.extents or not shapes_of(link) for link in model.robot.links
@@ -95,7 +97,8 @@ class OriginTooFar(RobotRule):
         for joint, distance in distances:
             origin = joint.element.find("origin")
             is_placed_in_world = joint.parent not in children and joint.parent not in model.extents
-            if distance <= max(size, _MIN_GAP) or origin is None or is_placed_in_world:
+            near = min(size, _times_its_links(joint, model))
+            if distance <= max(near, _MIN_GAP) or origin is None or is_placed_in_world:
                 continue
             message, help = "", "write offsets in metres"
             if distance >= max(_MIN_DISTANCE, _TIMES * size):
@@ -104,12 +107,20 @@ class OriginTooFar(RobotRule):
             elif is_complete and checked < _MAX_CHECKED:
                 checked += 1
                 gap = _gap(joint, model)
-                if gap > max(size, _MIN_GAP):
+                if gap > max(near, _MIN_GAP):
                     message = f"joint `{joint.name}` places `{joint.child}` {gap:.3g} m away from all other parts; "
-                    message += f"the largest link extends {size:.3g} m"
+                    compared = f"the largest link extends {size:.3g} m"
+                    message += compared if near >= size else f"its links extend {near / _TIMES_ITS_LINKS:.3g} m at most"
                     help = "check the decimal points and units of the origin"
             if message:
                 yield self.at(model, origin, message, attribute="xyz", joint=joint.name, help=help)
+
+
+def _times_its_links(joint: Joint, model: Model) -> float:
+    """Return a multiple of the size of the larger of the two links of a joint [m]; infinite if a size is unknown."""
+    extents = [model.extents.get(name or "") for name in (joint.parent, joint.child)]
+    sizes = [extent.diagonal for extent in extents if extent is not None]
+    return _TIMES_ITS_LINKS * max(sizes) if len(sizes) == len(extents) else inf
 
 
 def _gap(joint: Joint, model: Model) -> float:

@@ -4,8 +4,8 @@ import re
 from math import degrees, hypot, sqrt
 
 from urdfkit.description.urdf.geometry import rotate, unit
-from urdfkit.description.urdf.robot import Box, Capsule, Cylinder, Joint, Link, Mesh, Sphere, Vector
-from urdfkit.lint.facts.gazebo.drive_wheels import TwoSided, drives
+from urdfkit.description.urdf.robot import Box, Capsule, Cylinder, Geometry, Joint, Link, Mesh, Sphere, Vector
+from urdfkit.lint.facts.gazebo.rolling_wheels import WheelPairs, is_lifted, pairs_of_wheels
 from urdfkit.lint.model.placement import Frame
 from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
 
@@ -15,6 +15,9 @@ _MAX_TILT = 0.06
 
 _MAX_DEPTH = 0.1
 """Largest accepted depth of a link below the wheels, as a fraction of the wheel radius."""
+
+_MAX_CASTER = 1.5
+"""Largest accepted ratio of the radius of a caster to that of the drive wheels."""
 
 _UPRIGHT = 0.99
 """Cosine of the angle up to which an axis counts as vertical."""
@@ -29,7 +32,8 @@ class CasterOffTheGround(RobotRule):
     ## What it does
     Compares the lowest points of the drive wheels with those of the other links, with every joint at zero and the root
     link level. The rule reports a caster, recognised by its name or that of its joint, that would tilt the robot by
-    more than 3.4°, and any link that extends below the wheels by more than a tenth of their radius.
+    more than 3.4° or has a radius of more than 1.5 times that of the wheels, and any link that extends below the wheels
+    by more than a tenth of their radius. Without a Gazebo drive, these are the pairs of wheels on both sides.
 
     Collision shapes are used, or visual shapes if a link has no collision shapes. Meshes, links that a
     joint raises or lowers, links outside the tree of the robot, and a floor below the robot are not checked.
@@ -100,10 +104,13 @@ class CasterOffTheGround(RobotRule):
 
     def check(self, model: Model) -> Findings:
         """Yield a finding for each link below the ground, and for a caster above it."""
-        if model.is_incomplete or any(joint.type in ("prismatic", "planar") for joint in model.robot.joints):
+        if model.is_incomplete:
             return
-        for drive in drives(model):
+        parents = {joint.child: joint for joint in model.robot.joints}
+        for drive in pairs_of_wheels(model):
             wheels = (*drive.left, *drive.right)
+            if any(is_lifted(wheel.joint, parents) for wheel in wheels):
+                continue
             if any(not wheel.radii or max(wheel.radii) <= 0.0 or wheel.radii != wheels[0].radii for wheel in wheels):
                 continue
             heights = [wheel.place[2] - max(wheel.radii) for wheel in wheels]
@@ -111,7 +118,7 @@ class CasterOffTheGround(RobotRule):
                 continue  # Intended, or reported by drive-wheels-misaligned.
             yield from self._check_supports(model, drive, min(heights), max(wheels[0].radii))
 
-    def _check_supports(self, model: Model, drive: TwoSided, ground: float, radius: float) -> Findings:
+    def _check_supports(self, model: Model, drive: WheelPairs, ground: float, radius: float) -> Findings:
         driven = {wheel.joint.child for wheel in (*drive.left, *drive.right)}
         centre = [sum(wheel.place[i] for wheel in (*drive.left, *drive.right)) / (2 * len(drive.left)) for i in (0, 1)]
         supports: list[tuple[float, float, Joint]] = []
@@ -129,16 +136,17 @@ class CasterOffTheGround(RobotRule):
                 continue
             element = joint.element if joint is not None else link.element
             gap, distance = lowest[2] - ground, hypot(lowest[0] - centre[0], lowest[1] - centre[1])
-            if gap < -_MAX_DEPTH * radius:
+            is_caster = joint is not None and _CASTER_NAME.search(f"{link.name} {joint.name}") is not None
+            size = max(_radius(shape.geometry) for shape in link.collisions or link.visuals)
+            if is_caster and size > _MAX_CASTER * radius:
+                message = f"caster `{link.name}` has a radius of {size:.3g} m, the drive wheels of {radius:.3g} m"
+                help = "check the decimal point and the unit of the radius"
+                yield self.at(model, element, message, attribute="name", link=link.name, help=help)
+            elif gap < -_MAX_DEPTH * radius:
                 message = f"link `{link.name}` extends {-gap:.3g} m below the drive wheels and lifts them"
                 help = f"raise the link or its shapes by {-gap:.3g} m"
                 yield self.at(model, element, message, attribute="name", link=link.name, help=help)
-            elif (
-                joint is not None
-                and len(drive.left) == 1
-                and gap < 2.0 * radius
-                and _CASTER_NAME.search(f"{link.name} {joint.name}")
-            ):
+            elif joint is not None and is_caster and len(drive.left) == 1 and gap < 2.0 * radius:
                 supports.append((gap / max(distance, 1e-3), gap, joint))
         for tilt, gap, joint in sorted(supports, key=lambda support: support[0])[:1]:
             if tilt > _MAX_TILT:
@@ -174,6 +182,8 @@ def _is_rigid(model: Model, parent_joint: dict[str | None, Joint], link: Link) -
         joint = parent_joint[name]
         frame = model.frames.get(name or "")
         axis = unit(rotate(frame.rotation, joint.axis)) if frame is not None else None
+        if joint.type in ("prismatic", "planar", "floating"):
+            return False
         if joint.is_movable and (axis is None or abs(axis[2]) < _UPRIGHT):
             shapes = [shape.geometry for shape in link.collisions or link.visuals]
             is_wheel = joint.type == "continuous" and name == link.name
@@ -183,7 +193,11 @@ def _is_rigid(model: Model, parent_joint: dict[str | None, Joint], link: Link) -
     return True
 
 
-def _is_floor(link: Link, frame: Frame, drive: TwoSided, ground: float) -> bool:
+def _radius(shape: Geometry | None) -> float:
+    return shape.radius if isinstance(shape, (Cylinder, Sphere)) else 0.0
+
+
+def _is_floor(link: Link, frame: Frame, drive: WheelPairs, ground: float) -> bool:
     """Return whether a link is a box below all wheels of a drive and extends beyond them."""
     boxes = [(shape.geometry, frame.moved(shape.origin)) for shape in link.collisions or link.visuals]
     for shape, pose in boxes:

@@ -1,6 +1,6 @@
 """S902 wheel-diameter-inconsistent."""
 
-from urdfkit.lint.facts.gazebo.drive_wheels import drives, mismatch, written
+from urdfkit.lint.facts.gazebo.drive_wheels import drives, further, mismatch, written
 from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
 
 TOLERANCE = 0.05
@@ -105,3 +105,11 @@ class WheelDiameter(RobotRule):
                     continue
                 actual = f"the {meaning.removeprefix('wheel_')} of the wheels is {{}} m"
                 yield mismatch(self, model, drive, value, actual=factor * radii[0], comparison=actual)
+            first = written(model, drive, "wheel_diameter")
+            for pair, value in further(model, drive, "wheel_diameter"):
+                diameters = [2.0 * radius for radius in (*drive.left[pair].radii, *drive.right[pair].radii)]
+                if first is None or value[0] == first[0]:
+                    continue  # Compared above.
+                if diameters and min(abs(value[0] - each) for each in diameters) > TOLERANCE * max(diameters):
+                    actual = "the diameter of the wheels is {} m"
+                    yield mismatch(self, model, drive, value, actual=diameters[0], comparison=actual)

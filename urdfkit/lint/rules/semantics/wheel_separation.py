@@ -1,7 +1,9 @@
 """S901 wheel-separation-inconsistent."""
 
+from math import dist
+
 from urdfkit.description.urdf.geometry import unit
-from urdfkit.lint.facts.gazebo.drive_wheels import drives, mismatch, track, written
+from urdfkit.lint.facts.gazebo.drive_wheels import TwoSided, drives, further, mismatch, track, written
 from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
 
 TOLERANCE = 0.05
@@ -113,8 +115,17 @@ class WheelSeparation(RobotRule):
                 if len(drive.left) == 1
                 else (1.0 / SKID_STEER_RATIO, SKID_STEER_RATIO)
             )
+            yield from self._of_further_pairs(model, drive, separation)
             if distances[0] < 0.01 or any(least * distance <= separation <= most * distance for distance in distances):
                 continue
             first_pair = min(len(left.middles), len(right.middles))
             actual, subject = track(left, right, distances[:first_pair])
             yield mismatch(self, model, drive, value, actual=actual, comparison=f"{subject} are {{}} m apart")
+
+    def _of_further_pairs(self, model: Model, drive: TwoSided, separation: float) -> Findings:
+        """Yield a finding for each later pair that is as wide as the first one, but has another separation."""
+        widths = [dist(left.place, right.place) for left, right in zip(drive.left, drive.right, strict=True)]
+        for pair, value in further(model, drive, "wheel_separation"):
+            if abs(widths[pair] - widths[0]) < 0.01 * widths[0] and abs(value[0] - separation) > TOLERANCE * separation:
+                comparison = f"that of the first pair, as wide as this one, is {separation:g} m"
+                yield mismatch(self, model, drive, value, actual=separation, comparison=comparison)

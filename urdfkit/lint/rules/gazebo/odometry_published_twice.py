@@ -1,0 +1,89 @@
+"""Z834 odometry-published-twice."""
+
+from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
+
+
+class OdometryPublishedTwice(RobotRule):
+    """A Gazebo drive and a filter of robot_localization publish the same transform.
+
+    ## What it does
+    Checks drives with ``publish_odom_tf`` or ``publishOdomTF`` written as true, if a YAML file of the package or of a
+    related package configures a filter of robot_localization that publishes the transform from the odometry frame.
+
+    ## Why is this bad?
+    Two nodes publish different poses of the same frame: the robot jumps between them on the map.
+
+    ## Example
+    ```xml
+    <robot name="cart">
+      <link name="base"/>
+      <link name="left"/>
+      <link name="right"/>
+      <joint name="left_joint" type="fixed">
+        <parent link="base"/><child link="left"/><origin xyz="0 0.2 0"/>
+      </joint>
+      <joint name="right_joint" type="fixed">
+        <parent link="base"/><child link="right"/><origin xyz="0 -0.2 0"/>
+      </joint>
+      <gazebo>
+        <plugin name="drive" filename="libgazebo_ros_diff_drive.so">
+          <left_joint>left_joint</left_joint>
+          <right_joint>right_joint</right_joint>
+          <wheel_separation>0.4</wheel_separation>
+          <publish_odom_tf>true</publish_odom_tf>
+        </plugin>
+      </gazebo>
+    </robot>
+    ```
+
+    ## Use instead
+    ```xml
+    <robot name="cart">
+      <link name="base"/>
+      <link name="left"/>
+      <link name="right"/>
+      <joint name="left_joint" type="fixed">
+        <parent link="base"/><child link="left"/><origin xyz="0 0.2 0"/>
+      </joint>
+      <joint name="right_joint" type="fixed">
+        <parent link="base"/><child link="right"/><origin xyz="0 -0.2 0"/>
+      </joint>
+      <gazebo>
+        <plugin name="drive" filename="libgazebo_ros_diff_drive.so">
+          <left_joint>left_joint</left_joint>
+          <right_joint>right_joint</right_joint>
+          <wheel_separation>0.4</wheel_separation>
+          <publish_odom_tf>false</publish_odom_tf>
+        </plugin>
+      </gazebo>
+    </robot>
+    ```
+    """
+
+    code = "Z834"
+    name = "odometry-published-twice"
+    severity = "warning"
+    not_for = NOT_GAZEBO
+
+    def check(self, model: Model) -> Findings:
+        """Yield a finding for each drive whose transform a filter publishes too."""
+        from urdfkit.description.plugins import values
+        from urdfkit.lint.facts.gazebo.plugins import plugins, spec_of
+        from urdfkit.lint.facts.navigation.odometry_transforms import filters
+
+        found = filters(model)
+        for plugin, _, _ in plugins(model.robot) if found else ():
+            spec = spec_of(plugin, model.target)
+            publishes = spec.by_meaning("publish_odometry_tf") if spec is not None else None
+            frame = spec.by_meaning("odometry_frame") if spec is not None else None
+            odom = next((text for text, _ in values(plugin, frame)), frame.default) if frame is not None else "odom"
+            same = next((file for file, name in found if name == (odom or "").strip("/")), None)
+            for text, element in values(plugin, publishes) if publishes is not None and same is not None else ():
+                if text.lower() in ("true", "1") and same is not None:
+                    yield self.at(
+                        model,
+                        element,
+                        f"<{element.tag}> is true, but the filter in {same.rpartition('/')[2]} publishes "
+                        "the same transform",
+                        help="write false in one of them",
+                    )

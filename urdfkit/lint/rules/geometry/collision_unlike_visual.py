@@ -1,0 +1,143 @@
+"""G620 collision-unlike-visual."""
+
+from math import dist
+
+from urdfkit.description.urdf.geometry import box_around, box_around_all
+from urdfkit.description.urdf.robot import Box, Capsule, Cylinder, Geometry, Pose, Sphere, Vector
+from urdfkit.lint.rule import Findings, Model, RobotRule
+
+_ALIKE = 0.15
+"""Largest relative difference of sizes that agree."""
+
+_UNLIKE = 1.6
+"""Smallest ratio of sizes that contradict each other."""
+
+_TIMES = 3.0
+"""Ratio of the sizes of collision and visual shape that a simplification does not explain."""
+
+_DISTANCE = 0.4
+"""Distance of equal shapes, as a part of their largest size."""
+
+_SMALLEST = 0.005
+"""Smallest size that is compared [m]."""
+
+Corners = tuple[Vector, Vector]
+
+
+class CollisionUnlikeVisual(RobotRule):
+    """The collision shape of a link differs from its visual shape in orientation, place or size.
+
+    ## What it does
+    Compares the collision shapes of a link with its visual shapes. Reports shapes of about the same size that are
+    turned against each other or apart, cylinders and boxes with the same sizes in another order, and a single
+    collision shape that is three times as large or as small as a visual shape of the same kind in all directions.
+
+    ## Why is this bad?
+    The robot collides where nothing is visible, or passes through visible parts. Usually an ``<origin>`` or a size was
+    changed in one of the two shapes only.
+
+    ## Example
+    ```xml
+    <robot name="cart">
+      <link name="wheel">
+        <inertial><mass value="1"/><inertia ixx="0.004" ixy="0" ixz="0" iyy="0.004" iyz="0" izz="0.004"/></inertial>
+        <visual>
+          <origin rpy="1.5707963267948966 0 0"/>
+          <geometry><cylinder radius="0.1" length="0.04"/></geometry>
+        </visual>
+        <collision>
+          <geometry><cylinder radius="0.1" length="0.04"/></geometry>
+        </collision>
+      </link>
+    </robot>
+    ```
+
+    ## Use instead
+    ```xml
+    <robot name="cart">
+      <link name="wheel">
+        <inertial><mass value="1"/><inertia ixx="0.004" ixy="0" ixz="0" iyy="0.004" iyz="0" izz="0.004"/></inertial>
+        <visual>
+          <origin rpy="1.5707963267948966 0 0"/>
+          <geometry><cylinder radius="0.1" length="0.04"/></geometry>
+        </visual>
+        <collision>
+          <origin rpy="1.5707963267948966 0 0"/>
+          <geometry><cylinder radius="0.1" length="0.04"/></geometry>
+        </collision>
+      </link>
+    </robot>
+    ```
+    """
+
+    code = "G620"
+    name = "collision-unlike-visual"
+    severity = "warning"
+    checks_each_alone = True
+
+    def check(self, model: Model) -> Findings:
+        """Yield a finding for each link whose collision shapes contradict its visual shapes."""
+        for link in model.robot.links:
+            extent, count = model.extents.get(link.name), len(link.visuals)
+            if extent is None or not count or not link.collisions or len(extent.shapes) != count + len(link.collisions):
+                continue
+            visuals, collisions = extent.shapes[:count], extent.shapes[count:]
+            if visuals == collisions:
+                continue
+            found = _defect(visuals, collisions)
+            if found is not None:
+                message, help, part = found
+                shape = link.collisions[0].element
+                place = shape.find(part) or shape
+                yield self.at(
+                    model, place, f"collision shape of link `{link.name}` {message}", link=link.name, help=help
+                )
+
+
+Shapes = tuple[tuple[Geometry, Pose], ...]
+
+
+def _defect(visuals: Shapes, collisions: Shapes) -> tuple[str, str, str] | None:
+    """Return message, help and the tag of the element to report; None if the shapes agree."""
+    if len(collisions) == 1:
+        equal = [pose for shape, pose in visuals if shape == collisions[0][0]]
+        if len(visuals) > 1 and len(equal) == 1:
+            visuals = tuple(each for each in visuals if each[1] is equal[0])
+    boxes = [box_around_all([box_around(*each) for each in group]) for group in (visuals, collisions)]
+    sizes = [tuple(high - low for low, high in zip(*box, strict=True)) for box in boxes]
+    if min(max(each) for each in sizes) < _SMALLEST:
+        return None
+    pairs = [zip(*each, strict=True) for each in (sizes, [sorted(each) for each in sizes])]
+    ratios, ordered = ([max(a, b) / max(min(a, b), 1e-9) for a, b in each] for each in pairs)
+    is_single = len(visuals) == len(collisions) == 1
+    if max(ordered) <= 1.0 + _ALIKE:
+        if max(ratios) >= _UNLIKE:
+            return "is turned against the visual shape", "write the same <origin> and sizes for both", "origin"
+        distance = dist(*([sum(pair) / 2.0 for pair in zip(*box, strict=True)] for box in boxes))
+        if distance > _DISTANCE * max(sizes[1]):
+            return f"is {distance:.3g} m away from the visual shape", "write the same <origin> for both", "origin"
+    if not is_single:
+        return None
+    (visual, _), (collision, _) = visuals[0], collisions[0]
+    if type(visual) is not type(collision):
+        return None
+    lengths = _lengths(visual), _lengths(collision)
+    if isinstance(visual, Cylinder) and _agree(lengths[0], lengths[1][::-1]) and not _agree(*lengths):
+        return "has radius and length of the visual shape in the other order", "swap radius and length", "geometry"
+    factors = [b / a for a, b in zip(*lengths, strict=True) if a > 0.0 and b > 0.0]
+    if factors and (min(factors) >= _TIMES or max(factors) <= 1.0 / _TIMES):
+        times = min(factors) if min(factors) >= _TIMES else max(factors)
+        return f"is {times:.3g} times as large as the visual shape", "check the decimal points and units", "geometry"
+    return None
+
+
+def _agree(first: tuple[float, ...], second: tuple[float, ...]) -> bool:
+    return all(abs(a - b) <= 1e-3 * max(a, b) for a, b in zip(first, second, strict=True))
+
+
+def _lengths(shape: Geometry) -> tuple[float, ...]:
+    if isinstance(shape, Box):
+        return shape.size
+    if isinstance(shape, (Cylinder, Capsule)):
+        return shape.radius, shape.length
+    return (shape.radius,) if isinstance(shape, Sphere) else ()

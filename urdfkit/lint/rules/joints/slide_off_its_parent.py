@@ -1,0 +1,117 @@
+"""J424 slide-off-its-parent."""
+
+from math import inf, sqrt
+
+from urdfkit.description.urdf.geometry import rotate, rotation_of, unit
+from urdfkit.description.urdf.robot import Joint, Pose, Vector
+from urdfkit.lint.model.placement import Extent, Frame
+from urdfkit.lint.rule import Findings, Model, RobotRule
+
+_PART = 0.3
+"""Smallest gap between the links at a limit, as a part of the stroke."""
+
+_AXES = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
+
+Corners = tuple[Vector, Vector]
+
+
+class SlideOffItsParent(RobotRule):
+    """A prismatic joint moves its child link off the parent link, but along another axis they stay in contact.
+
+    ## What it does
+    Compares the bounding boxes of both links of each ``prismatic`` joint at its limits. Reports the joint if they touch
+    with the joint at zero, have a gap of 30 % of the stroke at a limit, and touch at both limits with another axis of
+    the joint frame.
+
+    ## Why is this bad?
+    The carriage leaves its rail. Usually the ``<axis>`` is that of another joint, or missing: its default is x.
+
+    ## Example
+    ```xml
+    <robot name="gantry">
+      <link name="world"/>
+      <joint name="mount" type="fixed"><parent link="world"/><child link="rail"/></joint>
+      <link name="rail"><visual><geometry><box size="2 0.1 0.1"/></geometry></visual></link>
+      <link name="carriage">
+        <visual><geometry><box size="0.2 0.2 0.1"/></geometry></visual>
+        <inertial><mass value="6"/><inertia ixx="0.025" ixy="0" ixz="0" iyy="0.025" iyz="0" izz="0.04"/></inertial>
+      </link>
+      <joint name="rail_joint" type="prismatic">
+        <parent link="rail"/><child link="carriage"/>
+        <origin xyz="0 0 0.1"/>
+        <axis xyz="0 1 0"/>
+        <limit lower="-0.8" upper="0.8" effort="100" velocity="1"/>
+      </joint>
+    </robot>
+    ```
+
+    ## Use instead
+    ```xml
+    <robot name="gantry">
+      <link name="world"/>
+      <joint name="mount" type="fixed"><parent link="world"/><child link="rail"/></joint>
+      <link name="rail"><visual><geometry><box size="2 0.1 0.1"/></geometry></visual></link>
+      <link name="carriage">
+        <visual><geometry><box size="0.2 0.2 0.1"/></geometry></visual>
+        <inertial><mass value="6"/><inertia ixx="0.025" ixy="0" ixz="0" iyy="0.025" iyz="0" izz="0.04"/></inertial>
+      </link>
+      <joint name="rail_joint" type="prismatic">
+        <parent link="rail"/><child link="carriage"/>
+        <origin xyz="0 0 0.1"/>
+        <axis xyz="1 0 0"/>
+        <limit lower="-0.8" upper="0.8" effort="100" velocity="1"/>
+      </joint>
+    </robot>
+    ```
+    """
+
+    code = "J424"
+    name = "slide-off-its-parent"
+    severity = "warning"
+
+    def check(self, model: Model) -> Findings:
+        """Yield a finding for each prismatic joint that separates its links."""
+        for joint in model.robot.joints:
+            parent, child = (model.extents.get(name or "") for name in (joint.parent, joint.child))
+            limit, axis = joint.limit, unit(joint.axis)
+            if joint.type != "prismatic" or parent is None or child is None or limit is None or axis is None:
+                continue
+            low, high = limit.lower or 0.0, limit.upper or 0.0
+            if high <= low or _gap(joint, axis, (0.0,), parent, child) > 0.02 * (high - low):
+                continue
+            gap = _gap(joint, axis, (low, high), parent, child)
+            if gap < _PART * (high - low):
+                continue
+            fitting = [each for each in _AXES if _gap(joint, each, (low, high), parent, child) < 0.02 * (high - low)]
+            if len(fitting) == 1:
+                right = " ".join(f"{part:g}" for part in fitting[0])
+                yield self.at(
+                    model,
+                    joint.element.find("axis") or joint.element,
+                    f"joint `{joint.name}` moves `{joint.child}` {gap:.3g} m away from `{joint.parent}`",
+                    attribute="xyz",
+                    joint=joint.name,
+                    help=f'along <axis xyz="{right}"/> they stay in contact',
+                )
+
+
+def _gap(joint: Joint, axis: Vector, positions: tuple[float, ...], parent: Extent, child: Extent) -> float:
+    """Return the largest distance between the boxes of both links at some positions of a joint [m]."""
+    direction = rotate(rotation_of(joint.origin.rpy), axis)
+    largest = 0.0
+    for position in positions:
+        x, y, z = (a + position * b for a, b in zip(joint.origin.xyz, direction, strict=True))
+        low, high = _around(Frame().moved(Pose((x, y, z), joint.origin.rpy)), child)
+        sides = zip(parent.low, parent.high, low, high, strict=True)
+        largest = max(largest, sqrt(sum(max(a - d, c - b, 0.0) ** 2 for a, b, c, d in sides)))
+    return largest
+
+
+def _around(frame: Frame, extent: Extent) -> Corners:
+    """Return the corners of the box of a link in another frame."""
+    low, high = [inf, inf, inf], [-inf, -inf, -inf]
+    for corner in range(8):
+        x, y, z = ((extent.high if corner >> k & 1 else extent.low)[k] for k in range(3))
+        point = frame.moved(Pose((x, y, z))).translation
+        low, high = list(map(min, low, point)), list(map(max, high, point))
+    return (low[0], low[1], low[2]), (high[0], high[1], high[2])

@@ -1,0 +1,92 @@
+"""K979 costmap-contradicts-robot."""
+
+from math import hypot
+
+from urdfkit.description.urdf.robot import Pose
+from urdfkit.lint.finding import Finding
+from urdfkit.lint.model.placement import shapes_of
+from urdfkit.lint.rule import Findings, Model, RobotRule
+
+_TOO_SMALL = 0.6
+"""Smallest accepted ratio of the radius to the shorter half side of the base."""
+
+_TOO_LARGE = 2.5
+"""Largest accepted ratio of the radius to the distance of the farthest corner of the base."""
+
+
+class CostmapContradictsRobot(RobotRule):
+    """The ``robot_radius`` of a costmap is much smaller or larger than the robot.
+
+    ## What it does
+    Compares ``robot_radius`` in the parameters of costmaps with the box around the links of the robot that are fixed to
+    each other, in the frame of the root link. Reports a radius below 60 % of half the width of the robot, and one of
+    more than 2.5 times the distance of its farthest corner. Robots with meshes that are not found are not checked.
+
+    ## Why is this bad?
+    Navigation plans paths that are too narrow for the robot, or finds none.
+
+    ## Example
+    ```yaml
+    local_costmap:
+      local_costmap:
+        ros__parameters:
+          robot_radius: 2.2
+    ```
+
+    ## Use instead
+    ```yaml
+    local_costmap:
+      local_costmap:
+        ros__parameters:
+          robot_radius: 0.22
+    ```
+    """
+
+    code = "K979"
+    name = "costmap-contradicts-robot"
+    severity = "warning"
+
+    def check(self, model: Model) -> Findings:
+        """Yield a finding for each radius that does not suit the robot."""
+        from urdfkit.lint.facts.control.controller_wheels import has_other_wheels
+        from urdfkit.lint.facts.control.yaml_tree import documents, number_of, span_of, walk, yamls
+
+        sources = [source for source in yamls(model) if "robot_radius" in source.text]
+        size = _size(model) if sources and not has_other_wheels(model) else None
+        if size is None:
+            return
+        half, reach = size
+        for source in sources:
+            for node in (node for root in documents(source)[0] for node in walk(root)):
+                value = node.find("robot_radius")
+                radius = number_of(value) if value is not None else None
+                if value is None or radius is None or radius <= 0.0 or node.find("footprint") is not None:
+                    continue
+                if radius < _TOO_SMALL * half or radius > _TOO_LARGE * reach:
+                    message = f"`robot_radius` is {radius:g} m, but the robot extends {half:.3g} to {reach:.3g} m from "
+                    message += "its centre"
+                    yield Finding(self.code, self.name, self.severity, message, span_of(source, value))
+
+
+def _size(model: Model) -> tuple[float, float] | None:
+    """Return half the width of the fixed parts of the robot, and the distance of the farthest corner [m]."""
+    if model.is_incomplete or len(model.robot.roots()) != 1:
+        return None
+    if any(shapes_of(link) and link.name not in model.extents for link in model.robot.links):
+        return None
+    moved = {joint.child for joint in model.robot.joints if joint.is_movable and joint.type != "continuous"}
+    for joint in model.robot.joints:  # Parents precede children in most files; a missed arm only widens the box.
+        if joint.parent in moved:
+            moved.add(joint.child)
+    points = []
+    for name, extent in model.extents.items():
+        if name in moved or name not in model.frames:
+            continue
+        for corner in range(8):
+            x, y, z = ((extent.high if corner >> k & 1 else extent.low)[k] for k in range(3))
+            points.append(model.frames[name].moved(Pose((x, y, z))).translation)
+    if not points:
+        return None
+    sides = [[point[k] for point in points] for k in (0, 1)]
+    half = min(max(side) - min(side) for side in sides) / 2.0
+    return (half, max(hypot(point[0], point[1]) for point in points)) if half > 0.0 else None
