@@ -234,7 +234,7 @@ def test_publishing_by_a_form(ride) -> None:
         ("/1st", "geometry_msgs/msg/Twist", {}, "is not a topic name"),
         ("/x\ty", "geometry_msgs/msg/Twist", {}, "is not a topic name"),
         ("/grüße", "geometry_msgs/msg/Twist", {}, "is not a topic name"),
-        ("/x", "std_msgs/msg/UInt8MultiArray", {"data": [2**40]}, "does not accept this message"),
+        ("/x", "std_msgs/msg/UInt8MultiArray", {"data": [2**40]}, "must be uint8, 0 to 255"),
         ("/gazebo/delete_model", "gazebo_msgs/srv/DeleteModel_Request", {}, "is not a message type"),
     ):
         with pytest.raises(SimulationError, match=line):
