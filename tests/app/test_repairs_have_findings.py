@@ -27,7 +27,7 @@ INERTIAL = (
     '<inertia ixx="0.01" ixy="0" ixz="0" iyy="0.01" iyz="0" izz="0.01"/>\n</inertial>\n'
 )
 SHAPES = (
-    '<visual>\n<geometry>\n<box size="0.2 0.2 0.2"/>\n</geometry>\n</visual>\n'
+    '<visual>\n<geometry>\n<box size="0.2 0.2 0.2"/>\n</geometry>\n<origin xyz="0.1 0.1 0.1"/>\n</visual>\n'
     '<collision>\n<geometry>\n<mesh filename="part.obj" scale="1 1 1"/>\n</geometry>\n</collision>\n'
 )
 ROBOT = f"""<robot name="r">

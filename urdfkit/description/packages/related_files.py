@@ -137,7 +137,8 @@ def packages_around(package: Path, near: dict[str, Path], needed: dict[str, set[
     own = name.removesuffix("description")
     if own.endswith("_"):  # amr_navigation and amr_description, if it uses the description of no other robot
         others = {other for other, names in needed.items() if any(each.endswith("_description") for each in names)}
-        users |= {other for other in near if other.startswith(own) and other not in others}
+        named = {other for other, folder in near.items() if other.startswith(own) and folder.name.startswith(own)}
+        users |= named - others
     # Packages that only these packages use, such as controllers, belong to the same robot.
     folders = {other: {other, folder.name} for other, folder in near.items()}
     used_by = {part: {other for other, names in needed.items() if names & folders[part]} - {part} for part in near}
