@@ -219,9 +219,10 @@ def test_a_phone(arm_served, visits, keep, until, scheme: str) -> None:
     until(lambda: page.evaluate(Y_OF_UPPER) == pytest.approx(math.sin(0.25), abs=1e-6))
     keep(page, f"phone-{scheme}-panel")
     assert page.evaluate("document.documentElement.scrollWidth <= innerWidth")
+    # 43.99: boxes that a transform moves by parts of a pixel measure 43.9999847 of 44 px.
     small = page.evaluate(
         """() => [...document.querySelectorAll('button, input:not([type=checkbox]), summary, .checks label')]
-             .filter((e) => e.checkVisibility() && e.getBoundingClientRect().height < 44).map((e) => e.outerHTML)"""
+             .filter((e) => e.checkVisibility() && e.getBoundingClientRect().height < 43.99).map((e) => e.outerHTML)"""
     )
     assert small == []
 
