@@ -216,7 +216,6 @@ def test_the_mesh_of_a_marker_is_drawn(shown, visits, until, keep, tmp_path: Pat
     assert visits.problems == []
 
 
-@pytest.mark.skip(reason="waits without end in about two of five runs; the cause is not known")
 def test_interactive_markers_are_dragged_clicked_and_moved_by_keys(shown, visits, until, keep) -> None:
     page = visits.open(shown.server.url, ready=False)
     simulation = shown.simulation

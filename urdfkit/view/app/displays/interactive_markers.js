@@ -73,6 +73,7 @@ class InteractiveMarkers {
     if (event.button !== 0 || this.held || this.page.tools.held || !this.#publishes) return;
     const roots = this.#shown.map(({ drawn }) => drawn.at(-1)?.root).filter(Boolean);
     if (!roots.length) return;
+    for (const root of roots) root.updateWorldMatrix(true, true); // markers that arrived after the last frame
     this.page.pick.aim(event);
     for (const { object } of this.page.pick.ray.intersectObjects(roots, true)) {
       let part = object;
