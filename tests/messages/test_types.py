@@ -1,3 +1,5 @@
+import math
+
 import numpy as np
 import pytest
 
@@ -112,6 +114,9 @@ def test_wrong_fields(fields: object, reported: str) -> None:
             "field `data` of std_msgs/msg/Int32 is 1099511627776; it must be int32, -2147483648 to 2147483647",
         ),
         ("UInt8", -1, "it must be uint8, 0 to 255"),
+        ("Int32", 1.5, "field `data` of std_msgs/msg/Int32 is `1.5`; it must be int32"),
+        ("Int32", math.inf, "field `data` of std_msgs/msg/Int32 is `inf`; it must be int32"),
+        ("Bool", "false", "field `data` of std_msgs/msg/Bool is `false`; it must be bool"),
         (
             "UInt8MultiArray",
             [1, 256],

@@ -340,16 +340,20 @@ def _value(type: str, name: str, description: Any, value: Any) -> Any:
                 text = "" if value is None else str(value)
                 text.encode()  # raises for half of a pair of surrogates, which JSON can express
                 return text
+            value = 0 if value is None else value
             if base == "bool":
-                return bool(value)
-            number = (float if base.startswith("float") else int)(0 if value is None else value)
+                return bool((False, True).index(value))  # raises for other values, such as the text "false"
+            is_whole = not base.startswith("float")
+            number = int(value) if is_whole else float(value)
+            if is_whole and isinstance(value, float) and number != value:
+                raise ValueError("an integer has no fraction")
             least, most = _range(base)
             if number < least or number > most:
                 raise UsageError(f"field `{name}` of {type} is {value}; it must be {base}, {least} to {most}")
             return number
         except UnicodeEncodeError:
             raise UsageError(f"field `{name}` of {type} is {value!a}, which is not Unicode") from None
-        except (TypeError, ValueError):
+        except (TypeError, ValueError, OverflowError):
             raise UsageError(f"field `{name}` of {type} is `{value}`; it must be {base}") from None
     inner, length = details
     if isinstance(value, np.ndarray) and int(inner[0]) == 1 and str(value.dtype) == inner[1][0]:
