@@ -8,15 +8,17 @@ import os
 import sys
 from collections.abc import Awaitable, Callable
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import anyio
 import numpy as np
 import pytest
-from mcp import Client, StdioServerParameters
 from PIL import Image
 
 from urdfkit.cli import main
+
+if TYPE_CHECKING:
+    from mcp import Client
 
 BAD = """<robot name="r">
   <link name="a"/>
@@ -44,6 +46,8 @@ def folder(tmp_path: Path) -> Path:
 
 def session(folder: Path, work: Callable[[Client], Awaitable[Any]], *options: str) -> Any:
     """Start the server, run `work` with a client, and return its result."""
+    from mcp import Client, StdioServerParameters  # takes seconds, and only slow tests use it
+
     command = ["-m", "urdfkit", "mcp", "--root", str(folder), *options]
     server = StdioServerParameters(command=sys.executable, args=command, env={**os.environ, "SECRET": "hidden"})
 

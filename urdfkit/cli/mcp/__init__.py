@@ -44,9 +44,12 @@ def run(arguments: argparse.Namespace) -> int:
     """Serve until the client closes the connection.
 
     Raises:
-        MissingDependencyError: the package mcp is not installed.
         ResourceError: the folder does not exist.
+        MissingDependencyError: the package mcp is not installed.
     """
+    root = Path(arguments.root).expanduser()
+    if not root.is_dir():
+        raise ResourceError(f"--root {arguments.root}: no such folder")
     try:
         import mcp.server.mcpserver  # noqa: F401
     except ImportError as error:
@@ -54,8 +57,5 @@ def run(arguments: argparse.Namespace) -> int:
     from urdfkit.cli.mcp.calls import ToolCalls
     from urdfkit.cli.mcp.tools import server_for
 
-    root = Path(arguments.root).expanduser()
-    if not root.is_dir():
-        raise ResourceError(f"--root {arguments.root}: no such folder")
     server_for(ToolCalls(root.resolve(), arguments.time_limit), allow_fixes=arguments.allow_fixes).run("stdio")
     return 0
