@@ -15,8 +15,6 @@ from urdfkit.scene.gl.driver_probe import probe
 
 pytest_plugins = ("tests.leftover_processes", "tests.slow_tests", "tests.time_limit")
 
-BRIDGES = Path(__file__).parent / "bridges"
-
 # Machines are shared and noisy, so no example has a deadline. A developer's every run tries new examples; in CI
 # the examples are the same each time, so that a change is judged by itself.
 settings.register_profile("developer", deadline=None)
@@ -41,7 +39,7 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     for item in items:
         if "sdformat" in getattr(item, "fixturenames", ()):
             item.add_marker("sdformat")
-        if item.path.is_relative_to(BRIDGES) or item.get_closest_marker("browser"):
+        if item.nodeid.startswith("tests/bridges/") or item.get_closest_marker("browser"):
             item.add_marker(pytest.mark.flaky(reruns=1))
 
 

@@ -8,6 +8,7 @@ import pytest
 from urdfkit.bridges.node.node import UnknownTypeError
 from urdfkit.bridges.ros1.environment import bind_host, master_uri, own_host
 from urdfkit.bridges.ros1.ros1_types import decode, definition, encode, full_name, register, service_checksum
+from urdfkit.cli import main
 from urdfkit.errors import UsageError
 from urdfkit.messages import from_fields
 
@@ -61,3 +62,10 @@ def test_variables_of_ros_1() -> None:
             master_uri(None, {"ROS_MASTER_URI": text})
     assert (own_host({}), bind_host({})) == ("127.0.0.1", "127.0.0.1")
     assert bind_host({"ROS_IP": "10.0.0.3"}) == "0.0.0.0"
+
+
+def test_without_a_master_one_line_says_so(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+    monkeypatch.setenv("ROS_MASTER_URI", "http://127.0.0.1:9")
+    assert main(["sim", "run", "simpleton", "--for", "0.01", "--ros1"]) == 2
+    line = capsys.readouterr().err.splitlines()[-1]
+    assert line.startswith("urdfkit: no ROS master at http://127.0.0.1:9: start roscore, or set ROS_MASTER_URI")

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import os
 import subprocess
 import time
 from collections.abc import Iterator
@@ -176,6 +175,7 @@ def test_services_are_called_as_rosservice_calls_them(master: Master, capsys: py
         assert "no definition of roscpp/srv/GetLoggers" in capsys.readouterr().err
 
 
+@pytest.mark.slow
 def test_a_node_with_another_type_is_refused_in_one_line(master: Master) -> None:
     lines = list[str]()
     first, second = Ros1Node(), Ros1Node(name="/other", report=lines.append)
@@ -187,10 +187,3 @@ def test_a_node_with_another_type_is_refused_in_one_line(master: Master) -> None
         second.close()
         first.close()
     assert "has type std_msgs/String" in lines[0]
-
-
-def test_without_a_master_one_line_says_so(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
-    monkeypatch.setitem(os.environ, "ROS_MASTER_URI", "http://127.0.0.1:9")
-    assert main(["sim", "run", "simpleton", "--for", "0.01", "--ros1"]) == 2
-    line = capsys.readouterr().err.splitlines()[-1]
-    assert line.startswith("urdfkit: no ROS master at http://127.0.0.1:9: start roscore, or set ROS_MASTER_URI")

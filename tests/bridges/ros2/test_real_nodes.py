@@ -138,6 +138,7 @@ def test_a_configuration_that_cyclonedds_refuses_is_named() -> None:
     assert str(caught.value).endswith("the configuration CYCLONEDDS_URI=file:///nowhere.xml")
 
 
+@pytest.mark.slow
 def test_a_publisher_that_leaves_the_graph_does_not_stop_its_listing() -> None:
     code = (
         "import sys; from urdfkit.bridges.node.node import Quality; "

@@ -14,6 +14,7 @@ import pytest
 from tests.time_limit import PATIENCE
 from urdfkit.bridges.actions import ActionServer
 from urdfkit.bridges.bridge import CallQueue
+from urdfkit.bridges.node import published_topics
 from urdfkit.bridges.node.node import Done, End, Quality, UnknownTypeError
 from urdfkit.bridges.node.node_bridge import GOAL_DELAY, NodeBridge, check_namespace
 from urdfkit.bridges.ros2.environment import keep_on_this_machine, on_this_machine, ros_domain, share_long_messages
@@ -168,7 +169,9 @@ def test_topics_are_followed_and_missing_types_reported_in_one_line() -> None:
     bridge.close()
 
 
-def test_a_topic_with_another_type_on_the_graph_is_one_line() -> None:
+def test_a_topic_with_another_type_on_the_graph_is_one_line(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(published_topics, "WATCH_PERIOD", 0.0)
+
     class Graph(RecordedNode):
         def types(self) -> dict[str, set[str]]:
             checks.append(1)
