@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from tests.reference_engine import ENGINES
+from tests.reference_engine import ENGINES, ReferenceEngine
 from urdfkit.description import load
 from urdfkit.description.loading import load_repaired
 from urdfkit.kinematics import Kinematics
@@ -127,27 +127,32 @@ SLIDERS = "".join(
 CUBE = '<collision><geometry><box size="0.2 0.2 0.2"/></geometry></collision>'
 
 
-@pytest.mark.parametrize("engine", ENGINES)
-@pytest.mark.parametrize(
-    ("words", "stopped"),
-    [
-        ((), False),
-        ((("<selfCollide>true</selfCollide>", "left"),), True),
-        ((("<self_collide>1</self_collide>", "right"),), True),
-        ((("<selfCollide>false</selfCollide>", "left"),), False),
-        ((("<self_collide>true</self_collide>", None), ("<selfCollide>false</selfCollide>", "left")), True),
+SELF_COLLISIONS = (
+    ((), False),
+    ((("<selfCollide>true</selfCollide>", "left"),), True),
+    ((("<self_collide>1</self_collide>", "right"),), True),
+    ((("<selfCollide>false</selfCollide>", "left"),), False),
+    ((("<self_collide>true</self_collide>", None), ("<selfCollide>false</selfCollide>", "left")), True),
+    (
         (
-            (
-                ("<self_collide>true</self_collide>", None),
-                ("<selfCollide>0</selfCollide>", "left"),
-                ("<selfCollide>0</selfCollide>", "right"),
-            ),
-            False,
+            ("<self_collide>true</self_collide>", None),
+            ("<selfCollide>0</selfCollide>", "left"),
+            ("<selfCollide>0</selfCollide>", "right"),
         ),
+        False,
+    ),
+)
+
+
+@pytest.mark.parametrize(
+    ("words", "stopped", "engine"),
+    [
+        *((*case, Engine) for case in SELF_COLLISIONS),
+        *((*case, ReferenceEngine) for case in SELF_COLLISIONS[:2]),
     ],
 )
 def test_arms_that_would_pass_through_each_other_stop(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, engine: type[Engine], words, stopped: bool
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, words, stopped: bool, engine: type[Engine]
 ) -> None:
     monkeypatch.setattr(world_builder, "Engine", engine)
     text = '<link name="world"/>' + link("left", 1.0, shape=CUBE) + link("right", 3.0, shape=CUBE) + SLIDERS

@@ -10,7 +10,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from urdfkit.app.simulation.displays.drawings import COLORS, LENGTH, MOST_POINTS, drawing
+from urdfkit.app.simulation.displays import drawings
+from urdfkit.app.simulation.displays.drawings import COLORS, LENGTH, drawing
 from urdfkit.app.simulation.displays.markers import drawn_marker, items
 from urdfkit.errors import ResourceError
 from urdfkit.messages import from_fields
@@ -164,8 +165,9 @@ def test_points_of_a_cloud_are_coloured_by_a_field_by_their_colours_or_by_height
     assert drawing(cloud(points[:, :2], "x", "y"), kind) == []
 
 
-def test_large_clouds_are_thinned_out() -> None:
-    points = np.zeros((2 * MOST_POINTS + 1, 3))
+def test_large_clouds_are_thinned_out(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(drawings, "MOST_POINTS", 40)
+    points = np.zeros((2 * 40 + 1, 3))
     points[:, 0] = np.arange(len(points))
     message = cloud(points, "x", "y", "z")
     (item,) = drawing(message, "sensor_msgs/msg/PointCloud2", "x")

@@ -170,17 +170,18 @@ OTHERS = [
 ]
 
 
-@pytest.mark.parametrize("expression", [*DUNDER, *PRIVATE, *OTHERS])
-def test_an_escape_is_refused_at_its_place(write: Write, expression: str) -> None:
-    before, _, after = expression.partition("}")
-    if after or "}" in expression:
-        expression = expression.replace("}", "' + xacro.brace + '") if "'" in expression else before + after
-    path = write("m.xacro", f"HEAD\n  <link name={quoteattr('${' + expression + '}')}/></robot>")
-    with pytest.raises(XacroError) as caught:
-        Evaluator(str(path), {}, Packages(near=path)).expand()
-    position = caught.value.position
-    assert position is not None
-    assert (position.line, position.column) == (2, 3)
+@pytest.mark.parametrize("expressions", [DUNDER, PRIVATE, OTHERS], ids=["dunder", "private", "others"])
+def test_an_escape_is_refused_at_its_place(write: Write, expressions: list[str]) -> None:
+    for expression in expressions:
+        before, _, after = expression.partition("}")
+        if after or "}" in expression:
+            expression = expression.replace("}", "' + xacro.brace + '") if "'" in expression else before + after
+        path = write("m.xacro", f"HEAD\n  <link name={quoteattr('${' + expression + '}')}/></robot>")
+        with pytest.raises(XacroError) as caught:
+            pytest.fail(f"{expression} gives {Evaluator(str(path), {}, Packages(near=path)).expand()}")
+        position = caught.value.position
+        assert position is not None, expression
+        assert (position.line, position.column) == (2, 3), expression
 
 
 @pytest.mark.parametrize(
