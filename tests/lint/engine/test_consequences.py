@@ -74,3 +74,29 @@ def test_one_mistake_has_one_finding(tmp_path: Path, rule: str, file: str, old: 
     assert old in text
     (tmp_path / file).write_text(text.replace(old, new, 1))
     assert {found.code for found in lint(tmp_path)} == codes
+
+
+LINK = '<link name="{}"><inertial><mass value="{}"/><inertia ixx="{i}" iyy="{i}" izz="{i}" ixy="0" ixz="0" iyz="0"/>'
+LINK += '</inertial><collision><geometry><box size="0.1 0.1 0.1"/></geometry></collision></link>'
+JOINT = '<joint name="{0}" type="fixed"><parent link="{1}"/><child link="{2}"/><origin {3}/></joint>'
+MACRO = '<xacro:macro name="part" params="{}">{}</xacro:macro>'
+BALL = '<link name="${name}"><visual><geometry><sphere radius="${width}"/></geometry></visual></link>'
+TOOL = '<link name="${p}tool"/><link name="${p}arm"/>' + JOINT.format("${p}joint", "${p}arm", "tool", "")
+A, B, C = (LINK.format(name, 1, i=0.002) for name in "abc")
+ROBOTS = {
+    "X104": MACRO.format("name wdth", BALL) + '<xacro:part name="a" width="1"/>',
+    "T202": MACRO.format("p", TOOL) + '<xacro:part p="left_"/>',
+    "T204": A + B + C + JOINT.format("b_joint", "a", "b", "") + JOINT.format("c_joint", "b", "b", ""),
+    "J408": A + '<link name="optical_frame"/>' + JOINT.format("eye", "a", "optical_frame", 'rpy="-90 0 -90"'),
+    "I514": LINK.format("a", 9000, i=0.002),
+}
+EFFECTS = {"X104": "X107", "T202": "N304", "T204": "T203", "J408": "S905", "I514": "I508"}
+
+
+@pytest.mark.parametrize("cause", ROBOTS)
+def test_a_mistake_of_a_robot_has_one_finding(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, cause: str) -> None:
+    path, effect = tmp_path / "arm.xacro", EFFECTS[cause]
+    path.write_text(f'<robot name="arm" xmlns:xacro="http://www.ros.org/wiki/xacro">{ROBOTS[cause]}</robot>')
+    assert {cause, effect} & {each.code for each in lint(path)} == {cause}
+    monkeypatch.setattr("urdfkit.lint.engine.consequences._CODES", frozenset())
+    assert {cause, effect} <= {each.code for each in lint(path)}

@@ -148,3 +148,23 @@ def test_a_topic_is_compared_with_the_variants_that_have_sensors(
         )
         main(["lint", ".", "--target", "gz", "--select", "K969", "--format", "json"])
         assert [each["code"] for each in json.loads(capsys.readouterr().out)] == expected
+
+
+def test_a_consequence_in_one_variant_of_a_cause_in_another_is_left_out(
+    package: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    wheel = (
+        f"<link name='SIDE_wheel'>{INERTIAL}<collision><geometry><cylinder radius='0.1' length='0.02'/></geometry>"
+        "</collision></link><joint name='SIDE_wheel_joint' type='continuous'><parent link='base'/>"
+        "<child link='SIDE_wheel'/><origin xyz='0 0.2 0'/><axis xyz='0 1 0'/></joint>"
+    )
+    plugin = (
+        "<gazebo><plugin filename='gz-sim-diff-drive-system' name='gz::sim::systems::DiffDrive'>"
+        "<left_joint>left_wheel_joint</left_joint><right_joint>right_wheel_joint</right_joint></plugin></gazebo>"
+    )
+    wheels = wheel.replace("SIDE", "left") + wheel.replace("SIDE", "right")
+    start, _, end = ROBOT.partition('    <link name="lidar"/>')
+    text = start.replace("  <xacro:if", f"{wheels}\n  <xacro:if") + plugin + end[end.index("\n  </xacro:if") :]
+    (package / "urdf/cart.urdf.xacro").write_text(text)
+    assert {code for code, _, _ in found(capsys, "--select", "S907,S909", "--no-launch-arguments")} == {"S909"}
+    assert {code for code, _, _ in found(capsys, "--select", "S907,S909")} == {"S907"}

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from urdfkit.lint.engine.consequences import without_consequences
 from urdfkit.lint.finding import EntryResult, Finding
 from urdfkit.record import record
 
@@ -111,6 +112,8 @@ def with_variants(
             is_defect = one.file in sources or all(key in keys for keys in common_of.get(one.code, common))
             if is_defect and key not in present and not _is_passed(one, variants):
                 findings.append(Finding(**{**one.__dict__, "variant": variant, "fix": None}) if variant else one)
+    if model.target != "urdfkit":
+        findings = without_consequences(findings)
     merged = EntryResult(
         tuple(findings),
         {name: path for result, _, _ in every for name, path in result.files.items()},

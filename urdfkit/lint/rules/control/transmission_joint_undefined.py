@@ -89,6 +89,7 @@ class TransmissionJointUndefined(RobotRule):
                     f"transmission `{transmission.name}` names the undefined joint `{part.name}`{hint}",
                     attribute="name",
                     joint=part.name,
+                    names=(near,) if near else (),
                     fix=new_value(model, part.element, "name", near, "unsafe", f"Replace with `{near}`")
                     if near
                     else None,

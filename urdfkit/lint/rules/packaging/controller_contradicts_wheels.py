@@ -125,7 +125,8 @@ class ControllerContradictsWheels(RobotRule):
         for parameter, value in _positive_number(controller, "wheel_radius"):
             if radii and not any(abs(value - radius) <= TOLERANCE * radius for radius in radii):
                 message = f"`wheel_radius` is {value:g} m, but the radius of the wheels is {radii[0]:.6g} m"
-                yield self._at(source, parameter, message, first.joint.name, f"write {radii[0]:.6g}")
+                help, child = f"write {radii[0]:.6g}", str(first.joint.child)
+                yield self._at(source, parameter, message, first.joint.name, help, names=(child,))
 
     def _at(
         self,
