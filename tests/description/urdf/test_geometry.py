@@ -10,6 +10,7 @@ import pytest
 
 from urdfkit.description.urdf.geometry import (
     between,
+    box_around_all,
     compose,
     difference,
     inverse,
@@ -75,6 +76,11 @@ def test_the_identity_changes_no_digit_of_a_pose(pose: Pose) -> None:
     assert compose(pose, Pose()) == compose(Pose(), pose) == pose
     assert compose(Pose((1.0, 0.0, 0.0)), pose) == Pose((pose.xyz[0] + 1.0, *pose.xyz[1:]), pose.rpy)
     assert compose(pose, Pose((1.0, 0.0, 0.0))).rpy == pose.rpy
+
+
+def test_a_box_around_boxes_has_their_least_and_greatest_coordinates() -> None:
+    boxes = [((1.0, 5.0, -3.0), (2.0, 6.0, -2.0)), ((0.0, 7.0, -4.0), (1.5, 8.0, 9.0))]
+    assert box_around_all(boxes) == ((0.0, 5.0, -4.0), (2.0, 8.0, 9.0))
 
 
 def test_the_difference_of_poses_is_the_larger_of_distance_and_rotation() -> None:

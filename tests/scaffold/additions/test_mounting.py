@@ -2,6 +2,7 @@
 
 from itertools import combinations
 
+import numpy as np
 import pytest
 
 from urdfkit.cli import main
@@ -134,7 +135,7 @@ def test_on_a_frame_it_goes_up_until_nothing_is_there():
 
 def test_boxes_of_meshes_are_read(tmp_path):
     (tmp_path / "wedge.stl").write_text(
-        "solid wedge\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 200 0 0\nvertex 0 100 300\nendloop\n"
+        "solid wedge\nfacet normal 0 0 1\nouter loop\nvertex 100 50 20\nvertex 200 50 20\nvertex 100 70 300\nendloop\n"
         "endfacet\nendsolid wedge\n"
     )
     model = tmp_path / "cart.urdf"
@@ -146,9 +147,9 @@ def test_boxes_of_meshes_are_read(tmp_path):
     )
     robot = load(model)
     (box,) = Boxes(robot).of(robot.link_by_name["a"])
-    assert box[1] == pytest.approx((0.2, 0.1, 0.3))
+    assert np.array(box) == pytest.approx(np.array(((0.1, 0.05, 0.02), (0.2, 0.07, 0.3))))
     assert Boxes(robot).of(robot.link_by_name["b"]) is None
-    assert mount(robot, robot.link_by_name["a"], PART, None) == ((0.1, 0.05, 0.35), [])
+    assert mount(robot, robot.link_by_name["a"], PART, None) == ((0.15, 0.06, 0.35), [])
     _, notes = mount(robot, robot.link_by_name["b"], PART, None)
     assert notes == ["the meshes of `b` cannot be read: check that the part does not overlap it, and use --xyz"]
 

@@ -108,6 +108,18 @@ def test_pushes_goals_and_calls_are_restored() -> None:
     assert results[0][0] == pytest.approx([0.15, -0.15, -0.25])
 
 
+def test_messages_are_counted_from_the_snapshot() -> None:
+    simulator = quiet("simpleton")
+    old = simulator.bus.advertise("/old", "std_msgs/msg/String")
+    old.publish("one")
+    snapshot = simulator.snapshot()
+    new = simulator.bus.advertise("/new", "std_msgs/msg/String")
+    for topic in (old, new):
+        topic.publish("two")
+    simulator.restore(snapshot)
+    assert (old.count, new.count) == (1, 0)
+
+
 def test_a_call_that_the_simulation_does_not_have_is_refused() -> None:
     one, other = quiet("simpleton"), quiet("simpleton")
     one.every(0.5, lambda: None)

@@ -159,8 +159,6 @@ def box_around(shape: Geometry, pose: Pose) -> Bounds:
 
 def box_around_all(boxes: Sequence[Bounds]) -> Bounds:
     """Return the bounding box of one or more boxes."""
-    if len(boxes) == 1:
-        return boxes[0]
     a, b, c = (min(low[axis] for low, _ in boxes) for axis in range(3))
     d, e, f = (max(high[axis] for _, high in boxes) for axis in range(3))
     return (a, b, c), (d, e, f)
