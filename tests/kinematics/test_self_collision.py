@@ -11,6 +11,7 @@ from tests.bench.bench_srdf import two_armed
 from urdfkit.description import load
 from urdfkit.kinematics.self_collision import collision_matrix
 from urdfkit.kinematics.self_collision.box_overlap import overlapping
+from urdfkit.kinematics.self_collision.collision_shapes import box_around, shapes_by_link
 from urdfkit.kinematics.srdf import find_groups
 
 
@@ -24,6 +25,13 @@ def joint(name, kind, parent, child, xyz="0 0 0", limit="", extra=""):
         f'<joint name="{name}" type="{kind}"><parent link="{parent}"/><child link="{child}"/>'
         f'<origin xyz="{xyz}"/><axis xyz="0 0 1"/>{limit}{extra}</joint>'
     )
+
+
+def test_the_box_around_shapes_has_half_their_extent_about_their_middle(tmp_path):
+    text = link("a", "<box size='1 2 3'/>", "5 -7 9")
+    (tmp_path / "r.urdf").write_text(f"<robot name='r'>{text}</robot>")
+    middle, half = box_around(shapes_by_link(load(tmp_path / "r.urdf"))["a"])
+    assert (middle.tolist(), half.tolist()) == ([5.0, -7.0, 9.0], [0.5, 1.0, 1.5])
 
 
 def turning(tmp_path, post, ball_radius, length=1.0, limit=None):

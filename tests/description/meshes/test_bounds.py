@@ -152,6 +152,15 @@ def test_damaged_files_never_raise_and_never_give_wrong_sizes(kind: str, tmp_pat
     assert 0 < found < 150, "some of the damage is harmless, some is not"
 
 
+def test_a_text_whose_last_triangle_is_cut_off_is_refused(tmp_path: Path) -> None:
+    path = written(tmp_path, "stl text", mesh(0), 0.0, 0)
+    lines = path.read_text().splitlines()
+    corner = max(number for number, line in enumerate(lines) if "vertex" in line)
+    assert bounds(path) is not None
+    path.write_text("\n".join(lines[:corner] + lines[corner + 1 :]))
+    assert bounds(path) is None
+
+
 def test_numbers_that_are_not_finite_are_refused(tmp_path: Path) -> None:
     path = tmp_path / "part.stl"
     content = io.BytesIO(mesh(0, 5).export(file_type="stl")).getbuffer()

@@ -13,6 +13,7 @@ from urdfkit.errors import UsageError
 from urdfkit.resources import templates_dir
 from urdfkit.scaffold import computed, load_template
 from urdfkit.scaffold.world.floor_layouts import house, office, one_room
+from urdfkit.scaffold.world.furniture import PIECES, furnish
 from urdfkit.scaffold.world.obstacles import clutter
 from urdfkit.scaffold.world.random_numbers import Random
 from urdfkit.scaffold.world.shapes import ModelShape, inertia
@@ -49,6 +50,26 @@ def test_rooms_of_an_office_share_the_length_on_both_sides_of_the_corridor():
         pytest.approx((-10.0 / 3, 0.0, 10.0 / 3)),
         pytest.approx((-2.5, 2.5)),
     ]
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_furniture_stands_in_its_room_with_its_back_to_a_wall(seed):
+    plan = house(12.0, 9.0, rooms=5, doors=1, door_width=0.9, thickness=0.1, random=Random(seed))
+    pieces = furnish(plan, door_width=0.9, thickness=0.1, clear_radius=0.5, random=Random(seed))
+    assert len(pieces) > 4
+    for piece in pieces:
+        x, y, yaw = piece.place
+        along, depth = PIECES[piece.name.rpartition("_")[0]][0]
+        (room,) = (each for each in plan.rooms if each.x[0] < x < each.x[1] and each.y[0] < y < each.y[1])
+        size = (depth, along) if round(yaw / (math.pi / 2)) % 2 else (along, depth)
+        gaps = [
+            gap
+            for middle, length, (low, high) in zip((x, y), size, (room.x, room.y), strict=True)
+            for gap in (middle - length / 2 - low, high - middle - length / 2)
+        ]
+        side = (3, 0, 2, 1)[round(yaw / (math.pi / 2))]  # of its back: the gaps are those at -x, +x, -y, +y
+        assert gaps[side] == pytest.approx(0.06, abs=1e-3)
+        assert min(gaps) > 0.049
 
 
 def new(name, *options):
