@@ -62,7 +62,7 @@ class HelpFormatter(argparse.RawDescriptionHelpFormatter):
 
 
 def columns() -> int | None:
-    """Return the width of the terminal in columns (``COLUMNS`` has precedence); None without a terminal."""
+    """Return the width of the terminal in columns (``COLUMNS`` takes precedence); None without a terminal."""
     try:
         width = int(os.environ.get("COLUMNS") or 0)
         return width or os.get_terminal_size(sys.__stdout__.fileno() if sys.__stdout__ else 1).columns or None

@@ -14,9 +14,9 @@ DEFAULT: Rgba = (0.7, 0.7, 0.7, 1.0)
 class Palette:
     """The colours of one robot.
 
-    A colour defined at robot level has precedence over a colour with the same name in a visual, and a colour defined in
-    a visual applies to all later visuals that refer to its name, as in urdfdom and RViz. A URDF colour has precedence
-    over the ``<material>`` of a ``<gazebo reference=…>`` block, which only Gazebo Classic reads.
+    A colour defined at robot level takes precedence over a colour with the same name in a visual, and a colour defined
+    in a visual applies to all later visuals that refer to its name, as in urdfdom and RViz. A URDF colour takes
+    precedence over the ``<material>`` of a ``<gazebo reference=…>`` block, which only Gazebo Classic reads.
     """
 
     def __init__(self, robot: Robot) -> None:

@@ -78,7 +78,7 @@ def passed_to(description: Path, packages: Packages) -> list[Passed]:
 def choose(passed: list[Passed], purpose: str, named: Mapping[str, str]) -> Choice:
     """Choose the arguments of the launch files for a purpose.
 
-    Launch files in the package of the description have precedence, and launch files that agree with the
+    Launch files in the package of the description take precedence, and launch files that agree with the
     arguments of the command line.
 
     Args:

@@ -53,7 +53,7 @@ def match(plugin: Plugin) -> PluginSpec | None:
     ROS 1 and ROS 2 plugins of Gazebo Classic share file names and differ in spelling. A ``<ros>`` block means ROS 2;
     without one, the table that contains more of the written parameters is used; in a tie, more snake_case than
     camelCase means ROS 2. In gz sim, a library may contain several classes, so a known class in the plugin's
-    ``name`` has precedence over the file name.
+    ``name`` takes precedence over the file name.
     """
     if plugin.filename is None:
         return None

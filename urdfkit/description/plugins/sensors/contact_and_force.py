@@ -28,7 +28,7 @@ CONTACT_GZ = PluginSpec(
     ),
     source="gz-sim main, src/systems/contact/Contact.cc",
 )
-"""Read from the ``<sensor>`` itself; a ``<topic>`` inside its ``<contact>`` has precedence."""
+"""Read from the ``<sensor>`` itself; a ``<topic>`` inside its ``<contact>`` takes precedence."""
 
 FORCE_TORQUE_ROS_1 = gazebo_ros_1(
     "force_torque",

@@ -27,7 +27,8 @@ def published_twice(model: Model) -> Iterator[tuple[Source, Node, str]]:
             if other is not None:
                 message = (
                     f"`enable_odom_tf` of controller `{controller.name}` is true, but the filter in "
-                    f"{other.file.rpartition('/')[2]} publishes the same transform; write false in one of them"
+                    f"{other.file.rpartition('/')[2]} publishes the same transform; "
+                    "set this, or `publish_tf` of the filter, to false"
                 )
                 yield source, enabled, message
 

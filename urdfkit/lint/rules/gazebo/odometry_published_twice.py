@@ -85,5 +85,5 @@ class OdometryPublishedTwice(RobotRule):
                         element,
                         f"<{element.tag}> is true, but the filter in {same.rpartition('/')[2]} publishes "
                         "the same transform",
-                        help="write false in one of them",
+                        help="write false, or set `publish_tf` of the filter to false",
                     )

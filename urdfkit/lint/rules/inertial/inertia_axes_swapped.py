@@ -17,8 +17,8 @@ class InertiaAxesSwapped(RobotRule):
 
     ## What it does
     Compares ixx, iyy and izz of each link with the moments of its shapes with uniform density. Reports the tensor if
-    it agrees with the shapes to 10 % in another order of the axes only, up to a common factor. Meshes count as their
-    bounding boxes.
+    it differs from them, but agrees to 10 % in another order of the axes. A common factor is ignored. Meshes count as
+    their bounding boxes.
 
     ## Why is this bad?
     The link turns about its axes with the inertia of other axes. Often a cylinder was turned, as that of a wheel,
@@ -92,7 +92,7 @@ class InertiaAxesSwapped(RobotRule):
                 element,
                 f"ixx, iyy and izz of link `{link.name}` are those of its shapes in another order",
                 link=link.name,
-                help=f"its shapes have {shown} kg·m²; check the rpy of its shapes and of <inertial>",
+                help=f"the moments of its shapes are {shown} kg·m²; check the rpy of its shapes and of <inertial>",
                 fix=computed(model, link, element),
             )
 

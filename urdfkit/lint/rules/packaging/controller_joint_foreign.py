@@ -12,7 +12,7 @@ class ControllerJointForeign(RobotRule):
     resemble one of these are reported as misspelt (see K962).
 
     ## Why is this bad?
-    The values have no effect, and the joint that was meant has the default gains or tolerances.
+    The values have no effect, and the intended joint has the default gains or tolerances.
 
     ## Example
     ```yaml

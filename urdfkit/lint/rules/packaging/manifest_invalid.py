@@ -22,8 +22,8 @@ class ManifestInvalid(RobotRule):
 
     ## What it does
     Checks the elements, name, version, addresses and dependencies of package.xml against its format (REP 127, 140 and
-    149), dependencies for misspelt names of released packages and of packages of the workspace, and the build tool
-    against CMakeLists.txt and setup.py.
+    149), and the build tool against CMakeLists.txt and setup.py. Also reports dependencies whose name is a misspelt
+    name of a released package or of a package of the workspace.
 
     ## Why is this bad?
     The package is not built, or rosdep finds no key for the dependency. Without ``<build_type>``, colcon builds a ROS 2
