@@ -344,7 +344,7 @@ def test_what_the_plugin_reads_gets_the_controllers(place, capsys):
     assert new() == 0
     reported = capsys.readouterr()
     assert "ros2 run controller_manager spawner base_controller arm_controller" in reported.out
-    assert "base_controller: left_joint, right_joint (velocity, as in the model)" in reported.err
+    assert "controller `base_controller` for left_joint, right_joint (velocity, as in the model)" in reported.err
     after = (folder / "config/mine.yaml").read_text()
     assert all(line in after for line in mine.splitlines())
     settings = yaml.safe_load(after)
@@ -444,7 +444,7 @@ def test_in_ros2_followers_are_listed_or_they_do_not_follow(place, world, told):
 def test_transmissions_are_nothing_to_ros2(place, capsys, more):
     folder = robot(place, CHAIN + transmissions("Effort", ["shoulder_joint", "elbow_joint"], *more))
     assert new("--sim", "gz") == 0
-    assert "arm_controller: shoulder_joint, elbow_joint\n" in capsys.readouterr().err
+    assert "controller `arm_controller` for shoulder_joint, elbow_joint\n" in capsys.readouterr().err
     written = (folder / "urdf/control.xacro").read_text()
     assert '<joint name="elbow_joint">' in written
     assert "gz_ros2_control-system" in written

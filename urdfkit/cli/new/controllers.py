@@ -138,7 +138,7 @@ def _without_ros(
 def _print_controllers(made: list[ChosenController], arguments: argparse.Namespace) -> None:
     for each in () if arguments.quiet else made:
         by = f" ({each.interface}, as in the model)" if each.interface else ""
-        print(f"urdfkit: {each.name}: {', '.join(each.joints)}{by}", file=sys.stderr)
+        print(f"urdfkit: controller `{each.name}` for {', '.join(each.joints)}{by}", file=sys.stderr)
 
 
 def _immovable_joints(robot: Robot, made: list[ChosenController]) -> Iterator[str]:
