@@ -36,7 +36,10 @@ def test_the_figures_of_the_readme_are_those_of_the_pages() -> None:
     section = performance.partition("\n## With plugins and topics\n")[2].partition("\n## ")[0]
     ratios = [float(ratio) for ratio in re.findall(r"\| ([\d.]+), [\d.]+ \|$", section, re.MULTILINE)]
     assert len(ratios) == 6
-    assert f"six robots with plugins and topics, one step per call: {min(ratios)} to {max(ratios)} times" in readme
+    assert f"six robots without plugins, one step per call: {min(ratios)} to {max(ratios)} times" in readme
+    runs = [float(ratio) for ratio in re.findall(r"\| ([\d.]+) \| ≥ [\d.]+ \|$", section, re.MULTILINE)]
+    assert len(runs) == 5
+    assert f"five runs with plugins and topics: {min(runs)} to {max(runs)} times the speed of MuJoCo" in readme
     [heap] = re.findall(
         r"^\| 200 boxes falling into a heap \|.*\| \**([\d.]+)\** \| [^|]*\|$", performance, re.MULTILINE
     )
