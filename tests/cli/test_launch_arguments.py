@@ -8,6 +8,8 @@ import pytest
 
 from urdfkit.cli import main
 
+PAGE = (Path(__file__).parents[2] / "docs/loading.md").read_text("utf-8")
+
 ROBOT = """<robot name="arm" xmlns:xacro="http://www.ros.org/wiki/xacro">
   <!-- Mass of the base [kg] -->
   <xacro:property name="mass" value="$(arg mass)"/>
@@ -54,7 +56,9 @@ def test_sim_uses_the_arguments_of_the_simulation_launch_file_and_prints_them(
     write("display.launch.xml", "9", "joint_state_publisher_gui")
     done, err = loaded([robot, "camera:=off"], capsys)
     assert done
-    assert "urdfkit: xacro arguments of launch/sim.launch.xml: mass:=2.5 (--no-launch-arguments ignores them)\n" in err
+    line = "urdfkit: xacro arguments of launch/sim.launch.xml: mass:=2.5 (--no-launch-arguments ignores them)\n"
+    assert line in err
+    assert line in PAGE
     assert not loaded([robot, "camera:=off", "--no-launch-arguments"], capsys)[0]
 
 
@@ -79,10 +83,10 @@ def test_contradicting_launch_files_are_named_and_none_is_used(robot: str, capsy
         "is used: mass:=2.5 (launch/a.launch.xml) and mass:=3 (launch/b.launch.xml); choose one, such as mass:=2.5\n"
         in err
     )
-    assert (
-        "urdfkit: required argument `mass`: Mass of the base [kg]; launch files pass mass:=2.5 (launch/a.launch.xml), "
-        "mass:=3 (launch/b.launch.xml)\n" in err
-    )
+    line = "urdfkit: required argument `mass`: Mass of the base [kg]; "
+    line += "launch files pass mass:=2.5 (launch/a.launch.xml), mass:=3 (launch/b.launch.xml)\n"
+    assert line in err
+    assert line in PAGE
     assert (
         "urdfkit: required argument `camera`: Whether to add the camera; launch files pass camera:=on "
         "(launch/a.launch.xml)\n" in err

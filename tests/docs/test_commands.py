@@ -3,16 +3,13 @@
 from __future__ import annotations
 
 import re
-import shlex
-import subprocess
-import sys
+from collections.abc import Iterator
+from contextlib import ExitStack
 from pathlib import Path
 
 import pytest
 
 from tests.docs import course
-from tests.processes import running
-from tests.time_limit import PATIENCE
 
 ROOT = Path(__file__).parents[2]
 PAGES = [
@@ -20,7 +17,6 @@ PAGES = [
     for page in (ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md")))
     if page not in course.PAGES  # test_courses runs these
 ]
-SERVES = ("view", "sim teleop", "replay")
 
 MODEL = """<?xml version="1.0"?>
 <robot name="robot" xmlns:xacro="http://www.ros.org/wiki/xacro">
@@ -56,28 +52,23 @@ def shown_commands(page: Path) -> list[tuple[str, str]]:
     ]
 
 
-def run(command: str, folder: Path, status: int = 0) -> str:
-    """Run a command, which must exit with this status; return its output, empty if it serves a page."""
-    is_file = {"--image", "--video"} & set(command.split())
-    if command.startswith(tuple(f"urdfkit {name}" for name in SERVES)) and not is_file:
-        words = [sys.executable, "-m", "urdfkit", *shlex.split(command)[1:], "--no-browser", "--port", "0"]
-        with running(words, cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as process:
-            assert process.stdout is not None
-            line = process.stdout.readline()
-            process.terminate()
-            _, errors = process.communicate(timeout=PATIENCE)
-        assert "http://127.0.0.1:" in line, errors
-        return ""
-    return course.output(command, folder, (status,))
+@pytest.fixture
+def served() -> Iterator[ExitStack]:
+    """Yield the stack of the command that serves a page, which runs until the next one of them."""
+    with ExitStack() as stack:
+        yield stack
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("page", [p for p in PAGES if shown_commands(p)], ids=lambda p: p.name)
-def test_the_commands_on_a_page_work(page: Path, tmp_path: Path) -> None:
+def test_the_commands_on_a_page_work(page: Path, tmp_path: Path, served: ExitStack) -> None:
     (tmp_path / "robot.urdf.xacro").write_text(MODEL)
     words = {word for command, _ in shown_commands(page) for word in command.split()}
-    for name in words & {"arm.urdf", "arm.urdf.xacro"}:
-        (tmp_path / name).write_text(ARM)
+    for name in words & {"arm.urdf", "arm.urdf.xacro", "export/arm.urdf"}:
+        (tmp_path / name).parent.mkdir(exist_ok=True)
+        is_export = name.startswith("export")  # without a mesh, which an import would copy
+        text = re.sub("<mesh .*?/>", '<box size="1 1 1"/>', ARM) if is_export else ARM
+        (tmp_path / name).write_text(text)
     for block in course.blocks(page.read_text(encoding="utf-8")):
         if block.title:
             (tmp_path / block.title).write_text(block.text)
@@ -94,8 +85,12 @@ def test_the_commands_on_a_page_work(page: Path, tmp_path: Path) -> None:
         if command.startswith("urdfkit new robot ") and (tmp_path / f"{command.split()[3]}_description").exists():
             continue
         line = f"{command} --yes" if command.startswith("urdfkit new") and "--yes" not in command else command
-        status = 2 if course.REFUSED.match(shown) else int("\nFound " in shown)  # an error, findings
-        printed = run(line, tmp_path, status)
-        if printed and shown.strip():
+        if course.SERVES.search(line):
+            served.close()
+            course.serve(line, tmp_path, served)
+            continue
+        refused = re.search(r"^Found |: not reached: ", shown, re.MULTILINE)  # findings, or a pose beyond reach
+        printed = course.output(line, tmp_path, (2 if course.REFUSED.match(shown) else int(bool(refused)),))
+        if shown.strip():
             assert course.agrees(shown, printed), f"$ {command}\n{printed}"
     assert done

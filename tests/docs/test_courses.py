@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.docs.course import PAGES, agrees, run, unnamed_files
+from tests.docs.course import PAGES, ROOT, agrees, minutes, run, unnamed_files
 
 pytest.importorskip("numba")
 
@@ -44,3 +44,27 @@ def test_a_change_that_matches_nothing_is_an_error(tmp_path: Path) -> None:
 def test_a_page_with_changes_explains_their_signs(page: Path) -> None:
     before, diff, _ = page.read_text("utf-8").partition("```diff")
     assert not diff or re.search(r"lines?\s+with\s+`-`", before)
+
+
+TIMED = [
+    *sorted((ROOT / "docs/tutorials").glob("*.md")),
+    ROOT / "docs/guides/from_cad.md",
+    ROOT / "docs/guides/own_plugins.md",
+]
+
+
+@pytest.mark.parametrize("page", TIMED, ids=lambda page: page.name)
+def test_a_tutorial_states_how_long_it_takes(page: Path) -> None:
+    text = page.read_text("utf-8")
+    stated = re.search(r"^Time: about (\d+) minutes(?: if you copy the files, (\d+) if you type them)?[.,]", text, re.M)
+    assert stated
+    copied, typed = minutes(text)
+    assert int(stated[1]) == pytest.approx(copied, abs=1.0)
+    assert int(stated[2] or stated[1]) == pytest.approx(typed, abs=3.0)
+
+
+def test_a_file_in_a_folder_that_the_page_does_not_mention_is_an_error(tmp_path: Path) -> None:
+    page = '```text title="new/a.txt"\none\n```\n'
+    with pytest.raises(AssertionError, match=r"new/a\.txt"):
+        list(run(page, tmp_path))
+    assert list(run(f"Create the folder `new`.\n{page}", tmp_path)) == []

@@ -16,8 +16,8 @@ from urdfkit import Simulator
 PAGE = Path(__file__).parents[2] / "docs" / "simulator.md"
 
 
-def blocks() -> list[str]:
-    return re.findall(r"^```python\n(.*?)^```", PAGE.read_text(encoding="utf-8"), re.MULTILINE | re.DOTALL)
+def blocks(language: str = "python") -> list[str]:
+    return re.findall(rf"^```{language}\n(.*?)^```", PAGE.read_text(encoding="utf-8"), re.MULTILINE | re.DOTALL)
 
 
 @pytest.mark.slow
@@ -25,9 +25,12 @@ def test_every_block_runs(capsys: pytest.CaptureFixture[str], tmp_path: Path, mo
     monkeypatch.chdir(tmp_path)  # one of them writes a file
     names: dict[str, Any] = {}
     assert len(blocks()) >= 8
+    reported = ""
     for block in blocks():
         exec(compile(block, str(PAGE), "exec"), names)
-    reported = capsys.readouterr().out
+        reported += capsys.readouterr().out
+        if block == blocks()[0]:
+            assert reported.endswith(blocks("text")[0])
     assert "did you mean `simpleton`?" in reported
     assert "one and a half seconds" in reported
 
