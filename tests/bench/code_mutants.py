@@ -1,7 +1,8 @@
 """Random mutants of urdfkit's own code: do the tests that cover the changed line notice them?
 
 First record which test covers which lines. The recording runs the tests once, in a copy of the checkout whose functions
-mark the blocks that they reach, in about 1.4 times the CPU time of the tests; programs that a test starts count too.
+mark the blocks that they reach, in about 1.4 times the CPU time of the tests; programs that a test starts count too. A
+program that outlives the test that starts it, such as a server of a fixture, counts for each test of the file.
 Further calls add tests or replace them::
 
     python -m tests.bench.code_mutants record -m "not slow and not browser and not catkin and not colcon"

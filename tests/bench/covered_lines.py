@@ -172,14 +172,20 @@ def record(arguments: list[str]) -> int:
         command = [sys.executable, "-m", "pytest", "-p", "marks_plugin", "-p", "no:cacheprovider", "-q", *arguments]
         status = subprocess.run(command, cwd=copy, env=environment, check=False).returncode
         reached: dict[str, set[int]] = defaultdict(set)
+        shared: dict[str, set[int]] = defaultdict(set)
         seconds: dict[str, float] = {}
         for line in (Path(folder) / "reached").read_text().splitlines():
             test, time_taken, found = json.loads(line)
             reached[test].update(found)
+            if test in seconds:  # a program that outlived the test that started it: later tests of the file share it
+                shared[test.partition("::")[0]].update(found)
             if time_taken is not None:
                 seconds[test] = time_taken
         with RECORDED.open("a") as file:
             for test, time_taken in seconds.items():
-                places = sorted(f"{table[number].file}:{table[number].first}" for number in reached[test])
+                places = sorted(
+                    f"{table[number].file}:{table[number].first}"
+                    for number in reached[test] | shared[test.partition("::")[0]]
+                )
                 file.write(json.dumps([test, time_taken, places]) + "\n")
     return status
