@@ -19,10 +19,13 @@ from tests.processes import running
 from tests.time_limit import PATIENCE
 from urdfkit.app.simulation.bridging.bridges import BridgeOptions, bridged
 from urdfkit.app.simulation.bridging.real_time import RunControls, advance_in_real_time
-from urdfkit.app.simulation.bridging.ros_connection import RosOptions
+from urdfkit.app.simulation.bridging.ros_connection import RosOptions, connect_to_ros
 from urdfkit.bridges.bag_file import BagFile
+from urdfkit.bridges.bridge import Bridges
 from urdfkit.bridges.node.node import Quality
+from urdfkit.bridges.ros1 import ros1_node
 from urdfkit.bridges.ros1.ros1_node import Ros1Node
+from urdfkit.bridges.ros1.xml_rpc import call
 from urdfkit.cli import main
 from urdfkit.messages import from_fields
 from urdfkit.sim import Simulator
@@ -134,17 +137,55 @@ def test_nodes_find_each_other_and_again_after_the_master_was_gone(master: Maste
         until(lambda: received)
         assert received[0].data == "early"
         assert second.topics() == {"/chatter": STRING}
+        first.set_parameter("/use_sim_time", True)
         master.stop()
         until(lambda: lines)
-        assert lines[0] == f"ros1: the master at {master.uri} has stopped; the simulation continues"
+        assert lines[0] == f"ros1: the master at {master.uri} has stopped; urdfkit continues"
         writer.publish(first.encode(from_fields(STRING, {"data": "alone"}), STRING))
         until(lambda: len(received) == 2)
         master.start()
         until(lambda: "ros1: the master runs again" in lines)
         until(lambda: second.topics() == {"/chatter": STRING})
+        assert call(master.uri, "getParam", "/test", "/use_sim_time") is True
     finally:
         second.close()
         first.close()
+
+
+@pytest.mark.slow
+def test_a_master_that_is_replaced_between_two_checks_is_told_everything_again(
+    master: Master, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(ros1_node, "WATCH", 5.0)  # seconds, in which the master is stopped and started
+    lines = list[str]()
+    node = Ros1Node(report=lines.append)
+    try:
+        node.writer("/chatter", STRING, Quality())
+        master.stop()
+        master.start()
+        until(lambda: "ros1: the master runs again" in lines)
+        assert node.topics() == {"/chatter": STRING}
+    finally:
+        node.close()
+
+
+@pytest.mark.slow
+def test_simulations_with_namespaces_share_a_master_and_others_are_told_of(master: Master) -> None:
+    lines, bus = list[str](), Simulator("simpleton").bus
+    bridges = [Bridges(), Bridges(), Bridges()]
+    try:
+        for each, namespace in zip(bridges, ("/a", "/b", "/a"), strict=True):
+            connect_to_ros(bus, RosOptions(ros1=True, namespace=namespace), each, {}, lines.append)
+            if namespace == "/b":
+                assert lines == []
+                publishers = dict(call(master.uri, "getSystemState", "/test")[0])
+                assert publishers["/a/simpleton/odom"] == ["/a/urdfkit"]
+                assert publishers["/b/simpleton/odom"] == ["/b/urdfkit"]
+        until(lambda: lines)
+        assert "another node is called /a/urdfkit now" in lines[0]
+    finally:
+        for each in bridges:
+            each.close()
 
 
 @pytest.mark.slow

@@ -72,5 +72,12 @@ class NodeFunctions:
         return 1, "", self._address
 
     def _shutdown(self, _caller: str, reason: str = "") -> Answer:
-        self._node.report(f"ros1: {self._node.name} was requested to shut down ({reason}); it continues")
+        name = self._node.name
+        if "same name" in reason:  # as the master of ROS 1 words it
+            self._node.report(
+                f"warning: ros1: another node is called {name} now; peers no longer find the topics of this one: start "
+                "each simulation with a --namespace of its own"
+            )
+        else:
+            self._node.report(f"ros1: {name} was requested to shut down ({reason}); it continues")
         return 1, "", 0

@@ -41,7 +41,7 @@ Value = TypeVar("Value")
 
 
 class Ros1Node:
-    """A node; it registers again when a master that was gone is back.
+    """A node; it registers again, and sets its parameters again, when a master that was gone is back.
 
     Args:
         master: address of the master; None for that of the environment.
@@ -70,7 +70,8 @@ class Ros1Node:
         self._publications: dict[str, TopicPublisher] = {}
         self._subscriptions: dict[str, TopicSubscriber] = {}
         self._services: dict[str, ServiceServer] = {}
-        self._call_master("getPid")  # before anything is opened
+        self._parameters: dict[str, Any] = {}
+        self._master_process = self._call_master("getPid")  # before anything is opened
         host = bind_host(environment)
         self._socket = socket.create_server((host, 0))
         self._server = NodeServer(host)
@@ -147,7 +148,8 @@ class Ros1Node:
         return json_values(decode(content, f"{type}_Response"))
 
     def set_parameter(self, name: str, value: Any) -> None:
-        """Set a parameter of the master."""
+        """Set a parameter of the master, also of one that is started later."""
+        self._parameters[name] = value
         self._call_master("setParam", name, value)
 
     def close(self) -> None:
@@ -216,17 +218,20 @@ class Ros1Node:
         gone = False
         while not self._closed.wait(WATCH):
             try:
-                self._call_master("getPid")
-                if gone:
+                process = self._call_master("getPid")
+                if gone or process != self._master_process:
                     self._register_again()
+                    self._master_process = process
                     self.report("ros1: the master runs again")
                 gone = False
             except ResourceError:
                 if not gone:
-                    self.report(f"ros1: the master at {self.uri} has stopped; the simulation continues")
+                    self.report(f"ros1: the master at {self.uri} has stopped; urdfkit continues")
                 gone = True
 
     def _register_again(self) -> None:
+        for name, value in self._parameters.items():
+            self._call_master("setParam", name, value)
         for name, publication in self._publications.items():
             self._call_master("registerPublisher", name, publication.definition.name, self._api)
         for name, subscription in self._subscriptions.items():

@@ -76,9 +76,9 @@ def connect_to_ros(
         note(f"{name}: topics are published by {node.description}; {served}{more}")
 
     if options.ros1:
-        from urdfkit.bridges.ros1.ros1_node import Ros1Node
+        from urdfkit.bridges.ros1.ros1_node import NAME, Ros1Node
 
-        ros1 = Ros1Node(report=report)
+        ros1 = Ros1Node(name=options.namespace + NAME, report=report)
         ros1.set_parameter("/use_sim_time", True)
         if (description := bus.latest(DESCRIPTION)) is not None:
             ros1.set_parameter(options.namespace + DESCRIPTION, description.data)
