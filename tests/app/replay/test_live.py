@@ -18,6 +18,7 @@ from tests.app.replay.written_bags import Messages, write_bag
 from tests.served_simulation import rosbridge
 from tests.time_limit import PATIENCE
 from urdfkit.app.page import Page
+from urdfkit.app.replay import topic_session
 from urdfkit.app.replay.live_view import following
 from urdfkit.app.replay.observed_session import ObservedSession
 from urdfkit.app.replay.replaying import replaying
@@ -123,7 +124,9 @@ def test_a_service_of_the_graph_answers_while_the_page_goes_on_and_a_missing_one
     assert [each.world.name for each in answers] == ["empty"]
 
 
-def test_topic_lists_echoes_and_publishes_on_another_graph(capsys: pytest.CaptureFixture[str]) -> None:
+def test_topic_lists_echoes_and_publishes_on_another_graph(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
     simulator = Simulator("simpleton")
     speeds: list[float] = []
     simulator.bus.subscribe("/simpleton/cmd_vel", "geometry_msgs/msg/Twist", lambda it: speeds.append(it.linear.x))
@@ -137,6 +140,11 @@ def test_topic_lists_echoes_and_publishes_on_another_graph(capsys: pytest.Captur
         assert json.loads(capsys.readouterr().out)["world"]["name"] == "empty"
         assert main(["service", "type", "/gazebo/delete_model", "--live", url]) == 0
         assert capsys.readouterr().out == "gazebo_msgs/srv/DeleteModel\n"
+        monkeypatch.setattr(topic_session, "DISCOVERY", 0.2)  # seconds to wait for a subscriber
+        assert main(["topic", "pub", "/stop", "geometry_msgs/Twist", "--once", "--live", url]) == 0
+        assert "/stop has no subscribers; topics of this type: /simpleton/cmd_vel" in capsys.readouterr().err
+        assert main(["topic", "pub", "/cmd_vel", "geometry_msgs/Twist", "--once", "--live", url]) == 0
+        assert "urdfkit: /cmd_vel has no subscribers; did you mean `/simpleton/cmd_vel`?" in capsys.readouterr().err
         words = ["pub", "/simpleton/cmd_vel", "geometry_msgs/Twist", "{linear: {x: 0.25}}", "--once"]
         assert main(["topic", *words, "--live", url]) == 0
         end = time.monotonic() + PATIENCE

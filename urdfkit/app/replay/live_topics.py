@@ -10,8 +10,8 @@ from typing import Any
 
 from urdfkit.bridges.bridge import CallQueue
 from urdfkit.bridges.node.node import End, Node, UnknownTypeError, Writer, publisher_quality, subscription_quality
-from urdfkit.bus import Bus, Topic
-from urdfkit.errors import ResourceError, UsageError
+from urdfkit.bus import Bus, Topic, nearest_topic
+from urdfkit.errors import ResourceError, UsageError, suggestion
 from urdfkit.messages import from_fields
 
 SEARCH = 0.5
@@ -83,6 +83,8 @@ class LiveTopics:
             end = self._clock() + wait
             while self._clock() < end and not writer.is_matched():
                 time.sleep(0.01)
+            if wait and not writer.is_matched():
+                self._note(f"urdfkit: {topic} has no subscribers{self._nearest(topic, type)}")
         self._writers[topic].publish(self.node.encode(message, type))
 
     def call(self, service: str, type: str, take: Callable[[Any], None]) -> None:
@@ -145,6 +147,11 @@ class LiveTopics:
             self.calls.add(lambda: publish(data))
 
         return receive
+
+    def _nearest(self, topic: str, type: str) -> str:
+        """Return a suggestion of topics of a type."""
+        same = sorted(name for name, other in self.node.topics().items() if other == type and name != topic)
+        return suggestion(nearest_topic(topic, same)) or (f"; topics of this type: {', '.join(same)}" if same else "")
 
     def _note(self, line: str) -> None:
         if line not in self._reported:

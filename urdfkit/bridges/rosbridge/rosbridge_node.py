@@ -93,6 +93,10 @@ class RosbridgeNode:
         values = self._call("/rosapi/topics", {})
         return {name: full_type_name(type) for name, type in zip(values["topics"], values["types"], strict=True)}
 
+    def subscribers(self, topic: str) -> list[str]:
+        """Return the names of the nodes that subscribe to a topic, by the service ``/rosapi/subscribers``."""
+        return list(self._call("/rosapi/subscribers", {"topic": topic})["subscribers"])
+
     def services(self) -> list[str]:
         """Return the names of the services, by the service ``/rosapi/services``."""
         return sorted(self._call("/rosapi/services", {})["services"])
@@ -186,5 +190,8 @@ class _RosbridgeWriter:
         self._node.send(f'{{"op":"publish","topic":{json.dumps(self._topic)},"msg":{data.decode()}}}')
 
     def is_matched(self) -> bool:
-        """Return true: subscribers are unknown to a client."""
-        return True
+        """Return whether the topic has a subscriber, or whether the server lacks rosapi."""
+        try:
+            return bool(self._node.subscribers(self._topic))
+        except ResourceError:
+            return True
