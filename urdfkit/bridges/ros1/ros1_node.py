@@ -148,7 +148,7 @@ class Ros1Node:
         return json_values(decode(content, f"{type}_Response"))
 
     def set_parameter(self, name: str, value: Any) -> None:
-        """Set a parameter of the master, also of one that is started later."""
+        """Set a parameter of the master, and again when the master has been restarted."""
         self._parameters[name] = value
         self._call_master("setParam", name, value)
 
