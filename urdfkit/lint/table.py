@@ -145,6 +145,9 @@ ROBOT: tuple[Row, ...] = (
     ("part!", "semantics.twins_misplaced", "TwinsMisplaced"),
     ("type=prismatic", "semantics.fingers_not_opposed", "FingersNotOpposed"),
     ("type=continuous", "semantics.footprint_off_the_ground", "FootprintOffTheGround"),
+    ("optical!", "semantics.camera_frame_not_optical", "CameraFrameNotOptical"),
+    ("plugin", "semantics.odometry_frame_not_root", "OdometryFrameNotRoot"),
+    ("gazebo", "semantics.drive_wheel_without_friction", "DriveWheelWithoutFriction"),
     ("gazebo", "gazebo.gazebo_reference_undefined", "GazeboReferenceUndefined"),
     ("plugin", "gazebo.plugin_joint_undefined", "PluginJointUndefined"),
     ("plugin", "gazebo.plugin_link_undefined", "PluginLinkUndefined"),
@@ -168,6 +171,7 @@ ROBOT: tuple[Row, ...] = (
     ("plugin sensor", "gazebo.topic_with_blank", "TopicWithBlank"),
     ("plugin sensor", "gazebo.plugin_or_sensor_unnamed", "PluginOrSensorUnnamed"),
     ("plugin", "gazebo.odometry_published_twice", "OdometryPublishedTwice"),
+    ("sensor", "gazebo.sensor_type_deprecated", "SensorTypeDeprecated"),
     ("sensor", "gazebo.sensor_type_unknown", "SensorTypeUnknown"),
     ("parameters", "gazebo.plugin_file_missing", "PluginFileMissing"),
     ("sensor plugin", "gazebo.sensor_range_invalid", "SensorRangeInvalid"),
@@ -187,6 +191,7 @@ ROBOT: tuple[Row, ...] = (
     ("ros2_control", "control.interface_combination", "InterfaceCombination"),
     ("ros2_control", "control.hardware_without_plugin", "HardwareWithoutPlugin"),
     ("ros2_control", "control.interface_limits", "InterfaceLimits"),
+    ("ros2_control", "control.ros2_control_mimic", "Ros2ControlMimic"),
 )
 
 _LAUNCH = ".launch .launch.xml .launch.py .launch.yaml _launch.xml _launch.py _launch.yaml"
@@ -237,6 +242,11 @@ RELATED_FILES: tuple[Row, ...] = (
     (_LAUNCH, "launch.launch_argument_duplicate", "LaunchArgumentDuplicate"),
     (_LAUNCH, "launch.launch_include_cycle", "LaunchIncludeCycle"),
     (_LAUNCH, "launch.static_transform_invalid", "StaticTransformInvalid"),
+    (_PYTHON, "launch.xacro_not_expanded", "XacroNotExpanded"),
+    (_XML, "launch.parameters_loaded_twice", "ParametersLoadedTwice"),
+    (_LAUNCH, "launch.simulation_time_inconsistent", "SimulationTimeInconsistent"),
+    (_PYTHON, "launch.exit_handler_never_runs", "ExitHandlerNeverRuns"),
+    (_LAUNCH, "launch.map_transform_published_twice", "MapTransformPublishedTwice"),
     (_SRDF, "moveit.srdf_not_well_formed", "SrdfNotWellFormed"),
     (_SRDF, "moveit.srdf_element_unknown", "SrdfElementUnknown"),
     (_SRDF, "moveit.srdf_of_other_robot", "SrdfOfOtherRobot"),
@@ -256,7 +266,6 @@ TARGETED: tuple[Row, ...] = (
     ("version!", "document.urdf_version_unsupported", "UrdfVersionUnsupported"),
     ("inertial", "tree.root_link_has_inertia", "RootLinkHasInertia"),
     ("plugin", "gazebo.plugin_lib_wrong_generation", "PluginLibWrongGeneration"),
-    ("sensor", "gazebo.sensor_type_deprecated", "SensorTypeDeprecated"),
     ("material", "gazebo.gazebo_material", "GazeboMaterial"),
     ("transmission", "control.transmission_in_ros2", "TransmissionInRos2"),
 )

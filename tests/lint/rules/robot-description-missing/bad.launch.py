@@ -7,7 +7,7 @@ def generate_launch_description():
     control = Node(package="controller_manager", executable="ros2_control_node")  # <!-- expect: L112 -->
     return LaunchDescription([
         control,
-        Node(package="robot_state_publisher", executable="robot_state_publisher"),  # <!-- expect: L113 -->
+        Node(package="robot_state_publisher", executable="robot_state_publisher"),  # <!-- expect: L113, L121 -->
         Node(  # <!-- expect: L113 -->
             package="robot_state_publisher",
             executable="robot_state_publisher",

@@ -13,7 +13,7 @@ def generate_launch_description():
     return LaunchDescription([
         node(parameters=[description]),
         Node(package="robot_state_publisher", executable="robot_state_publisher", parameters=[description]),
-        Node(package="robot_state_publisher", executable="robot_state_publisher", arguments=["cart.urdf"]),
+        Node(package="robot_state_publisher", executable="robot_state_publisher", arguments=["cart.urdf"], parameters=[description]),
         Node(
             package="robot_state_publisher",
             executable="robot_state_publisher",

@@ -99,6 +99,7 @@ def _in_python(source: Source) -> Iterator[Started]:
 
     from urdfkit.description.launch.python_constants import launch_reader, name_of, parsed
     from urdfkit.lint.facts.control.launch_package_paths import place
+    from urdfkit.lint.facts.nodes.python_bindings import bindings, resolved
 
     tree = parsed(source) if "Node" in source.text else None
     if tree is None:
@@ -116,8 +117,10 @@ def _in_python(source: Source) -> Iterator[Started]:
         keywords = {word.arg: word.value for word in node.keywords}
         names = [reader.text(keywords[key]) if key in keywords else None for key in ("package", "executable")]
         written = keywords.get("arguments")
-        arguments: list[Named | None] = []
-        for word in written.elts if isinstance(written, (ast.List, ast.Tuple)) else ():
-            text = word.value if isinstance(word, ast.Constant) else None
-            arguments.append(Named(text, place(source, word)[0] + 1) if isinstance(text, str) else None)
-        yield Started(names[0] or "", names[1] or "", tuple(arguments), node in conditional)
+        for binding in bindings(tree, node):
+            arguments: list[Named | None] = []
+            for part in written.elts if isinstance(written, (ast.List, ast.Tuple)) else ():
+                word = resolved(part, binding) or part
+                text = word.value if isinstance(word, ast.Constant) else None
+                arguments.append(Named(text, place(source, word)[0] + 1) if isinstance(text, str) else None)
+            yield Started(names[0] or "", names[1] or "", tuple(arguments), node in conditional)

@@ -66,7 +66,15 @@ _REPLACED = {"nav2_recoveries": ("nav2_behaviors", "behavior_server")}
 
 _COMPLETE = frozenset(
     (
-        *("joint_state_publisher_gui", "nav2_amcl", "nav2_behaviors", "nav2_bt_navigator", "nav2_controller"),
+        *(
+            "amcl",
+            "move_base",
+            "joint_state_publisher_gui",
+            "nav2_amcl",
+            "nav2_behaviors",
+            "nav2_bt_navigator",
+            "nav2_controller",
+        ),
         *(
             "nav2_lifecycle_manager",
             "nav2_planner",

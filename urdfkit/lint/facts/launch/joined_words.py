@@ -12,6 +12,9 @@ from urdfkit.description.xml.source import Source
 from urdfkit.lint.facts.control.launch_package_paths import place
 
 _LISTS = frozenset(("arguments", "cmd", "ros_arguments"))
+_COMMANDS = ("gz_args", "ign_args", "extra_gazebo_args")
+"""Launch arguments that are words of a command."""
+
 _OPTION = r"--?[A-Za-z][\w-]*"
 _LITERAL = r"[rRbBuU]?(\"[^\"\n]*\"|'[^'\n]*')"
 
@@ -20,6 +23,8 @@ def joined_words(source: Source, tree: ast.Module) -> Iterator[tuple[tuple[int, 
     """Yield start and end offset and the message for each word that runs into the one before."""
     reader = launch_reader(tree)
     for node in ast.walk(tree):
+        if isinstance(node, (ast.Dict, ast.Tuple)):
+            yield from _in_arguments(source, node, reader)
         if not isinstance(node, ast.Call):
             continue
         if name_of(node.func) == "Command" and node.args and isinstance(node.args[0], (ast.List, ast.Tuple)):
@@ -27,6 +32,21 @@ def joined_words(source: Source, tree: ast.Module) -> Iterator[tuple[tuple[int, 
         for word in node.keywords:
             if word.arg in _LISTS and isinstance(word.value, ast.List):
                 yield from _in_list(source, word.value.elts)
+
+
+def _in_arguments(
+    source: Source, node: ast.Dict | ast.Tuple, reader: LaunchReader
+) -> Iterator[tuple[tuple[int, int], str]]:
+    """Yield the words that run into an option before them in a launch argument such as ``gz_args``."""
+    keys, values = (node.keys, node.values) if isinstance(node, ast.Dict) else (node.elts[:1], node.elts[1:])
+    for key, value in zip(keys, values, strict=False):
+        if not isinstance(key, ast.Constant) or key.value not in _COMMANDS or not isinstance(value, ast.List):
+            continue
+        for before, after in pairwise(value.elts):
+            first, second = reader.text(before), reader.text(after)
+            word = first.rpartition(" ")[2] if first else ""
+            if word and second is None and _is_word(after, reader) and re.fullmatch(rf"{_OPTION}|\d+", word):
+                yield place(source, after), f"no blank between `{word}` and the next part of `{key.value}`"
 
 
 def _in_command(source: Source, parts: list[ast.expr], reader: LaunchReader) -> Iterator[tuple[tuple[int, int], str]]:

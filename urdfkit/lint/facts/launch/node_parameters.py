@@ -93,6 +93,11 @@ def _parameters(table: str = _PARAMETERS) -> dict[str, tuple[str, ...]]:
     return {name: tuple(accepted.split()) for names, _, accepted in rows for name in names.split()}
 
 
+def parameters_of(node: str) -> tuple[str, ...]:
+    """Return parameters of a well-known node by its default name; empty for other nodes."""
+    return _parameters().get(node, ())
+
+
 def misspelt_in_launch(source: Source) -> Iterator[tuple[Named, str, str]]:
     """Yield the misspelt parameters of well-known nodes in a launch file: key, package, suggested name."""
     from urdfkit.lint.facts.ros_packages import is_slip

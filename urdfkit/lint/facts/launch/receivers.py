@@ -17,7 +17,7 @@ _GZ = "gz_args gz_version ign_args ign_version debugger on_exit_shutdown"
 _EMPTY_WORLD = (
     "paused use_sim_time gui headless world_name debug verbose physics respawn_gazebo recording use_clock_frequency"
     " pub_clock_frequency enable_ros_network server_required gui_required extra_gazebo_args command_arg1 command_arg2"
-    " command_arg3 script_type"
+    " command_arg3 script_type output"
 )
 _CLASSIC = (
     "world gui server verbose pause record record_path physics init factory force_system gdb valgrind extra_gazebo_args"

@@ -54,6 +54,13 @@ def wrong_methods(
     """
     reader = launch_reader(tree)
     yield from _keywords(source, builder, "MoveItConfigsBuilder")
+    called = {node.func for node in ast.walk(tree) if isinstance(node, ast.Call)}
+    read = [node for node in ast.walk(tree) if isinstance(node, ast.Attribute) and node not in called]
+    for part in (each for each in read if each.attr in _METHODS and _builder_of(each.value, reader) is builder):
+        end = place(source, part)[1]
+        message = f"`{part.attr}` is a method here: the builder does not end with `.to_moveit_configs()`"
+        yield source.span(end - len(part.attr), end), message
+        break
     for node in ast.walk(tree):
         if not isinstance(node, ast.Call) or not isinstance(node.func, ast.Attribute):
             continue

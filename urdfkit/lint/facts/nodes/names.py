@@ -11,6 +11,7 @@ from urdfkit.description.xml.source import Source, Span
 from urdfkit.lint.facts.control.launch_package_paths import place
 from urdfkit.lint.facts.control.yaml_tree import documents, span_of
 from urdfkit.lint.facts.launch.executables import released
+from urdfkit.lint.facts.launch.node_parameters import parameters_of
 from urdfkit.lint.facts.navigation.sections import sections
 from urdfkit.lint.facts.navigation.tables import NODES
 from urdfkit.lint.facts.nodes.started import LaunchedNode, launched_nodes, parameter_files
@@ -38,7 +39,7 @@ _RELEASED_NAMES = NODES | {*_DEFAULTS.values()}
 _UNMANAGED = ("map_saver_server", "lifecycle_manager", "costmap_filter_info_server")
 """Programs of Nav2 that often start without a lifecycle manager of their own file."""
 
-_COMPUTED = r"\.(?:append|extend|insert)\(|\+=|IncludeLaunchDescription|OpaqueFunction|ComposableNode"
+_COMPUTED = r"\.(?:append|extend|insert)\(|\+=|OpaqueFunction|ComposableNode|nav2_bringup"
 """Matches a launch file in Python whose lists of nodes may be longer than they are written."""
 
 _SEVERAL = ("controller_manager", "moveit_ros_move_group", "moveit_servo", "gazebo_ros", "ros_gz_sim", "rviz2")
@@ -87,7 +88,24 @@ def misnamed(model: Model) -> Defects:
             elif node.name is not None and _default(node) in {other for _, other in keys} - started:
                 message = f"node `{name}` has no section in {_short(file)}, which has `{_default(node)}`"
                 yield node.source, _span(node), message
+            elif node.name is not None and (unused := _unused(node, by_file[file], readers, started)):
+                message = f"node `{name}` has no section in {_short(file)}, and no node is called `{unused}`"
+                yield node.source, _span(node), message
     yield from _unmanaged(model, nodes, {each for each in started if each})
+
+
+def _unused(node: LaunchedNode, file: Source, readers: list[LaunchedNode], started: set[str]) -> str:
+    """Return the only section without a node whose parameters the node has, if no other node lacks it; else empty."""
+    accepted = parameters_of(_default(node))
+    found = []
+    for section, group in sections(file):
+        name = section.text.strip("/").rpartition("/")[2]
+        written = [key.text.partition(".")[0] for key, _ in group.entries if not re.search(r"\d", key.text)]
+        if name not in started and written and 2 * sum(each in accepted for each in written) >= len(written):
+            found.append(name)
+    named = {key.text.strip("/").rpartition("/")[2] for key, _ in sections(file)}
+    alike = [each for each in readers if each.program == node.program and _name(each) not in named]
+    return found[0] if len(found) == len(alike) == 1 else ""
 
 
 def _name(node: LaunchedNode) -> str:
@@ -115,30 +133,37 @@ def _has_one_node(node: LaunchedNode) -> bool:
     return node.package in released() and node.package not in _SEVERAL
 
 
+def _listed(source: Source) -> Iterator[tuple[str, Span]]:
+    """Yield the names in ``node_names`` of the lifecycle managers of a file, with their places."""
+    tree = parsed(source) if source.file.endswith(".py") else None
+    if source.file.endswith((".yaml", ".yml")):
+        for _, group in (each for each in sections(source) if documents(source)[1] is None):
+            names_node = group.find("node_names")
+            yield from ((item.text, span_of(source, item)) for item in (names_node.items if names_node else ()))
+    reader = launch_reader(tree) if tree is not None else None
+    for node in (each for each in ast.walk(tree) if isinstance(each, ast.Dict)) if tree is not None else ():
+        for key, value in zip(node.keys, node.values, strict=True):
+            if reader is None or key is None or reader.text(key) != "node_names":
+                continue
+            names = reader.assigned.get(value.id) if isinstance(value, ast.Name) else value
+            for item in names.elts if isinstance(names, (ast.List, ast.Tuple)) else ():
+                if isinstance(item, ast.Constant) and isinstance(item.value, str):
+                    yield item.value, source.span(*place(source, item))
+
+
 def _unmanaged(model: Model, nodes: list[LaunchedNode], started: set[str]) -> Defects:
     """Yield the misspelt names in ``node_names`` of a lifecycle manager, in launch files and YAML."""
-    for file, source in model.related_files.items():
-        if "node_names" not in source.text:
-            continue
-        listed: list[tuple[str, Span]] = []
-        if file.endswith(".py") and (tree := parsed(source)) is not None:
-            reader = launch_reader(tree)
-            for node in (each for each in ast.walk(tree) if isinstance(each, ast.Dict)):
-                for key, value in zip(node.keys, node.values, strict=True):
-                    if key is None or reader.text(key) != "node_names":
-                        continue
-                    names = reader.assigned.get(value.id) if isinstance(value, ast.Name) else value
-                    for item in names.elts if isinstance(names, (ast.List, ast.Tuple)) else ():
-                        if isinstance(item, ast.Constant) and isinstance(item.value, str):
-                            listed.append((item.value, source.span(*place(source, item))))
-        elif file.endswith((".yaml", ".yml")):
-            for _, group in (each for each in sections(source) if documents(source)[1] is None):
-                names_node = group.find("node_names")
-                listed += ((item.text, span_of(source, item)) for item in (names_node.items if names_node else ()))
+    managers = [source for source in model.related_files.values() if "node_names" in source.text]
+    lists = {source.file: list(_listed(source)) for source in managers}
+    for source in managers:
+        listed = lists[source.file]
         names_listed = {name for name, _ in listed}
         own = {node.program if not node.has_name else _name(node) for node in nodes if node.source is source}
-        if file.endswith(".py"):
-            yield from _unlisted(source, names_listed, nodes)
+        if source.file.endswith(".py"):
+            others = [other for other in managers if other is not source]
+            elsewhere = {name for other in others for name, _ in lists[other.file]}
+            if not any(_lists_more(other) for other in others):
+                yield from _unlisted(source, names_listed, elsewhere, nodes)
         for name, span in listed:
             near = next((each for each in sorted(started - names_listed) if _is_meant(each, name)), None)
             if name not in started | _RELEASED_NAMES and near is not None:
@@ -148,11 +173,12 @@ def _unmanaged(model: Model, nodes: list[LaunchedNode], started: set[str]) -> De
                 and name in NODES - own - started
                 and len(names_listed & own) > 1
                 and not _lists_more(source)
+                and "IncludeLaunchDescription" not in source.text
             ):
                 yield source, span, f"no launch file of these packages starts the node `{name}`"
 
 
-def _unlisted(source: Source, listed: set[str], nodes: list[LaunchedNode]) -> Defects:
+def _unlisted(source: Source, listed: set[str], elsewhere: set[str], nodes: list[LaunchedNode]) -> Defects:
     """Yield the servers of Nav2 that no list of their launch file names, although another server is listed."""
     own = [node for node in nodes if node.source is source]
     servers = [(node, node.program if not node.has_name else _name(node)) for node in own if _is_server(node)]
@@ -160,7 +186,7 @@ def _unlisted(source: Source, listed: set[str], nodes: list[LaunchedNode]) -> De
         return
     for node, name in servers:
         is_misspelt = any(_is_meant(name, other) for other in listed)
-        if name and name not in listed and not is_misspelt and node.place is not None:
+        if name and name not in listed | elsewhere and not is_misspelt and node.place is not None:
             message = f"no lifecycle manager of this file lists the node `{name}`, so that it is never activated"
             yield source, source.span(*node.place), message
 

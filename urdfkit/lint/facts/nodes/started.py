@@ -36,7 +36,8 @@ class LaunchedNode:
         has_name: whether the launch file names it.
         files: package and path of the parameter files that it loads.
         remappings: old and new name of each remapping with constant names.
-        place: first and last offset of its package in a Python launch file.
+        place: first and last offset of its executable in a Python launch file.
+        inline: names of its parameters outside of files; None if there can be others.
     """
 
     source: Source
@@ -47,6 +48,7 @@ class LaunchedNode:
     files: tuple[tuple[str, str], ...]
     remappings: tuple[tuple[Named, Named], ...]
     place: tuple[int, int] | None = None
+    inline: frozenset[str] | None = None
 
 
 def launched_nodes(model: Model) -> list[LaunchedNode]:
@@ -88,6 +90,7 @@ def _node(source: Source, element: LaunchAction, defaults: dict[str, str]) -> La
     program = at.get("exec") or at.get("type")
     name = at.get("name")
     files, remappings = [], []
+    inner = [child.attributes["name"].name for child in element.children if "name" in child.attributes]
     for child in element.children:
         parts = child.attributes
         if child.tag == "param" and "from" in parts:
@@ -103,6 +106,8 @@ def _node(source: Source, element: LaunchAction, defaults: dict[str, str]) -> La
         name is not None,
         tuple(file for file in files if file[0]),
         tuple(remappings),
+        None,
+        frozenset(inner) if all(file[0] for file in files) else None,
     )
 
 
@@ -134,7 +139,28 @@ def _in_python(source: Source) -> Iterator[LaunchedNode]:
                 tuple(file for file in files if file is not None),
                 tuple(_remappings(source, values.get("remappings"), reader, binding)),
                 place(source, words["executable"]) if "executable" in words else None,
+                _inline(call, items, binding, reader, files),
             )
+
+
+def _inline(
+    call: ast.Call,
+    items: list[ast.expr],
+    binding: Binding,
+    reader: LaunchReader,
+    files: list[tuple[str, str] | None],
+) -> frozenset[str] | None:
+    """Return the names of parameters in dictionaries; None if there can be others that are not in the files."""
+    found, words = set[str | None](), {word.arg for word in call.keywords}
+    for item, file in zip(items, files, strict=True):
+        value = resolved(item, binding)
+        value = reader.assigned.get(value.id) if isinstance(value, ast.Name) else value
+        if isinstance(value, ast.Dict):
+            found |= {reader.text(key) if key is not None else None for key in value.keys}
+        elif file is None:
+            return None
+    is_open = None in found or None in words or (not items and "parameters" in words)
+    return None if is_open else frozenset(name for name in found if name is not None)
 
 
 def _defaults(tree: ast.Module, reader: LaunchReader) -> Iterator[tuple[str, ast.expr]]:

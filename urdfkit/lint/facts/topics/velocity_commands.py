@@ -1,7 +1,8 @@
 """Remappings of common nodes: names that the node does not have, and velocity commands that no node reads.
 
-Sources: teleop_twist_joy, teleop_twist_keyboard, joy, twist_mux, robot_state_publisher, joint_state_publisher and
-diff_drive_controller (README and source files), Noetic to Rolling.
+Sources: teleop_twist_joy, teleop_twist_keyboard, joy, twist_mux, robot_state_publisher, joint_state_publisher,
+robot_localization (navsat_transform.cpp, ros_filter.cpp), nav2_velocity_smoother and diff_drive_controller (README and
+source files), Noetic to Rolling.
 """
 
 from __future__ import annotations
@@ -15,7 +16,8 @@ from urdfkit.lint.facts.control.ros2_controllers import declared
 from urdfkit.lint.facts.control.ros_gz_bridges import bridged_topics
 from urdfkit.lint.facts.control.yaml_tree import documents, walk, yamls
 from urdfkit.lint.facts.gazebo.plugins import plugins, references
-from urdfkit.lint.facts.nodes.started import LaunchedNode, launched_nodes
+from urdfkit.lint.facts.launch.ros_version import reads_ros1
+from urdfkit.lint.facts.nodes.started import LaunchedNode, launched_nodes, parameter_files
 from urdfkit.lint.facts.topics.words import Words
 from urdfkit.lint.fix_builders import nearest
 
@@ -28,12 +30,19 @@ _NAMES = {
     "joint_state_publisher": "joint_states robot_description",
     "joint_state_publisher_gui": "joint_states robot_description",
     "joy": "joy joy/set_feedback diagnostics",
+    "nav2_velocity_smoother": "cmd_vel cmd_vel_smoothed odom",
+    **dict.fromkeys(
+        ("robot_localization/ekf_node", "robot_localization/ukf_node"),
+        "odometry/filtered accel/filtered set_pose cmd_vel enable toggle set_state reset diagnostics",
+    ),
+    "robot_localization/navsat_transform_node": "imu gps/fix odometry/filtered odometry/gps gps/filtered datum toLL"
+    " fromLL fromLLArray setUTMZone",
     "robot_state_publisher": "joint_states robot_description",
     "teleop_twist_joy": "cmd_vel joy",
     "teleop_twist_keyboard": "cmd_vel key_vel",
     "twist_mux": "cmd_vel_out diagnostics",
 }
-"""Package → topics of its nodes; twist_mux has those of its parameters too."""
+"""Package, or package and executable → topics and services of the nodes; those of their parameters are accepted too."""
 
 _EVERY_NODE = ("tf", "tf_static", "clock", "rosout", "parameter_events")
 
@@ -52,20 +61,25 @@ _DRIVES = r"drive|planar|velocity|mecanum|holonomic|ackermann|steer|force|prius"
 
 def misnamed_remappings(model: Model) -> Iterator[tuple[Source, Named, str]]:
     """Yield the launch file, the old name and the message of each remapping that has no effect."""
-    inputs = set(_mux_topics(model, ("topics", "locks")))
+    inputs, files = set(_mux_topics(model, ("topics", "locks"))), parameter_files(model)
     for node in launched_nodes(model):
-        names = _NAMES.get(node.package, "").split()
+        label = node.program if f"{node.package}/{node.program}" in _NAMES else node.package
+        names = (_NAMES.get(f"{node.package}/{label}") or _NAMES.get(node.package, "")).split()
+        if node.program == "navsat_transform_node" and reads_ros1(node.source):
+            continue
         if not names or (node.package == "twist_mux" and (not inputs or node.program != "twist_mux")):
             continue
         accepted = {*names, *_EVERY_NODE, *(inputs if node.package == "twist_mux" else ())}
         written = {old.name.strip("/") for old, _ in node.remappings}
         for old, new in node.remappings:
             name = old.name.removeprefix("~").strip("/")
-            if name in accepted or not re.fullmatch(r"\w+", name):
+            is_moved = "/" in name and name.rpartition("/")[2] in accepted and new.name.strip("/") not in names
+            texts = [files[file].text if file in files else name for file in node.files]
+            if name in accepted or is_moved or not re.fullmatch(r"[\w/]+", name) or any(name in text for text in texts):
                 continue
             left = [each for each in names if each not in written]
             near = new.name if new.name in left else nearest(name, left, cutoff=0.6)
-            yield node.source, old, f"`{node.package}` has no topic `{name}`{suggestion(near)}"
+            yield node.source, old, f"`{label}` has no topic `{name}`{suggestion(near)}"
 
 
 def unread_commands(model: Model) -> Iterator[tuple[Source, Named, str]]:

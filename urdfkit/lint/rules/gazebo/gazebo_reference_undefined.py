@@ -5,6 +5,9 @@ from urdfkit.lint.fix_builders import meant, new_value
 from urdfkit.lint.model.masked_names import is_typo, unless_masked
 from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
 
+_OF_JOINTS = ("force_torque", "forcetorque")
+"""Types of sensors that belong to joints."""
+
 
 class GazeboReferenceUndefined(RobotRule):
     """A ``<gazebo reference="…">`` block refers to an undefined link or joint, or holds a sensor without a link.
@@ -12,8 +15,8 @@ class GazeboReferenceUndefined(RobotRule):
     ## What it does
     Compares the reference of each ``<gazebo>`` block with the links and joints of the robot. This is an error if the
     name is misspelt or if the block contains a sensor or a plugin, and a warning otherwise: a leftover block.
-    Sensors in a block without reference are errors; sensors other than ``force_torque`` in the block of a joint are
-    warnings.
+    Sensors in a block without reference are errors; sensors other than ``force_torque`` in the block of a joint, and
+    ``force_torque`` in the block of a link, are warnings.
 
     ## Why is this bad?
     Gazebo silently drops the block with its friction, colours and sensors.
@@ -53,16 +56,27 @@ class GazeboReferenceUndefined(RobotRule):
             is_outside = not block.reference or block.reference in model.robot.joint_by_name
             if is_outside and block.reference not in model.robot.link_by_name:
                 yield from self._sensors(model, block)
+            elif block.reference in model.robot.link_by_name and block.reference not in model.robot.joint_by_name:
+                yield from self._forces(model, block)
         yield from self._references(model)
 
     def _sensors(self, model: Model, block: GazeboBlock) -> Findings:
         for sensor in block.sensors:
-            if block.reference and (sensor.type or "").strip() in ("force_torque", "forcetorque"):
+            if block.reference and (sensor.type or "").strip() in _OF_JOINTS:
                 continue
             place = f"the block of joint `{block.reference}`" if block.reference else "a <gazebo> without reference"
             message = f"sensor `{sensor.name or 'sensor'}` is in {place}"
             help = "write it in the <gazebo reference=…> of a link"
             yield self.at(model, sensor.element, message, help=help, severity="warning" if block.reference else None)
+
+    def _forces(self, model: Model, block: GazeboBlock) -> Findings:
+        """Yield a finding for each sensor of forces in a joint that is in the block of a link."""
+        above = [joint.name for joint in model.robot.joints if joint.child == block.reference]
+        for sensor in block.sensors if above else ():
+            if (sensor.type or "").strip() in _OF_JOINTS:
+                message = f"sensor `{sensor.name or 'sensor'}` measures a joint, but `{block.reference}` is a link"
+                help = f"write it in the <gazebo> of a joint, such as `{above[0]}`"
+                yield self.at(model, sensor.element, message, help=help, severity="warning")
 
     def _references(self, model: Model) -> Findings:
         robot = model.robot

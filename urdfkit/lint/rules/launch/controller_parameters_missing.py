@@ -94,8 +94,10 @@ class ControllerParametersMissing(RobotRule):
             return
         for node in started_nodes(model):
             is_manager = node.program == "ros2_control_node" and node.package == "controller_manager"
-            if is_manager and node.parameters == () and not node.has_arguments:
-                message = "`ros2_control_node` has no parameters, so its controllers have no types"
+            is_bare = node.parameters is not None and {*node.parameters} <= {"robot_description", "use_sim_time"}
+            if is_manager and is_bare and not node.has_arguments:
+                lacks = "no parameters of controllers" if node.parameters else "no parameters"
+                message = f"`ros2_control_node` has {lacks}, so its controllers have no types"
                 yield Finding(self.code, self.name, self.severity, message, node.source.span(node.start, node.end))
 
 

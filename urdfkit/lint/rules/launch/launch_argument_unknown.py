@@ -80,9 +80,19 @@ class LaunchArgumentUnknown(RobotRule):
                     )
                     yield self._at(file, Named(call.path, start), message, "error")
                 elif outside is not None:
-                    yield from self._unknown(file, call.passed, outside.split(), call.path, True, self.severity)
+                    yield from self._outside(file, call, outside.split(), name)
             for call in file.xacro:
                 yield from self._xacro(file, call, model)
+
+    def _outside(self, file: LaunchActions, call: Call, names: list[str], target: str) -> Findings:
+        is_strict = file.is_ros1 and target == "empty_world.launch"
+        yield from self._unknown(
+            file, call.passed, names, target, not is_strict, "error" if is_strict else self.severity
+        )
+        if "gz_args" in names and not call.passes_all and not re.search(r"(?:gz|ign)_args", file.source.text):
+            for name in (each for each in call.passed if "world" in each.name):
+                message = f"{target} has no argument `{name.name}`; write the world in `gz_args`"
+                yield self._at(file, name, message, self.severity)
 
     def _include(self, file: LaunchActions, call: Call, actions: LaunchActions, model: Model) -> Findings:
         from urdfkit.lint.facts.launch.receivers import included_files

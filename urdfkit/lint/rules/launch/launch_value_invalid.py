@@ -57,6 +57,7 @@ class LaunchValueInvalid(RobotRule):
 
     def check(self, model: Model) -> Findings:
         """Yield a finding for each unusable value."""
+        from urdfkit.lint.facts.launch.actions import actions_of
         from urdfkit.lint.facts.launch.ros_version import reads_ros1, ros_version
         from urdfkit.lint.model.tags import Document
 
@@ -66,7 +67,8 @@ class LaunchValueInvalid(RobotRule):
             roots = [tag for tag in Document(source).roots if tag.name == "launch"]
             version = ros_version(source) or (1 if reads_ros1(source) else 2)
             tags = [tag for root in roots for tag in root.walk()]
-            found = (each for tag in tags for each in _invalid(tag, version, model))
+            defaults = actions_of(source).defaults
+            found = (each for tag in tags for each in _invalid(tag, version, model, defaults))
             for attribute, message in (*found, *_conditions(tags)):
                 span = source.span(attribute.value_start, attribute.value_end)
                 yield Finding(self.code, self.name, self.severity, message, span)
@@ -81,7 +83,7 @@ _TYPES = {
 _SYNONYMS = {"string": "str", "double": "float", "integer": "int", "boolean": "bool"}
 
 
-def _invalid(tag: Tag, version: int, model: Model) -> Iterator[tuple[Attribute, str]]:
+def _invalid(tag: Tag, version: int, model: Model, defaults: dict[str, str]) -> Iterator[tuple[Attribute, str]]:
     from urdfkit.errors import did_you_mean, nearest, suggestion
     from urdfkit.lint.facts.launch.xml_elements import OUTPUTS, is_output
 
@@ -101,7 +103,7 @@ def _invalid(tag: Tag, version: int, model: Model) -> Iterator[tuple[Attribute, 
     if version == 1 and tag.name == "rosparam" and "command" in attributes:
         yield from _parameter_command(attributes, model)
     elif version == 1 and tag.name == "param":
-        yield from _parameter(attributes, model)
+        yield from _parameter(attributes, model, defaults)
     type = attributes.get("type") if tag.name == "param" else None
     if type is not None and "$(" not in type.value and type.value not in _TYPES[version]:
         near = _SYNONYMS.get(type.value) or nearest(type.value, _TYPES[version])
@@ -141,7 +143,9 @@ def _parameter_command(attributes: dict[str, Attribute], model: Model) -> Iterat
             yield command, f"`dump` overwrites `{path}` of package `{package}`; use `load` to read it"
 
 
-def _parameter(attributes: dict[str, Attribute], model: Model) -> Iterator[tuple[Attribute, str]]:
+def _parameter(
+    attributes: dict[str, Attribute], model: Model, defaults: dict[str, str]
+) -> Iterator[tuple[Attribute, str]]:
     import re
 
     for name in ("value", "textfile", "command"):
@@ -154,8 +158,16 @@ def _parameter(attributes: dict[str, Attribute], model: Model) -> Iterator[tuple
             yield attribute, "`command` is a file and not a program; use the attribute `textfile`, or run xacro"
         elif name == "value" and re.fullmatch(_FILE, attribute.value) and _is_description(attributes):
             yield attribute, "`value` is the path and not the text of the file; use the attribute `textfile`"
-        elif name == "textfile" and _is_xacro(attribute.value, model):
+        elif name == "textfile" and _is_xacro(_default(attribute.value, defaults), model):
             yield attribute, '`textfile` reads xacro as it is written; run it: `command="xacro …"`'
+
+
+def _default(text: str, defaults: dict[str, str]) -> str:
+    """Return the default of an argument; other texts as they are."""
+    import re
+
+    use = re.fullmatch(r"\s*\$\(arg\s+([\w-]+)\s*\)\s*", text)
+    return defaults.get(use[1], text) if use is not None else text
 
 
 def _is_xacro(text: str, model: Model) -> bool:

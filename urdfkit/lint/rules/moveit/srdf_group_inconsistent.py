@@ -15,7 +15,8 @@ class SrdfGroupInconsistent(RobotRule):
 
     ## What it does
     Checks that the tip of a chain is below its base, that groups do not contain themselves, that parent link and parent
-    group of an end effector are not its own group, and that a virtual joint ends at the root link.
+    group of an end effector are not its own group, that the parent link is in the parent group, that no other joint
+    follows a passive joint and no controller moves it, and that a virtual joint ends at the root link.
 
     ## Why is this bad?
     The group lacks its joints, and planning fails; MoveIt skips a virtual joint whose child is not the root link.
@@ -45,7 +46,7 @@ class SrdfGroupInconsistent(RobotRule):
 
     def check(self, model: Model) -> Findings:
         """Yield a finding for each contradiction."""
-        from urdfkit.lint.facts.moveit.srdf import groups, path_between, semantics_of, severity_for
+        from urdfkit.lint.facts.moveit.srdf import groups, joints_of, path_between, semantics_of, severity_for
 
         if model.is_incomplete:
             return
@@ -74,13 +75,48 @@ class SrdfGroupInconsistent(RobotRule):
                 for chain in by_name[name].find_all("chain") if name in by_name else ():
                     ends = (chain.get("base_link") or "", chain.get("tip_link") or "")
                     links += [joint.child for joint in path_between(*ends, model.robot) or ()]
+                joints = model.robot.joint_by_name
+                listed = by_name[name].find_all("joint") if name in by_name else ()
+                links += [joints[each].child for part in listed if (each := part.get("name") or "") in joints]
                 if name and name == effector.get("parent_group"):
                     message = f"group `{name}` of end effector `{effector.get('name')}` is its own parent group"
                     yield self.at(model, effector, message, attribute="parent_group", severity=severity)
-                if parent in links:
+                is_own = parent in links
+                if is_own:
                     message = f"parent link `{parent}` of end effector `{effector.get('name')}` is in group `{name}`"
                     help = "write the link of the arm that carries the group"
                     yield self.at(model, effector, message, attribute="parent_link", help=help, severity=severity)
+                carrier = effector.get("parent_group") or ""
+                within = joints_of(carrier, root, model.robot) if carrier and carrier != name else None
+                links = [link.get("name") for link in by_name[carrier].find_all("link")] if within else []
+                links += [joints[each].child for each in within or () if each in joints]
+                if within and not is_own and parent in model.robot.link_by_name and parent not in links:
+                    message = (
+                        f"parent link `{parent}` of end effector `{effector.get('name')}` is not in its parent group"
+                    )
+                    help = f"write a link of `{carrier}`"
+                    yield self.at(model, effector, message, attribute="parent_link", help=help, severity=severity)
+            yield from self._passive(root, model, severity)
+
+    def _passive(self, root: Element, model: Model, severity: Severity | None) -> Findings:
+        """Yield a finding for each passive joint that a mimic joint follows, or that a controller of MoveIt moves."""
+        from urdfkit.lint.facts.control.yaml_tree import yamls
+        from urdfkit.lint.facts.moveit.settings import entries
+
+        joints = model.robot.joint_by_name
+        followed = {joint.mimic.joint: joint.name for joint in joints.values() if joint.mimic is not None}
+        controllers = [entry for source in yamls(model) for entry in entries(source) if entry.kind == "controller"]
+        listed = [(entry.name.text, entry.settings.find("joints")) for entry in controllers]
+        moved = {joint: name for name, each in listed if each is not None for joint in each.texts()}
+        for passive in root.find_all("passive_joint"):
+            name = passive.get("name") or ""
+            if name not in joints or joints[name].mimic is not None:
+                continue
+            reason = f"joint `{followed[name]}` follows it" if name in followed else ""
+            reason = reason or (f"controller `{moved[name]}` moves it" if name in moved else "")
+            if reason:
+                message = f"joint `{name}` is passive, but {reason}"
+                yield self.at(model, passive, message, attribute="name", joint=name, severity=severity)
 
     def _chain(self, chain: Element, model: Model, severity: Severity | None) -> Findings:
         from urdfkit.lint.facts.moveit.srdf import path_between

@@ -80,6 +80,11 @@ class SrdfNameUndefined(RobotRule):
                     group, severity = groups(root)[suggestion], severity_for(root, model)
                     yield self.at(model, group, message, attribute="name", severity=severity)
                     continue
+                other = {"link": "joint", "joint": "link"}.get(kind, "")
+                if name in existing.get(other, ()) and places[0].element.tag == kind:
+                    hint = f"; it is a {other}: write <{other}>"
+                    yield self._undefined(places[0], root, model, hint, len(places))
+                    continue
                 if kind != "group" and model.neighbouring_descriptions.define(kind, name):
                     continue
                 finding = self._undefined(places[0], root, model, hint, len(places))

@@ -112,7 +112,12 @@ class SpawnArgumentMisspelt(RobotRule):
 
 def _in_unknown_namespaces(node: Started, source: Source, model: Model) -> Iterator[Named]:
     """Yield the controller manager or description in a namespace, if the file starts a robot without a namespace."""
-    for word in node.arguments if "robot_state_publisher" in source.text else ():
+    from urdfkit.lint.facts.launch.actions import actions_of
+    from urdfkit.lint.facts.launch.receivers import included_files
+
+    reached = included_files(actions_of(source), model)
+    is_started = any(each is not None and "robot_state_publisher" in each.source.text for each in reached)
+    for word in node.arguments if is_started else ():
         at = (
             re.fullmatch(r"/?([\w/]+)/(?:controller_manager|robot_description)", word.name)
             if word is not None

@@ -1,0 +1,167 @@
+"""Nodes and includes of launch files with the launch arguments that decide whether they start."""
+
+from __future__ import annotations
+
+import ast
+import re
+from collections.abc import Iterator
+
+from urdfkit.description.launch.python_constants import LaunchReader, launch_reader, name_of, parsed
+from urdfkit.description.xml.source import Source
+from urdfkit.lint.facts.control.launch_package_paths import place
+from urdfkit.lint.facts.launch.actions import LaunchAction, all_elements, share_of
+from urdfkit.record import record
+
+_USE = r"\s*\$\((?:arg|var)\s+([\w.-]+)\s*\)\s*"
+_OPAQUE = r"GroupAction|OpaqueFunction|namespace|PushR|<push|\bns\s*="
+"""Matches launch files whose conditions are outside of the actions, or that start several robots."""
+
+_BRANCHES = (ast.If, ast.IfExp, ast.For, ast.While, ast.Try)
+
+
+@record(eq=False)
+class Start:
+    """A node or an include.
+
+    Attributes:
+        place: first and last offset of the action, or of its start tag.
+        conditions: launch argument → the value that it must have.
+        package: package of the node or file.
+        program: executable of the node, or path of the included file in its package.
+        is_include: whether it is an include.
+        name: name of the node; empty without a constant one.
+        passed: launch arguments that an include passes: ``true``, ``false``, a name after ``$``, or empty if computed.
+    """
+
+    place: tuple[int, int]
+    conditions: dict[str, bool]
+    package: str
+    program: str
+    is_include: bool
+    name: str
+    passed: dict[str, str]
+
+
+def starts(source: Source) -> tuple[list[Start], dict[str, str]]:
+    """Return the nodes and includes of a launch file whose conditions are known, and the defaults of its arguments."""
+    if re.search(_OPAQUE, source.text):
+        return [], {}
+    if not source.file.endswith(".py"):
+        defaults = {
+            at["name"].name: at["default"].name
+            for element in all_elements(source)
+            if element.tag == "arg" and {"name", "default"} <= (at := element.attributes).keys()
+        }
+        return list(_in_elements(source)), defaults
+    tree = parsed(source)
+    return ([], {}) if tree is None else (list(_in_python(source, tree)), _defaults(tree))
+
+
+def _in_elements(source: Source) -> Iterator[Start]:
+    inner = {id(child) for group in all_elements(source) if group.tag == "group" for child in _below(group)}
+    for element in all_elements(source):
+        at = element.attributes
+        is_include = element.tag == "include"
+        if element.tag not in ("node", "include") or id(element) in inner:
+            continue
+        conditions: dict[str, bool] = {}
+        uses = [(re.fullmatch(_USE, at[key].name), key == "if") for key in ("if", "unless") if key in at]
+        conditions = {use[1]: value for use, value in uses if use is not None}
+        program = at.get("type") or at.get("exec")
+        package, path = share_of(at["file"].name) if is_include and "file" in at else ("", "")
+        if len(conditions) < len(uses):
+            continue
+        passed = {
+            child.attributes["name"].name: _value(child.attributes["value"].name)
+            for child in element.children
+            if {"name", "value"} <= child.attributes.keys()
+        }
+        name = at["name"].name if "name" in at else ""
+        if is_include:
+            yield Start((element.start, element.end), conditions, package, path, True, "", passed)
+        elif program is not None and "pkg" in at:
+            yield Start((element.start, element.end), conditions, at["pkg"].name, program.name, False, name, {})
+
+
+def _below(element: LaunchAction) -> Iterator[LaunchAction]:
+    for child in element.children:
+        yield child
+        yield from _below(child)
+
+
+def _value(text: str) -> str:
+    use = re.fullmatch(_USE, text)
+    if use is not None:
+        return f"${use[1]}"
+    return text.lower() if text.lower() in ("true", "false") else ""
+
+
+def _in_python(source: Source, tree: ast.Module) -> Iterator[Start]:
+    reader = launch_reader(tree)
+    conditional = {inner for node in ast.walk(tree) if isinstance(node, _BRANCHES) for inner in ast.walk(node)}
+    for call in (node for node in ast.walk(tree) if isinstance(node, ast.Call) and node not in conditional):
+        kind = name_of(call.func)
+        if kind not in ("Node", "LifecycleNode", "IncludeLaunchDescription"):
+            continue
+        words = {word.arg: word.value for word in call.keywords if word.arg is not None}
+        conditions = _condition(words.get("condition"), reader)
+        if conditions is None:
+            continue
+        if kind == "IncludeLaunchDescription":
+            file = _assigned(call.args[0] if call.args else words.get("launch_description_source"), reader)
+            inner = file.args[0] if isinstance(file, ast.Call) and file.args else file
+            path = reader.path(inner) if inner is not None else None
+            package, program = (path[0], path[1].strip("/")) if path is not None else ("", "")
+            passed = _passed(words.get("launch_arguments"), reader)
+            yield Start(place(source, call), conditions, package, program, True, "", passed)
+        else:
+            keys = ("package", "executable", "name")
+            package, program, name = ((reader.text(words[key]) or "") if key in words else "" for key in keys)
+            yield Start(place(source, call), conditions, package, program, False, name, {})
+
+
+def _condition(node: ast.expr | None, reader: LaunchReader) -> dict[str, bool] | None:
+    """Return the argument that a condition reads, and its value; None if it is another expression."""
+    if node is None:
+        return {}
+    value = _assigned(node, reader)
+    kind = name_of(value.func) if isinstance(value, ast.Call) else ""
+    if kind not in ("IfCondition", "UnlessCondition") or not isinstance(value, ast.Call) or len(value.args) != 1:
+        return None
+    name = _configuration(value.args[0], reader)
+    return {name: kind == "IfCondition"} if name else None
+
+
+def _configuration(node: ast.expr, reader: LaunchReader) -> str:
+    """Return the name of a ``LaunchConfiguration``; empty for other expressions."""
+    value = _assigned(node, reader)
+    is_use = isinstance(value, ast.Call) and name_of(value.func) == "LaunchConfiguration"
+    return (reader.text(value.args[0]) or "") if is_use and isinstance(value, ast.Call) and value.args else ""
+
+
+def _assigned(node: ast.expr | None, reader: LaunchReader) -> ast.expr | None:
+    return reader.assigned.get(node.id) if isinstance(node, ast.Name) else node
+
+
+def _passed(node: ast.expr | None, reader: LaunchReader) -> dict[str, str]:
+    if isinstance(node, ast.Call) and isinstance(node.func, ast.Attribute) and node.func.attr == "items":
+        node = node.func.value
+    node = _assigned(node, reader)
+    found: dict[str, str] = {}
+    for key, value in zip(node.keys, node.values, strict=True) if isinstance(node, ast.Dict) else ():
+        name = reader.text(key) if key is not None else None
+        use = _configuration(value, reader)
+        if name is not None:
+            found[name] = f"${use}" if use else _value(reader.text(value) or "")
+    return found
+
+
+def _defaults(tree: ast.Module) -> dict[str, str]:
+    reader, found = launch_reader(tree), dict[str, str]()
+    for call in (node for node in ast.walk(tree) if isinstance(node, ast.Call)):
+        words = {word.arg: word.value for word in call.keywords}
+        if name_of(call.func) == "DeclareLaunchArgument" and call.args:
+            name = reader.text(call.args[0])
+            default = reader.text(words["default_value"]) if "default_value" in words else None
+            found.setdefault(name or "", default or "")
+    return found

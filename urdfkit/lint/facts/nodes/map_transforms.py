@@ -1,0 +1,131 @@
+"""Nodes that publish the transform from the map to the odometry, and the launch arguments that start them together."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from itertools import combinations
+
+from urdfkit.description.packages.related_files import LAUNCH
+from urdfkit.description.xml.source import Source
+from urdfkit.lint.facts.launch.receivers import actions_at, receiver
+from urdfkit.lint.facts.launch.records import Call
+from urdfkit.lint.facts.navigation.sections import sections
+from urdfkit.lint.facts.nodes.conditional_starts import Start, starts
+from urdfkit.lint.facts.nodes.started import launched_nodes, parameter_files
+from urdfkit.lint.model.model import Model
+from urdfkit.record import record
+
+_NODES = {
+    ("amcl", "amcl"),
+    ("cartographer_ros", "cartographer_node"),
+    ("gmapping", "slam_gmapping"),
+    ("nav2_amcl", "amcl"),
+    ("slam_toolbox", "async_slam_toolbox_node"),
+    ("slam_toolbox", "localization_slam_toolbox_node"),
+    ("slam_toolbox", "sync_slam_toolbox_node"),
+}
+"""Package and executable of nodes that publish the transform from the map to the odometry."""
+
+_FILES = {
+    ("nav2_bringup", "localization_launch.py"): "amcl",
+    ("nav2_bringup", "slam_launch.py"): "slam_toolbox",
+    ("slam_toolbox", "localization_launch.py"): "slam_toolbox",
+    ("slam_toolbox", "online_async_launch.py"): "slam_toolbox",
+    ("slam_toolbox", "online_sync_launch.py"): "slam_toolbox",
+}
+_OFF = ("tf_broadcast", "publish_tf", "transform_publish_period", "pub_map_odom_transform")
+"""Parameters that can switch the transform off."""
+
+_MAX_DEPTH = 4
+
+
+@record(eq=False)
+class TransformSource:
+    """A node that publishes the transform: its label, the arguments that start it, and the action in the first file."""
+
+    label: str
+    conditions: dict[str, bool]
+    place: tuple[int, int]
+
+
+def published_together(model: Model) -> Iterator[tuple[Source, tuple[int, int], str]]:
+    """Yield the later action of each two that start publishers of the transform under the same arguments."""
+    filters = _map_filters(model)
+    for name, source in model.related_files.items():
+        if not name.endswith(LAUNCH):
+            continue
+        seen: set[tuple[int, int]] = set()
+        names = {argument for start in starts(source)[0] for argument in start.conditions}
+        names |= {value[1:] for start in starts(source)[0] for value in start.passed.values() if value[:1] == "$"}
+        found = list(_publishers(source, {each: f"${each}" for each in names}, model, filters, 0))
+        for first, second in combinations(sorted(found, key=lambda each: each.place), 2):
+            common = first.conditions.keys() & second.conditions.keys()
+            is_nested = len(common) == min(len(first.conditions), len(second.conditions))
+            is_possible = all(first.conditions[each] == second.conditions[each] for each in common)
+            if first.place != second.place and is_nested and is_possible and second.place not in seen:
+                seen.add(second.place)
+                conditions = {**first.conditions, **second.conditions}
+                when = " and ".join(f"`{each}` is {str(value).lower()}" for each, value in conditions.items())
+                labels = f"`{first.label}` and `{second.label}`"
+                message = f"{labels} both publish the transform from the map to the odometry"
+                yield source, second.place, f"{message} if {when}" if when else message
+
+
+def _publishers(
+    source: Source, values: dict[str, str], model: Model, filters: set[tuple[str, str]], depth: int
+) -> Iterator[TransformSource]:
+    actions, _ = starts(source)
+    for start in actions:
+        conditions = _translated(start.conditions, values)
+        if conditions is None:
+            continue
+        label = _label(start, source, filters)
+        if label:
+            yield TransformSource(label, conditions, start.place)
+        elif start.is_include and depth < _MAX_DEPTH:
+            path = receiver(Call(start.package, start.program, *start.place, ()), model)
+            inner = actions_at(path, model) if path is not None else None
+            if inner is None:
+                continue
+            defaults = starts(inner.source)[1]
+            shared = {} if inner.is_ros1 else values
+            inner_values = {name: shared.get(name, default) for name, default in defaults.items()}
+            for name, value in start.passed.items():
+                inner_values[name] = values.get(value[1:], "") if value[:1] == "$" else value
+            for each in _publishers(inner.source, inner_values, model, filters, depth + 1):
+                if all(conditions.get(name, value) == value for name, value in each.conditions.items()):
+                    yield TransformSource(each.label, {**conditions, **each.conditions}, start.place)
+
+
+def _translated(conditions: dict[str, bool], values: dict[str, str]) -> dict[str, bool] | None:
+    """Return the conditions in terms of the arguments of the first file; None if they never hold or are unknown."""
+    found: dict[str, bool] = {}
+    for name, wanted in conditions.items():
+        value = values.get(name, "")
+        if value[:1] == "$":
+            found[value[1:]] = wanted
+        elif value != str(wanted).lower():
+            return None
+    return found
+
+
+def _label(start: Start, source: Source, filters: set[tuple[str, str]]) -> str:
+    if start.is_include:
+        return _FILES.get((start.package, start.program.rpartition("/")[2]), "")
+    if (start.package, start.program) in _NODES and not any(word in source.text for word in _OFF):
+        return start.name or start.program
+    return start.name if start.name and (source.file, start.name) in filters else ""
+
+
+def _map_filters(model: Model) -> set[tuple[str, str]]:
+    """Return launch file and name of each filter of robot_localization that publishes the transform."""
+    files, found = parameter_files(model), set[tuple[str, str]]()
+    for node in launched_nodes(model):
+        name = node.name.name if node.name is not None else ""
+        for file in node.files if node.package == "robot_localization" and name else ():
+            for key, group in sections(files[file]) if file in files else ():
+                world, odom, publishes = (group.find(each) for each in ("world_frame", "odom_frame", "publish_tf"))
+                is_on = publishes is None or publishes.text.lower() == "true"
+                if key.text.strip("/") == name and world is not None and odom is not None and is_on:
+                    found |= {(node.source.file, name)} if world.text != odom.text else set()
+    return found

@@ -1,0 +1,110 @@
+"""Nodes of launch files of ROS 2 that do not use the clock of the simulation although those around them do."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+
+from urdfkit.description.launch.python_constants import launch_reader, name_of
+from urdfkit.description.xml.source import Source
+from urdfkit.lint.facts.control.launch_package_paths import place
+from urdfkit.lint.facts.launch.actions import actions_of, all_elements
+from urdfkit.lint.facts.launch.python_names import python_files
+from urdfkit.lint.facts.launch.ros_version import reads_ros1
+from urdfkit.lint.facts.navigation.tables import NODES
+from urdfkit.lint.facts.nodes.started import LaunchedNode, launched_nodes, parameter_files
+from urdfkit.lint.model.model import Model
+
+_KEY = "use_sim_time"
+_GAZEBO = ("gazebo_ros", "ros_gz_sim", "ros_ign_gazebo")
+_TIMED = ("robot_localization", "robot_state_publisher", "slam_toolbox", "cartographer_ros")
+"""Packages whose nodes compare the times of messages or transforms; those of Nav2 too."""
+
+_FOR_ALL = ("SetParameter", "SetUseSimTime", "set_parameter")
+_IDLE = ("lifecycle_manager", "map_server", "map_saver_server")
+
+Defects = Iterator[tuple[Source, tuple[int, int], str]]
+
+
+def without_clock(model: Model) -> Defects:
+    """Yield the nodes without ``use_sim_time`` in a file where another node of their package has it."""
+    files = parameter_files(model)
+    by_file: dict[str, list[LaunchedNode]] = {}
+    for node in launched_nodes(model):
+        by_file.setdefault(node.source.file, []).append(node)
+    for nodes in by_file.values():
+        source = nodes[0].source
+        if _KEY not in source.text or any(word in source.text for word in _FOR_ALL) or reads_ros1(source):
+            continue
+        setting = [node for node in nodes if node.inline is not None and _KEY in node.inline]
+        for node in nodes:
+            is_unset = all(file in files and _KEY not in files[file].text for file in node.files)
+            if node.inline is None or _KEY in node.inline or not is_unset or not _is_timed(node):
+                continue
+            other = next((each for each in setting if _family(each) == _family(node)), None)
+            at = node.place or _name_place(node)
+            if other is not None and at is not None:
+                label = node.name.name if node.name is not None else node.program
+                message = f"node `{label}` has no `{_KEY}`, but the other `{other.program}` has"
+                same = node.program == other.program
+                yield source, at, message if same else message.replace("the other ", "")
+
+
+def computer_time(model: Model) -> Defects:
+    """Yield each constant ``use_sim_time`` that is false in a launch file that always starts Gazebo."""
+    for source, tree in python_files(model):
+        if _KEY in source.text and _starts_gazebo(source):
+            yield from _in_python(source, tree)
+    for name, source in model.related_files.items():
+        if name.endswith((".launch.xml", ".launch.yaml", ".launch")) and _KEY in source.text and _starts_gazebo(source):
+            for element in all_elements(source):
+                if element.tag == "include" and not {"if", "unless"} & element.attributes.keys():
+                    for child in element.children:
+                        key, value = (child.attributes.get(each) for each in ("name", "value"))
+                        is_key = child.tag in ("arg", "let") and key is not None and key.name == _KEY
+                        if is_key and value is not None and value.name.lower() == "false":
+                            yield source, (value.start, value.start + len(value.name)), _message()
+
+
+def _in_python(source: Source, tree: ast.Module) -> Defects:
+    reader = launch_reader(tree)
+    for call in (node for node in ast.walk(tree) if isinstance(node, ast.Call)):
+        words = {word.arg: word.value for word in call.keywords}
+        package = reader.text(words["package"]) if "package" in words else None
+        is_timed = name_of(call.func) == "Node" and (package in _TIMED or (package or "").startswith("nav2_"))
+        if "condition" in words or not (is_timed or name_of(call.func) == "IncludeLaunchDescription"):
+            continue
+        for part in (words.get("launch_arguments"), words.get("parameters")):
+            for inner in ast.walk(part) if part is not None else ():
+                keys = inner.keys if isinstance(inner, ast.Dict) else []
+                values = inner.values if isinstance(inner, ast.Dict) else []
+                if isinstance(inner, ast.Tuple) and len(inner.elts) == 2:
+                    keys, values = list(inner.elts[:1]), inner.elts[1:]
+                for key, value in zip(keys, values, strict=True):
+                    is_key = key is not None and reader.text(key) == _KEY
+                    if is_key and isinstance(value, ast.Constant) and str(value.value).lower() == "false":
+                        yield source, place(source, value), _message()
+
+
+def _message() -> str:
+    return f"`{_KEY}` is false, but this file starts Gazebo, which publishes the time"
+
+
+def _starts_gazebo(source: Source) -> bool:
+    actions = actions_of(source)
+    return any(call.package in _GAZEBO and not call.is_conditional for call in actions.includes) and not any(
+        word in source.text for word in ("GroupAction", "<group", "OpaqueFunction")
+    )
+
+
+def _is_timed(node: LaunchedNode) -> bool:
+    is_navigation = node.package.startswith("nav2_") and node.program in NODES and node.program not in _IDLE
+    return bool(node.program) and (node.package in _TIMED or is_navigation)
+
+
+def _family(node: LaunchedNode) -> str:
+    return "nav2" if node.package.startswith("nav2_") else node.package
+
+
+def _name_place(node: LaunchedNode) -> tuple[int, int] | None:
+    return (node.name.start, node.name.start + len(node.name.name)) if node.name is not None else None

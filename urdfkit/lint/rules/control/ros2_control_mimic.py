@@ -1,0 +1,85 @@
+"""C720 ros2-control-mimic-contradiction."""
+
+from __future__ import annotations
+
+from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
+
+
+class Ros2ControlMimic(RobotRule):
+    """The ``mimic`` parameter of a joint in ``<ros2_control>`` contradicts the robot.
+
+    ## What it does
+    Compares the parameter with the joints and with ``<mimic>`` of the same joint.
+
+    ## Why is this bad?
+    The hardware moves the joint after another joint than ``robot_state_publisher`` does, or the description is refused.
+
+    ## Example
+    ```xml
+    <robot name="hand">
+      <link name="palm"/>
+      <link name="left"/>
+      <link name="right"/>
+      <joint name="left_finger" type="continuous">
+        <parent link="palm"/><child link="left"/><axis xyz="0 0 1"/>
+      </joint>
+      <joint name="right_finger" type="continuous">
+        <parent link="palm"/><child link="right"/><axis xyz="0 0 1"/><mimic joint="left_finger"/>
+      </joint>
+      <ros2_control name="hand" type="system">
+        <hardware><plugin>mock_components/GenericSystem</plugin></hardware>
+        <joint name="left_finger"><command_interface name="position"/><state_interface name="position"/></joint>
+        <joint name="right_finger"><param name="mimic">right_finger</param></joint>
+      </ros2_control>
+    </robot>
+    ```
+
+    ## Use instead
+    ```xml
+    <robot name="hand">
+      <link name="palm"/>
+      <link name="left"/>
+      <link name="right"/>
+      <joint name="left_finger" type="continuous">
+        <parent link="palm"/><child link="left"/><axis xyz="0 0 1"/>
+      </joint>
+      <joint name="right_finger" type="continuous">
+        <parent link="palm"/><child link="right"/><axis xyz="0 0 1"/><mimic joint="left_finger"/>
+      </joint>
+      <ros2_control name="hand" type="system">
+        <hardware><plugin>mock_components/GenericSystem</plugin></hardware>
+        <joint name="left_finger"><command_interface name="position"/><state_interface name="position"/></joint>
+        <joint name="right_finger"><param name="mimic">left_finger</param></joint>
+      </ros2_control>
+    </robot>
+    ```
+    """
+
+    code = "C720"
+    name = "ros2-control-mimic-contradiction"
+    severity = "warning"
+    not_for = NOT_GAZEBO
+
+    def check(self, model: Model) -> Findings:
+        """Yield a finding for each parameter that names another joint than the robot."""
+        joints = model.robot.joint_by_name
+        for block in model.robot.ros2_control:
+            for element in block.element.find_all("joint"):
+                name = element.get("name") or ""
+                for parameter in (each for each in element.find_all("param") if each.get("name") == "mimic"):
+                    master = parameter.text.strip()
+                    if name not in joints or "$" in master:
+                        continue
+                    mimic = joints[name].mimic
+                    message = ""
+                    if master == name:
+                        message = f"joint `{name}` of <ros2_control> mimics itself"
+                    elif mimic is not None and mimic.joint != master and mimic.joint in joints:
+                        message = (
+                            f"joint `{name}` mimics `{master}` in <ros2_control>, but `{mimic.joint}` in the robot"
+                        )
+                    elif master not in joints and not model.is_incomplete:
+                        message = f"joint `{name}` of <ros2_control> mimics the undefined joint `{master}`"
+                    if message:
+                        help = f"write `{mimic.joint}`" if mimic is not None else None
+                        yield self.at(model, parameter, message, joint=name, help=help)

@@ -1,0 +1,63 @@
+"""L122 exit-handler-never-runs."""
+
+from __future__ import annotations
+
+from urdfkit.lint.finding import Finding
+from urdfkit.lint.rule import Findings, Model, RobotRule
+
+
+class ExitHandlerNeverRuns(RobotRule):
+    """A launch file starts nodes after the end of a node that does not end.
+
+    ## What it does
+    Checks ``OnProcessExit`` whose target is a node that runs until the launch ends, such as ``ros2_control_node`` or
+    ``robot_state_publisher``, and that starts nodes.
+
+    ## Why is this bad?
+    The nodes of the handler never start, without an error: for example, no controllers are loaded.
+
+    ## Example
+    ```python
+    from launch import LaunchDescription
+    from launch.actions import RegisterEventHandler
+    from launch.event_handlers import OnProcessExit
+    from launch_ros.actions import Node
+
+
+    def generate_launch_description():
+        manager = Node(package="controller_manager", executable="ros2_control_node", parameters=["controllers.yaml"])
+        arm = Node(package="controller_manager", executable="spawner", arguments=["arm_controller"])
+        handler = RegisterEventHandler(OnProcessExit(target_action=manager, on_exit=[arm]))
+        return LaunchDescription([manager, handler])
+    ```
+
+    ## Use instead
+    ```python
+    from launch import LaunchDescription
+    from launch.actions import RegisterEventHandler
+    from launch.event_handlers import OnProcessStart
+    from launch_ros.actions import Node
+
+
+    def generate_launch_description():
+        manager = Node(package="controller_manager", executable="ros2_control_node", parameters=["controllers.yaml"])
+        arm = Node(package="controller_manager", executable="spawner", arguments=["arm_controller"])
+        handler = RegisterEventHandler(OnProcessStart(target_action=manager, on_start=[arm]))
+        return LaunchDescription([manager, handler])
+    ```
+    """
+
+    code = "L122"
+    name = "exit-handler-never-runs"
+    severity = "warning"
+
+    def check(self, model: Model) -> Findings:
+        """Yield a finding for each handler that waits for a node without an end."""
+        from urdfkit.lint.facts.launch.python_names import python_files
+        from urdfkit.lint.facts.nodes.exit_handlers import never_run
+
+        for source, tree in python_files(model):
+            for place, program in never_run(source, tree) if "OnProcessExit" in source.text else ():
+                message = f"`{program}` runs until the launch ends, so `on_exit` starts nothing"
+                help = "name the process whose end the nodes wait for, or use OnProcessStart"
+                yield Finding(self.code, self.name, self.severity, message, source.span(*place), help=help)

@@ -1,0 +1,50 @@
+"""L124 map-transform-published-twice."""
+
+from __future__ import annotations
+
+from urdfkit.lint.finding import Finding
+from urdfkit.lint.rule import Findings, Model, RobotRule
+
+
+class MapTransformPublishedTwice(RobotRule):
+    """A launch file starts two nodes that publish the transform from the map to the odometry.
+
+    ## What it does
+    Finds amcl, gmapping, slam_toolbox, cartographer and the filters of robot_localization with ``world_frame`` map,
+    also in included launch files, and compares the launch arguments on which their conditions depend. Computed
+    conditions and files with groups or namespaces are left out.
+
+    ## Why is this bad?
+    The robot jumps on the map between two poses. Often a condition is inverted, so that the other value of the argument
+    starts no localization.
+
+    ## Example
+    ```xml
+    <launch>
+      <arg name="mapping" default="false"/>
+      <node if="$(var mapping)" pkg="slam_toolbox" exec="sync_slam_toolbox_node" name="slam"/>
+      <node if="$(var mapping)" pkg="nav2_amcl" exec="amcl" name="amcl"/>
+    </launch>
+    ```
+
+    ## Use instead
+    ```xml
+    <launch>
+      <arg name="mapping" default="false"/>
+      <node if="$(var mapping)" pkg="slam_toolbox" exec="sync_slam_toolbox_node" name="slam"/>
+      <node unless="$(var mapping)" pkg="nav2_amcl" exec="amcl" name="amcl"/>
+    </launch>
+    ```
+    """
+
+    code = "L124"
+    name = "map-transform-published-twice"
+    severity = "warning"
+
+    def check(self, model: Model) -> Findings:
+        """Yield a finding for each pair of publishers."""
+        from urdfkit.lint.facts.nodes.map_transforms import published_together
+
+        for source, place, message in published_together(model):
+            span = source.span(*place)
+            yield Finding(self.code, self.name, self.severity, message, span, help="check the conditions of both")

@@ -1,0 +1,58 @@
+"""L121 simulation-time-inconsistent."""
+
+from __future__ import annotations
+
+from urdfkit.lint.finding import Finding
+from urdfkit.lint.rule import Findings, Model, RobotRule
+
+
+class SimulationTimeInconsistent(RobotRule):
+    """A node uses another clock than the nodes around it.
+
+    ## What it does
+    Checks launch files of ROS 2. Reports filters, localization, navigation servers and ``robot_state_publisher``
+    without ``use_sim_time`` if another node of the same package in the file has it. In files that always start
+    Gazebo, reports included launch files and such nodes whose ``use_sim_time`` is false. Parameter files are read,
+    and files that set the parameter for all nodes are left out.
+
+    ## Why is this bad?
+    The node compares the times of the simulation with the time of the computer. It waits for transforms, or drops each
+    message as too old.
+
+    ## Example
+    ```python
+    from launch import LaunchDescription
+    from launch_ros.actions import Node
+
+
+    def generate_launch_description():
+        clock = {"use_sim_time": True}
+        odom = Node(package="robot_localization", executable="ekf_node", name="ekf_odom", parameters=[clock])
+        map = Node(package="robot_localization", executable="ekf_node", name="ekf_map")
+        return LaunchDescription([odom, map])
+    ```
+
+    ## Use instead
+    ```python
+    from launch import LaunchDescription
+    from launch_ros.actions import Node
+
+
+    def generate_launch_description():
+        clock = {"use_sim_time": True}
+        odom = Node(package="robot_localization", executable="ekf_node", name="ekf_odom", parameters=[clock])
+        map = Node(package="robot_localization", executable="ekf_node", name="ekf_map", parameters=[clock])
+        return LaunchDescription([odom, map])
+    ```
+    """
+
+    code = "L121"
+    name = "simulation-time-inconsistent"
+    severity = "warning"
+
+    def check(self, model: Model) -> Findings:
+        """Yield a finding for each node with another clock."""
+        from urdfkit.lint.facts.nodes.simulation_time import computer_time, without_clock
+
+        for source, place, message in (*without_clock(model), *computer_time(model)):
+            yield Finding(self.code, self.name, self.severity, message, source.span(*place))

@@ -1,0 +1,93 @@
+"""S912 camera-frame-not-optical."""
+
+from __future__ import annotations
+
+from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from urdfkit.description.xml.element import Element
+
+
+class CameraFrameNotOptical(RobotRule):
+    """The images of a camera are in the frame of its body, although it has an optical frame.
+
+    ## What it does
+    Checks ``optical_frame_id`` and the frames of camera plugins of Gazebo Classic. Reports a link that has a child with
+    ``optical`` in its name on a fixed joint.
+
+    ## Why is this bad?
+    Images and depth are measured along the z axis of their frame. In the frame of the body, point clouds and markers
+    appear above the camera instead of in front of it.
+
+    ## Example
+    ```xml
+    <robot name="cart">
+      <link name="camera_link"/>
+      <link name="camera_optical_frame"/>
+      <joint name="camera_optical_joint" type="fixed">
+        <parent link="camera_link"/><child link="camera_optical_frame"/>
+        <origin rpy="-1.5707963267948966 0 -1.5707963267948966"/>
+      </joint>
+      <gazebo reference="camera_link">
+        <sensor name="camera" type="camera">
+          <plugin name="camera" filename="libgazebo_ros_camera.so">
+            <frame_name>camera_link</frame_name>
+          </plugin>
+        </sensor>
+      </gazebo>
+    </robot>
+    ```
+
+    ## Use instead
+    ```xml
+    <robot name="cart">
+      <link name="camera_link"/>
+      <link name="camera_optical_frame"/>
+      <joint name="camera_optical_joint" type="fixed">
+        <parent link="camera_link"/><child link="camera_optical_frame"/>
+        <origin rpy="-1.5707963267948966 0 -1.5707963267948966"/>
+      </joint>
+      <gazebo reference="camera_link">
+        <sensor name="camera" type="camera">
+          <plugin name="camera" filename="libgazebo_ros_camera.so">
+            <frame_name>camera_optical_frame</frame_name>
+          </plugin>
+        </sensor>
+      </gazebo>
+    </robot>
+    ```
+    """
+
+    code = "S912"
+    name = "camera-frame-not-optical"
+    severity = "warning"
+    not_for = NOT_GAZEBO
+
+    def check(self, model: Model) -> Findings:
+        """Yield a finding for each camera whose frame has an optical frame below it."""
+        children: dict[str, list[str]] = {}
+        for joint in model.robot.joints:
+            if joint.type == "fixed" and joint.parent and joint.child and "optical" in joint.child.lower():
+                children.setdefault(joint.parent, []).append(joint.child)
+        for element in _frames(model) if children else ():
+            name = (element.text or "").strip().lstrip("/")
+            optical = children.get(name, [])
+            if optical and "optical" not in name.lower():
+                message = f"<{element.tag}> is `{name}`, which is not an optical frame"
+                yield self.at(model, element, message, link=name, help=f"write `{optical[0]}`")
+
+
+def _frames(model: Model) -> Iterator[Element]:
+    """Yield the elements that name the frame of the images of a camera."""
+    for block in model.robot.gazebo:
+        for sensor in block.sensors:
+            kind = (sensor.type or "").strip()
+            if "camera" not in kind and kind not in ("depth", "multicamera"):
+                continue
+            yield from (each for each in sensor.element.walk() if each.tag == "optical_frame_id")
+            for plugin in sensor.plugins:
+                if "camera" in (plugin.filename or "") or "kinect" in (plugin.filename or ""):
+                    yield from (each for each in plugin.element.children if each.tag in ("frame_name", "frameName"))

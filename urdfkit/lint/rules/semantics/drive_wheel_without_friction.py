@@ -1,0 +1,103 @@
+"""S914 drive-wheel-without-friction."""
+
+from __future__ import annotations
+
+from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from urdfkit.description.urdf.robot import Joint
+
+
+class DriveWheelWithoutFriction(RobotRule):
+    """A wheel that drives the robot has no friction in Gazebo.
+
+    ## What it does
+    Checks ``mu1`` and ``mu`` of the wheels of differential and skid-steer drives, without ``fdir1``. Casters are left
+    out.
+
+    ## Why is this bad?
+    The wheel spins and the robot stays where it is.
+
+    ## Example
+    ```xml
+    <robot name="cart">
+      <link name="base"/>
+      <link name="left"/>
+      <link name="right"/>
+      <joint name="left_joint" type="continuous">
+        <parent link="base"/><child link="left"/><origin xyz="0 0.2 0"/><axis xyz="0 1 0"/>
+      </joint>
+      <joint name="right_joint" type="continuous">
+        <parent link="base"/><child link="right"/><origin xyz="0 -0.2 0"/><axis xyz="0 1 0"/>
+      </joint>
+      <gazebo reference="left"><mu1>0</mu1></gazebo>
+      <gazebo reference="right"><mu1>0</mu1></gazebo>
+      <gazebo>
+        <plugin name="drive" filename="libgazebo_ros_diff_drive.so">
+          <left_joint>left_joint</left_joint>
+          <right_joint>right_joint</right_joint>
+          <wheel_separation>0.4</wheel_separation>
+        </plugin>
+      </gazebo>
+    </robot>
+    ```
+
+    ## Use instead
+    ```xml
+    <robot name="cart">
+      <link name="base"/>
+      <link name="left"/>
+      <link name="right"/>
+      <joint name="left_joint" type="continuous">
+        <parent link="base"/><child link="left"/><origin xyz="0 0.2 0"/><axis xyz="0 1 0"/>
+      </joint>
+      <joint name="right_joint" type="continuous">
+        <parent link="base"/><child link="right"/><origin xyz="0 -0.2 0"/><axis xyz="0 1 0"/>
+      </joint>
+      <gazebo reference="left"><mu1>1</mu1></gazebo>
+      <gazebo reference="right"><mu1>1</mu1></gazebo>
+      <gazebo>
+        <plugin name="drive" filename="libgazebo_ros_diff_drive.so">
+          <left_joint>left_joint</left_joint>
+          <right_joint>right_joint</right_joint>
+          <wheel_separation>0.4</wheel_separation>
+        </plugin>
+      </gazebo>
+    </robot>
+    ```
+    """
+
+    code = "S914"
+    name = "drive-wheel-without-friction"
+    severity = "warning"
+    not_for = NOT_GAZEBO
+
+    def check(self, model: Model) -> Findings:
+        """Yield a finding for each drive wheel with a coefficient of zero."""
+        wheels = {joint.child: joint.name for joint in _driven(model)}
+        for block in model.robot.gazebo:
+            elements = list(block.element.walk()) if block.reference in wheels else []
+            if any(element.tag == "fdir1" for element in elements):
+                continue
+            for element in (each for each in elements if each.tag in ("mu", "mu1")):
+                text = (element.text or element.get("value") or "").strip()
+                if text and not text.strip("0.+-"):
+                    name = block.reference
+                    message = f"<{element.tag}> of wheel `{name}` is 0, but its joint `{wheels[name]}` drives the robot"
+                    yield self.at(model, element, message, link=name, help="write a coefficient near 1")
+
+
+def _driven(model: Model) -> Iterator[Joint]:
+    """Yield the joints of wheels that a Gazebo drive or a controller for differential drives names."""
+    from urdfkit.lint.facts.control.controller_wheels import diff_drives, wheels_of
+    from urdfkit.lint.facts.gazebo.drive_wheels import drives
+
+    for drive in drives(model):
+        if drive.spec.kind != "mecanum_drive":
+            yield from (wheel.joint for wheel in (*drive.left, *drive.right))
+    for _, controller in diff_drives(model):
+        for side in ("left", "right"):
+            yield from (wheel.joint for _, wheel in wheels_of(controller, model, side))

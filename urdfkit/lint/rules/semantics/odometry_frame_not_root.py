@@ -1,0 +1,83 @@
+"""S913 odometry-frame-not-root."""
+
+from __future__ import annotations
+
+from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
+
+
+class OdometryFrameNotRoot(RobotRule):
+    """A drive publishes the pose of a link that has a parent in the robot.
+
+    ## What it does
+    Compares the base frame of Gazebo drives that publish the transform of the odometry with the root link.
+
+    ## Why is this bad?
+    ``robot_state_publisher`` publishes another parent of the same frame. A frame has one parent in TF: it changes
+    between the two, and the links above it are not connected with the odometry.
+
+    ## Example
+    ```xml
+    <robot name="cart">
+      <link name="base_footprint"/>
+      <link name="base_link"/>
+      <joint name="base_joint" type="fixed">
+        <parent link="base_footprint"/><child link="base_link"/>
+      </joint>
+      <gazebo>
+        <plugin name="move" filename="libgazebo_ros_planar_move.so">
+          <robotBaseFrame>base_link</robotBaseFrame>
+        </plugin>
+      </gazebo>
+    </robot>
+    ```
+
+    ## Use instead
+    ```xml
+    <robot name="cart">
+      <link name="base_footprint"/>
+      <link name="base_link"/>
+      <joint name="base_joint" type="fixed">
+        <parent link="base_footprint"/><child link="base_link"/>
+      </joint>
+      <gazebo>
+        <plugin name="move" filename="libgazebo_ros_planar_move.so">
+          <robotBaseFrame>base_footprint</robotBaseFrame>
+        </plugin>
+      </gazebo>
+    </robot>
+    ```
+    """
+
+    code = "S913"
+    name = "odometry-frame-not-root"
+    severity = "warning"
+    not_for = NOT_GAZEBO
+
+    def check(self, model: Model) -> Findings:
+        """Yield a finding for each drive with another base frame."""
+        from urdfkit.description.plugins import values
+        from urdfkit.lint.facts.gazebo.plugins import OUTSIDE_FRAMES, is_foreign, plugins, spec_of
+
+        roots = model.robot.roots()
+        root = roots[0].name if len(roots) == 1 and not model.is_incomplete else None
+        if root is None or root in OUTSIDE_FRAMES:
+            return
+        for plugin, _, _ in plugins(model.robot):
+            spec = spec_of(plugin, model.target)
+            frame = spec.by_meaning("base_frame") if spec is not None else None
+            if spec is None or frame is None or spec.generation == "gz" or is_foreign(plugin, model):
+                continue
+            publishes = [spec.by_meaning(each) for each in ("publish_odometry", "publish_odometry_tf")]
+            written = [
+                next((text for text, _ in values(plugin, each)), each.default) for each in publishes if each is not None
+            ]
+            if not publishes[-1] and spec.kind != "planar_move":
+                continue
+            for text, element in values(plugin, frame):
+                name = text.lstrip("/")
+                is_link = name in model.robot.link_by_name and name != root
+                if is_link and not any((each or "").lower() in ("false", "0") for each in written):
+                    message = (
+                        f"<{element.tag}> is `{name}`, but the root link is `{root}`: `{name}` has two parents in TF"
+                    )
+                    yield self.at(model, element, message, link=name, help=f"write `{root}`")
