@@ -260,7 +260,7 @@ def test_topics_are_listed_looked_at_plotted_and_published_to(page, keep, until)
     page.get_by_role("button", name="Publish", exact=True).click()
     until(lambda: page.evaluate(X) > 0.1)
     curve = "[...urdfkit.plots.curves.values()][0].curve"
-    until(lambda: page.evaluate(f"{curve}.values.at(-1)") > 0.1)
+    until(lambda: page.evaluate(f"{curve}.values[{curve}.length - 1]") > 0.1)
     keep(page, "publish")
     for key in ("k", "Space"):  # they stop what a hand did not begin
         page.locator("#pane").focus()
@@ -270,6 +270,15 @@ def test_topics_are_listed_looked_at_plotted_and_published_to(page, keep, until)
         until(lambda: page.evaluate("urdfkit.page.status.speed") > 0.3)
 
 
+OVERFULL = """() => {
+  const Curve = [...urdfkit.plots.curves.values()][0].curve.constructor;
+  const curve = new Curve("", "red"), before = curve.t.length;
+  for (let start = 0; start < 95000; start += 5) {
+    const t = [0, 1, 2, 3, 4].map((each) => start + each);
+    curve.push(t, t.map((each) => 2 * each));
+  }
+  return [before, curve.t.length, curve.length, curve.last, curve.values[curve.length - 1], curve.from(94000)];
+}"""
 PINCH = """([[left, right], [wider, widest]]) => {
   const plot = urdfkit.plots.canvas, { x, y, width } = plot.getBoundingClientRect();
   plot.setPointerCapture = () => undefined; // these fingers are none that the browser knows
@@ -295,7 +304,8 @@ def test_plots_zoom_stand_still_and_follow_again(page, keep, until) -> None:
     until(lambda: page.locator(".legend").get_by_text("unknown field `q`").is_visible())
     page.keyboard.down("w")
     page.keyboard.down("a")
-    until(lambda: page.evaluate("[...urdfkit.plots.curves.values()][0].curve.t.length") > 100)
+    until(lambda: page.evaluate("[...urdfkit.plots.curves.values()][0].curve.length") > 100)
+    assert page.evaluate(OVERFULL) == [30_000, 30_000, 29_000, 94_999, 189_998, 28_000]
     page.keyboard.up("w")
     page.keyboard.up("a")
     box = page.locator("#plot").bounding_box()

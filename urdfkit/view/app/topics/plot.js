@@ -7,35 +7,51 @@ const KEPT = 30000; // maximum number of samples of a curve
 const LEFT = 46;
 const BELOW = 20;
 
-/** Samples of one number with increasing t; beyond `KEPT` the oldest are dropped. */
+/** Samples of one number with increasing t in memory of a fixed size; beyond `KEPT` the oldest tenth is dropped. */
 export class Curve {
   constructor(name, colour) {
     this.name = name;
     this.colour = colour;
-    this.t = [];
-    this.values = [];
-    this.error = null;
+    this.t = new Float64Array(KEPT).fill(NaN); // filled: the memory is in use from the start and does not grow for minutes
+    this.values = new Float64Array(KEPT).fill(NaN);
+    this.clear();
   }
 
   push(t, values) {
-    if (this.t.length && t.length && t[0] < this.t.at(-1) - 1e-9) this.clear(); // the simulation was reset
-    for (let i = 0; i < t.length; i += 1) this.t.push(t[i]), this.values.push(values[i] ?? NaN);
-    if (this.t.length > KEPT) this.t.splice(0, this.t.length - KEPT * 0.9), this.values.splice(0, this.values.length - KEPT * 0.9);
+    if (this.length && t.length && t[0] < this.last - 1e-9) this.clear(); // the simulation was reset
+    for (let i = Math.max(0, t.length - KEPT); i < t.length; i += 1) {
+      if (this.length === KEPT) this.#drop(KEPT / 10);
+      this.t[this.length] = t[i];
+      this.values[this.length] = values[i] ?? NaN;
+      if (Math.abs(values[i]) > this.greatest) this.greatest = Math.abs(values[i]);
+      this.length += 1;
+    }
   }
 
   clear() {
-    this.t.length = this.values.length = 0;
+    this.length = 0;
+    this.greatest = 0; // magnitude of all samples
+  }
+
+  /** Time of the last sample; undefined without samples. */
+  get last() {
+    return this.length ? this.t[this.length - 1] : undefined;
   }
 
   /** Index of the first sample at or after a time. */
   from(time) {
-    let [low, high] = [0, this.t.length];
+    let [low, high] = [0, this.length];
     while (low < high) {
       const middle = (low + high) >> 1;
       if (this.t[middle] < time) low = middle + 1;
       else high = middle;
     }
     return low;
+  }
+
+  #drop(count) {
+    for (const samples of [this.t, this.values]) samples.copyWithin(0, count);
+    this.length -= count;
   }
 }
 
@@ -54,7 +70,7 @@ export class Plot {
   }
 
   get latest() {
-    return Math.max(0, ...this.curves.map(({ t }) => t.at(-1) ?? 0));
+    return Math.max(0, ...this.curves.map(({ last }) => last ?? 0));
   }
 
   get paused() {
@@ -120,7 +136,7 @@ export class Plot {
   #fit(begin, end) {
     let [low, high] = [Infinity, -Infinity];
     for (const curve of this.curves) {
-      for (let i = Math.max(0, curve.from(begin) - 1); i < curve.t.length && curve.t[i] <= end; i += 1) {
+      for (let i = Math.max(0, curve.from(begin) - 1); i < curve.length && curve.t[i] <= end; i += 1) {
         const value = curve.values[i];
         if (value < low) low = value;
         if (value > high) high = value;
@@ -185,7 +201,7 @@ export class Plot {
     pen.beginPath();
     let [column, low, high, open] = [null, 0, 0, false];
     const first = Math.max(0, curve.from(begin) - 1);
-    for (let i = first; i < curve.t.length && (i === first || curve.t[i - 1] <= end); i += 1) {
+    for (let i = first; i < curve.length && (i === first || curve.t[i - 1] <= end); i += 1) {
       const value = curve.values[i];
       if (Number.isNaN(value)) {
         open = false;
@@ -215,7 +231,7 @@ export class Plot {
     pen.textAlign = this.pointer.x > width / 2 ? "right" : "left";
     const side = this.pointer.x > width / 2 ? -7 : 7;
     this.curves.forEach((curve, k) => {
-      const i = Math.min(curve.t.length - 1, curve.from(t));
+      const i = Math.min(curve.length - 1, curve.from(t));
       if (i < 0) return;
       pen.fillStyle = curve.colour;
       pen.beginPath();

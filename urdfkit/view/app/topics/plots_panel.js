@@ -88,7 +88,7 @@ export class Plots {
     }
     found.curve.push(t, values);
     const last = values.at(-1);
-    found.value.textContent = last === null || last === undefined ? "" : Math.abs(last) < 1e-12 ? "0" : String(Number(last.toPrecision(4))); // integration leaves numbers like 1e-39
+    found.value.textContent = last === null || last === undefined ? "" : Math.abs(last) < 1e-6 * found.curve.greatest ? "0" : String(Number(last.toPrecision(4))); // integration and contacts leave numbers like 1e-9
     if (this.panel.open) this.plot.dirty();
   }
 
