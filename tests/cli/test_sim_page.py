@@ -245,9 +245,12 @@ def test_topics_are_listed_looked_at_plotted_and_published_to(page, keep, until)
     page.locator("#open-topics").click()
     odom = page.locator("[data-topic='/simpleton/odom']")
     until(lambda: re.fullmatch(r"\d+ Hz", odom.locator(".rate").inner_text() or ""))
+    height = "parseFloat(getComputedStyle(urdfkit.topics.list).maxHeight)"
+    whole = page.evaluate(height)
     page.locator("#topic-filter").fill("odom")
     until(lambda: not page.locator("[data-topic='/clock']").is_visible())
     odom.get_by_role("button").click()
+    assert page.evaluate(height) < whole  # the message is below the list
     until(lambda: "child_frame_id" in page.locator(".message").inner_text())
     keep(page, "topic")
     page.locator("#numbers summary").click()

@@ -64,7 +64,7 @@ export class Topics {
     const plot = h("details.numbers", { id: "numbers" }, h("summary", {}, "Plot a number"));
     const head = h("div.row", {}, h("h3", {}, topic.name), h("span.space"), this.count);
     this.detail.replaceChildren(head, h("p.quiet.type", {}, topic.type), this.message, plot, publish);
-    this.detail.scrollIntoView({ block: "nearest" });
+    for (const each of [this.rows.get(topic.name)?.item, this.detail]) each?.scrollIntoView({ block: "nearest" });
     try {
       const { message, numbers } = await this.page.connection.request("form", { topic: topic.name, type: topic.type });
       if (this.chosen !== topic) return;
