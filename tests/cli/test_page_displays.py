@@ -124,8 +124,8 @@ def test_topics_are_drawn_with_their_options_and_saved_as_a_layout(shown, visits
     until(lambda: shown.tick() or page.locator("#open-displays").is_visible())
     panel(page, "displays")
     kinds = {
-        "/plan": "BufferGeometry", "/map": "PlaneGeometry", "/scan": "BufferGeometry", "/marks": "BoxGeometry",
-        "/pose": "SphereGeometry", "/range": "ConeGeometry",
+        "/plan": "InstancedBufferGeometry", "/map": "PlaneGeometry", "/scan": "BufferGeometry", "/marks": "BoxGeometry",
+        "/pose": "SphereGeometry", "/range": "ConeGeometry", "/cloud": "BufferGeometry",
     }  # fmt: skip
     for topic, kind in kinds.items():
         until(lambda topic=topic: shown.tick() or page.locator(f"[data-display='{topic}']").is_visible())

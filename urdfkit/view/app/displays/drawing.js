@@ -3,11 +3,11 @@
 
 import { inFront } from "../appearance/in_front.js";
 import { COLOURS } from "../handles/gizmo.js";
+import { ribbons } from "./ribbons.js";
 
 const THREE = MeshCat.THREE;
-const [X, Y] = [new THREE.Vector3(1, 0, 0), new THREE.Vector3(0, 1, 0)];
+const X = new THREE.Vector3(1, 0, 0);
 const MANY = 40; // arrows beyond this number are lines
-const LIFT = 0.003; // part of the distance by which a path is in front of a map
 const WIDTH = 0.03; // m of a line, as in RViz
 const ABOVE = 0.003; // m above its plane, so that a map does not flicker with the ground
 const METRES = { N: 0.02, "N·m": 0.2, "m/s": 1, "rad/s": 0.5, "m/s²": 0.1, "rad/s²": 0.1 }; // length of an arrow per unit
@@ -37,8 +37,8 @@ export function dispose(group) {
 }
 
 const MAKE = {
-  line: ({ line, ...item }, options) => placed(thick(new THREE.Line(vertices(line, item.colors), inFront(material(THREE.LineBasicMaterial, item, options), LIFT)), 1, item, options), item.pose),
-  segments: ({ segments, ...item }, options) => placed(thick(new THREE.LineSegments(vertices(segments, item.colors), material(THREE.LineBasicMaterial, item, options)), 2, item, options), item.pose),
+  line: ({ line, ...item }, options) => wide(line, 1, item, options),
+  segments: ({ segments, ...item }, options) => wide(segments, 2, item, options),
   arrow: (item, options) => arrow(new THREE.Vector3(...item.arrow), X.clone().applyQuaternion(turn(item.arrow)), item.length * options.size, colour(item, options)),
   vector: vector,
   ellipsoid: ({ ellipsoid, axes }, options) => {
@@ -84,23 +84,8 @@ function vertices(flat, colors) {
   return geometry;
 }
 
-// Lines with their width; from afar, lines of one pixel. @param step points from the start of a segment to that of the next
-function thick(lines, step, { colors, width, ...item }, options) {
-  const points = lines.geometry.getAttribute("position");
-  const diameter = width || WIDTH * options.size;
-  const tubes = new THREE.InstancedMesh(new THREE.CylinderGeometry(diameter / 2, diameter / 2, 1, 8, 1, true), material(THREE.MeshBasicMaterial, item, options), Math.max(0, Math.floor((points.count + step - 2) / step)));
-  if (colors) tubes.material.color.set(0xffffff);
-  const [from, along, turned, matrix] = [new THREE.Vector3(), new THREE.Vector3(), new THREE.Quaternion(), new THREE.Matrix4()];
-  for (let i = 0; i < tubes.count; i += 1) {
-    from.fromBufferAttribute(points, step * i);
-    along.fromBufferAttribute(points, step * i + 1).sub(from);
-    const size = new THREE.Vector3(1, along.length(), 1);
-    from.addScaledVector(along, 0.5);
-    tubes.setMatrixAt(i, matrix.compose(from, turned.setFromUnitVectors(Y, along.normalize()), size));
-    if (colors) tubes.setColorAt(i, new THREE.Color(...colors[step * i].slice(0, 3)));
-  }
-  tubes.frustumCulled = false;
-  return new THREE.Group().add(lines, tubes);
+function wide(points, step, item, options) {
+  return placed(ribbons(points, step, item.colors, material(THREE.MeshBasicMaterial, item, options), item.width || WIDTH * options.size), item.pose);
 }
 
 // The colour of a marker, or that of the display.
