@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterator
+from functools import partial
 from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
@@ -27,6 +28,7 @@ from tests.cli.lab import drawn, panel
 from tests.view.conftest import show
 from urdfkit.app.replay.recorded_sensors import RecordedSensors
 from urdfkit.app.simulation.displays.displays import Displays
+from urdfkit.app.simulation.features.plots import Plots
 from urdfkit.app.simulation.features.topic_panel import TopicPanel
 from urdfkit.description.urdf.robot import Box
 from urdfkit.messages.vision import DETECTIONS_2D
@@ -46,6 +48,16 @@ DRAWN = """(topic) => {
   return found;
 }"""
 
+VERTEX_COLOURS = """(topic) => {
+  const found = [];
+  urdfkit.viewport.viewer.scene.traverse(({ userData, geometry }) => {
+    const colours = userData.display === topic && geometry?.getAttribute("color");
+    const colour = (i) => [0, 1, 2].map((k) => Math.round(colours.array[3 * i + k]));
+    for (let i = 0; i < (colours?.count ?? 0); i += 1) found.push(colour(i));
+  });
+  return found;
+}"""
+
 
 class Shown:
     """The page of a robot that stands still, with topics."""
@@ -53,7 +65,7 @@ class Shown:
     def __init__(self, layout: dict[str, Any] | None = None) -> None:
         self.simulation = Simulation()
         self.server = Server("sim", port=0, settings={"layout": layout} if layout else {})
-        self.features = [part(self.simulation, self.server, self._now) for part in (TopicPanel, Displays)]  # type: ignore[arg-type]
+        self.features = [part(self.simulation, self.server, self._now) for part in (TopicPanel, Plots, Displays)]  # type: ignore[arg-type]
         self._takes = {name: take for part in self.features for name, take in part.takes.items()}
         self.server.requests.update({name: schema for name, (schema, _) in self._takes.items()})
 
@@ -107,6 +119,10 @@ class Shown:
         pose = {"pose": place, "covariance": covariance.ravel().tolist()}
         simulation.publish("/pose", "geometry_msgs/msg/PoseWithCovarianceStamped", pose=pose)
         simulation.publish("/range", "sensor_msgs/msg/Range", "laser", range=1.0, field_of_view=0.4)
+        fields = [{"name": name, "offset": 4 * k, "datatype": 7, "count": 1} for k, name in enumerate("xyzi")]
+        data = list(np.array([[0, 0, 1, 5], [1, 0, 1, 9]], dtype="<f4").tobytes())
+        size = {"point_step": 16, "width": 2, "height": 1}
+        simulation.publish("/cloud", "sensor_msgs/msg/PointCloud2", fields=fields, data=data, **size)
 
 
 @pytest.fixture
@@ -131,7 +147,17 @@ def test_topics_are_drawn_with_their_options_and_saved_as_a_layout(shown, visits
         until(lambda topic=topic: shown.tick() or page.locator(f"[data-display='{topic}']").is_visible())
         page.locator(f"[data-display='{topic}'] input[type=checkbox]").check()
         until(lambda topic=topic, kind=kind: shown.tick() or kind in page.evaluate(DRAWN, topic))
+    assert page.evaluate(DRAWN, "/plan") == ["InstancedBufferGeometry"]  # once, at every distance
+    options = {topic: page.locator(f"[data-display='{topic}'] .display-options > input") for topic in kinds}
+    counts = {"/plan": 2, "/map": 0, "/scan": 2, "/marks": 0, "/pose": 2, "/range": 1, "/cloud": 2}
+    assert {topic: each.count() for topic, each in options.items()} == counts  # colour and size, if they change it
     page.get_by_label("Field that colours /scan").select_option("range")
+    assert not page.get_by_label("Colour of /scan").is_visible()
+    page.get_by_label("Field that colours /cloud").select_option("i")
+    until(lambda: shown.tick() or page.evaluate(VERTEX_COLOURS, "/cloud") == [[0, 0, 1], [1, 0, 0]])
+    page.get_by_label("Decay of /scan [s]").fill("60")
+    page.get_by_label("Decay of /scan [s]").press("Enter")
+    until(lambda: shown.tick() or shown.topics() or len(page.evaluate(DRAWN, "/scan")) > 2)  # older points stay
     until(lambda: shown.tick() or "BufferGeometry" in page.evaluate(DRAWN, "/scan"))
     page.locator("#transforms summary").click()
     until(lambda: shown.tick() or page.locator("[data-frame=base]").is_visible())
@@ -191,6 +217,21 @@ def test_a_path_is_drawn_over_the_map(shown, visits, until) -> None:
       return count;
     }"""
     until(lambda: shown.tick() or page.evaluate(pink) > 500)  # 3 cm wide
+    assert visits.problems == []
+
+
+def test_values_of_the_environment_are_plotted(shown, visits, until) -> None:
+    page = visits.open(shown.server.url, ready=False)
+    until(lambda: shown.tick() or page.locator("#open-plots").is_visible())
+    values = {"Temperature.temperature": 21.5, "RelativeHumidity.relative_humidity": 0.4}
+    values |= {"FluidPressure.fluid_pressure": 99800.0, "Illuminance.illuminance": 320.0}
+    for name, value in values.items():
+        kind, field = name.split(".")
+        send = partial(shown.simulation.publish, f"/{field}", f"sensor_msgs/msg/{kind}", **{field: value})
+        send()
+        page.evaluate("(field) => urdfkit.plots.add(`/${field}`, field)", field)
+        row = page.locator(f"[data-curve='field:/{field}:{field}'] .value")
+        until(lambda row=row, send=send, value=value: send() or shown.tick() or row.inner_text() == f"{value:g}")
     assert visits.problems == []
 
 

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from urdfkit.app.simulation.displays.drawings import CLOUDS, KINDS, Item, drawing
+from urdfkit.app.simulation.displays.drawings import CLOUDS, KINDS, Item, drawing, options
 from urdfkit.app.simulation.displays.frame_tree import FrameTree, seven_of
 from urdfkit.app.simulation.displays.image_boxes import CAMERA_INFO, IMAGE, boxes, camera_info_topic
 from urdfkit.app.simulation.displays.interactive_markers import INIT, UPDATE, InteractiveMarkerStore, init_topic
@@ -63,8 +63,8 @@ class Displays(Feature):
         return {"publish_pose": (Schema(values), self._publish_pose)}
 
     def show(self) -> None:
-        """Publish the types of messages that have a display."""
-        self.server.publish_latched("display_types", types=list(TYPES), fields=list(CLOUDS))
+        """Publish the types of messages that have a display, with its options."""
+        self.server.publish_latched("display_types", types={kind: options(kind) for kind in TYPES})
 
     @property
     def frames(self) -> FrameTree:

@@ -243,3 +243,14 @@ CLOUDS: dict[str, Callable[[Any, str], list[Item]]] = {
     "sensor_msgs/msg/PointCloud2": cloud,
 }
 """Type of a message → its points, coloured by a field."""
+OWN_SIZE = (grid_cells, point, range_cone)
+"""Drawings whose size is part of the message."""
+
+
+def options(kind: str) -> list[str]:
+    """Return the options that change the drawing of a type, of color, size and field; maps and markers have none."""
+    if kind in CLOUDS:
+        return ["color", "size", "field"]
+    if kind not in KINDS or KINDS[kind] is occupancy_grid:
+        return []
+    return ["color"] if KINDS[kind] in OWN_SIZE else ["color", "size"]

@@ -11,9 +11,9 @@ const COLOURS = ["#e0399b", "#0aa37f", "#e08a00", "#7a5cff", "#3b7df5", "#d6402f
 let count = 0;
 
 export class Display {
-  /** @param topic name and type; @param points whether its points have fields; @param options of a saved layout */
-  constructor(page, { topic, type, points }, options = {}) {
-    Object.assign(this, { page, topic, type, points });
+  /** @param topic name and type; @param controls names of the options that change its drawing; @param options of a saved layout */
+  constructor(page, { topic, type, controls }, options = {}) {
+    Object.assign(this, { page, topic, type, controls });
     this.options = { on: false, color: COLOURS[count++ % COLOURS.length], size: 1, decay: 0, field: "", ...options };
     this.drawn = []; // {time, root, groups}
     this.late = null; // the newest message that waits for the end of a drag
@@ -41,10 +41,14 @@ export class Display {
     color.addEventListener("input", () => this.#set({ color: color.value }));
     const size = h("input", { type: "range", min: 0.2, max: 5, step: 0.1, value: this.options.size, "aria-label": `Size of ${this.topic}` });
     size.addEventListener("input", () => this.#set({ size: size.valueAsNumber }));
-    if (!this.points) return [color, size];
+    if (!this.controls.includes("field")) return this.controls.map((name) => ({ color, size })[name]);
+    color.hidden = this.options.field !== "";
     this.field = h("select", { "aria-label": `Field that colours ${this.topic}` }, h("option", { value: "" }, "one colour"));
     if (this.options.field) this.field.append(h("option", { value: this.options.field, selected: true }, this.options.field));
-    this.field.addEventListener("change", () => this.#set({ field: this.field.value }));
+    this.field.addEventListener("change", () => {
+      color.hidden = this.field.value !== "";
+      this.#set({ field: this.field.value });
+    });
     const decay = numberField({ min: 0, max: 60, step: 1, unit: "s", value: this.options.decay, "aria-label": `Decay of ${this.topic} [s]`, title: "Points are kept for this time" });
     decay.addEventListener("change", () => this.#set({ decay: decay.valueAsNumber }));
     return [color, size, this.field, h("label.inline", {}, "decay ", decay, h("span.unit", {}, "s"))];

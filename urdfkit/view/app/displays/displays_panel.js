@@ -9,7 +9,7 @@ const MONITOR = "M3 5h18v12H3zM9 21h6M12 17v4M6 14l4-4 3 2 5-5";
 export class Displays {
   constructor(page) {
     this.page = page;
-    this.types = new Map(); // type → whether its points have fields
+    this.types = new Map(); // type → names of its options
     this.all = new Map(); // topic → display
     this.saved = new Map(); // topic → options of a layout, until the topic exists
     this.panel = page.panels.add({ id: "displays", title: "Displays", icon: MONITOR, order: 22 });
@@ -17,8 +17,8 @@ export class Displays {
     this.list = h("ul.bare-list.displays", { "aria-label": "Displays" });
     this.none = h("p.quiet", {}, "No topic here has a display. Maps, paths, poses, markers, scans, point clouds, ranges and wrenches have one.");
     this.panel.body.append(this.none, this.list, transforms(page));
-    page.on("display_types", ({ types, fields }) => {
-      this.types = new Map(types.map((type) => [type, fields.includes(type)]));
+    page.on("display_types", ({ types }) => {
+      this.types = new Map(Object.entries(types));
       page.panels.available("displays", true);
     });
     page.on("topics", ({ rows }) => this.#take(rows));
@@ -30,7 +30,7 @@ export class Displays {
   #take(rows) {
     for (const [topic, type] of rows) {
       if (!this.types.has(type) || this.all.has(topic)) continue;
-      const display = new Display(this.page, { topic, type, points: this.types.get(type) }, this.saved.get(topic));
+      const display = new Display(this.page, { topic, type, controls: this.types.get(type) }, this.saved.get(topic));
       this.all.set(topic, display);
       this.list.append(display.item);
     }
