@@ -113,6 +113,22 @@ def test_a_robot_that_outgrows_the_view_is_fitted_again_but_not_against_a_person
     assert page.evaluate(place) == pytest.approx(camera)
 
 
+def test_a_robot_without_visual_shapes_stands_on_the_ground_and_shows_its_collision_shapes(
+    serve, visits, tmp_path: Path
+) -> None:
+    shape = '<collision><geometry><sphere radius="0.5"/></geometry></collision>'
+    (tmp_path / "ball.urdf").write_text(f'<robot name="ball"><link name="base">{shape}</link></robot>')
+    page = visits.open(serve("view", str(tmp_path / "ball.urdf")).url)
+    assert page.locator("#show-collision").is_checked()
+    look = """() => {
+      const [shown] = urdfkit.scene.shapes("base", "collision"), found = [shown.visible];
+      shown.traverse(({ material, castShadow }) => material && found.push(material.opacity, castShadow));
+      return found;
+    }"""
+    assert page.evaluate(look) == [True, 1, True]
+    assert page.evaluate("urdfkit.viewport.floor") == pytest.approx(-0.5)
+
+
 def test_a_finding_in_a_macro_marks_every_link_it_made(serve, visits, until, tmp_path: Path) -> None:
     path = tmp_path / "two.urdf.xacro"
     path.write_text(TWINS)
@@ -221,6 +237,7 @@ def test_colours_and_keys(page, keep) -> None:
     assert not page.get_by_role("dialog").is_visible()
     page.keyboard.press("c")
     assert page.locator("#show-collision").is_checked()
+    assert page.evaluate("urdfkit.scene.shapes('upper', 'collision').map(({ visible }) => visible)") == [True]
 
 
 def test_everything_has_a_name_and_the_keyboard_reaches_it(page) -> None:

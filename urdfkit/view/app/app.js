@@ -90,7 +90,13 @@ function applied(sequence, time) {
   page.emit("poses", time);
   if (!fitted) {
     fitted = true;
-    scene.settled().then(() => {
+    scene.settled().then(async () => {
+      const collision = document.getElementById("show-collision");
+      if (scene.bare) {
+        if (!collision.checked) collision.click();
+        scene.restyle({ solid: true });
+        await scene.settled();
+      }
       stand();
       document.body.dataset.ready = page.fit();
     });

@@ -23,7 +23,7 @@ export class Scene {
     this.simplified = new Map(); // link → numbers of triangles [in the file, shown]
     this.groups = { visual: new Map(), collision: new Map() };
     this.shown = { visual: true, collision: false };
-    this.look = { wireframe: false, opacity: 1 };
+    this.look = { wireframe: false, opacity: 1, solid: false }; // solid: collision shapes are opaque and cast shadows
     this.faded = new Set(); // transparent obstacles
     this.byLink = new Map(); // name → node
     this.linkOf = new Map(); // node → name
@@ -82,7 +82,9 @@ export class Scene {
       if (!material) return;
       material.userData.opacity ??= material.opacity;
       material.wireframe = this.look.wireframe;
-      material.opacity = material.userData.opacity * this.look.opacity * (this.faded.has(object) ? FAINT : 1);
+      const solid = this.look.solid && group.name === "collision";
+      if (solid) object.castShadow = object.receiveShadow = true;
+      material.opacity = (solid ? 1 : material.userData.opacity) * this.look.opacity * (this.faded.has(object) ? FAINT : 1);
       material.userData.clear ??= material.transparent; // by its texture or the colours of its vertices
       const clear = material.opacity < 1 || material.userData.clear;
       if (material.transparent !== clear) Object.assign(material, { transparent: clear, needsUpdate: true });
@@ -211,8 +213,13 @@ export class Scene {
       }
     };
     for (const node of this.own) node.updateWorldMatrix(true, true);
-    for (const group of this.#groupsOf("visual", this.own)) group.traverse(add);
+    for (const group of this.#groupsOf(this.bare ? "collision" : "visual", this.own)) group.traverse(add);
     return Number.isFinite(lowest) ? lowest : 0;
+  }
+
+  /** Whether the robot has collision shapes only. */
+  get bare() {
+    return !this.#groupsOf("visual", this.own).length && this.#groupsOf("collision", this.own).length > 0;
   }
 
   #groupsOf(role, nodes) {
