@@ -62,7 +62,7 @@ export function tools(page) {
   page.fit = (direction) => {
     // In the simulation the camera is behind the robot, so that forward is away from the driver and left is left.
     const sim = page.mode === "sim";
-    const room = sim ? (page.drives === false ? 1.2 : 1.9) : 1; // a driver needs to see the surroundings
+    const room = sim ? (page.drives === false ? 1.2 : 2.6) : 1; // a driver needs to see the surroundings
     const box = page.scene.bounds();
     const view = sim && !box.isEmpty() ? page.sight.clear(box, [-1, -0.55, 0.75], page.viewport.distance(box, room)) : { direction: [1, 0.75, 0.6], part: 1 };
     const done = page.viewport.fit(box, direction === null ? null : view.direction, room * view.part);
