@@ -12,13 +12,13 @@ from typing import Any, NamedTuple
 
 from urdfkit.errors import MissingDependencyError, ResourceError
 
-SUFFIXES = (".mcap", ".db3", ".bag")
+FIRST_BYTES = {".mcap": b"\x89MCAP", ".db3": b"SQLite format 3", ".bag": b"#ROSBAG V"}
+"""Suffix → the first bytes of such files."""
 NANOSECONDS = 1e9
 _MODULE = "rosbags.usertypes"
 REASONS = {
     "File end magic is invalid.": "its end is missing, as after a crash or an incomplete download; "
     "`mcap recover FILE -o NEW` recovers the rest",
-    "File magic is invalid.": "it is not an MCAP file",
 }
 """Reasons of errors of rosbags, in words of users."""
 
@@ -64,8 +64,10 @@ class BagFile:
             from urdfkit.description.packages.similar_names import near_path
 
             raise ResourceError(f"no file {self.path}{near_path(self.path)}")
-        if self.path.is_file() and self.path.suffix not in SUFFIXES:
-            raise ResourceError(f"{self.path} is not a recording: recordings are {', '.join(SUFFIXES)} files")
+        if self.path.is_file() and self.path.suffix not in FIRST_BYTES:
+            raise ResourceError(f"{self.path} is not a recording: recordings are {', '.join(FIRST_BYTES)} files")
+        if self.path.is_file() and not _begins_with(self.path, FIRST_BYTES[self.path.suffix]):
+            raise ResourceError(f"{self.path} is not a recording: its content is not that of a {self.path.suffix} file")
         if self.path.is_dir() and not (self.path / "metadata.yaml").exists():
             raise ResourceError(f"{self.path} is not a recording: a folder of ros2 bag contains metadata.yaml")
         try:
@@ -170,6 +172,14 @@ def kept_message_types() -> Iterator[None]:
     finally:
         if ours is not None:
             sys.modules[_MODULE] = ours
+
+
+def _begins_with(path: Path, first: bytes) -> bool:
+    try:
+        with path.open("rb") as file:
+            return file.read(len(first)) == first
+    except OSError as error:
+        raise ResourceError(f"{path} cannot be read: {error.strerror}") from error
 
 
 def _first_line(error: Exception) -> str:

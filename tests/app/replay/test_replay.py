@@ -172,12 +172,21 @@ def test_bag_info(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert found["topics"][0] == {"name": "/joint_states", "type": "sensor_msgs/msg/JointState", "messages": 21}
 
 
-@pytest.mark.parametrize(("name", "content"), [("a.mcap", b"nothing"), ("a.bag", b""), ("a.txt", b"")])
-def test_files_that_are_no_recordings_are_refused_in_one_line(name: str, content: bytes, tmp_path: Path) -> None:
+@pytest.mark.parametrize(
+    ("name", "content", "reason"),
+    [
+        ("a.mcap", b"nothing", "its content is not that of a .mcap file"),
+        ("a.db3", b"\x89PNG", "its content is not that of a .db3 file"),
+        ("a.bag", b"\x89PNG", "its content is not that of a .bag file"),
+        ("a.bag", b"", "its content is not that of a .bag file"),
+        ("a.txt", b"", "recordings are .mcap, .db3, .bag files"),
+    ],
+)
+def test_files_that_are_no_recordings_are_refused(name: str, content: bytes, reason: str, tmp_path: Path) -> None:
     (tmp_path / name).write_bytes(content)
     with pytest.raises(ResourceError) as refused:
         BagFile(tmp_path / name)
-    assert "\n" not in str(refused.value)
+    assert str(refused.value) == f"{tmp_path / name} is not a recording: {reason}"
     with pytest.raises(ResourceError, match="no file"):
         BagFile(tmp_path / "missing.mcap")
 
