@@ -167,7 +167,46 @@ global_costmap:
 """
 FILES |= {"drive": DRIVE, "behaviors": BEHAVIORS}
 
+TELEOP = """axis_linear: 1
+axis_angular: 0
+enable_button: 4
+enable_turbo_button: 5
+"""
+PLANNERS = """DWAPlannerROS:
+  max_vel_x: 0.5
+  min_vel_trans: 0.1
+  max_vel_trans: 0.5
+costmap:
+  obstacle_range: 2.5
+  raytrace_range: 3.0
+"""
+PAIR = """ekf_odom:
+  ros__parameters:
+    odom_frame: odom
+    map_frame: map
+    world_frame: odom
+    base_link_frame: base_link
+ekf_map:
+  ros__parameters:
+    odom_frame: odom
+    map_frame: map
+    world_frame: map
+    base_link_frame: base_link
+wheels:
+  type: diff_drive_controller/DiffDriveController
+  enable_odom_tf: false
+"""
+FILES |= {"teleop": TELEOP, "planners": PLANNERS}
+
 BAD = [
+    ("map", "[0.0, 0.0, 0.0]", "[0.0, 0.0]", "K971", 4, "`origin` of the map has 2 values"),
+    ("map", "[0.0, 0.0, 0.0]", "[0.0, 0.0, 90.0]", "K971", 4, "yaw of the map is 90.0 rad"),
+    ("map", "mode: trinary", "negate: 2", "K971", 2, "`negate` of the map is `2`"),
+    ("teleop", "angular: 0", "angular: 1", "K971", 2, "`axis_linear` and `axis_angular` are both 1"),
+    ("teleop", "button: 5", "button: 4", "K971", 4, "`enable_button` and `enable_turbo_button` are both 4"),
+    ("planners", "0.1", "0.9", "K971", 3, "`min_vel_trans` is 0.9, more than `max_vel_trans`, 0.5"),
+    ("planners", "vel_x: 0.5", "vel_x: 5.0", "K971", 2, "`max_vel_x` is 5, far more than `max_vel_trans`, 0.5"),
+    ("planners", "3.0", "1.0", "K971", 6, "`obstacle_range` is 2.5, more than `raytrace_range`, 1"),
     ("controllers", "update_rate: 100", "update_rate: 100.0", "K974", 3, "write 100"),
     ("controllers", "\nimu_broadcaster:", "\nimu_sensor:", "K971", 7, "controller `imu_broadcaster` has no section"),
     ("controllers", "sensor_name: imu", "sensor_name: imuu", "K965", 9, "did you mean `imu`?"),
@@ -374,3 +413,15 @@ def test_each_defect_is_one_finding_at_its_line(tmp_path, name, old, new, code, 
 @pytest.mark.parametrize(("name", "old", "new"), [("navigation", "width", "width"), *NO_NUMBERS, *GOOD])
 def test_correct_parameters_are_silent(tmp_path, name, old, new):
     assert findings(tmp_path, name, old, new) == []
+
+
+@pytest.mark.parametrize(
+    ("flag", "messages"), [("true", []), ("false", ["no node publishes the transform from the odometry"])]
+)
+def test_some_node_publishes_the_transform_of_the_odometry(tmp_path: Path, flag: str, messages: list[str]) -> None:
+    (tmp_path / "package.xml").write_text(MANIFEST)
+    (tmp_path / "cart.urdf").write_text(ROBOT)
+    text = PAIR.replace("ros__parameters:", f"ros__parameters:\n    publish_tf: {flag}", 1)
+    (tmp_path / "pair.yaml").write_text(text)
+    found = [one.message for one in lint(tmp_path) if one.file.endswith(".yaml")]
+    assert [message[:50] for message in found] == messages

@@ -196,6 +196,7 @@ def incomplete_controllers(source: Source, is_typed_at_start: bool) -> Defects:
             yield from _misplaced(root, node)
     for one in settings(source):
         yield from _at_other_level(one)
+        yield from _without_gains(one)
     for one in _with_parameters(source):
         written = {key.text for key, _ in one.group.entries}
         name = next(iter(names.get(id(one.group), ())), None)
@@ -204,6 +205,20 @@ def incomplete_controllers(source: Source, is_typed_at_start: bool) -> Defects:
             is_elsewhere = parameter in _INTERFACES and not written & _INTERFACES
             if name is not None and parameter not in written and not is_elsewhere and not _is_near(parameter, one):
                 yield name, f"controller `{one.name}` has no `{parameter}`"
+
+
+def _without_gains(one: ControllerSettings) -> Defects:
+    """Yield the ``gains`` of a trajectory controller that lack some of its joints but not all of them."""
+    gains, joints = one.group.find("gains"), one.group.find("joints")
+    key = next((key for key, value in one.group.entries if value is gains), None)
+    if key is None or gains is None or joints is None or not one.kind.endswith("/JointTrajectoryController"):
+        return
+    written = {each.text.partition(".")[0] for each, _ in gains.entries}
+    lacking = [each.text for each in joints.items if each.text not in written]
+    names = ", ".join(f"`{name}`" for name in lacking)
+    is_partial = 0 < len(lacking) < len(joints.items) and len(lacking) + len(written) == len(joints.items)
+    if is_partial and "<<" not in written:
+        yield key, f"`gains` of controller `{one.name}` lacks joint {names}"
 
 
 def _at_other_level(one: ControllerSettings) -> Defects:

@@ -1,4 +1,4 @@
-"""Controllers of ROS 2 that a launch file spawns: without a type, or with the command interface of another one."""
+"""Controllers that a launch file spawns: without a type (ROS 2), or with a joint or an interface of another one."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ from collections.abc import Iterator
 
 from urdfkit.description.xml.source import Source
 from urdfkit.lint.facts.control.controller_joints import Named
+from urdfkit.lint.facts.control.controller_settings import settings
 from urdfkit.lint.facts.control.launched_nodes import Started, launches, started
 from urdfkit.lint.facts.control.ros2_controllers import PARAMETERS, DeclaredController, Wanted, declared, wanted
 from urdfkit.lint.facts.control.yaml_tree import Node, documents, yamls
@@ -91,6 +92,23 @@ def shared_interfaces(model: Model) -> Iterator[tuple[Source, Wanted, str]]:
                     other = claimed.setdefault((each.joint, each.interface), one.name) if each.is_command else one.name
                     if other != one.name:
                         yield source, Wanted(each.joint, each.interface, True, _joint(one, each)), other
+            if len(listed) > 1 and PARAMETERS not in source.text:
+                yield from ((source, *shared) for shared in _shared_in_ros1(source, listed))
+
+
+_OF_ROS1 = r"(effort|position|velocity)_controllers/\w+|(diff_drive)_controller/DiffDriveController"
+
+
+def _shared_in_ros1(source: Source, listed: list[str]) -> Iterator[tuple[Wanted, str]]:
+    """Yield the joints that two spawned controllers of ROS 1 command; it gives a joint to one controller only."""
+    claimed: dict[str, str] = {}
+    for one in sorted((one for one in settings(source) if one.name in listed), key=lambda one: listed.index(one.name)):
+        kind = re.fullmatch(_OF_ROS1, one.kind)
+        found = [one.group.find(key) for key in ("joint", "joints", "left_wheel", "right_wheel")] if kind else []
+        for node in [each for value in found if value is not None for each in (value, *value.items) if each.text]:
+            other = claimed.setdefault(node.text, one.name)
+            if other != one.name and kind is not None:
+                yield Wanted(node.text, kind[1] or "velocity", True, node), other
 
 
 def _joint(one: DeclaredController, claim: Wanted) -> Node:

@@ -103,6 +103,16 @@ def published(model: Model) -> Iterator[Published]:
                 yield Published(topic, sensor.name or "", key, written, kind)
 
 
+def depth_clouds(model: Model) -> Iterator[str]:
+    """Yield the topics of point clouds of depth cameras of Gazebo Classic in ROS 2, without slashes at their ends."""
+    for plugin, _, sensor in plugins(model.robot):
+        spec = spec_of(plugin, model.target)
+        if spec is not None and spec.generation == "ros2" and spec.kind == "camera" and sensor is not None:
+            for topic, _ in _of_ros_2(plugin, spec, sensor) if sensor.type == "depth" else ():
+                if topic.endswith("/image_raw") and "$" not in topic:
+                    yield topic.strip("/").removesuffix("image_raw") + "points"
+
+
 def _of_ros_1(plugin: Plugin, spec: PluginSpec) -> Iterator[tuple[str, Element]]:
     from urdfkit.description.plugins import read
 

@@ -20,6 +20,9 @@ _ACTIONS = {
 }
 """Type of a controller of MoveIt → classes of controllers with its action."""
 
+_NAMES = {"JointTrajectoryController": "follow_joint_trajectory", "GripperActionController": "gripper_cmd"}
+"""Class of a controller → name of its action."""
+
 
 def started_controllers(model: Model) -> dict[str, list[ControllerSettings]]:
     """Return name → settings of the controllers of ros_control in the YAML files around a robot."""
@@ -33,7 +36,9 @@ def started_controllers(model: Model) -> dict[str, list[ControllerSettings]]:
 def contradictions(
     entry: MoveitEntry, controllers: list[ControllerSettings], model: Model
 ) -> Iterator[tuple[Node, str]]:
-    """Yield the type and the joints of a controller of MoveIt that no controller with its name has."""
+    """Yield the type, the action and the joints of a controller of MoveIt that no controller with its name has."""
+    from urdfkit.lint.fix_builders import nearest
+
     kind = entry.settings.find("type")
     classes = _ACTIONS.get(kind.text, ()) if kind is not None else ()
     if not classes or not controllers or any(one.kind not in TYPES for one in controllers):
@@ -42,6 +47,12 @@ def contradictions(
     if kind is not None and not any(each.partition("/")[2] in classes for each in kinds):
         yield kind, f"controller `{entry.name.text}` has no action for `{kind.text}`: its type is {next(iter(kinds))}"
         return
+    action = entry.settings.find("action_ns")
+    offered = {_NAMES.get(each.partition("/")[2], "") for each in kinds}
+    name = offered.pop() if len(offered) == 1 else ""
+    is_written = action is not None and action.text and "$" not in action.text
+    if action is not None and name and is_written and nearest(action.text.strip("/"), (name,), cutoff=0.85) is None:
+        yield action, f"controller `{entry.name.text}` has no action `{action.text}`; its action is `{name}`"
     names = {name for one in controllers for name in _joints(one)}
     joints = entry.settings.find("joints")
     is_complete = names <= model.robot.joint_by_name.keys()  # a joint that no robot has is reported where it is listed

@@ -65,7 +65,10 @@ def planning_defects(source: Source, groups: Collection[str]) -> Defects:
 
     for document in documents(source)[0]:
         yield from _plugins(document)
+        for node in walk(document):
+            yield from _pipeline(node)
         for top in unwrapped(document):
+            yield from _sensors(top)
             for key, value in top.entries:
                 near = nearest(key.text, _KEYS, cutoff=0.9) if key.text not in _KEYS else None
                 is_other = key.text.rstrip("s") == near.rstrip("s") and not _has_limits(value) if near else True
@@ -83,6 +86,52 @@ def planning_defects(source: Source, groups: Collection[str]) -> Defects:
                     yield configs, f"`planner_configs` of group `{key.text}` is a text; write a list"
                 if is_of_group:
                     yield from _planners(key, value, top.find("planner_configs"))
+
+
+def _pipeline(node: Node) -> Defects:
+    """Yield the parameters of a planning pipeline of another release, and adapters without timing of trajectories."""
+    adapters, responses = node.find("request_adapters"), node.find("response_adapters")
+    names = [
+        word for value in (adapters, responses) if value is not None for text in value.texts() for word in text.split()
+    ]
+    is_old = any(name.startswith("default_planner_request_adapters/") for name in names)
+    is_new = any(name.startswith(("default_planning_request", "default_planning_response")) for name in names)
+    if is_old == is_new or "$" in "".join(names):
+        return
+    wrong, right = ("planning_plugins", "planning_plugin") if is_old else ("planning_plugin", "planning_plugins")
+    key = next((key for key, _ in node.entries if key.text == wrong), None)
+    if key is not None and node.find(right) is None:
+        release = "before Jazzy" if is_old else "since Jazzy"
+        yield key, f"`request_adapters` has adapters of releases {release}, which read `{right}`, not `{wrong}`"
+    planners = [text for each in (wrong, right) if (value := node.find(each)) is not None for text in value.texts()]
+    is_timed = any(re.search(r"/Add\w*(?:Parameterization|Smoothing)", name) for name in names)
+    if "ompl_interface/OMPLPlanner" in planners and not is_timed and len(names) > 2:
+        name = "request_adapters" if is_old else "response_adapters"
+        key = next((each for each, _ in node.entries if each.text == name), None)
+        if key is not None:
+            message = (
+                "has no time parameterization; add `AddTimeOptimalParameterization`, or trajectories have no times"
+            )
+            yield key, f"`{name}` {message}"
+
+
+_SENSOR_TOPICS = {"PointCloudOctomapUpdater": "point_cloud_topic", "DepthImageOctomapUpdater": "image_topic"}
+"""Class of a sensor plugin → the parameter of its topic (moveit_ros_perception)."""
+
+
+def _sensors(top: Node) -> Defects:
+    """Yield the names in ``sensors`` without a section, and sensor plugins without the topic that they read."""
+    sensors, names = top.find("sensors"), {key.text for key, _ in top.entries}
+    for item in sensors.items if sensors is not None else ():
+        if item.text and item.text not in names and any(each.find("sensor_plugin") for _, each in top.entries):
+            yield item, f"sensor `{item.text}` has no section{_hint(item.text, names - {'sensors'})}"
+    listed = sensors.items if sensors is not None else ()
+    for node in (*(value for _, value in top.entries), *listed):
+        plugin = node.find("sensor_plugin")
+        topic = _SENSOR_TOPICS.get(plugin.text.rpartition("/")[2]) if plugin is not None else None
+        others = {key.text for key, _ in node.entries} & set(_SENSOR_TOPICS.values())
+        if plugin is not None and topic is not None and others and topic not in others:
+            yield plugin, f"`{plugin.text}` reads `{topic}`, not `{others.pop()}`"
 
 
 def _has_limits(value: Node) -> bool:

@@ -27,7 +27,6 @@ from urdfkit.lint.facts.navigation.tables import (
     MOTION_MODELS,
     MUX,
     NODES,
-    ORDERED,
     POSITIVE,
     SIMILAR,
     SLAM_DOUBLES,
@@ -206,15 +205,10 @@ def _plugins(node: Node) -> Defects:
 
 
 def _contradictions(node: Node) -> Defects:
-    """Yield a minimum above its maximum, an inflation that ends inside of the robot, and misspelt critics."""
+    """Yield an inflation that ends inside of the robot, and misspelt critics."""
     from urdfkit.lint.facts.ros_packages import is_slip
 
-    numbers = {key.text: number_of(value) for key, value in node.entries if value.kind == "text"}
-    for low, high in ORDERED:
-        least, most, value = numbers.get(low), numbers.get(high), node.find(low)
-        if value is not None and least is not None and most is not None and least > most:
-            yield value, f"`{low}` is {least:g}, more than `{high}`, {most:g}"
-    radius = numbers.get("robot_radius")
+    radius = number_of(node.find("robot_radius"))
     for _, inner in node.entries if radius is not None and node.find("footprint") is None else ():
         inflated = inner.find("inflation_radius")
         reach = number_of(inflated) if inflated is not None else None

@@ -15,13 +15,14 @@ from urdfkit.lint.facts.control.yaml_tree import Node, documents, number_of
 
 _KEYS = ("image", "resolution", "origin", "occupied_thresh", "free_thresh")
 _MODES = ("trinary", "scale", "raw")
+_TURN = 6.3
 _IMAGES = ("*.pgm", "*.png", "*.bmp")
 
 
 def map_defects(source: Source) -> Iterator[tuple[Node, str]]:
     """Yield the missing image, the unknown mode and the impossible numbers of a map."""
     for root in documents(source)[0] if "occupied_thresh" in source.text else ():
-        image, resolution, _, occupied, free = (root.find(key) for key in _KEYS)
+        image, resolution, origin, occupied, free = (root.find(key) for key in _KEYS)
         if image is None or resolution is None or occupied is None or free is None:
             continue
         folder = Path(source.file).absolute().parent
@@ -35,6 +36,13 @@ def map_defects(source: Source) -> Iterator[tuple[Node, str]]:
             hint = suggestion(nearest(mode.text, _MODES)) or f"; write one of {', '.join(_MODES)}"
             yield mode, f"unknown `mode` `{mode.text}` of the map{hint}"
         length, low, high = number_of(resolution), number_of(free), number_of(occupied)
+        if origin is not None and origin.kind == "list" and len(origin.items) != 3:
+            yield origin, f"`origin` of the map has {len(origin.items)} values; write x, y and yaw"
+        elif origin is not None and origin.items and abs(number_of(origin.items[2]) or 0.0) > _TURN:
+            yield origin.items[2], f"yaw of the map is {origin.items[2].text} rad, more than a turn"
+        negate = root.find("negate")
+        if negate is not None and negate.kind == "text" and negate.text.lower() not in ("0", "1", "true", "false"):
+            yield negate, f"`negate` of the map is `{negate.text}`; write 0 or 1"
         if length is not None and length <= 0.0:
             yield resolution, f"`resolution` is {length:g} m; it must be positive"
         if low is not None and high is not None and low > high:

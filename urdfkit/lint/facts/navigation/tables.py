@@ -196,6 +196,11 @@ ORDERED = (
     *(("min_obstacle_height", "max_obstacle_height"), ("obstacle_min_range", "obstacle_max_range")),
     *(("raytrace_min_range", "raytrace_max_range"), ("min_lookahead_dist", "max_lookahead_dist")),
     *(("min_lookahead_dist", "lookahead_dist"), ("lookahead_dist", "max_lookahead_dist"), ("vx_min", "vx_max")),
+    *(("min_vel_trans", "max_vel_trans"), ("min_vel_theta", "max_vel_theta"), ("min_trans_vel", "max_trans_vel")),
+    *(("min_rot_vel", "max_rot_vel"), ("min_in_place_vel_theta", "max_vel_theta"), ("maxUrange", "maxRange")),
+    *(("min_laser_range", "max_laser_range"), ("laser_min_range", "laser_max_range"), ("xmin", "xmax")),
+    *(("ymin", "ymax"), ("obstacle_range", "raytrace_range"), ("obstacle_max_range", "raytrace_max_range")),
+    ("free_thresh_default", "occupied_thresh_default"),
 )
 """Pairs of a minimum and its maximum."""
 

@@ -55,7 +55,7 @@ def misnamed(model: Model) -> Defects:
         for path in dict.fromkeys(node.files):
             if path in files:
                 users.setdefault(files[path].file, []).append(node)
-    started = {_name(node) for node in nodes}
+    started = {name_of_node(node) for node in nodes}
     by_file = {source.file: source for source in files.values()}
     for file, readers in users.items():
         keys = [(key, key.text.strip("/").rpartition("/")[2]) for key, _ in sections(by_file[file])]
@@ -63,7 +63,7 @@ def misnamed(model: Model) -> Defects:
             continue
         seen = set[tuple[int, int]]()
         for node in readers:
-            name = _name(node)
+            name = name_of_node(node)
             if not name or any(name == other for _, other in keys):
                 continue
             near = next((entry for entry in keys if is_slip(entry[1], name) and entry[1] not in started), None)
@@ -104,11 +104,12 @@ def _unused(node: LaunchedNode, file: Source, readers: list[LaunchedNode], start
         if name not in started and written and 2 * sum(each in accepted for each in written) >= len(written):
             found.append(name)
     named = {key.text.strip("/").rpartition("/")[2] for key, _ in sections(file)}
-    alike = [each for each in readers if each.program == node.program and _name(each) not in named]
+    alike = [each for each in readers if each.program == node.program and name_of_node(each) not in named]
     return found[0] if len(found) == len(alike) == 1 else ""
 
 
-def _name(node: LaunchedNode) -> str:
+def name_of_node(node: LaunchedNode) -> str:
+    """Return the name of a node, or the default name of its program; empty if unknown."""
     if node.name is not None:
         return node.name.name
     return "" if node.has_name else _DEFAULTS.get((node.package, node.program), "")
@@ -158,7 +159,7 @@ def _unmanaged(model: Model, nodes: list[LaunchedNode], started: set[str]) -> De
     for source in managers:
         listed = lists[source.file]
         names_listed = {name for name, _ in listed}
-        own = {node.program if not node.has_name else _name(node) for node in nodes if node.source is source}
+        own = {node.program if not node.has_name else name_of_node(node) for node in nodes if node.source is source}
         if source.file.endswith(".py"):
             others = [other for other in managers if other is not source]
             elsewhere = {name for other in others for name, _ in lists[other.file]}
@@ -181,7 +182,7 @@ def _unmanaged(model: Model, nodes: list[LaunchedNode], started: set[str]) -> De
 def _unlisted(source: Source, listed: set[str], elsewhere: set[str], nodes: list[LaunchedNode]) -> Defects:
     """Yield the servers of Nav2 that no list of their launch file names, although another server is listed."""
     own = [node for node in nodes if node.source is source]
-    servers = [(node, node.program if not node.has_name else _name(node)) for node in own if _is_server(node)]
+    servers = [(node, node.program if not node.has_name else name_of_node(node)) for node in own if _is_server(node)]
     if not any(name in listed for _, name in servers) or _lists_more(source):
         return
     for node, name in servers:

@@ -17,7 +17,7 @@ from urdfkit.lint.facts.control.launch_package_paths import place
 from urdfkit.lint.facts.control.ros_gz_bridges import bridged_topics
 from urdfkit.lint.facts.control.yaml_tree import documents, start_of, walk
 from urdfkit.lint.facts.gazebo.plugins import plugins
-from urdfkit.lint.facts.gazebo.sensor_topics import published
+from urdfkit.lint.facts.gazebo.sensor_topics import depth_clouds, published
 from urdfkit.lint.facts.launch.actions import all_elements
 from urdfkit.lint.facts.navigation.misspelt import misspelt_navigation
 from urdfkit.lint.facts.nodes.started import launched_nodes
@@ -40,7 +40,16 @@ _ACCEPTED = (
 _PARAMETER = r"(?:\w+_)?topic|(?:odom|imu|twist|pose)\d+"
 """Matches parameters whose values are topics: of Nav2, slam_toolbox, twist_mux, robot_localization and others."""
 
-_TYPES = {"scan_topic": "LaserScan", "odom": "Odometry", "imu": "Imu"}
+_TYPES = {
+    "scan_topic": "LaserScan",
+    "odom": "Odometry",
+    "odom_topic": "Odometry",
+    "imu": "Imu",
+    "pose": "PoseWithCovarianceStamped",
+    "twist": "TwistWithCovarianceStamped",
+    "point_cloud_topic": "PointCloud2",
+    "image_topic": "Image",
+}
 """Parameter without its number → type of the messages that the node reads."""
 
 _ADDED = ("data", "in", "input", "laser", "lidar", "out", "output", "raw", "topic")
@@ -125,6 +134,7 @@ def unpublished(model: Model, words: Words) -> Iterator[tuple[Mention, str]]:
     """Yield the topics that a node reads and no file publishes, with the only topic of the robot of that type."""
     read = [mention for mention in mentions(model) if mention.type and "$" not in mention.topic.name]
     by_type = _published_by_type(model) if read else {}
+    controllers = robot_topics(model).controllers if read else ()
     places = [(mention.source.file, mention.topic.start) for mention in read]
     for file, source in model.related_files.items():
         if file.endswith((".yaml", ".yml")):
@@ -136,7 +146,8 @@ def unpublished(model: Model, words: Words) -> Iterator[tuple[Mention, str]]:
         is_below = any(
             f"/{one}".endswith(f"/{other}") for each in topics for one, other in ((each, topic), (topic, each))
         )
-        if len(topics) == 1 and not is_below and not topic.startswith("odometry/") and not words.names(topic, places):
+        is_other = topic.startswith("odometry/") or topic.partition("/")[0] in controllers
+        if len(topics) == 1 and not is_below and not is_other and not words.names(topic, places):
             yield mention, next(iter(topics))
 
 
@@ -149,12 +160,22 @@ def _published_by_type(model: Model) -> dict[str, set[str]]:
     for topic, kind, is_read in bridged_topics(model):
         if not is_read:
             found.setdefault(last(kind), set()).add(topic)
+    for topic in depth_clouds(model) if not _has_camera_driver(model) else ():
+        found.setdefault("PointCloud2", set()).add(topic)
     for plugin, _, _ in plugins(model.robot):
         for rule in (each for ros in plugin.element.find_all("ros") for each in ros.find_all("remapping")):
             old, _, new = rule.text.partition(":=")
             if old.strip() == "odom" and new:
                 found.setdefault("Odometry", set()).add(new.strip().strip("/"))
     return found
+
+
+_CAMERA_DRIVERS = r"realsense|depthai|astra|zed_|orbbec|kinect_ros|azure_kinect|openni"
+
+
+def _has_camera_driver(model: Model) -> bool:
+    """Return whether files of the packages name a driver of depth cameras, which has topics of its own."""
+    return any(re.search(_CAMERA_DRIVERS, source.text) for source in model.related_files.values())
 
 
 def _in_elements(source: Source) -> Iterator[Mention]:

@@ -50,6 +50,7 @@ _COMMANDS = {
     "nav2_behaviors": "cmd_vel",
     "nav2_controller": "cmd_vel",
     "nav2_recoveries": "cmd_vel",
+    "nav2_velocity_smoother": "cmd_vel_smoothed",
     "teleop_twist_joy": "cmd_vel",
     "teleop_twist_keyboard": "cmd_vel",
     "twist_mux": "cmd_vel_out",

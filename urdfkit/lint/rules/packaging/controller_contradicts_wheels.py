@@ -23,8 +23,8 @@ class ControllerContradictsWheels(RobotRule):
     ## What it does
     Compares ``wheel_separation`` and ``wheel_radius`` in YAML with the joints and shapes of the wheels, and checks the
     positions of the left and right wheels: x points forward and y left (REP 103). Deviations of up to 10 % are
-    accepted. With several wheels on each side a factor of two is accepted for the separation, because the wheels slip
-    when the robot turns. Wheels with meshes are not measured. A left and a right wheel at the same place are reported.
+    accepted. With several wheels on each side, up to twice the separation is accepted, because the wheels slip when the
+    robot turns. Wheels with meshes are not measured. A left and a right wheel at the same place are reported.
 
     Nothing is reported if another description in the package or its neighbours also has continuous joints.
 
@@ -113,7 +113,7 @@ class ControllerContradictsWheels(RobotRule):
                 (number for _, number in _positive_number(controller, "wheel_separation_multiplier")), 1.0
             )
             if separation_of_joints > 0.01 and not any(
-                distance / max_ratio <= separation <= max_ratio * distance
+                distance / (1.0 + TOLERANCE) <= separation <= max_ratio * distance
                 for distance in distances
                 for separation in (value, tuned)
                 if distance

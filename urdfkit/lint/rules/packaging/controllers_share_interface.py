@@ -9,7 +9,7 @@ class ControllersShareInterface(RobotRule):
 
     ## What it does
     Compares the command interfaces of the controllers of ros2_controllers that a launch file spawns without a
-    condition. Controllers that are spawned inactive are left out.
+    condition, in ROS 1 the joints of its controllers. Controllers that are spawned inactive are left out.
 
     ## Why is this bad?
     The controller manager activates only the first of them: "Resource conflict for controller", and the spawner of the

@@ -1,5 +1,6 @@
 """K979 costmap-contradicts-robot."""
 
+import re
 from math import hypot
 
 from urdfkit.description.urdf.robot import Pose
@@ -15,12 +16,13 @@ _TOO_LARGE = 2.5
 
 
 class CostmapContradictsRobot(RobotRule):
-    """The ``robot_radius`` of a costmap is much smaller or larger than the robot.
+    """The ``robot_radius`` or ``footprint`` of a costmap is much smaller or larger than the robot.
 
     ## What it does
-    Compares ``robot_radius`` in the parameters of costmaps with the box around the links of the robot that are fixed to
-    each other, in the frame of the root link. Reports a radius below 60 % of half the width of the robot, and one of
-    more than 2.5 times the distance of its farthest corner. Robots with meshes that are not found are not checked.
+    Compares ``robot_radius`` and ``footprint`` in the parameters of costmaps with the box around the links of the robot
+    that are fixed to each other, in the frame of the root link. Reports a radius below 60 % of half the width of the
+    robot, and one of more than 2.5 times the distance of its farthest corner, with the inscribed and the circumscribed
+    radius of a footprint. Robots with meshes that are not found are not checked.
 
     ## Why is this bad?
     Navigation plans paths that are too narrow for the robot, or finds none.
@@ -50,21 +52,27 @@ class CostmapContradictsRobot(RobotRule):
         """Yield a finding for each radius that does not suit the robot."""
         from urdfkit.lint.facts.control.controller_wheels import has_other_wheels
         from urdfkit.lint.facts.control.yaml_tree import documents, number_of, span_of, walk, yamls
+        from urdfkit.lint.facts.navigation.costmaps import footprint_of, inscribed_radius
 
-        sources = [source for source in yamls(model) if "robot_radius" in source.text]
+        sources = [source for source in yamls(model) if re.search(r"robot_radius|footprint", source.text)]
         size = _size(model) if sources and not has_other_wheels(model) else None
         if size is None:
             return
         half, reach = size
         for source in sources:
             for node in (node for root in documents(source)[0] for node in walk(root)):
-                value = node.find("robot_radius")
-                radius = number_of(value) if value is not None else None
-                if value is None or radius is None or radius <= 0.0 or node.find("footprint") is not None:
+                polygon, value = footprint_of(node), node.find("robot_radius")
+                radius = number_of(value)
+                if polygon is not None and (inner := inscribed_radius(polygon[1])) > 0.0:
+                    outer = max(hypot(x, y) for x, y in polygon[1])
+                    what, shown = "footprint", f"extends {inner:.3g} to {outer:.3g} m"
+                    value = polygon[0]
+                elif value is not None and radius is not None and radius > 0.0 and node.find("footprint") is None:
+                    what, shown, inner, outer = "robot_radius", f"is {radius:g} m", radius, radius
+                else:
                     continue
-                if radius < _TOO_SMALL * half or radius > _TOO_LARGE * reach:
-                    message = f"`robot_radius` is {radius:g} m, but the robot extends {half:.3g} to {reach:.3g} m from "
-                    message += "its centre"
+                if value is not None and (inner < _TOO_SMALL * half or outer > _TOO_LARGE * reach):
+                    message = f"`{what}` {shown}, but the robot extends {half:.3g} to {reach:.3g} m from its centre"
                     yield Finding(self.code, self.name, self.severity, message, span_of(source, value))
 
 

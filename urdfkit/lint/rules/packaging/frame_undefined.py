@@ -34,8 +34,9 @@ class FrameUndefined(RobotRule):
     ``root_link``, ``tip_link`` and ``ee_link``, and ``frame_id`` and ``sensor_frame`` with a name that differs by a
     letter, in the YAML files of the robot's package and of neighbouring packages that depend on it, and the base frames
     in parameters of launch files. The rule reports misspelt link names, unless another description in these packages
-    defines a link of that name. For the ``base_frame_id`` of a drive controller, it also reports names that no other
-    file in these packages mentions.
+    defines a link of that name. It also reports other names that no other file in these packages mentions: frames of
+    drive controllers and broadcasters, the ``sensor_frame`` of a sensor of the robot, and base frames next to a map or
+    odometry frame if another parameter has a link as base frame.
 
     ## Why is this bad?
     The controller publishes a frame that is not part of the TF tree, or navigation waits for a frame that never
@@ -76,13 +77,14 @@ class FrameUndefined(RobotRule):
         for source in model.related_files.values():
             for match in _named(source, uncommented(source)):
                 name = match[3].rpartition("/")[2]
+                if name in links_by_name:
+                    continue
                 suggestion, hint = meant(name, links_by_name)
-                if name in links_by_name or (suggestion is None and not _is_drive_frame(source, match, model)):
+                needs_slip = match[1] in _ANY_FRAME or not source.file.endswith((".yaml", ".yml"))
+                is_slip_of_link = suggestion is not None and (not needs_slip or is_slip(name, suggestion))
+                if not is_slip_of_link and not _is_of_robot(source, match, model):
                     continue
                 if model.neighbouring_descriptions.define("link", name):
-                    continue
-                needs_slip = match[1] in _ANY_FRAME or not source.file.endswith((".yaml", ".yml"))
-                if needs_slip and (suggestion is None or not is_slip(name, suggestion)):
                     continue
                 finding = Finding(
                     self.code,
@@ -104,28 +106,42 @@ def _named(source: Source, text: str) -> Iterator[re.Match[str]]:
         yield from (match for match in re.finditer(pattern, text) if match[1] in _IN_LAUNCH)
 
 
-def _is_drive_frame(source: Source, match: re.Match[str], model: Model) -> bool:
-    """Return whether a parameter is the base frame of a drive controller, and no other file mentions the frame."""
+def _is_of_robot(source: Source, match: re.Match[str], model: Model) -> bool:
+    """Return whether a frame in YAML must be a link of the robot, and no other file mentions it.
+
+    They are the frames of drive controllers, broadcasters and sensors of the robot, and base frames next to others.
+    """
     from urdfkit.lint.facts.control.controller_settings import settings
+    from urdfkit.lint.facts.control.yaml_tree import documents, walk
+    from urdfkit.lint.facts.gazebo.sensor_topics import published
 
-    is_yaml = source.file.endswith((".yaml", ".yml"))
-    if (
-        match[1] != "base_frame_id"
-        or not is_yaml
-        or any(
-            re.search(rf"(?<![\w-]){re.escape(match[3])}(?![\w-])", other.text)
-            for other in model.related_files.values()
-            if other is not source
-        )
-    ):
+    pattern = rf"(?<![\w-]){re.escape(match[3])}(?![\w-])"
+    others = [other.text for other in model.related_files.values() if other is not source]
+    if not source.file.endswith((".yaml", ".yml")) or any(re.search(pattern, text) for text in others):
         return False
-    position = source.position(match.start(3))
-    return any(
-        value.line == position.line and re.search(_DRIVE_CONTROLLER, controller.kind) is not None
-        for controller in settings(source)
-        for key, value in controller.group.entries
-        if key.text == match[1]
-    )
+    line = source.position(match.start(3)).line
+    if match[1] in ("base_frame_id", "frame_id"):
+        of_robot = [one for one in settings(source) if re.search(_OF_ROBOT, one.kind) is not None]
+        written = (entry for one in of_robot for entry in one.group.entries)
+        if any(value.line == line and key.text == match[1] for key, value in written):
+            return True
+    groups = (node for root in documents(source)[0] for node in walk(root))
+    around = [node for node in groups if any((key.text, value.line) == (match[1], line) for key, value in node.entries)]
+    if match[1] == "sensor_frame":
+        topics = {publication.topic.strip("/") for publication in published(model)}
+        read = [node.find("topic") for node in around]
+        return any(topic is not None and topic.text.strip("/") in topics for topic in read)
+    if not any(node.find(name) is not None for node in around for name in _FIXED):
+        return False
+    text = source.text[: match.start()] + source.text[match.end() :]
+    if match[1] not in _IN_LAUNCH or model.is_incomplete or re.search(pattern, text):
+        return False
+    bases = (found[3] for other in (*others, text) for found in re.finditer(_FRAME, other) if found[1] in _IN_LAUNCH)
+    return any(base in model.robot.link_by_name for base in bases)
 
 
-_DRIVE_CONTROLLER = r"^(?:diff_drive|mecanum_drive|tricycle|\w+_steering)_controller/"
+_FIXED = ("odom_frame", "odom_frame_id", "global_frame", "global_frame_id", "map_frame", "local_frame")
+"""Parameters next to the base frame of a node of navigation or localization."""
+
+_OF_ROBOT = r"^(?:diff_drive|mecanum_drive|tricycle|\w+_steering)_controller/|Broadcaster$"
+"""Matches the types of controllers whose frame is a link."""

@@ -21,12 +21,12 @@ class ParameterValueInvalid(RobotRule):
 
     ## What it does
     Checks YAML files of the robot's package and of packages that depend on it: keys that occur twice in a group,
-    misspelt ``true`` and ``false``, sensor configurations of robot_localization without 15 values and its world frame,
-    in Nav2 plugins that are listed without a section, and limits that its nodes refuse, and in maps a missing image, an
-    unknown mode and impossible numbers. In the parameters of controllers it also checks rates, wheel sizes, limits and
-    tolerances that are negative, zero or not a number, numbers and truth values in quotes, names that are not in a
-    list, minima above maxima, joints that are listed twice, controllers without a type or a required parameter, and
-    parameters that are indented to the level of controllers.
+    minima above their maxima, misspelt ``true`` and ``false``, sensor configurations of robot_localization without 15
+    values and its world frame, in Nav2 plugins that are listed without a section, and limits that its nodes refuse, and
+    in maps a missing image, an unknown mode and impossible numbers. In the parameters of controllers it also checks
+    rates, wheel sizes, limits and tolerances that are negative, zero or not a number, numbers and truth values in
+    quotes, names that are not in a list, minima above maxima, joints that are listed twice or lack gains, controllers
+    without a type or a required parameter, and parameters that are indented to the level of controllers.
 
     ## Why is this bad?
     The controller does not start, or the value is ignored: of a key that occurs twice, only the last value applies.
@@ -90,6 +90,7 @@ class ParameterValueInvalid(RobotRule):
         from urdfkit.lint.facts.navigation.defects import navigation_defects
         from urdfkit.lint.facts.navigation.maps import map_defects
         from urdfkit.lint.facts.navigation.odometry_transforms import published_twice
+        from urdfkit.lint.facts.parameters.ranges import out_of_order
 
         of_moveit = {source.file for source, _ in moveit_yamls(model)}
         is_typed_at_start = any(re.search(r"controller.type", file.text) for file in model.related_files.values())
@@ -97,9 +98,10 @@ class ParameterValueInvalid(RobotRule):
         for source, place, message in published_twice(model):
             yield Finding(self.code, self.name, self.severity, message, span_of(source, place))
         for source in yamls(model):
-            for place, message in (*navigation_defects(source, names), *map_defects(source)):
-                yield Finding(self.code, self.name, self.severity, message, span_of(source, place))
             is_of_controllers, seen = bool(controllers(source)), set[tuple[int, int]]()
+            ordered = () if is_of_controllers else out_of_order(source)
+            for place, message in (*navigation_defects(source, names), *map_defects(source), *ordered):
+                yield Finding(self.code, self.name, self.severity, message, span_of(source, place))
             for node in (node for root in documents(source)[0] for node in walk(root)):
                 if (node.line, node.column) in seen:  # an alias
                     continue

@@ -1,0 +1,185 @@
+"""Costmaps of Nav2 and of costmap_2d in ROS 1: order of layers, window, frames, inflation and footprint.
+
+Sources: costmap_2d (layered_costmap.cpp, static_layer.cpp, inflation_layer.cpp) of Noetic, nav2_costmap_2d of Jazzy.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from itertools import pairwise
+from math import hypot
+from pathlib import Path
+
+from urdfkit.description.packages.related_files import package_of
+from urdfkit.description.xml.source import Source
+from urdfkit.lint.facts.control.ros2_controllers import PARAMETERS
+from urdfkit.lint.facts.control.yaml_tree import Node, documents, number_of, walk, yamls
+from urdfkit.lint.facts.navigation.sections import COSTMAPS, costmaps_of_ros1, sections
+from urdfkit.lint.model.model import Model
+from urdfkit.record import record
+
+Defects = Iterator[tuple[Source, Node, str]]
+Points = list[tuple[float, float]]
+
+_MARKING = ("StaticLayer", "ObstacleLayer", "VoxelLayer", "RangeSensorLayer", "SpatioTemporalVoxelLayer")
+_FALSE = ("false", "False", "FALSE")
+
+
+@record(eq=False)
+class Costmap:
+    """The parameters of a costmap in one file.
+
+    Attributes:
+        source: the file.
+        name: ``local_costmap`` or ``global_costmap``; empty for parameters of both.
+        group: the parameters.
+    """
+
+    source: Source
+    name: str
+    group: Node
+
+
+def costmaps(model: Model) -> list[Costmap]:
+    """Return the costmaps in the YAML files around a robot."""
+    found = []
+    for source in yamls(model):
+        if PARAMETERS in source.text:
+            for key, group in sections(source):
+                name = key.text.strip("/").rpartition("/")[2]
+                found += [Costmap(source, name, group)] if name in COSTMAPS else []
+            continue
+        names = {id(value): key.text for root in documents(source)[0] for key, value in root.entries}
+        for group in costmaps_of_ros1(source):
+            name = names.get(id(group), "")
+            found.append(Costmap(source, name if name in COSTMAPS else "", group))
+    return found
+
+
+def costmap_defects(model: Model) -> Defects:
+    """Yield the parameters of costmaps that contradict each other: file, place, message."""
+    every = costmaps(model)
+    for each in every:
+        group, source = each.group, each.source
+        layers = list(_layers(group))
+        for at, (item, kind) in enumerate(layers):
+            later = [(other, name) for other, name in layers[at + 1 :] if name in _MARKING]
+            if kind == "InflationLayer" and later:
+                message = (
+                    f"`{item.text}` is before `{later[0][0].text}`, whose obstacles are not inflated; move it last"
+                )
+                yield source, item, message
+            elif kind in _MARKING and (static := next((each for each, name in later if name == "StaticLayer"), None)):
+                yield (
+                    source,
+                    item,
+                    f"`{static.text}` is after `{item.text}` and overwrites its obstacles; move it first",
+                )
+        window, static_map = group.find("rolling_window"), group.find("static_map")
+        has_static_layer = any(kind == "StaticLayer" for _, kind in layers)
+        is_static = has_static_layer or (static_map is not None and static_map.text not in _FALSE)
+        if window is not None and each.name == "local_costmap" and window.text in _FALSE and layers and not is_static:
+            yield source, window, "`rolling_window` of the local costmap is false, so that the robot leaves the costmap"
+        fixed = group.find("global_frame")
+        is_link = fixed is not None and fixed.text.strip("/") in model.robot.link_by_name
+        if fixed is not None and is_link and not re.search(r"map|odom|world", fixed.text):
+            yield source, fixed, f"`global_frame` is `{fixed.text}`, a link of the robot; write a fixed frame"
+        elif (
+            fixed is not None and has_static_layer and each.name == "global_costmap" and fixed.text.strip("/") == "odom"
+        ):
+            yield source, fixed, "`global_frame` is `odom`, but the static layer has a map in the frame `map`"
+        yield from _footprint(each)
+        yield from _inflation(each, every)
+
+
+def _layers(group: Node) -> Iterator[tuple[Node, str]]:
+    """Yield the name of each layer in ``plugins``, and its class without the package; empty if unknown."""
+    plugins = group.find("plugins")
+    for item in plugins.items if plugins is not None else ():
+        name = item.find("name") if item.kind == "group" else item
+        kind = item.find("type") if item.kind == "group" else None
+        if item.kind != "group" and (section := group.find(item.text)) is not None:
+            kind = section.find("plugin")
+        if name is not None:
+            yield name, kind.text.replace("/", "::").rpartition("::")[2] if kind is not None else ""
+
+
+def footprint_of(group: Node) -> tuple[Node, Points] | None:
+    """Return the footprint of a costmap with its corners [m]; None without a readable polygon."""
+    node = group.find("footprint")
+    if node is None:
+        return None
+    found = node
+    if node.kind == "text":
+        from urdfkit.lint.facts.control.yaml_tree import documents_in
+
+        roots = documents_in(node.text)[0] if node.text.startswith("[") else ()
+        if not roots:
+            return None
+        found = roots[0]
+    points = []
+    for item in found.items:
+        pair = [number_of(each) for each in item.items]
+        if len(pair) != 2 or pair[0] is None or pair[1] is None:
+            return None
+        points.append((pair[0], pair[1]))
+    return (node, points) if len(points) > 2 else None
+
+
+def inscribed_radius(points: Points) -> float:
+    """Return the smallest distance of the sides of a polygon from the origin [m]; 0 if the origin is outside."""
+    inside, distance = False, float("inf")
+    for (x, y), (u, v) in pairwise([*points, points[0]]):
+        inside ^= (y > 0.0) != (v > 0.0) and x + (u - x) * (0.0 - y) / (v - y) > 0.0
+        length = (u - x) ** 2 + (v - y) ** 2
+        at = min(max(-(x * (u - x) + y * (v - y)) / length, 0.0), 1.0) if length else 0.0
+        distance = min(distance, hypot(x + at * (u - x), y + at * (v - y)))
+    return distance if inside else 0.0
+
+
+def _footprint(each: Costmap) -> Defects:
+    found = footprint_of(each.group)
+    if found is None:
+        return
+    node, points = found
+    sides = list(pairwise([*points, points[0]]))
+    for at, first in enumerate(sides):
+        if any(_cross(*first, *other) for other in sides[at + 2 :]):
+            yield each.source, node, "sides of `footprint` cross each other; write the corners in order"
+            return
+    if inscribed_radius(points) == 0.0 and not any(abs(x) < 1e-3 and abs(y) < 1e-3 for x, y in points):
+        yield each.source, node, "`footprint` does not contain the origin of the robot; check the signs"
+
+
+def _cross(a: tuple[float, float], b: tuple[float, float], c: tuple[float, float], d: tuple[float, float]) -> bool:
+    """Return whether the segments a b and c d cross in their interior."""
+
+    def side(p: tuple[float, float], q: tuple[float, float], r: tuple[float, float]) -> float:
+        return (q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0])
+
+    return side(a, b, c) * side(a, b, d) < 0.0 and side(c, d, a) * side(c, d, b) < 0.0
+
+
+def _inflation(each: Costmap, every: list[Costmap]) -> Defects:
+    """Yield an inflation that ends inside of the robot; the footprint may be in another file of a package of ROS 1."""
+    shaped = [each]
+    if PARAMETERS not in each.source.text:
+        package = package_of(Path(each.source.file))
+        shaped += [other for other in every if package_of(Path(other.source.file)) == package]
+    is_shaped = (
+        one.group.find("footprint") is not None or one.group.find("robot_radius") is not None for one in shaped
+    )
+    shape = next((one for one, has in zip(shaped, is_shaped, strict=True) if has), None)
+    if shape is None:
+        return
+    corners, radius = footprint_of(shape.group), number_of(shape.group.find("robot_radius"))
+    inner = inscribed_radius(corners[1]) if corners is not None else radius
+    if corners is None and PARAMETERS in each.source.text:
+        return  # parameter-value-invalid
+    for node in walk(each.group):
+        value = node.find("inflation_radius")
+        reach = number_of(value)
+        if value is not None and reach is not None and inner is not None and 0.0 < reach < inner - 1e-6:
+            what = "the inscribed radius of `footprint`" if corners is not None else "`robot_radius`"
+            yield each.source, value, f"`inflation_radius` is {reach:g} m, less than {what}, {inner:.3g} m"

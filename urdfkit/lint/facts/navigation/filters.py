@@ -1,0 +1,247 @@
+"""Filters of robot_localization: their frames and transforms, and what they fuse.
+
+Sources: robot_localization (README, doc/state_estimation_nodes.rst, doc/configuring_robot_localization.rst,
+src/ros_filter.cpp), Noetic to Rolling.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from pathlib import Path
+
+from urdfkit.description.packages.related_files import package_of
+from urdfkit.description.xml.source import Source
+from urdfkit.lint.facts.control.controller_settings import settings
+from urdfkit.lint.facts.control.yaml_tree import Node, documents, yamls
+from urdfkit.lint.facts.gazebo.plugins import references
+from urdfkit.lint.facts.navigation.sections import sections
+from urdfkit.lint.facts.topics.words import Words
+from urdfkit.lint.model.model import Model
+from urdfkit.lint.project.description_files import descriptions
+from urdfkit.record import record
+
+Defects = Iterator[tuple[Source, Node, str]]
+
+_TRUE = ("true", "True", "TRUE")
+_FALSE = ("false", "False", "FALSE")
+_AXES = ["x", "y", "z", "roll", "pitch", "yaw", "vx", "vy", "vz", "vroll", "vpitch", "vyaw", "ax", "ay", "az"]
+_UNMEASURED = {"imu": (0, 1, 2, 6, 7, 8), "pose": tuple(range(6, 15)), "twist": (*range(6), 12, 13, 14)}
+"""Kind of an input → positions in its configuration that its messages do not have."""
+
+_DRIVES = r"(?:diff_drive|mecanum_drive|omni_wheel_drive|tricycle|\w+_steering)_controller/"
+_BROADCASTS = r"TransformBroadcaster|sendTransform"
+_OTHER_ODOMETRY = (
+    r"(?i)rf2o|rtabmap|laser_scan_matcher|cartographer|\bfuse_|\bvio\b|vins|odometry_node|\bzed_|t265|hector|kiss_icp"
+    r"|icp_odometry|ground_truth|p3d|odom_publisher|(?<!enable_)odom_tf|tf_broadcaster|OdometryPublisher"
+)
+"""Matches nodes and plugins that may publish the transform from the odometry frame."""
+
+
+@record(eq=False)
+class Filter:
+    """The parameters of a filter.
+
+    Attributes:
+        source: the file.
+        name: name of its node in the file; empty in ROS 1.
+        group: the parameters.
+    """
+
+    source: Source
+    name: str
+    group: Node
+
+    def text(self, name: str) -> str:
+        """Return the text of a parameter without slashes; empty if it is missing or computed."""
+        node = self.group.find(name)
+        return node.text.strip("/") if node is not None and "$" not in node.text else ""
+
+    @property
+    def is_local(self) -> bool:
+        """Whether it estimates the pose in the odometry frame."""
+        return bool(self.text("odom_frame")) and self.text("world_frame") == self.text("odom_frame")
+
+    @property
+    def is_global(self) -> bool:
+        """Whether it estimates the pose in the map frame."""
+        return bool(self.text("map_frame")) and self.text("world_frame") == self.text("map_frame") and not self.is_local
+
+    @property
+    def publishes(self) -> bool:
+        """Whether it publishes its transform."""
+        return self.text("publish_tf") not in _FALSE
+
+    def inputs(self) -> Iterator[tuple[str, Node, Node, list[str]]]:
+        """Yield name, topic, configuration and its values for each input with a configuration of 15 values."""
+        for key, value in self.group.entries:
+            config = self.group.find(f"{key.text}_config")
+            if re.fullmatch(r"(?:odom|imu|pose|twist)\d+", key.text) and config is not None and len(config.items) == 15:
+                yield key.text, value, config, [item.text for item in config.items]
+
+    def is_absolute(self, name: str, values: list[str]) -> bool:
+        """Return whether an input sets x and y, and not only their changes."""
+        return set(values[:2]) <= {*_TRUE} and all(
+            self.text(f"{name}_{flag}") not in _TRUE for flag in ("differential", "relative")
+        )
+
+
+def filters(model: Model) -> list[Filter]:
+    """Return the filters in the YAML files around a robot."""
+    found = []
+    for source in yamls(model):
+        if "world_frame" not in source.text:
+            continue
+        named = [(key.text.strip("/").rpartition("/")[2], group) for key, group in sections(source)]
+        groups = named or [
+            (name, group)
+            for root in documents(source)[0]
+            for name, group in (("", root), *((key.text, value) for key, value in root.entries))
+        ]
+        for name, group in groups:
+            if group.find("world_frame") is not None and group.find("base_link_frame") is not None:
+                found.append(Filter(source, name, group))
+    return found
+
+
+def filter_defects(model: Model) -> Defects:
+    """Yield the parameters of filters that contradict each other or the robot: file, place, message."""
+    every = filters(model)
+    wheels = _wheel_odometry(model) if every else set()
+    children = list(_second_parents(model, every))
+    yield from children
+    for file in dict.fromkeys(each.source.file for each in every):
+        is_reported = any(source.file == file for source, _, _ in children)
+        yield from _of_pair([each for each in every if each.source.file == file], not is_reported)
+    for each in every:
+        local = {topic.text.strip("/") for one in every if one.is_local for _, topic, _, _ in one.inputs()}
+        yield from _of_inputs(each, wheels | local)
+    yield from _without_transform(model, every)
+
+
+def _of_pair(pair: list[Filter], has_root: bool) -> Defects:
+    """Yield the frames of two filters in one file that do not suit each other.
+
+    Args:
+        pair: the filters of a file.
+        has_root: whether their base frames can be compared; otherwise one of them is reported already.
+    """
+    if len(pair) != 2 or len({each.name for each in pair}) != 2 or not all(each.publishes for each in pair):
+        return
+    first, second = pair
+    for scope, words, frame in (("is_global", r"odom|local", "odom"), ("is_local", r"map|global", "map")):
+        if all(getattr(each, scope) for each in pair) and first.text("odom_frame") == second.text("odom_frame"):
+            wrong = next((each for each in pair if re.search(words, each.name)), first if frame == "odom" else second)
+            node, other = wrong.group.find("world_frame"), second if wrong is first else first
+            if node is not None:
+                message = (
+                    f"filters `{wrong.name}` and `{other.name}` publish the same transform; write `{frame}` in one"
+                )
+                yield wrong.source, node, message
+    frames = [each.text("base_link_frame") for each in pair]
+    node = first.group.find("base_link_frame")
+    if node is not None and all(frames) and frames[0] != frames[1] and has_root:
+        yield first.source, node, f"`base_link_frame` is `{frames[0]}`, but that of `{second.name}` is `{frames[1]}`"
+
+
+def _of_inputs(each: Filter, relative: set[str]) -> Defects:
+    """Yield inputs of a filter that occur twice or do not measure the fused values.
+
+    Args:
+        each: the filter.
+        relative: topics of odometry that drifts.
+    """
+    seen: dict[tuple[str, str], str] = {}
+    inputs = list(each.inputs())
+    absolute = [name for name, _, _, values in inputs if each.is_absolute(name, values)]
+    for name, topic, config, values in inputs:
+        kind = name.rstrip("0123456789")
+        other = seen.setdefault((kind, topic.text.strip("/")), name)
+        if topic.text and other != name:
+            yield each.source, topic, f"`{name}` and `{other}` are the same topic `{topic.text}`"
+        fused = [_AXES[at] for at in _UNMEASURED.get(kind, ()) if values[at] in _TRUE]
+        if fused:
+            yield each.source, config, f"`{name}_config` fuses {', '.join(fused)}, which its messages do not have"
+        if each.is_global and name in absolute and len(absolute) > 1 and topic.text.strip("/") in relative:
+            message = (
+                f"`{name}_config` fuses x and y of odometry that drifts against `{{}}`; fuse its velocities instead"
+            )
+            yield each.source, config, message.format(next(one for one in absolute if one != name))
+    positions = [name for name, _, _, values in inputs if set(values[:2]) <= {*_TRUE}]
+    if each.is_global and positions and not absolute:
+        node = next(
+            (found for name in positions if (found := each.group.find(f"{name}_differential")) and found.text in _TRUE),
+            None,
+        )
+        if node is not None:
+            yield (
+                each.source,
+                node,
+                "no input sets the position in the map frame; write false for an input that measures it",
+            )
+
+
+def _wheel_odometry(model: Model) -> set[str]:
+    """Return the topics of odometry that drive controllers and plugins compute from the wheels."""
+    found = {f"{one.name}/odom" for source in yamls(model) for one in settings(source) if re.match(_DRIVES, one.kind)}
+    for text, _, parameter, _ in references(model, ("topic",)):
+        if parameter.meaning == "odometry_topic":
+            found.add(text.strip().strip("/"))
+    return found
+
+
+def _second_parents(model: Model, every: list[Filter]) -> Defects:
+    """Yield the base frame of each published odometry transform that already has a parent in the robot."""
+    if model.is_incomplete or len(model.robot.roots()) != 1:
+        return
+    parents = {joint.child: joint for joint in model.robot.joints}
+    found = [
+        (each.source, each.group.find("base_link_frame"), f"filter `{each.name}`" if each.name else "the filter")
+        for each in every
+        if each.is_local and each.publishes
+    ]
+    for source in yamls(model):
+        for one in settings(source):
+            enabled = one.group.find("enable_odom_tf")
+            if re.match(_DRIVES, one.kind) and (enabled is None or enabled.text not in _FALSE):
+                found.append((source, one.group.find("base_frame_id"), f"controller `{one.name}`"))
+    for source, node, who in found:
+        joint = parents.get(node.text.strip("/")) if node is not None else None
+        if node is None or joint is None or joint.parent is None or _is_elsewhere(model, node.text.strip("/")):
+            continue
+        message = f"{who} makes `{node.text}` a child of the odometry frame, but its parent is `{joint.parent}`"
+        yield source, node, f"{message}; write `{model.robot.roots()[0].name}`"
+
+
+def _is_elsewhere(model: Model, link: str) -> bool:
+    """Return whether a description that the robot does not include mentions a link."""
+    included = {str(Path(name).absolute()) for name in model.expanded.sources}
+    packages = {model.package, *(package_of(Path(file)) for file in model.related_files)}
+    folders = sorted(package for package in packages if package is not None)
+    texts = (text for folder in folders for path, text in descriptions(folder) if str(path.absolute()) not in included)
+    return any(link in text for text in texts)
+
+
+def _without_transform(model: Model, every: list[Filter]) -> Defects:
+    """Yield a flag if every node that can publish the transform from the odometry frame has it disabled."""
+    if not every:
+        return
+    flags: list[tuple[Source, Node]] = []
+    for source in yamls(model):
+        for one in settings(source):
+            if re.match(_DRIVES, one.kind):
+                enabled = one.group.find("enable_odom_tf")
+                if enabled is None or enabled.text not in _FALSE:
+                    return
+                flags.append((source, enabled))
+    if not flags or any((each.is_local and each.publishes) or not (each.is_local or each.is_global) for each in every):
+        return
+    text = "".join(source.text for source in model.related_files.values())
+    if re.search(_OTHER_ODOMETRY, text) or re.search(_BROADCASTS, text) or Words(model).match(_BROADCASTS):
+        return
+    if any(parameter.meaning == "odometry_topic" for _, _, parameter, _ in references(model, ("topic",))):
+        return
+    local = [(each.source, node) for each in every if each.is_local and (node := each.group.find("publish_tf"))]
+    world = [(each.source, node) for each in every if each.is_global and (node := each.group.find("world_frame"))]
+    source, node = (local or world or flags)[0]
+    yield source, node, "no node publishes the transform from the odometry frame to the base of the robot"

@@ -1,0 +1,63 @@
+"""Frames ``map`` and ``odom`` under other names, which one node uses and no other node publishes or uses."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from urdfkit.description.xml.source import Source
+from urdfkit.lint.facts.control.yaml_tree import Node, documents, walk, yamls
+from urdfkit.lint.facts.gazebo.plugins import references
+from urdfkit.lint.facts.topics.words import Words
+from urdfkit.lint.model.model import Model
+
+_ROLES = {
+    **dict.fromkeys(("odom_frame", "odom_frame_id", "local_frame"), ("odom",)),
+    **dict.fromkeys(("map_frame", "map_frame_id", "global_frame_id"), ("map",)),
+    "global_frame": ("odom", "map"),
+}
+"""Parameter → the frames that it can name, by their usual names."""
+
+
+_PAIRS = (
+    *(("map_frame", "odom_frame"), ("odom_frame", "base_frame"), ("global_frame_id", "odom_frame_id")),
+    *(("odom_frame_id", "base_frame_id"), ("map_frame", "base_frame"), ("global_frame_id", "base_frame_id")),
+)
+
+
+def equal_frames(source: Source) -> Iterator[tuple[Node, str]]:
+    """Yield the second of two frames of a node in a YAML file that must differ and are equal, with the message."""
+    for node in (node for root in documents(source)[0] for node in walk(root) if "frame" in source.text):
+        for names in _PAIRS:
+            first, second = (node.find(name) for name in names)
+            if first is not None and second is not None and first.text and first.text == second.text:
+                yield second, f"`{names[0]}` and `{names[1]}` are both `{first.text}`"
+
+
+def lone_frames(model: Model) -> Iterator[tuple[Source, Node, str]]:
+    """Yield the frames that occur in one place, while other nodes use another frame there: file, place, message."""
+    from urdfkit.lint.facts.ros_packages import is_slip
+
+    found: list[tuple[Source, Node, Node]] = []
+    for source in yamls(model):
+        for node in (node for root in documents(source)[0] for node in walk(root) if "frame" in source.text):
+            world = node.find("world_frame")  # parameter-value-invalid compares it with the other frames
+            if world is not None and world.text not in [value.text for _, value in node.entries if value is not world]:
+                continue
+            found += [(source, key, value) for key, value in node.entries if key.text in _ROLES and value.text]
+    if not found:
+        return
+    words = Words(model)
+    plugged = {
+        text.strip("/") for text, _, parameter, _ in references(model, ("frame",)) if "odom" in parameter.meaning
+    }
+    for source, key, value in found:
+        frame, roles = value.text.strip("/"), _ROLES[key.text]
+        used = {other.text.strip("/") for _, name, other in found if _ROLES[name.text] == roles}
+        used |= {other.text.strip("/") for _, name, other in found if set(_ROLES[name.text]) & set(roles)} & {*roles}
+        others = sorted((used | (plugged if "odom" in roles else set())) - {frame})
+        is_reported = any(is_slip(frame, name) for name in ("odom", "map"))
+        if not others or "$" in frame or is_reported or frame in ("map", "odom") or frame in model.robot.link_by_name:
+            continue
+        if frame.isidentifier() and words.occurs_once(frame):
+            shown = " or ".join(f"`{name}`" for name in others[:3])
+            yield source, value, f"no other file names the frame `{frame}` of `{key.text}`; other nodes use {shown}"

@@ -1,0 +1,134 @@
+"""Plugins of navigation: sections of planners that move_base does not load, separators, topics of costmaps.
+
+Sources: move_base (move_base.cpp, Noetic), navigation2 (plugin descriptions of Iron and Jazzy, behavior_server.cpp).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+
+from urdfkit.description.packages.related_files import package_of
+from urdfkit.description.xml.source import Source
+from urdfkit.errors import nearest
+from urdfkit.lint.facts.control.ros2_controllers import PARAMETERS
+from urdfkit.lint.facts.control.yaml_tree import Node, documents, walk, yamls
+from urdfkit.lint.facts.navigation.sections import sections
+from urdfkit.lint.model.model import Model
+
+Defects = Iterator[tuple[Source, Node, str]]
+
+_LOADED = {
+    "base_local_planner": (
+        *("TrajectoryPlannerROS", "DWAPlannerROS", "TebLocalPlannerROS", "EBandPlannerROS", "PurePlannerROS"),
+        *("MPCPlannerROS", "DWBLocalPlanner"),
+    ),
+    "base_global_planner": ("GlobalPlanner", "NavfnROS", "CarrotPlanner", "SBPLLatticePlanner"),
+}
+"""Parameter of move_base → classes of planners, which read the section with their name."""
+
+_PACKAGES = {
+    "base_local_planner": ("TrajectoryPlannerROS",),
+    "dwa_local_planner": ("DWAPlannerROS",),
+    "teb_local_planner": ("TebLocalPlannerROS",),
+    "eband_local_planner": ("EBandPlannerROS",),
+    "global_planner": ("GlobalPlanner",),
+    "navfn": ("NavfnROS",),
+    "carrot_planner": ("CarrotPlanner",),
+    "costmap_2d": ("StaticLayer", "ObstacleLayer", "VoxelLayer", "InflationLayer", "NonPersistentVoxelLayer"),
+}
+"""Package of ROS 1 → the classes of its plugins."""
+
+_OTHER_NAMES = {
+    "DWAPlannerROS": {"vtheta_samples": "vth_samples", "acc_lim_th": "acc_lim_theta"},
+    "TrajectoryPlannerROS": {"vth_samples": "vtheta_samples", "acc_lim_th": "acc_lim_theta"},
+}
+"""Section of a planner → parameters of other planners and what they are called there."""
+
+_SINCE_JAZZY = (
+    *("nav2_navfn_planner", "nav2_smac_planner", "nav2_theta_star_planner", "nav2_behaviors", "nav2_bt_navigator"),
+)
+"""Packages whose plugins have `/` in their names up to Iron and `::` since Jazzy."""
+
+_TOPICS = {"costmap_topic": "costmap_raw", "footprint_topic": "published_footprint"}
+_PUBLISHED = ("costmap", "costmap_updates", "footprint", "costmap_raw", "published_footprint", "voxel_grid")
+_SERVERS = ("behavior_server", "recoveries_server", "smoother_server")
+
+
+def plugin_defects(model: Model) -> Defects:
+    """Yield the sections and names of plugins and the topics of costmaps that no node reads: file, place, message."""
+    files = list(yamls(model))
+    yield from _unread_sections(files)
+    for source in files:
+        if PARAMETERS not in source.text:
+            yield from _in_ros1(source)
+        if PARAMETERS in source.text:
+            yield from _mixed(source)
+            yield from _costmap_topics(source)
+
+
+def _unread_sections(files: list[Source]) -> Defects:
+    """Yield the section of a planner in ROS 1 if the planner that move_base loads has no section."""
+    loaded: dict[tuple[Path | None, str], set[str]] = {}
+    written: dict[Path | None, list[tuple[Source, Node]]] = {}
+    for source in files:
+        package = package_of(Path(source.file))
+        for node in (each for root in documents(source)[0] for each in walk(root)):
+            for key, value in node.entries:
+                if key.text in _LOADED and value.kind == "text":
+                    loaded.setdefault((package, key.text), set()).add(value.text.rpartition("/")[2])
+                elif value.kind == "group":
+                    written.setdefault(package, []).append((source, key))
+    for (package, parameter), kinds in loaded.items():
+        kind = next(iter(kinds))
+        sections_of = [(source, key) for source, key in written.get(package, []) if key.text in _LOADED[parameter]]
+        if len(kinds) > 1 or kind not in _LOADED[parameter] or len({key.text for _, key in sections_of}) != 1:
+            continue
+        source, key = sections_of[0]
+        if key.text != kind:
+            yield source, key, f"`{parameter}` loads `{kind}`, which does not read the section `{key.text}`"
+
+
+def _in_ros1(source: Source) -> Defects:
+    """Yield the unknown classes of planners and layers, and the parameters of other planners, in a file of ROS 1."""
+    for node in (each for root in documents(source)[0] for each in walk(root)):
+        for key, value in node.entries:
+            for old, new in _OTHER_NAMES.get(key.text, {}).items():
+                place = next((inner for inner, _ in value.entries if inner.text == old), None)
+                if place is not None and value.find(new) is None:
+                    yield source, place, f"`{key.text}` has no parameter `{old}`; did you mean `{new}`?"
+            if key.text in _LOADED or (key.text == "type" and value.text.startswith("costmap_2d")):
+                package, _, kind = value.text.replace("::", "/").partition("/")
+                classes = _PACKAGES.get(package, ())
+                if classes and kind not in classes and "/" not in kind:
+                    near = nearest(kind, classes, cutoff=0.5) or classes[0]
+                    yield source, value, f"`{package}` has no plugin `{kind}`; did you mean `{near}`?"
+
+
+def _mixed(source: Source) -> Defects:
+    """Yield the plugins of Nav2 with the separator of another release than most plugins of the file."""
+    found: dict[str, list[Node]] = {"/": [], "::": []}
+    for node in (each for _, group in sections(source) for each in walk(group)):
+        plugin = node.find("plugin")
+        for separator, nodes in found.items():
+            if plugin is not None and plugin.text.partition(separator)[0] in _SINCE_JAZZY and separator in plugin.text:
+                nodes.append(plugin)
+    few, many = sorted(found, key=lambda each: len(found[each]))
+    for plugin in found[few] if len(found[few]) < len(found[many]) else ():
+        right = plugin.text.replace(few, many)
+        release = "since Jazzy" if many == "::" else "up to Iron"
+        yield source, plugin, f"`{plugin.text}` is of another release than the other plugins; {release} it is `{right}`"
+
+
+def _costmap_topics(source: Source) -> Defects:
+    """Yield topics of servers that do not end in the name of a topic that the servers can read."""
+    for key, group in sections(source):
+        if key.text.strip("/").rpartition("/")[2] not in _SERVERS:
+            continue
+        for parameter, value in group.entries:
+            wanted = next((topic for end, topic in _TOPICS.items() if parameter.text.endswith(end)), None)
+            space, _, last = value.text.rpartition("/")
+            if wanted is None or not value.text or "$" in value.text or not space.endswith("_costmap"):
+                continue
+            if last in _PUBLISHED and last != wanted:
+                yield source, value, f"`{parameter.text}` is `{value.text}`; this server reads `{space}/{wanted}`"

@@ -1,0 +1,143 @@
+"""Sensible ranges of the parameters of controllers, navigation, localization, mapping and MoveIt.
+
+The ranges are far wider than the defaults and examples of the packages (ros2_controllers, navigation2, navigation,
+robot_localization, slam_toolbox, gmapping, twist_mux, teleop_twist_joy, moveit2, Noetic to Rolling). Values of zero and
+below switch a function off in many nodes and are accepted here.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from functools import cache
+
+from urdfkit.description.xml.source import Source
+from urdfkit.lint.facts.control.yaml_tree import Node, documents, number_of, walk
+from urdfkit.lint.facts.navigation.tables import ORDERED
+
+_RANGES = """
+cmd_vel_timeout reference_timeout|type,wheel_separation,wheelbase,wheel_radius|0.01 10 s
+timeout|priority|0.01 60 s
+velocity_timeout sensor_timeout transform_tolerance transform_timeout stop_pub_timeout source_timeout||0.001 30 s
+publish_rate state_publish_rate action_monitor_rate update_rate||0.1 20000 Hz
+controller_frequency smoothing_frequency cycle_frequency||0.2 1000 Hz
+planner_frequency expected_planner_frequency update_frequency publish_frequency gui_publish_rate||0.001 200 Hz
+frequency|world_frame,base_link_frame,magnetic_declination_radians|0.1 1000 Hz
+autorepeat_rate||0.1 1000 Hz
+deadzone|axis_linear,device_id,autorepeat_rate,dev|0 1
+scale_linear scale_linear_turbo||0.001 30 m/s
+scale_angular scale_angular_turbo||0.001 30 rad/s
+wheel_separation_multiplier||0.3 4
+wheel_radius_multiplier left_wheel_radius_multiplier right_wheel_radius_multiplier||0.5 2
+transform_publish_period||0.001 5 s
+map_update_interval||0.001 300 s
+tf_buffer_duration||0.5 3600 s
+minimum_time_interval||0.001 60 s
+minimum_travel_distance update_min_d linearUpdate||0.001 10 m
+minimum_travel_heading update_min_a angularUpdate||0.001 6.3 rad
+resolution|occupied_thresh,update_frequency,robot_base_frame,max_laser_range,rolling_window,global_frame|0.001 1 m
+delta|maxUrange,maxRange|0.001 1 m
+width height|rolling_window,update_frequency,global_frame|0.2 5000 m
+inflation_radius||0.01 20 m
+obstacle_range raytrace_range obstacle_max_range raytrace_max_range||0.05 500 m
+max_laser_range laser_max_range maxRange maxUrange||0.1 500 m
+max_obstacle_height||0.01 200 m
+footprint_padding||0.0001 2 m
+particles|maxUrange,maxRange|2 5000
+min_particles max_particles||5 200000
+xy_goal_tolerance||0.001 5 m
+yaw_goal_tolerance||0.001 6.3 rad
+max_vel_x max_vel_y max_vel_trans max_trans_vel max_speed_xy desired_linear_vel vx_max||0.01 50 m/s
+max_vel_theta max_rot_vel max_rotational_vel rotate_to_heading_angular_vel wz_max||0.01 50 rad/s
+acc_lim_x acc_lim_y acc_lim_trans||0.01 200 m/s²
+acc_lim_theta acc_lim_th rotational_acc_lim max_angular_accel||0.01 500 rad/s²
+sim_time simulate_ahead_time||0.05 30 s
+sim_granularity||0.001 2 m
+lookahead_dist min_lookahead_dist max_lookahead_dist||0.01 50 m
+lookahead_time||0.05 60 s
+required_movement_radius oscillation_distance||0.001 20 m
+movement_time_allowance controller_patience planner_patience oscillation_timeout||0.1 3600 s
+occupied_thresh free_thresh occ_thresh||0 1
+laser_z_hit laser_z_short laser_z_max laser_z_rand z_hit z_short z_max z_rand||0 1
+kinematics_solver_timeout||0.0001 30 s
+kinematics_solver_search_resolution||0.00001 1
+longest_valid_segment_fraction||0.00001 1
+goal_bias|type|0 1
+octomap_resolution||0.001 2 m
+padding_scale|sensor_plugin|0.1 20
+padding_offset|sensor_plugin|0.0001 2 m
+max_range|sensor_plugin|0.05 200 m
+max_update_rate|sensor_plugin|0.001 200 Hz
+allowed_execution_duration_scaling||0.5 100
+allowed_goal_duration_margin||0.001 600 s
+allowed_start_tolerance||0.00001 3.2
+"""
+"""Parameters, then parameters of which one is in the same group (any if empty), then range and unit."""
+
+_OF_ANGLES = ("magnetic_declination_radians", "yaw_offset")
+_TURN = 6.3
+
+_Row = tuple[tuple[str, ...], float, float, str]
+
+
+@cache
+def _ranges() -> dict[str, _Row]:
+    """Return parameter → parameters next to it, least and greatest sensible value and unit."""
+    found: dict[str, _Row] = {}
+    for row in _RANGES.strip().splitlines():
+        names, siblings, limits = row.split("|")
+        low, high, *unit = limits.split()
+        for name in names.split():
+            siblings_of = tuple(siblings.split(",")) if siblings else ()
+            found[name] = (siblings_of, float(low), float(high), unit[0] if unit else "")
+    return found
+
+
+def out_of_range(source: Source) -> Iterator[tuple[Node, str]]:
+    """Yield the numbers in a YAML file that are far outside of the sensible range of their parameter."""
+    ranges, seen = _ranges(), set[tuple[int, int]]()
+    for node in (node for root in documents(source)[0] for node in walk(root) if node.entries):
+        names = {key.text for key, _ in node.entries}
+        for key, value in node.entries:
+            if key.text in _OF_ANGLES and (angle := number_of(value)) is not None and abs(angle) > _TURN:
+                yield value, f"`{key.text}` is {angle:g} rad, more than a turn; convert it if it is in degrees"
+            row = ranges.get(key.text)
+            if row is None or (row[0] and names.isdisjoint(row[0])):
+                continue
+            _, low, high, unit = row
+            for item in (value, *(inner for _, inner in value.entries if key.text.startswith("scale_"))):
+                number = number_of(item) if item.kind == "text" and item.is_plain else None
+                if number is None or not (number > high or 0.0 < number < low) or (item.line, item.column) in seen:
+                    continue
+                seen.add((item.line, item.column))
+                shown = f"{number:g} {unit}".strip()
+                bound = f"more than {high:g}" if number > high else f"less than {low:g}"
+                yield item, f"`{key.text}` is {shown}, {bound} {unit}".rstrip() + "; check the unit and the value"
+
+
+_DISTINCT = (("enable_button", "enable_turbo_button"), ("axis_linear", "axis_angular"))
+"""Parameters of teleop_twist_joy that must differ."""
+
+_SIMILAR = (("max_vel_x", "max_vel_trans"), ("max_vel_x", "max_speed_xy"), ("max_vel_x", "max_trans_vel"))
+_MAX_RATIO = 2.0
+"""Accepted ratio of the first of two parameters in `_SIMILAR` to the second one, which bounds both directions."""
+
+
+def out_of_order(source: Source) -> Iterator[tuple[Node, str]]:
+    """Yield each parameter of navigation, localization and mapping that is larger than its bound.
+
+    Also yields parameters of teleop_twist_joy with the same value.
+    """
+    for node in (node for root in documents(source)[0] for node in walk(root) if len(node.entries) > 1):
+        numbers = {key.text: number_of(value) for key, value in node.entries if value.kind == "text"}
+        for low, high in ORDERED:
+            least, most, value = numbers.get(low), numbers.get(high), node.find(low)
+            if value is not None and least is not None and most is not None and least > most:
+                yield value, f"`{low}` is {least:g}, more than `{high}`, {most:g}"
+        for low, high in _SIMILAR:
+            least, most, value = numbers.get(low), numbers.get(high), node.find(low)
+            if value is not None and least is not None and most is not None and 0.0 < _MAX_RATIO * most < least:
+                yield value, f"`{low}` is {least:g}, far more than `{high}`, {most:g}"
+        for one, other in _DISTINCT:
+            value = node.find(other)
+            if value is not None and numbers.get(one) is not None and numbers.get(one) == numbers.get(other):
+                yield value, f"`{one}` and `{other}` are both {value.text}"

@@ -1,0 +1,194 @@
+"""Types of messages: topics that a node reads with another type than they have, and stamped velocity commands.
+
+Sources: nav2_util (twist_publisher.hpp), twist_mux (twist_mux.cpp), teleop_twist_joy (README.md), diff_drive_controller
+(userdoc.rst), robot_localization (README, Humble to Rolling).
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterator
+
+from urdfkit.description.xml.source import Source, Span
+from urdfkit.lint.facts.control.controller_settings import settings
+from urdfkit.lint.facts.control.ros2_controllers import declared
+from urdfkit.lint.facts.control.ros_gz_bridges import bridged_topics
+from urdfkit.lint.facts.control.yaml_tree import Node, documents, span_of, yamls
+from urdfkit.lint.facts.gazebo.sensor_topics import published
+from urdfkit.lint.facts.navigation.sections import sections
+from urdfkit.lint.facts.nodes.names import name_of_node
+from urdfkit.lint.facts.nodes.started import LaunchedNode, launched_nodes
+from urdfkit.lint.facts.topics.misspelt import mentions
+from urdfkit.lint.facts.topics.robot_topics import last
+from urdfkit.lint.model.model import Model
+from urdfkit.record import record
+
+_OF_CONTROLLERS = {
+    "diff_drive_controller/DiffDriveController": ("odom", "Odometry"),
+    "tricycle_controller/TricycleController": ("odom", "Odometry"),
+    "imu_sensor_broadcaster/IMUSensorBroadcaster": ("imu", "Imu"),
+    "force_torque_sensor_broadcaster/ForceTorqueSensorBroadcaster": ("wrench", "WrenchStamped"),
+}
+"""Type of a controller → its topic and the type of its messages."""
+
+_OF_NODES = {
+    "ekf_node": (("odometry/filtered", "Odometry"),),
+    "ukf_node": (("odometry/filtered", "Odometry"),),
+    "navsat_transform_node": (("odometry/gps", "Odometry"), ("gps/filtered", "NavSatFix")),
+}
+"""Program of robot_localization → its topics and the types of their messages."""
+
+_FLAG = "enable_stamped_cmd_vel"
+_COMMANDS = {
+    "nav2_controller": (_FLAG, ("cmd_vel",), ()),
+    "nav2_behaviors": (_FLAG, ("cmd_vel",), ()),
+    "opennav_docking": (_FLAG, ("cmd_vel",), ()),
+    "nav2_velocity_smoother": (_FLAG, ("cmd_vel_smoothed",), ("cmd_vel",)),
+    "nav2_collision_monitor": (_FLAG, ("cmd_vel_out_topic",), ("cmd_vel_in_topic",)),
+    "twist_mux": ("use_stamped", ("cmd_vel_out",), ()),
+    "teleop_twist_joy": ("publish_stamped_twist", ("cmd_vel",), ()),
+}
+"""Package → flag for stamped velocity commands, topics that its node publishes and reads; parameters end in _topic."""
+
+_DATA_TYPES = (
+    *("LaserScan", "PointCloud2", "Odometry", "Imu", "Image"),
+    *("PoseWithCovarianceStamped", "TwistWithCovarianceStamped"),
+)
+
+_TRUTHS = {"true": True, "false": False}
+
+
+def mistyped(model: Model) -> Iterator[tuple[Span, str]]:
+    """Yield the topics that a node reads with another type than they have: place and message."""
+    read = [mention for mention in mentions(model) if mention.type and "$" not in mention.topic.name]
+    types = _types(model) if read else {}
+    unbridged = _unbridged(model) if read else {}
+    for mention in read:
+        start, name = mention.topic.start, mention.topic.name
+        found = types.get(name.strip("/"), set())
+        span = mention.source.span(start, start + len(name))
+        if found and mention.type not in found and mention.type in _DATA_TYPES:
+            what = " and ".join(sorted(found))
+            yield span, f"this parameter reads {mention.type} messages, but `{name}` has {what} messages"
+        elif not found and (other := unbridged.get(name.strip("/"))):
+            yield span, f"`{name}` is a topic of Gazebo; the bridge publishes its messages on `{other}`"
+
+
+def _unbridged(model: Model) -> dict[str, str]:
+    """Return topic of a sensor in Gazebo that no bridge has as its topic in ROS → its topic in ROS."""
+    pairs: dict[str, str] = {}
+    for source in yamls(model):
+        for entry in (item for root in documents(source)[0] for item in root.items):
+            gazebo, ros = entry.find("gz_topic_name") or entry.find("ign_topic_name"), entry.find("ros_topic_name")
+            direction = entry.find("direction")
+            if gazebo is not None and ros is not None and (direction is None or direction.text.endswith("_TO_ROS")):
+                pairs[gazebo.text.strip("/")] = ros.text
+    own = {name.strip("/") for name in pairs.values()} | {topic for topic, _, _ in bridged_topics(model)}
+    sensors = {publication.topic.strip("/") for publication in published(model)}
+    return {gazebo: ros for gazebo, ros in pairs.items() if gazebo in sensors - own}
+
+
+def _types(model: Model) -> dict[str, set[str]]:
+    """Return topic without slashes at its ends → types of its messages without their packages."""
+    found: dict[str, set[str]] = {}
+    for publication in published(model):
+        if publication.type in ("LaserScan", "Imu"):
+            found.setdefault(publication.topic.strip("/"), set()).add(publication.type)
+    for topic, kind, is_read in bridged_topics(model):
+        if not is_read:
+            found.setdefault(topic, set()).add(last(kind))
+    for source in yamls(model):
+        for one in settings(source):
+            if one.kind in _OF_CONTROLLERS:
+                topic, kind = _OF_CONTROLLERS[one.kind]
+                found.setdefault(f"{one.name}/{topic}", set()).add(kind)
+    for node in launched_nodes(model):
+        for topic, kind in _OF_NODES.get(node.program, ()) if node.package == "robot_localization" else ():
+            found.setdefault(_remapped(node, topic), set()).add(kind)
+    return found
+
+
+def _remapped(node: LaunchedNode, topic: str) -> str:
+    """Return the topic that a node uses instead of one of its own, without slashes at its ends."""
+    names = {old.name.removeprefix("~").strip("/"): new.name for old, new in node.remappings}
+    return names.get(topic, topic).strip("/")
+
+
+@record(eq=False)
+class _End:
+    """A publisher or subscriber of velocity commands.
+
+    Attributes:
+        topic: the topic without slashes at its ends.
+        is_stamped: whether its messages have a stamp.
+        who: the node.
+        flag: file and value of the parameter that sets this; None if it is fixed.
+    """
+
+    topic: str
+    is_stamped: bool
+    who: str
+    flag: tuple[Source, Node] | None = None
+
+
+def unequal_stamps(model: Model) -> Iterator[tuple[Span, str]]:
+    """Yield the flags for stamped velocity commands that differ from the other side of a topic: place and message."""
+    publishers, readers = _ends(model)
+    left = [
+        (publisher, reader)
+        for publisher in publishers
+        for reader in readers
+        if publisher.topic == reader.topic and publisher.is_stamped != reader.is_stamped
+    ]
+    while left:
+        counts = Counter(id(end.flag[1]) for pair in left for end in pair if end.flag is not None)
+        worst = max(counts, key=lambda key: counts[key], default=None)
+        pair = next((each for each in left for end in each if end.flag is not None and id(end.flag[1]) == worst), None)
+        if pair is None:
+            return
+        is_first = pair[0].flag is not None and id(pair[0].flag[1]) == worst
+        own, other = pair if is_first else (pair[1], pair[0])
+        verb = "reads" if is_first else "publishes"
+        kind = "TwistStamped" if other.is_stamped else "Twist"
+        if own.flag is not None:
+            value = "true" if own.is_stamped else "false"
+            message = f"this flag of `{own.who}` is {value}, but `{other.who}` {verb} {kind} on `{other.topic}`"
+            yield span_of(*own.flag), message
+        left = [each for each in left if all(end.flag is None or id(end.flag[1]) != worst for end in each)]
+
+
+def _ends(model: Model) -> tuple[list[_End], list[_End]]:
+    """Return the publishers and the subscribers of velocity commands of which the type is known."""
+    named: dict[str, list[tuple[Source, Node]]] = {}
+    publishers: list[_End] = []
+    readers: list[_End] = []
+    for source in yamls(model):
+        for key, group in sections(source):
+            named.setdefault(key.text.strip("/").rpartition("/")[2], []).append((source, group))
+        for one in declared(source):
+            if "diff_drive" in one.kind.text:
+                readers.append(_End(f"{one.name}/cmd_vel", True, one.name))
+                readers.append(_End(f"{one.name}/cmd_vel_unstamped", False, one.name))
+    for topic, kind, is_read in bridged_topics(model):
+        if is_read and last(kind) in ("Twist", "TwistStamped"):
+            readers.append(_End(topic, last(kind) == "TwistStamped", "parameter_bridge"))
+    for node in launched_nodes(model):
+        flag, written, read = _COMMANDS.get(node.package, ("", (), ()))
+        name = name_of_node(node) or node.program
+        for source, group in named.get(name, ()) if flag else ():
+            value = group.find(flag)
+            is_stamped = _TRUTHS.get(value.text.lower()) if value is not None else None
+            if value is None or is_stamped is None:
+                continue
+            for topics, ends in ((written, publishers), (read, readers)):
+                for topic in topics:
+                    parameter = group.find(topic) if topic.endswith("_topic") else None
+                    if parameter is not None or not topic.endswith("_topic"):
+                        used = parameter.text if parameter is not None else topic
+                        ends.append(_End(_remapped(node, used.strip("/")), is_stamped, name, (source, value)))
+            inputs = group.find("topics") if node.package == "twist_mux" else None
+            for _, entry in inputs.entries if inputs is not None else ():
+                if (used_topic := entry.find("topic")) is not None:
+                    topic = _remapped(node, used_topic.text.strip("/"))
+                    readers.append(_End(topic, is_stamped, name, (source, value)))
+    return publishers, readers

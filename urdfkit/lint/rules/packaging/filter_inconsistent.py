@@ -1,0 +1,56 @@
+"""K983 filter-inconsistent."""
+
+from urdfkit.lint.finding import Finding
+from urdfkit.lint.rule import Findings, Model, RobotRule
+
+
+class FilterInconsistent(RobotRule):
+    """Frames or inputs of a filter of robot_localization contradict each other or the robot.
+
+    ## What it does
+    Checks the parameters of ``ekf_node`` and ``ukf_node`` in YAML: two filters that publish the same transform or have
+    different base frames, a base frame that is a child of another link, inputs with the same topic, values that the
+    messages of an input do not have, an absolute position from odometry that drifts next to another absolute position,
+    and filters in the map frame without an absolute position. Also reports that no node publishes the transform from
+    the odometry frame if it is disabled in all filters and drive controllers.
+
+    ## Why is this bad?
+    The estimated pose jumps between two sources or drifts without bound, or a link has two parents in the TF tree, or
+    the tree is not connected.
+
+    ## Example
+    ```yaml
+    ekf_filter_node:
+      ros__parameters:
+        odom_frame: odom
+        base_link_frame: base_footprint
+        world_frame: odom
+        imu0: imu/data
+        imu0_config: [true, true, false, false, false, true, false,
+            false, false, false, false, true, false, false, false]
+    ```
+
+    ## Use instead
+    ```yaml
+    ekf_filter_node:
+      ros__parameters:
+        odom_frame: odom
+        base_link_frame: base_footprint
+        world_frame: odom
+        imu0: imu/data
+        imu0_config: [false, false, false, false, false, true, false,
+            false, false, false, false, true, false, false, false]
+    ```
+    """
+
+    code = "K983"
+    name = "filter-inconsistent"
+    severity = "warning"
+
+    def check(self, model: Model) -> Findings:
+        """Yield a finding for each contradiction."""
+        from urdfkit.lint.facts.control.yaml_tree import span_of
+        from urdfkit.lint.facts.navigation.filters import filter_defects
+
+        for source, node, message in filter_defects(model):
+            yield Finding(self.code, self.name, self.severity, message, span_of(source, node))

@@ -1,0 +1,53 @@
+"""K984 frame-inconsistent."""
+
+from urdfkit.lint.finding import Finding
+from urdfkit.lint.rule import Findings, Model, RobotRule
+
+
+class FrameInconsistent(RobotRule):
+    """A node uses a map or odometry frame that no other node names, or one frame for two.
+
+    ## What it does
+    Compares ``odom_frame``, ``odom_frame_id``, ``local_frame``, ``map_frame``, ``global_frame_id`` and ``global_frame``
+    in YAML with each other and with the odometry frames of plugins. Reports a frame other than ``map`` and ``odom``
+    that no other place of the files and of the code of these packages names, if another node uses another frame, and
+    two frames of one node that are equal.
+
+    ## Why is this bad?
+    The node waits for a transform that no node publishes, or publishes a transform that no other node uses.
+
+    ## Example
+    ```yaml
+    slam_toolbox:
+      ros__parameters:
+        odom_frame: odom_combined
+    local_costmap:
+      local_costmap:
+        ros__parameters:
+          global_frame: odom
+    ```
+
+    ## Use instead
+    ```yaml
+    slam_toolbox:
+      ros__parameters:
+        odom_frame: odom
+    local_costmap:
+      local_costmap:
+        ros__parameters:
+          global_frame: odom
+    ```
+    """
+
+    code = "K984"
+    name = "frame-inconsistent"
+    severity = "warning"
+
+    def check(self, model: Model) -> Findings:
+        """Yield a finding for each frame that occurs once."""
+        from urdfkit.lint.facts.control.yaml_tree import span_of, yamls
+        from urdfkit.lint.facts.navigation.frames import equal_frames, lone_frames
+
+        equal = [(source, *found) for source in yamls(model) for found in equal_frames(source)]
+        for source, node, message in (*lone_frames(model), *equal):
+            yield Finding(self.code, self.name, self.severity, message, span_of(source, node))

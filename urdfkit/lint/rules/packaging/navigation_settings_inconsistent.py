@@ -1,0 +1,55 @@
+"""K982 navigation-settings-inconsistent."""
+
+from urdfkit.lint.finding import Finding
+from urdfkit.lint.rule import Findings, Model, RobotRule
+
+
+class NavigationSettingsInconsistent(RobotRule):
+    """Parameters of costmaps or planners contradict each other.
+
+    ## What it does
+    Checks the parameters of Nav2 and move_base in YAML: layers of a costmap in the wrong order, a local costmap that
+    does not roll with the robot, a global frame that moves with the robot or is not that of the static map, an
+    inflation radius below the inscribed radius of the footprint, footprints whose sides cross or that do not contain
+    the origin, sections of planners that are not loaded, parameters of other planners, unknown planners and layers,
+    plugin names of different releases in one file, and topics of costmaps that a server cannot read.
+
+    ## Why is this bad?
+    The robot drives into obstacles that are not inflated, leaves its local costmap, or uses the default parameters of
+    the planner; a server does not start or waits for a topic.
+
+    ## Example
+    ```yaml
+    local_costmap:
+      global_frame: odom
+      robot_base_frame: base_link
+      rolling_window: true
+      plugins:
+        - {name: inflation_layer, type: "costmap_2d::InflationLayer"}
+        - {name: obstacle_layer, type: "costmap_2d::ObstacleLayer"}
+    ```
+
+    ## Use instead
+    ```yaml
+    local_costmap:
+      global_frame: odom
+      robot_base_frame: base_link
+      rolling_window: true
+      plugins:
+        - {name: obstacle_layer, type: "costmap_2d::ObstacleLayer"}
+        - {name: inflation_layer, type: "costmap_2d::InflationLayer"}
+    ```
+    """
+
+    code = "K982"
+    name = "navigation-settings-inconsistent"
+    severity = "warning"
+
+    def check(self, model: Model) -> Findings:
+        """Yield a finding for each contradiction."""
+        from urdfkit.lint.facts.control.yaml_tree import span_of
+        from urdfkit.lint.facts.navigation.costmaps import costmap_defects
+        from urdfkit.lint.facts.navigation.planners import plugin_defects
+
+        for source, node, message in (*costmap_defects(model), *plugin_defects(model)):
+            yield Finding(self.code, self.name, self.severity, message, span_of(source, node))

@@ -1,0 +1,45 @@
+"""K981 parameter-out-of-range."""
+
+from urdfkit.lint.finding import Finding
+from urdfkit.lint.rule import Findings, Model, RobotRule
+
+
+class ParameterOutOfRange(RobotRule):
+    """A time, rate, length, velocity or proportion in YAML is far outside of the range of sensible values.
+
+    ## What it does
+    Compares parameters of controllers, Nav2, move_base, robot_localization, slam_toolbox, gmapping, amcl, twist_mux,
+    teleop nodes, maps and MoveIt with ranges that are many times wider than the values in the examples of their
+    packages. Values of zero and below are accepted, because they often disable a function.
+
+    ## Why is this bad?
+    The nodes accept such a value. Usually a decimal point is misplaced, or the value has another unit, such as
+    milliseconds, centimetres or percent.
+
+    ## Example
+    ```yaml
+    drive_controller:
+      type: diff_drive_controller/DiffDriveController
+      cmd_vel_timeout: 500.0
+    ```
+
+    ## Use instead
+    ```yaml
+    drive_controller:
+      type: diff_drive_controller/DiffDriveController
+      cmd_vel_timeout: 0.5
+    ```
+    """
+
+    code = "K981"
+    name = "parameter-out-of-range"
+    severity = "warning"
+
+    def check(self, model: Model) -> Findings:
+        """Yield a finding for each parameter outside of its range."""
+        from urdfkit.lint.facts.control.yaml_tree import span_of, yamls
+        from urdfkit.lint.facts.parameters.ranges import out_of_range
+
+        for source in yamls(model):
+            for node, message in out_of_range(source):
+                yield Finding(self.code, self.name, self.severity, message, span_of(source, node))

@@ -1,0 +1,60 @@
+"""K985 topic-type-mismatch."""
+
+from urdfkit.lint.finding import Finding
+from urdfkit.lint.rule import Findings, Model, RobotRule
+
+
+class TopicTypeMismatch(RobotRule):
+    """A parameter makes a node read a topic with another type than the topic has.
+
+    ## What it does
+    Compares the inputs of robot_localization, the observation sources of costmaps, ``scan_topic``, ``odom_topic``,
+    ``point_cloud_topic`` and ``image_topic`` with the types of topics that bridges, sensors, controllers and filters
+    publish. Compares the flags for stamped velocity commands of Nav2, twist_mux, teleop_twist_joy and drive controllers
+    on both sides of a topic.
+
+    ## Why is this bad?
+    The subscription is not connected: ROS connects only publishers and subscribers of the same type, and the node
+    reports no error.
+
+    ## Example
+    ```yaml
+    ekf_filter_node:
+      ros__parameters:
+        imu0: drive/odom
+    controller_manager:
+      ros__parameters:
+        drive:
+          type: diff_drive_controller/DiffDriveController
+    drive:
+      ros__parameters:
+        left_wheel_names: [left_wheel_joint]
+        right_wheel_names: [right_wheel_joint]
+    ```
+
+    ## Use instead
+    ```yaml
+    ekf_filter_node:
+      ros__parameters:
+        odom0: drive/odom
+    controller_manager:
+      ros__parameters:
+        drive:
+          type: diff_drive_controller/DiffDriveController
+    drive:
+      ros__parameters:
+        left_wheel_names: [left_wheel_joint]
+        right_wheel_names: [right_wheel_joint]
+    ```
+    """
+
+    code = "K985"
+    name = "topic-type-mismatch"
+    severity = "warning"
+
+    def check(self, model: Model) -> Findings:
+        """Yield a finding for each parameter with a topic or a flag of another type."""
+        from urdfkit.lint.facts.topics.message_types import mistyped, unequal_stamps
+
+        for span, message in (*mistyped(model), *unequal_stamps(model)):
+            yield Finding(self.code, self.name, self.severity, message, span)
