@@ -424,4 +424,4 @@ def test_some_node_publishes_the_transform_of_the_odometry(tmp_path: Path, flag:
     text = PAIR.replace("ros__parameters:", f"ros__parameters:\n    publish_tf: {flag}", 1)
     (tmp_path / "pair.yaml").write_text(text)
     found = [one.message for one in lint(tmp_path) if one.file.endswith(".yaml")]
-    assert [message[:50] for message in found] == messages
+    assert [message[:49] for message in found] == messages
