@@ -200,11 +200,6 @@ def _second_parents(model: Model, every: list[Filter]) -> Defects:
         for each in every
         if each.is_local and each.publishes
     ]
-    for source in yamls(model):
-        for one in settings(source):
-            enabled = one.group.find("enable_odom_tf")
-            if re.match(_DRIVES, one.kind) and (enabled is None or enabled.text not in _FALSE):
-                found.append((source, one.group.find("base_frame_id"), f"controller `{one.name}`"))
     for source, node, who in found:
         joint = parents.get(node.text.strip("/")) if node is not None else None
         if node is None or joint is None or joint.parent is None or _is_elsewhere(model, node.text.strip("/")):
