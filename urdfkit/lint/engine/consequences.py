@@ -66,7 +66,6 @@ _CONSEQUENCES: tuple[tuple[Pattern, Relation, Pattern], ...] = (
     (("T204", ""), "robot", ("M102", "reason")),
     (("T204", ""), "robot", ("M105", "")),
     (("T204", ""), "robot", ("M110", "")),
-    (("T204", "itself"), "robot", ("T203", "")),
     (("T206", ""), "robot", ("Z801", "reference")),
     (("T207", ""), "robot", ("C707", "undefined")),
     (("T207", ""), "robot", ("K959", "")),

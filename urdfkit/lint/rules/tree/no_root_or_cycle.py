@@ -55,6 +55,5 @@ class NoRootOrCycle(RobotRule):
                 message,
                 attribute="name",
                 joint=last.name,
-                kind="itself" if len(loop) == 1 else "",
                 help="remove one of the joints: each link has at most one parent" if len(loop) > 1 else None,
             )
