@@ -3,6 +3,7 @@
 
 import { decoded } from "../appearance/mesh_decoding.js";
 import { keepTextures, texture } from "../appearance/textures.js";
+import { unescaped } from "../connection/node_names.js";
 import { Downloads } from "./downloads.js";
 import { placeholder } from "./placeholders.js";
 
@@ -204,8 +205,7 @@ export class Scene {
 
   /** Height of the lowest vertex of the robot [m]; 0 without shapes. */
   lowest() {
-    let lowest = Infinity;
-    const point = new THREE.Vector3();
+    let [lowest, point] = [Infinity, new THREE.Vector3()];
     const add = (object) => {
       const position = object.isMesh && object.geometry.getAttribute("position");
       for (let i = 0; i < (position?.count ?? 0); i++) {
@@ -236,8 +236,7 @@ export class Scene {
 
   /** Centre of the shapes of a link, in its frame. */
   middle(link) {
-    const node = this.byLink.get(link);
-    const box = new THREE.Box3();
+    const [node, box] = [this.byLink.get(link), new THREE.Box3()];
     for (const group of this.shapes(link)) box.expandByObject(group);
     return box.isEmpty() ? new THREE.Vector3() : node.worldToLocal(box.getCenter(new THREE.Vector3()));
   }
@@ -297,9 +296,4 @@ export class Scene {
     });
     this.viewport.dirty();
   }
-}
-
-// As link_path in meshcat_objects.py: components of a path contain no slash.
-function unescaped(part) {
-  return part.replaceAll("%2F", "/").replaceAll("%25", "%");
 }
