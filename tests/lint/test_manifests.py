@@ -107,3 +107,81 @@ def test_a_uri_with_the_folder_of_the_package_in_place_of_its_name(tmp_path, mon
     (tmp_path / "robot-data" / "r.urdf").write_text(f'<robot name="r">{links}</robot>')
     message = "`robot-data` is the folder of this package; its name in package.xml is `robot_descriptions`"
     assert [each.message for each in lint(tmp_path) if each.code == "K956"] == [message]
+
+
+NAVIGATION = """controller_server:
+  ros__parameters:
+    FollowPath:
+      plugin: nav2_mppi_controller::MPPIController
+    goal_checker:
+      plugin: "nav2_controller::SimpleGoalChecker"
+planner_server:
+  ros__parameters:
+    GridBased:
+      plugin: nav2_smac_planner::SmacPlanner2D
+"""
+GRIPPER = """controller_manager:
+  ros__parameters:
+    hand:
+      type: position_controllers/GripperActionController
+"""
+SIMULATED = """<robot name="arm"><link name="a"/>
+<gazebo><plugin filename="libgazebo_ros2_control.so" name="control"/></gazebo></robot>"""
+PLAIN = '<robot name="arm"><link name="a"/></robot>'
+
+
+@pytest.mark.parametrize(
+    ("robot", "yaml", "declared", "needed"),
+    [
+        (PLAIN, NAVIGATION, ["nav2_controller", "nav2_smac_planner"], "nav2_mppi_controller"),
+        (PLAIN, GRIPPER, ["controller_manager"], "gripper_controllers"),
+        (SIMULATED, "", ["gz_ros2_control"], "gazebo_ros2_control"),
+    ],
+)
+def test_packages_of_plugins_are_dependencies_if_others_of_their_kind_are(
+    tmp_path, monkeypatch, robot, yaml, declared, needed
+):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "config").mkdir()
+    (tmp_path / "config" / "settings.yaml").write_text(yaml)
+    (tmp_path / "arm.urdf").write_text(robot)
+
+    def missing(*names: str) -> list[str]:
+        (tmp_path / "package.xml").write_text(manifest("arm_description", *names))
+        return [each.message for each in lint(tmp_path) if each.code == "K956"]
+
+    (message,) = missing(*declared)
+    assert message.startswith(f"missing dependency on `{needed}`, whose ")
+    assert missing(*declared, needed) == []
+    assert missing() == []
+    if yaml == NAVIGATION:
+        assert missing("navigation2") == missing("nav2_controller") == []
+
+
+@pytest.mark.parametrize(
+    ("tool", "foreign", "other"), [("catkin", "rclpy", "ROS 2"), ("ament_cmake", "roscpp", "ROS 1")]
+)
+def test_packages_of_the_other_version_of_ros(tmp_path, monkeypatch, tool, foreign, other):
+    monkeypatch.chdir(tmp_path)
+    text = manifest("arm_description", foreign, "xacro").replace("ament_cmake", tool)
+    (tmp_path / "package.xml").write_text(text)
+    (tmp_path / "arm.urdf").write_text(PLAIN)
+    message = f"`{foreign}` is a package of {other}, but `{tool}` builds this package"
+    assert message in [each.message for each in lint(tmp_path)]
+    conditional = f"<exec_depend>{foreign}", f'<exec_depend condition="$ROS_VERSION == 1">{foreign}'
+    (tmp_path / "package.xml").write_text(text.replace(*conditional))
+    assert message not in [each.message for each in lint(tmp_path)]
+
+
+def test_python_programs_that_catkin_installs_exist(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "package.xml").write_text(manifest("arm_description").replace("ament_cmake", "catkin"))
+    (tmp_path / "arm.urdf").write_text(PLAIN)
+    cmake = "cmake_minimum_required(VERSION 3.0.2)\nproject(arm_description)\nfind_package(catkin REQUIRED)\n"
+    cmake += "catkin_package()\ncatkin_install_python(PROGRAMS scripts/wave.py DESTINATION bin)\n"
+    (tmp_path / "CMakeLists.txt").write_text(cmake)
+    message = "`scripts/wave.py` does not exist in this package"
+    assert message in [each.message for each in lint(tmp_path)]
+    (tmp_path / "scripts").mkdir()
+    (tmp_path / "scripts" / "wave.py").touch()
+    assert message not in [each.message for each in lint(tmp_path)]

@@ -119,7 +119,7 @@ class BuildFileInconsistent(RobotRule):
                     suggestion = misspelling_of(word, files.dependencies()) if word.islower() else None
                     if suggestion is not None:
                         yield self._at(source, start, word, f"unknown package `{word}`; did you mean `{suggestion}`?")
-            if command.name == "install":
+            if command.name in ("install", "catkin_install_python"):
                 yield from self._install(files, source, command)
             elif len(command.words) > (at := _TESTED.get(command.name, len(command.words))):
                 word, start = command.words[at]

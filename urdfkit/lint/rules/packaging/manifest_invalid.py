@@ -16,6 +16,10 @@ if TYPE_CHECKING:
 _TYPES = ("catkin", "ament_cmake", "ament_python", "cmake")
 """Common build types."""
 
+_ROS1 = ("catkin", "message_generation", "message_runtime", "roscpp", "roslaunch", "rospy", "rviz")
+_ROS2 = ("launch_ros", "rclcpp", "rclpy", "ros2launch", "ros2run", "rosidl_default_generators", "rviz2")
+"""Packages that only one version of ROS has."""
+
 
 class ManifestInvalid(RobotRule):
     """A package.xml has a misspelt or missing element, or names the wrong build tool.
@@ -23,7 +27,7 @@ class ManifestInvalid(RobotRule):
     ## What it does
     Checks the elements, name, version, addresses and dependencies of package.xml against its format (REP 127, 140 and
     149), and the build tool against CMakeLists.txt and setup.py. Also reports dependencies whose name is a misspelt
-    name of a released package or of a package of the workspace.
+    name of a released package or of a package of the workspace, and packages of the other version of ROS.
 
     ## Why is this bad?
     The package is not built, or rosdep finds no key for the dependency. Without ``<build_type>``, colcon builds a ROS 2
@@ -92,6 +96,9 @@ class ManifestInvalid(RobotRule):
                 if suggestion is not None:
                     message = f"unknown dependency `{text}`; did you mean `{suggestion}`?"
                     yield self._at(files, tag, message, "warning")
+                elif tag.name != "buildtool_depend" and not tag.attributes and (other := _other_ros(text, files)):
+                    message = f"`{text}` is a package of {other}, but `{files.build_tool}` builds this package"
+                    yield self._at(files, tag, message, "warning")
             for text, tag in files.tags(*depends - {"test_depend"}):
                 # catkin orders packages by what they need to be built.
                 is_ordered = files.build_tool.startswith("ament") and text in folders and text != files.name
@@ -150,3 +157,13 @@ class ManifestInvalid(RobotRule):
         text = files.manifest.text[tag.start : tag.close_end]
         span = files.manifest.span(tag.start, tag.end if in_start or "\n" in text else tag.close_end)
         return Finding(self.code, self.name, severity, message, span, kind=kind)
+
+
+def _other_ros(package: str, files: BuildFiles) -> str:
+    """Return the version of ROS of a package, if the package is built for the other version; else empty."""
+    tool = files.build_tool.partition("_")[0]
+    if files.cmake is not None and tool not in files.cmake.text:
+        return ""  # the build tool is reported
+    if tool == "catkin" and package in _ROS2:
+        return "ROS 2"
+    return "ROS 1" if tool == "ament" and package in _ROS1 else ""

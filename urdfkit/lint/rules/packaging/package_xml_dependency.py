@@ -18,6 +18,12 @@ warehouse.launch warehouse_settings.launch.xml
 _OF_ROS1 = ("joint_state_controller", "imu_sensor_controller", "force_torque_sensor_controller")
 """Packages of controllers that only ROS 1 has."""
 
+_GRIPPERS = "gripper_controllers"
+"""Package of ``GripperActionController`` in ROS 2, whose types have the names of other packages."""
+
+_SIMULATED_CONTROL = ("gazebo_ros2_control", "gz_ros2_control", "ign_ros2_control", "gazebo_ros_control")
+"""Packages with a Gazebo plugin that runs controllers; the file of the plugin has the name of its package in it."""
+
 _PACKAGES_OF_ROS1 = {
     "GripperActionController": "gripper_action_controller",
     "JointTrajectoryController": "joint_trajectory_controller",
@@ -35,11 +41,12 @@ class PackageXmlDependency(RobotRule):
     Compares the packages that the files of the robot's package use, by ``$(find …)`` and ``package://…``, with the
     dependencies in package.xml. Also compares the packages that launch files start, include or import, and ``xacro``
     where they call it, with the dependencies of their own package, and the packages of controllers in YAML with
-    the dependencies of all packages of the robot, if one of these is about controllers. Metapackages, such as
-    ``navigation2``, stand for the packages that they depend on. Names that misspell a dependency, a package of the
-    workspace or a common package by one letter are errors at each place. Each other package is reported once; test
-    folders are not checked, nor the optional launch files that the MoveIt Setup Assistant writes, or dependencies that
-    package.xml has in a comment.
+    the dependencies of all packages of the robot, if one of these is about controllers. The packages of plugins of Nav2
+    and of the Gazebo plugin that runs controllers are compared if packages depend on others of their kind.
+    Metapackages, such as ``navigation2``, stand for the packages that they depend on. Names that misspell a dependency,
+    a package of the workspace or a common package by one letter are errors at each place. Each other package is
+    reported once; test folders are not checked, nor the optional launch files that the MoveIt Setup Assistant writes,
+    or dependencies that package.xml has in a comment.
 
     ## Why is this bad?
     The package works only where the dependency happens to be installed: rosdep and the ROS build farm do not install
@@ -111,6 +118,8 @@ class PackageXmlDependency(RobotRule):
                     yield finding
         yield from self._check_launch_files(model, {package: declared})
         yield from self._check_controllers(model)
+        yield from self._check_navigation_plugins(model)
+        yield from self._check_simulated_control(model)
 
     def _check_launch_files(self, model: Model, declared: dict[Path, set[str]]) -> Findings:
         """Yield a finding for each package that a launch file uses without a dependency in its own package."""
@@ -162,20 +171,54 @@ class PackageXmlDependency(RobotRule):
                 yield from self._of_ros1(source, package, needed, model)
             for controller in declared(source) if package is not None else ():
                 name, _, kind = controller.kind.text.partition("/")
-                # Grippers have the type of another package; controller-type-wrong-generation reports types of ROS 1.
-                if (
-                    name in _OF_ROS1
-                    or controller.kind.text not in TYPES
-                    or name not in names()
-                    or kind == "GripperActionController"
-                ):
+                # controller-type-wrong-generation reports types of ROS 1.
+                if name in _OF_ROS1 or controller.kind.text not in TYPES or name not in names():
                     continue
+                if kind == "GripperActionController":
+                    name = _GRIPPERS
                 if name not in needed and not is_in_metapackage(name, needed):
                     needed.add(name)
                     span = span_of(source, controller.kind)
                     message = f"missing dependency on `{name}`, whose controller `{controller.name}` is"
                     help = f"add <exec_depend>{name}</exec_depend> to package.xml"
                     yield Finding(self.code, self.name, self.severity, message, span, help=help)
+
+    def _check_navigation_plugins(self, model: Model) -> Findings:
+        """Yield a finding for each package of plugins of Nav2 on which none depends, unlike on those of the others."""
+        from urdfkit.lint.facts.control.yaml_tree import yamls
+        from urdfkit.lint.facts.ros_packages import is_in_metapackage, names
+
+        manifests = [text.text for name, text in model.related_files.items() if name.endswith("package.xml")]
+        needed = {name for text in manifests for name in dependencies_in(text)}
+        for source in yamls(model):
+            uses: dict[str, re.Match[str]] = {}
+            for match in re.finditer(r"(?m)^[ \t]*plugin:[ \t]*[\"']?(nav2_\w+)(?:::|/)\w+", source.text):
+                uses.setdefault(match[1], match)
+            missing = [name for name in uses if name not in needed and not is_in_metapackage(name, needed)]
+            for name in missing if len(missing) < len(uses) / 2 else ():
+                if name in names():
+                    needed.add(name)
+                    span = source.span(*uses[name].span(1))
+                    help = f"add <exec_depend>{name}</exec_depend> to package.xml"
+                    message = f"missing dependency on `{name}`, whose plugin this file names"
+                    yield Finding(self.code, self.name, self.severity, message, span, help=help, names=(name,))
+
+    def _check_simulated_control(self, model: Model) -> Findings:
+        """Yield a finding for the plugin that runs controllers, if the packages depend on that of another Gazebo."""
+        from urdfkit.lint.facts.gazebo.plugins import plugins
+
+        manifests = [text.text for name, text in model.related_files.items() if name.endswith("package.xml")]
+        needed = {name for text in manifests for name in (*dependencies_in(text), name_in(text))}
+        others = [name for name in _SIMULATED_CONTROL if name in needed]
+        for plugin, _, _ in plugins(model.robot):
+            used = next((name for name in _SIMULATED_CONTROL if name in (plugin.filename or "")), None)
+            if used is not None and others and used not in needed:
+                message = (
+                    f"missing dependency on `{used}`, whose plugin the robot loads; the packages name `{others[0]}`"
+                )
+                help = f"add <exec_depend>{used}</exec_depend> to package.xml"
+                yield self.at(model, plugin.element, message, attribute="filename", help=help, names=(used,))
+                return
 
     def _of_ros1(self, source: Source, package: Path, needed: set[str], model: Model) -> Findings:
         """Yield a finding for each package of a controller of ROS 1 that none of the related packages depends on."""
