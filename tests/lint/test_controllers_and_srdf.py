@@ -57,8 +57,8 @@ def findings(folder: Path, code: str, *depends: str, interface: str = "position"
 @pytest.mark.parametrize(
     ("depends", "is_missing"),
     [
-        (["controller_manager"], True),
-        (["controller_manager", "joint_trajectory_controller"], False),
+        (["controller_manager", "gripper_controllers"], True),
+        (["controller_manager", "gripper_controllers", "joint_trajectory_controller"], False),
         (["ros2_control", "ros2_controllers"], False),
         (["rviz2"], False),
     ],
