@@ -44,7 +44,7 @@ quick: $(VENV)/.test
 	$(PYTEST) -q -n 2 --dist worksteal -m "not slow and not browser and not catkin and not colcon and not sdformat" $(ARGS)
 
 docs: $(VENV)/.test
-	NO_MKDOCS_2_WARNING=1 $(BIN)/mkdocs build --quiet --strict --config-file docs/site/mkdocs.yml
+	NO_MKDOCS_2_WARNING=1 $(BIN)/mkdocs build --strict --config-file docs/site/mkdocs.yml
 	@echo "the site: build/site/index.html"
 
 docs-serve: $(VENV)/.test

@@ -52,6 +52,8 @@ def on_page_markdown(markdown: str, *, page: Page, **_: Any) -> str:
     """Keep the prose for the check of the spelling, and adapt links to files that have no page on the site."""
     _PROSE[page.file.src_uri] = re.sub(r"^```.*?^```|(`+).*?\1", " ", markdown, flags=re.MULTILINE | re.DOTALL)
     markdown = markdown.replace("](decisions/)", "](decisions/index.md)")
+    for old, new in TOP_LEVEL.items():  # whose pages of the site are one folder deeper
+        markdown = re.sub(rf"\]\(\.\./((?:\.\./)*){old}", rf"](\1{new}", markdown)
     return re.sub(r"\[([^\]]+)\]\((?:\.\./)+tests/[^)]*\)", r"\1", markdown)
 
 

@@ -23,7 +23,7 @@ ROOT = Path(__file__).parents[2]
 def test_the_strict_build_has_every_page(tmp_path: Path) -> None:
     pytest.importorskip("mkdocstrings")
     pytest.importorskip("numba")
-    command = [sys.executable, "-m", "mkdocs", "build", "--quiet", "--strict", "--site-dir", str(tmp_path)]
+    command = [sys.executable, "-m", "mkdocs", "build", "--strict", "--site-dir", str(tmp_path)]
     done = subprocess.run(
         [*command, "--config-file", str(ROOT / "docs/site/mkdocs.yml")],
         capture_output=True,
