@@ -45,7 +45,7 @@ quick: $(VENV)/.test
 
 docs: $(VENV)/.test
 	NO_MKDOCS_2_WARNING=1 $(BIN)/mkdocs build --strict --config-file docs/site/mkdocs.yml
-	@echo "the site: build/site/index.html"
+	@echo "the site: build/site/index.html (the search works when it is served: make docs-serve)"
 
 docs-serve: $(VENV)/.test
 	NO_MKDOCS_2_WARNING=1 $(BIN)/mkdocs serve --config-file docs/site/mkdocs.yml

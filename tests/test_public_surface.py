@@ -39,6 +39,19 @@ def test_each_public_name_is_imported_for_type_checkers() -> None:
     assert (Path(urdfkit.__file__).parent / "py.typed").is_file()
 
 
+@pytest.mark.parametrize(("name", "extra"), [("Simulator", "sim"), ("Kinematics", "view"), ("sweep", "sweep")])
+def test_a_name_without_its_dependencies_says_what_to_install(name: str, extra: str) -> None:
+    code = """import sys
+sys.modules["numpy"] = None
+import urdfkit
+try:
+    urdfkit.NAME
+except urdfkit.UrdfkitError as error:
+    print(error)
+"""
+    assert in_new_process(code.replace("NAME", name)) == f"urdfkit.{name} needs numpy: pip install 'urdfkit[{extra}]'"
+
+
 def test_a_misspelt_name_gets_the_nearest() -> None:
     with pytest.raises(AttributeError, match="no attribute 'Simulater'; did you mean `Simulator`"):
         _ = urdfkit.Simulater

@@ -62,6 +62,9 @@ __all__ = [
 ]
 
 
+_EXTRAS = {"Kinematics": "view", "Simulator": "sim", "sweep": "sweep", "teleop": "sim", "view": "view"}
+"""Public name → the extra with its dependencies."""
+
 _FUNCTIONS = ("lint", "teleop", "view")
 """Public functions that have the name of a module, which importing that module must not hide."""
 
@@ -73,7 +76,15 @@ def __getattr__(name: str) -> Any:
         raise AttributeError(f"module 'urdfkit' has no attribute {name!r}{did_you_mean(name, __all__)}")
     from importlib import import_module
 
-    value = getattr(import_module(_MODULES[name]), name)
+    try:
+        value = getattr(import_module(_MODULES[name]), name)
+    except ModuleNotFoundError as error:
+        if name not in _EXTRAS or (error.name or "").partition(".")[0] == "urdfkit":
+            raise
+        from urdfkit.errors import MissingDependencyError
+
+        message = f"urdfkit.{name} needs {error.name}: pip install 'urdfkit[{_EXTRAS[name]}]'"
+        raise MissingDependencyError(message) from error
     if name in _FUNCTIONS:  # `urdfkit.lint.rule` is the module after `import urdfkit.lint.rule`
         value.__dict__ = import_module(f"urdfkit.{name}").__dict__
         globals()[name] = value
