@@ -64,7 +64,6 @@ def _in_elements(source: Source) -> Iterator[Start]:
         is_include = element.tag == "include"
         if element.tag not in ("node", "include") or id(element) in inner:
             continue
-        conditions: dict[str, bool] = {}
         uses = [(re.fullmatch(_USE, at[key].name), key == "if") for key in ("if", "unless") if key in at]
         conditions = {use[1]: value for use, value in uses if use is not None}
         program = at.get("type") or at.get("exec")

@@ -158,10 +158,9 @@ class PackageXmlDependency(RobotRule):
         from urdfkit.lint.facts.ros_packages import is_in_metapackage, names
 
         files = list(yamls(model))
-        manifests = [text.text for name, text in model.related_files.items() if name.endswith("package.xml")]
-        if not files or not manifests:
+        needed = _needed(model)
+        if not files or not needed:
             return
-        needed = {name for text in manifests for name in (*dependencies_in(text), name_in(text))}
         kinds = {kind.partition("/")[0] for kind in TYPES}
         if needed.isdisjoint({*kinds, "controller_manager", "ros2_control", "ros_control", "gazebo_ros_control"}):
             return  # another package starts the controllers
@@ -188,8 +187,7 @@ class PackageXmlDependency(RobotRule):
         from urdfkit.lint.facts.control.yaml_tree import yamls
         from urdfkit.lint.facts.ros_packages import is_in_metapackage, names
 
-        manifests = [text.text for name, text in model.related_files.items() if name.endswith("package.xml")]
-        needed = {name for text in manifests for name in dependencies_in(text)}
+        needed = _needed(model)
         for source in yamls(model):
             uses: dict[str, re.Match[str]] = {}
             for match in re.finditer(r"(?m)^[ \t]*plugin:[ \t]*[\"']?(nav2_\w+)(?:::|/)\w+", source.text):
@@ -207,8 +205,7 @@ class PackageXmlDependency(RobotRule):
         """Yield a finding for the plugin that runs controllers, if the packages depend on that of another Gazebo."""
         from urdfkit.lint.facts.gazebo.plugins import plugins
 
-        manifests = [text.text for name, text in model.related_files.items() if name.endswith("package.xml")]
-        needed = {name for text in manifests for name in (*dependencies_in(text), name_in(text))}
+        needed = _needed(model)
         others = [name for name in _SIMULATED_CONTROL if name in needed]
         for plugin, _, _ in plugins(model.robot):
             used = next((name for name in _SIMULATED_CONTROL if name in (plugin.filename or "")), None)
@@ -258,6 +255,12 @@ class PackageXmlDependency(RobotRule):
             help=f"add <exec_depend>{name}</exec_depend> to package.xml",
             names=(name,),
         )
+
+
+def _needed(model: Model) -> set[str]:
+    """Return the names and dependencies of the packages around a robot."""
+    manifests = [source.text for name, source in model.related_files.items() if name.endswith("package.xml")]
+    return {name for text in manifests for name in (*dependencies_in(text), name_in(text))}
 
 
 def _disabled(manifest: str) -> set[str]:
