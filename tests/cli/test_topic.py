@@ -62,6 +62,7 @@ def subscribers(ride: DriveLoop, name: str) -> int:
     return next(len(each.subscribers) for each in ride.simulator.bus.topics if each.name == name)
 
 
+@pytest.mark.slow
 def test_the_topics_are_listed(ride, topic) -> None:
     names = topic("list").splitlines()
     assert names == sorted(names)
@@ -79,6 +80,7 @@ def test_the_topics_are_listed(ride, topic) -> None:
     assert "did you mean `nav_msgs/msg/Odometry`?" in topic("find", "nav_msgs/Odomety", code=1)
 
 
+@pytest.mark.slow
 def test_echo_prints_messages_as_rostopic_does(topic) -> None:
     first, second, end = topic("echo", ODOM, "-n", "2").split("---\n")
     assert end == ""
@@ -94,6 +96,7 @@ def test_echo_prints_messages_as_rostopic_does(topic) -> None:
     assert float(topic("echo", ODOM, "--once", "--json", "--field", "pose.covariance[0]")) == 1e-5
 
 
+@pytest.mark.slow
 def test_what_was_published_once_for_all_who_come_is_echoed(topic) -> None:
     (joint, *_) = json.loads(topic("echo", "/tf_static", "--once", "--json"))["transforms"]
     assert joint["header"]["frame_id"] == "base_footprint"
@@ -111,6 +114,7 @@ def test_a_camera_renders_while_its_topic_has_a_subscriber(ride, topic, until) -
     until(lambda: subscribers(ride, name) == before)
 
 
+@pytest.mark.slow
 def test_rates_are_of_simulated_time(topic) -> None:
     found = json.loads(topic("hz", ODOM, "--once", "--json"))
     assert found["rate"] == pytest.approx(100.0)
@@ -121,6 +125,7 @@ def test_rates_are_of_simulated_time(topic) -> None:
     assert found["min"] == found["max"] == found["mean"] > 8 * (36 + 7)  # covariance and pose, in doubles
 
 
+@pytest.mark.slow
 def test_what_is_published_moves_the_robot(ride, topic, until) -> None:
     topic("pub", COMMAND, "geometry_msgs/Twist", "{linear: {x: 0.5}}", "--rate", "50", "-n", "3")
     until(lambda: ride.simulator.state.v[0] > 0.4)
@@ -132,6 +137,7 @@ def test_what_is_published_moves_the_robot(ride, topic, until) -> None:
     until(lambda: abs(ride.simulator.state.v[0]) < 0.01)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("words", "expected"),
     [
@@ -155,6 +161,7 @@ def test_what_is_wrong_is_one_line_and_exit_2(topic, words: list[str], expected:
     assert expected in topic(*words, code=2)
 
 
+@pytest.mark.slow
 def test_publishing_to_an_unknown_topic_prints_a_note(ride, capsys) -> None:
     assert main(["topic", "pub", "/simpleton/cmd_vl", "geometry_msgs/Twist", "--once"]) == 0
     assert capsys.readouterr().err == f"urdfkit: /simpleton/cmd_vl has no subscribers; did you mean `{COMMAND}`?\n"
@@ -162,6 +169,7 @@ def test_publishing_to_an_unknown_topic_prints_a_note(ride, capsys) -> None:
     assert f"topics of this type with subscribers: {COMMAND}" in capsys.readouterr().err
 
 
+@pytest.mark.slow
 def test_services_are_listed_and_called(ride, capsys) -> None:
     def service(*words: str, code: int = 0) -> str:
         assert main(["service", *words]) == code
@@ -228,6 +236,7 @@ def start(*words: str) -> AbstractContextManager[subprocess.Popen[str]]:
     return running(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
 
 
+@pytest.mark.slow
 def test_ctrl_c_ends_it_quietly(ride, until) -> None:
     with start("echo", "/clock", "--json") as echo:
         assert echo.stdout is not None
@@ -238,6 +247,7 @@ def test_ctrl_c_ends_it_quietly(ride, until) -> None:
     until(lambda: subscribers(ride, "/clock") == 0)
 
 
+@pytest.mark.slow
 def test_a_closed_pipe_ends_it_quietly(ride, until) -> None:
     with start("echo", "/clock") as echo:
         assert echo.stdout is not None

@@ -51,7 +51,7 @@ def simulate(folder: Path, *parts: str, **options: object) -> Simulator:
     return Simulator(write(folder, *parts), note=lambda text: None, **options)  # type: ignore[arg-type]
 
 
-@pytest.mark.parametrize("engine", ENGINES)
+@pytest.mark.parametrize("engine", [Engine, pytest.param(ReferenceEngine, marks=pytest.mark.slow)])
 @pytest.mark.parametrize("word", ["<gravity>false</gravity>", "<gravity>0</gravity>", '<gravity value="false"/>'])
 def test_a_pendulum_without_gravity_keeps_its_speed(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, engine: type[Engine], word: str
@@ -103,6 +103,7 @@ def test_half_the_weight_falls_half_as_fast(tmp_path: Path) -> None:
     assert height == pytest.approx(5.1 - 0.5 * (G / 2) * 0.01, abs=1e-9)
 
 
+@pytest.mark.slow
 def test_both_engines_do_the_same_without_gravity(tmp_path: Path) -> None:
     hinge = '<joint name="j" type="continuous"><parent link="a"/><child link="b"/><axis xyz="1 2 3"/></joint>'
     text = link("a", 1.0, at="0.1 0 0") + link("b", 2.0, at="0 0.3 0.1") + link("c", 0.5, at="0.1 0.1 0")
@@ -148,7 +149,7 @@ SELF_COLLISIONS = (
     ("words", "stopped", "engine"),
     [
         *((*case, Engine) for case in SELF_COLLISIONS),
-        *((*case, ReferenceEngine) for case in SELF_COLLISIONS[:2]),
+        *(pytest.param(*case, ReferenceEngine, marks=pytest.mark.slow) for case in SELF_COLLISIONS[:2]),
     ],
 )
 def test_arms_that_would_pass_through_each_other_stop(

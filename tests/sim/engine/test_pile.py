@@ -69,6 +69,7 @@ def test_a_wall_of_bricks_is_solved_by_blocks_and_stands(engine_of):
     assert on_ground == pytest.approx(len(bricks) * G, rel=1e-6)
 
 
+@pytest.mark.slow
 def test_blocks_and_the_matrix_of_rows_agree(engine_of):
     states = []
     for engine_type in ENGINES:

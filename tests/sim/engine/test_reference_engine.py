@@ -9,6 +9,8 @@ import pytest
 from tests.reference_engine import ENGINES
 from urdfkit.sim.engine import Surface
 
+pytestmark = pytest.mark.slow  # in a fresh checkout: kernels of the tests are compiled first
+
 HEIGHTS = {"diff_drive": 0.06, "box": 0.051, "can": 0.16, "ball": 0.1, "capsule": 0.2}
 
 

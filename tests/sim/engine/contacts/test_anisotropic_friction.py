@@ -85,6 +85,7 @@ def test_the_direction_of_the_smaller_coefficient_counts(engine_of, owner):
     assert world_velocity(engine) == pytest.approx([0.0, 2.0 - 0.05 * G * 0.2], abs=1e-3)
 
 
+@pytest.mark.slow
 def test_compiled_and_reference_agree(engine_of):
     states = []
     for engine_type in ENGINES:

@@ -89,6 +89,7 @@ def test_a_ball_on_a_turntable_goes_in_a_circle(engine_of):
     assert angle == pytest.approx(1.5 * 2.0 / 7.0, rel=5e-3)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("spin", [0.0, 4.0])
 def test_both_engines_swap_at_the_same_place(engine_of, spin):
     states = []

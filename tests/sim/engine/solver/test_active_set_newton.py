@@ -12,6 +12,8 @@ from urdfkit.sim.engine import Surface
 from urdfkit.sim.engine.kernel_cache import load_compiled
 from urdfkit.sim.engine.simulation_memory import FOUND_ROWS, GUESSES, allocate
 
+pytestmark = pytest.mark.slow  # in a fresh checkout: the function of the tests is compiled first
+
 
 def solved(A, g, low, high, mu, before=None):
     n = len(g)
@@ -145,7 +147,6 @@ def problem(seed, contacts, motors, dofs, *, friction=1.0):
     return J @ J.T / dofs, g, low, high, mu
 
 
-@pytest.mark.slow
 @settings(max_examples=300, deadline=None, derandomize=True)
 @given(st.integers(0, 2**32), st.integers(1, 4), st.integers(0, 3))
 def test_random_contacts_obey_coulomb(seed, contacts, motors):
