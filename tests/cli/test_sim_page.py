@@ -655,17 +655,25 @@ TYPED = """async (text) => {
 
 
 def test_plots_below_the_view_have_their_legend_beside_them(page) -> None:
-    page.evaluate("urdfkit.plots.add('/odom', 'twist.twist.linear.y')")
+    # One script each: a sample of the simulation between two scripts changes values and widths.
     shown = page.evaluate(
         """() => {
-          urdfkit.page.emit("samples", { curve: "field:/odom:twist.twist.linear.y", t: [1e6], values: [1e-39] });
+          urdfkit.plots.add("/odom", "twist.twist.linear.y");
+          const curve = "field:/odom:twist.twist.linear.y";
+          urdfkit.page.emit("samples", { curve, t: [1e6, 1e6 + 1], values: [1, 1e-7] });
           return document.querySelector(".legend .value").textContent;
         }"""
     )
     assert shown == "0"
-    page.evaluate("urdfkit.page.panels.places.put(urdfkit.page.panels.all.get('plots'), 'below', true)")
-    canvas, legend = page.locator("#plot").bounding_box(), page.locator(".legend").bounding_box()
-    assert canvas["x"] + canvas["width"] <= legend["x"]
+    canvas, legend = page.evaluate(
+        """() => {
+          const { panels } = urdfkit.page;
+          panels.places.put(panels.all.get("plots"), "below", true);
+          const edges = ["#plot", ".legend"].map((each) => document.querySelector(each).getBoundingClientRect());
+          return [edges[0].right, edges[1].left];
+        }"""
+    )
+    assert canvas <= legend
     page.evaluate("urdfkit.plots.remove('field:/odom:twist.twist.linear.y')")
     page.evaluate("urdfkit.page.panels.places.put(urdfkit.page.panels.all.get('plots'), 'side', true)")
 
