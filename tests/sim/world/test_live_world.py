@@ -233,6 +233,16 @@ def test_what_is_not_there_is_reported_with_what_is_near() -> None:
         simulator.world.spawn("ball", FAR, name="egg")
 
 
+def test_poses_and_velocities_that_would_overflow_are_refused() -> None:
+    simulator = Simulator("simpleton")
+    before = simulator.world.pose("simpleton")
+    with pytest.raises(SimulationError, match=r"the position contains 1e\+300; at most 1e\+09 can be simulated \[m\]"):
+        simulator.world.place("simpleton", (0.0, 1e300, 0.0))
+    with pytest.raises(SimulationError, match=r"the velocity contains -1e\+10; at most 1e\+09 can be simulated"):
+        simulator.world.place("simpleton", (0.0, 0.0, 1.0), (0.0, -1e10, 0.0, 0.0, 0.0, 0.0))
+    assert simulator.world.pose("simpleton") == before
+
+
 def test_what_comes_where_a_robot_is_does_not_blow_it_away() -> None:
     simulator = Simulator("simpleton", note=lambda _: None)
     simulator.world.spawn("crate", (0.0, 0.0, 0.0))

@@ -82,7 +82,7 @@ class LiveTopics:
             writer = self._writers[topic] = self.node.writer(topic, type, publisher_quality(topic))
             end = self._clock() + wait
             while self._clock() < end and not writer.is_matched():
-                time.sleep(0.01)
+                time.sleep(0.05)  # with rosbridge, each test is a request
             if wait and not writer.is_matched():
                 self._note(f"urdfkit: {topic} has no subscribers{self._nearest(topic, type)}")
         self._writers[topic].publish(self.node.encode(message, type))

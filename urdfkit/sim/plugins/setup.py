@@ -14,9 +14,7 @@ from urdfkit.kinematics import Kinematics
 from urdfkit.sim.construction.repairs.collector import Repairs
 from urdfkit.sim.plugins.ros_distro import Distro
 from urdfkit.sim.scene_view import Surroundings
-
-LARGEST = 1e9
-"""Largest number of a command [m/s, rad, N, …]; products of larger ones overflow, and the simulation diverges."""
+from urdfkit.sim.state.arguments import LARGEST
 
 
 def is_command(numbers: Iterable[float]) -> bool:

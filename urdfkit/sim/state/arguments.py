@@ -7,6 +7,10 @@ from urdfkit.errors import SimulationError, UnknownNameError, did_you_mean
 
 Found = TypeVar("Found")
 
+LARGEST = 1e9
+"""Largest number of a pose, velocity or command [m, m/s, rad, N, …]: products of larger ones overflow, and the
+simulation diverges."""
+
 COUNTS = {2: "two", 3: "three", 4: "four", 6: "six", 7: "seven"}
 
 
@@ -23,10 +27,10 @@ def number(value: Any, what: str, unit: str) -> float:
 
 
 def vector(values: Any, length: int, what: str, unit: str) -> tuple[float, ...]:
-    """Return `length` finite numbers.
+    """Return `length` numbers, none larger than `LARGEST`.
 
     Raises:
-        SimulationError: `values` has another length or contains something else.
+        SimulationError: `values` has another length or contains something else, or a number is too large.
     """
     try:
         found = tuple(float(value) for value in values)
@@ -34,6 +38,9 @@ def vector(values: Any, length: int, what: str, unit: str) -> tuple[float, ...]:
         found = ()
     if len(found) != length or not all(map(isfinite, found)):
         raise SimulationError(f"{what} is {values!r}; it must be {COUNTS[length]} finite numbers [{unit}]")
+    largest = max(found, key=abs)
+    if abs(largest) > LARGEST:
+        raise SimulationError(f"{what} contains {largest:g}; at most {LARGEST:g} can be simulated [{unit}]")
     return found
 
 

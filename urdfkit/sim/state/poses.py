@@ -9,6 +9,7 @@ from urdfkit.description.urdf.geometry import rpy_of_quaternion
 from urdfkit.description.urdf.robot import Pose
 from urdfkit.errors import SimulationError
 from urdfkit.scene.pose_matrices import pose_matrix
+from urdfkit.sim.state.arguments import vector
 
 
 def seven(pose: Pose) -> tuple[float, ...]:
@@ -28,7 +29,8 @@ def pose_of(pose: Pose | Sequence[float]) -> Pose:
     """Return a pose from x y z, x y z yaw, x y z roll pitch yaw, or x y z and a quaternion x y z w.
 
     Raises:
-        SimulationError: wrong number of values, a value that is not finite, or a zero quaternion.
+        SimulationError: wrong number of values, a value that is not finite, a position beyond `LARGEST`, or a zero
+            quaternion.
     """
     numbers: tuple[float, ...]
     if isinstance(pose, Pose):
@@ -43,6 +45,7 @@ def pose_of(pose: Pose | Sequence[float]) -> Pose:
             f"a pose is x y z, x y z yaw, x y z roll pitch yaw or x y z and a quaternion x y z w, not {pose!r}"
         )
     x, y, z, *rest = numbers
+    vector((x, y, z), 3, "the position", "m")
     if len(rest) == 4:
         if not any(rest):
             raise SimulationError("the quaternion of a pose is zero")
