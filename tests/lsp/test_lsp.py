@@ -222,7 +222,9 @@ def test_renaming_changes_every_place_and_nothing_else(cart, mark, name, words):
         ("cart.urdf.xacro", '<link name="ma|st"/>', "base", "link `base` already exists"),
         ("cart.urdf.xacro", '<link name="ma|st"/>', 'a"b', "is not a valid name for a link"),
         ("cart.urdf.xacro", "<?xml ver|sion", "x", "nothing to rename here"),
-        ("wheel.xacro", '"0 ${|y} 0"', "z", "is the parameter of a macro"),
+        ("wheel.xacro", '"0 ${|y} 0"', "side", "parameter `side` already exists"),
+        ("cart.urdf.xacro", 'side="le|ft"', "right", "`right_joint` already exists"),
+        ("cart.urdf.xacro", 'y="0|.2"', "0.3", "nothing to rename here"),
     ],
 )
 def test_what_cannot_be_renamed_is_refused(cart, file, mark, name, message):

@@ -206,27 +206,29 @@ class EditorSession:
         models = [analysis.model for analysis in found[0] if analysis.model is not None]
         return self._locations(references(models, found[1], with_definition=with_definition))
 
-    def renamable(self, uri: str, position: types.Position) -> types.Range | None:
-        """Return the name under the cursor that can be changed."""
-        from urdfkit.lint.editor.navigation import renamable
+    def renamable(self, uri: str, position: types.Position) -> types.PrepareRenamePlaceholder | None:
+        """Return the text under the cursor that can be renamed, and the name that it stands for."""
+        from urdfkit.lint.editor.renaming import renamable
 
         found = self._at(uri, position)
         model = found[0][0].model if found is not None else None
         one = renamable(model, found[1]) if found is not None and model is not None else None
-        return range_of(found[1].document.source, one.span) if found is not None and one is not None else None
+        if found is None or one is None:
+            return None
+        return types.PrepareRenamePlaceholder(range_of(found[1].document.source, one[0]), one[1])
 
     def rename(self, uri: str, position: types.Position, name: str) -> types.WorkspaceEdit:
         """Return the edits that rename the name at a position."""
         from pygls.exceptions import JsonRpcInvalidParams
 
-        from urdfkit.lint.editor.navigation import rename
+        from urdfkit.lint.editor.renaming import rename
 
         found = self._at(uri, position)
         models = [analysis.model for analysis in found[0] if analysis.model is not None] if found is not None else []
         if found is None or not models:
             raise JsonRpcInvalidParams("no robot description to rename in")
         try:
-            return self._edit(rename(models, found[1], name))
+            return self._edit(rename(models, found[1], name, self.project.expanded_with))
         except UrdfkitError as error:
             raise JsonRpcInvalidParams(str(error)) from None
 

@@ -1,15 +1,16 @@
-"""Definitions and references of symbols, and the edits that rename a symbol."""
+"""Definitions and references of symbols."""
 
 from __future__ import annotations
 
 import re
+from itertools import chain
 from pathlib import Path
 
 from urdfkit.description.packages.existence import is_file
-from urdfkit.errors import UsageError
 from urdfkit.lint.editor.launch_occurrences import in_launch_files
+from urdfkit.lint.editor.rviz_occurrences import in_rviz_files
+from urdfkit.lint.editor.srdf_occurrences import in_srdf_files
 from urdfkit.lint.editor.symbol_occurrences import EXPANDED, in_settings, of_model, parameters_around
-from urdfkit.lint.finding import Edit
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -75,17 +76,18 @@ def file_at(model: Model, cursor: Cursor) -> Path | None:
 def references(models: Sequence[Model], cursor: Cursor, *, with_definition: bool = True) -> list[Span]:
     """Return all references to the symbol under the cursor, in all models that its file belongs to."""
     found: dict[Span, None] = {}
-    if (parameter := _parameter_at(cursor)) is not None:
-        return sorted(_of_parameter(models, cursor, *parameter, with_definition=with_definition))
+    if (parameter := parameter_at(cursor)) is not None:
+        return sorted(of_parameter(models, cursor, *parameter, with_definition=with_definition))
     for model in models:
         wanted = {(one.kind, one.name) for one in at(model, cursor)}
-        for other in (*of_model(model), *in_settings(model), *in_launch_files(model)):
+        outside = (search(model) for search in (in_settings, in_launch_files, in_srdf_files, in_rviz_files))
+        for other in (*of_model(model), *chain.from_iterable(outside)):
             if (other.kind, other.name) in wanted and (with_definition or not other.defines):
                 found[other.span] = None
     return sorted(found)
 
 
-def _parameter_at(cursor: Cursor) -> tuple[str, Tag] | None:
+def parameter_at(cursor: Cursor) -> tuple[str, Tag] | None:
     """Return the macro parameter under the cursor and its macro, in the declaration or in an expression."""
     attribute, word = cursor.attribute, cursor.word[0]
     if attribute is None or not word or not (cursor.expression or attribute.name == "params"):
@@ -97,7 +99,7 @@ def _parameter_at(cursor: Cursor) -> tuple[str, Tag] | None:
     return None
 
 
-def _of_parameter(
+def of_parameter(
     models: Sequence[Model], cursor: Cursor, name: str, macro: Tag, *, with_definition: bool
 ) -> Iterator[Span]:
     """Yield the uses of a parameter in its macro, its arguments in calls, and its declaration."""
@@ -120,51 +122,6 @@ def _of_parameter(
                 if attribute is not None:
                     found[document.source.span(attribute.start, attribute.start + len(name))] = None
     yield from found
-
-
-def renamable(model: Model, cursor: Cursor) -> Occurrence | None:
-    """Return the symbol under the cursor if it can be renamed, else None."""
-    found = [one for one in at(model, cursor) if one.kind != "file"]
-    names = {(one.kind, one.name) for one in found}
-    return found[0] if len(names) == 1 and found[0].written == found[0].name else None
-
-
-def rename(models: Sequence[Model], cursor: Cursor, name: str) -> list[Edit]:
-    """Return the edits that rename the symbol under the cursor in all files.
-
-    Raises:
-        UsageError: the symbol has no name, the new name is invalid or in use, or an expression computes the name.
-    """
-    edits: dict[Edit, None] = {}
-    for model in models:
-        one = renamable(model, cursor)
-        if one is None:
-            raise UsageError("nothing to rename here: no symbol, or its name is computed by an expression")
-        pattern = r"[A-Za-z_]\w*" if one.kind in ("property", "macro", "argument") else r"[^\s\"'<>&$]+"
-        if not re.fullmatch(pattern, name):
-            raise UsageError(f"`{name}` is not a valid name for a {one.kind}")
-        every = of_model(model)
-        if any(other.defines and (other.kind, other.name) == (one.kind, name) for other in every):
-            raise UsageError(f"{one.kind} `{name}` already exists")
-        if one.kind == "property" and _is_parameter(model, one.name):
-            raise UsageError(f"`{one.name}` is the parameter of a macro too: rename it manually")
-        others = (*every, *in_settings(model), *in_launch_files(model))
-        same = [other for other in others if (other.kind, other.name) == (one.kind, one.name)]
-        if not any(other.defines for other in same):
-            raise UsageError(f"{one.kind} `{one.name}` is not defined in these files")
-        for other in same:
-            if other.written != one.name:
-                at = f"{other.span.file}:{other.span.line}"
-                raise UsageError(
-                    f"`{one.name}` is computed by the expression `{other.written}` at {at}: rename it manually"
-                )
-            edits[Edit(other.span, name)] = None
-    return sorted(edits)
-
-
-def _is_parameter(model: Model, name: str) -> bool:
-    found = (signature for several in model.signatures.values() for signature in several)
-    return any(name in signature.names for signature in found)
 
 
 def _holds(source: Source, span: Span, offset: int) -> bool:

@@ -139,6 +139,11 @@ class Project:
                 found[int(element.get("number") or 0)][value] = None
         return [list(values) for values in found]
 
+    def expanded_with(self, model: Model, texts: Mapping[str, str]) -> Model:
+        """Return a model that is expanded again, with other texts of some files."""
+        changed = {"texts": {**self.texts, **texts}, "target": model.target}
+        return model_of(model.expanded.path, Options(**{**self.options.__dict__, **changed}))
+
     def _analysis(self, entry: Entry) -> Analysis:
         if entry not in self._analyses:
             options = Options(**{**self.options.__dict__, "texts": dict(self.texts)})

@@ -10,7 +10,7 @@ import re
 from collections.abc import Iterator
 
 from urdfkit.description.xml.element import Element
-from urdfkit.description.xml.source import Position, Source, Span
+from urdfkit.description.xml.source import Expansion, Position, Source, Span
 from urdfkit.lint.model.model import Model
 from urdfkit.lint.model.tags import Document, Tag
 from urdfkit.record import record
@@ -39,6 +39,7 @@ class Occurrence:
         span: the name in the source, or the expression that computes the name.
         defines: whether the occurrence is the definition.
         written: the source text.
+        calls: the macro calls that produced it, innermost first.
     """
 
     kind: str
@@ -46,11 +47,12 @@ class Occurrence:
     span: Span
     defines: bool
     written: str
+    calls: tuple[Expansion, ...] = ()
 
 
 def of_model(model: Model) -> list[Occurrence]:
     """Return all occurrences of symbols in the files of a model."""
-    found = dict.fromkeys(_expanded(model))
+    found = dict.fromkeys(expanded_occurrences(model))
     macros = set(model.expanded.macros)
     for file in model.expanded.sources:
         found.update(dict.fromkeys(written_occurrences(model.document(file), macros)))
@@ -75,7 +77,8 @@ def in_settings(model: Model) -> Iterator[Occurrence]:
                 yield occurrence(source, "link", at[2], at.start(2))
 
 
-def _expanded(model: Model) -> Iterator[Occurrence]:
+def expanded_occurrences(model: Model) -> Iterator[Occurrence]:
+    """Yield the links, joints and materials of the expanded robot; an element for each of its expansions."""
     root = model.expanded.root
     if root is None:
         return
@@ -114,7 +117,7 @@ def _at(
     written = tag.attributes.get(attribute) if tag is not None else None
     if written is not None:
         span = model.document(position.file).source.span(written.value_start, written.value_end)
-        yield Occurrence(kind, name, span, defines, written.value)
+        yield Occurrence(kind, name, span, defines, written.value, element.origin.expansions)
 
 
 def _text(model: Model, element: Element, kind: str, name: str) -> Iterator[Occurrence]:
@@ -126,7 +129,7 @@ def _text(model: Model, element: Element, kind: str, name: str) -> Iterator[Occu
     text = source.text[tag.end : tag.close]
     start = tag.end + (text.find(name) if name in text else len(text) - len(text.lstrip()))
     end = start + (len(name) if name in text else len(text.strip()))
-    yield Occurrence(kind, name, source.span(start, end), False, source.text[start:end])
+    yield Occurrence(kind, name, source.span(start, end), False, source.text[start:end], element.origin.expansions)
 
 
 def written_occurrences(document: Document, macros: set[str]) -> Iterator[Occurrence]:
