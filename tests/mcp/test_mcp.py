@@ -81,6 +81,23 @@ def test_an_assistant_lints_fixes_and_measures(folder: Path) -> None:
 
 
 @pytest.mark.slow
+def test_an_unknown_argument_is_refused_with_the_nearest(folder: Path) -> None:
+    async def work(client: Client) -> None:
+        for tool, arguments, message in (
+            ("lint", {"robot": "bad.urdf"}, "`lint` has no argument `robot`; arguments: path, target, arguments"),
+            ("lint", {"path": "bad.urdf", "targt": "ros2"}, "`lint` has no argument `targt`; did you mean `target`?"),
+            ("rule", {"code": "J402", "name": "x"}, "`rule` has no argument `name`"),
+        ):
+            refused = await client.call_tool(tool, arguments)
+            assert refused.is_error
+            assert message in refused.content[0].text
+        schemas = [tool.input_schema for tool in (await client.list_tools()).tools]
+        assert [schema["additionalProperties"] for schema in schemas] == [False] * len(schemas)
+
+    session(folder, work)
+
+
+@pytest.mark.slow
 def test_an_assistant_writes_fixes_where_the_server_permits_it(folder: Path) -> None:
     async def work(client: Client) -> None:
         arguments = {"path": "bad.urdf", "unsafe": True, "write": True}

@@ -12,10 +12,10 @@ from typing import TYPE_CHECKING, Any
 import anyio.to_thread
 from mcp.server.mcpserver import Image, MCPServer
 from mcp.server.mcpserver.exceptions import ToolError
-from mcp.types import ToolAnnotations
+from mcp.types import Tool, ToolAnnotations
 
 from urdfkit import __version__
-from urdfkit.errors import UrdfkitError
+from urdfkit.errors import UrdfkitError, did_you_mean
 
 if TYPE_CHECKING:
     from urdfkit.cli.mcp.calls import ToolCalls
@@ -38,6 +38,31 @@ async def _in_thread(call: Callable[[], Any]) -> Any:
         raise ToolError(str(error)) from None
 
 
+class _StrictServer(MCPServer):
+    """Server whose tools refuse unknown arguments, which the package mcp ignores."""
+
+    async def list_tools(self) -> list[Tool]:
+        """Return the tools; their schemas allow no other arguments."""
+        tools = await super().list_tools()
+        for tool in tools:
+            tool.input_schema = {**tool.input_schema, "additionalProperties": False}
+        return tools
+
+    async def call_tool(self, name: str, arguments: dict[str, Any], context: Any = None) -> Any:
+        """Call a tool.
+
+        Raises:
+            ToolError: the tool lacks an argument, or fails.
+        """
+        for tool in await self.list_tools():
+            valid = tool.input_schema.get("properties", {})
+            for word in arguments if tool.name == name else ():
+                if word not in valid:
+                    hint = did_you_mean(word, valid) or f"; arguments: {', '.join(valid)}"
+                    raise ToolError(f"`{name}` has no argument `{word}`{hint}")
+        return await super().call_tool(name, arguments, context)
+
+
 def server_for(calls: ToolCalls, *, allow_fixes: bool) -> MCPServer:
     """Return the server.
 
@@ -45,7 +70,7 @@ def server_for(calls: ToolCalls, *, allow_fixes: bool) -> MCPServer:
         calls: runs the commands.
         allow_fixes: whether the tool `fix` may write files.
     """
-    server = MCPServer("urdfkit", instructions=_INSTRUCTIONS, version=__version__, log_level="WARNING")
+    server = _StrictServer("urdfkit", instructions=_INSTRUCTIONS, version=__version__, log_level="WARNING")
     reads = ToolAnnotations(read_only_hint=True, open_world_hint=False)
 
     @server.tool(annotations=reads)
