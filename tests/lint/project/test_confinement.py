@@ -162,6 +162,25 @@ def test_a_manifest_that_is_a_link_is_refused(lint) -> None:
     assert any("package.xml` is not read" in each["message"] for each in findings)
 
 
+@pytest.mark.parametrize("name", ["link.urdf", "link.xacro", "config/link.yaml", "launch/link.launch", "folder"])
+def test_a_link_that_leads_out_is_one_finding_and_the_rest_is_linted(tmp_path: Path, name: str) -> None:
+    package, outside = tmp_path / "ws" / "p", tmp_path / "secret.txt"
+    outside.write_text(robot(""))
+    package.mkdir(parents=True)
+    (package / "package.xml").write_text("<package><name>p</name></package>")
+    for number in range(2):
+        (package / f"r{number}.urdf").write_text(robot('<link name="a"/>'))  # a duplicate
+    through_link(package, name, tmp_path if name == "folder" else outside)
+    command = [sys.executable, "-m", "urdfkit", "lint", "--confined", "--no-cache", "--format", "json", "ws"]
+    done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=False)
+    assert (done.returncode, done.stderr.count("not read")) == (1, 0), done.stderr
+    findings = json.loads(done.stdout)
+    refused = [(each["file"], each["line"], each["column"]) for each in findings if "is not read" in each["message"]]
+    assert refused == ([] if name == "folder" else [(f"ws/p/{name}", 1, 1)])  # folders that are links are not entered
+    duplicates = [each["file"] for each in findings if each["code"] == "T206"]
+    assert sorted(set(duplicates)) == ["ws/p/r0.urdf", "ws/p/r1.urdf"], findings
+
+
 def test_settings_do_not_widen_it(lint) -> None:
     (lint.here / "urdfkit.toml").write_text('[lint]\npackage-path = ["../../../secret"]\n')
     make = NAMED["a package"]

@@ -102,6 +102,18 @@ def _hidden_variables(sources: Iterable[Source]) -> Iterator[Finding]:
         yield Finding(ExpansionError.code, ExpansionError.name, "note", message, span)
 
 
+def _not_read(path: Path, entry: Path) -> Finding:
+    """Return the finding for a file that the confinement hides: at a link that leads out, else at the entry file."""
+    from urdfkit.description.packages.resolver import OUTSIDE
+    from urdfkit.description.xml.reader import shown_path
+    from urdfkit.description.xml.source import Span
+    from urdfkit.lint.rules.xacro.expansion_error import ExpansionError
+
+    span = Span(shown_path(path if path.is_symlink() else entry), 1, 1, 1, 2)
+    message = f"`{shown_path(path)}` is not read: it is {OUTSIDE}"
+    return Finding(ExpansionError.code, ExpansionError.name, "error", message, span)
+
+
 class Checker:
     """One lint run over several entry files.
 
@@ -124,6 +136,9 @@ class Checker:
         from urdfkit.description.xml.cost_limit import CostError
         from urdfkit.errors import UrdfkitError, bug
 
+        confinement = self.options.confinement
+        if confinement is not None and not confinement.permits(entry.path):
+            return EntryResult((_not_read(entry.path, entry.path),), {})
         try:
             found, model = self.examine(entry)
             others: list[Model] = []
@@ -132,8 +147,8 @@ class Checker:
 
                 own = self.options.arguments
                 found, others = with_variants(found, model, lambda passed: self.examine(entry, passed), own)
-            if self.options.confinement is not None:
-                refused = self._refused_reads(entry, self.options.confinement.take_refused())
+            if confinement is not None:
+                refused = (_not_read(Path(path), entry.path) for path in confinement.take_refused())
                 hidden = _hidden_variables(model.expanded.sources.values())
                 return EntryResult(**{**found.__dict__, "findings": (*found.findings, *refused, *hidden)})
             if self.cache is not None and not found.refused:
@@ -147,18 +162,6 @@ class Checker:
                 raise
             return EntryResult((), {}, refused=f"{entry.path}: {bug(error)}")
         return found
-
-    def _refused_reads(self, entry: Entry, paths: tuple[str, ...]) -> Iterator[Finding]:
-        """Yield a finding for each file that was not read because of the confinement."""
-        from urdfkit.description.packages.resolver import OUTSIDE
-        from urdfkit.description.xml.reader import shown_path
-        from urdfkit.description.xml.source import Span
-        from urdfkit.lint.rules.xacro.expansion_error import ExpansionError
-
-        span = Span(shown_path(entry.path), 1, 1, 1, 2)
-        for path in paths:
-            message = f"`{shown_path(Path(path))}` is not read: it is {OUTSIDE}"
-            yield Finding(ExpansionError.code, ExpansionError.name, "error", message, span)
 
     def check_or_refuse(self, entry: Entry) -> EntryResult:
         """Lint one of several entry files; record failures in the result instead of raising them."""
