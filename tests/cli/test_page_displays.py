@@ -192,6 +192,40 @@ def test_topics_are_drawn_with_their_options_and_saved_as_a_layout(shown, visits
     visits.problems.clear()  # the browser reports the closed connection
 
 
+def test_a_map_stays_until_the_next_one_is_decoded_and_arrows_have_their_thickness(shown, visits, until) -> None:
+    page = visits.open(shown.server.url, ready=False)
+    shown.topics()
+    until(lambda: shown.tick() or page.locator("#open-displays").is_visible())
+    panel(page, "displays")
+    for topic in ("/map", "/marks"):
+        until(lambda topic=topic: shown.tick() or page.locator(f"[data-display='{topic}']").is_visible())
+        page.locator(f"[data-display='{topic}'] input[type=checkbox]").check()
+        until(lambda topic=topic: shown.tick() or page.evaluate(DRAWN, topic))
+    pictures = page.evaluate(
+        """async () => {
+          const display = urdfkit.page.displays.all.get("/map");
+          const [{ pose, items: [{ map, size, pose: origin }] }] = display.drawn[0].content;
+          const plane = () => display.drawn[0].groups[0].children[0], first = plane(), seen = [];
+          display.take({ time: 9, groups: [{ pose, items: [{ map, size, pose: origin }] }] });
+          while (seen.push(plane().material.map.image?.complete ?? false) < 9 && plane() === first) {
+            await new Promise((done) => setTimeout(done, 200));
+          }
+          return [plane() !== first, ...new Set(seen)];
+        }"""
+    )
+    assert pictures == [True, True]
+    head = """() => {
+      const box = new MeshCat.THREE.Box3();
+      urdfkit.viewport.viewer.scene.traverse((object) => {
+        const { userData, geometry } = object;
+        if (userData.display === "/marks" && geometry?.type === "ConeGeometry") box.expandByObject(object);
+      });
+      return box.getSize(new MeshCat.THREE.Vector3()).toArray();
+    }"""
+    assert page.evaluate(head) == pytest.approx([0.23 * 0.3, 0.6, 0.6], abs=1e-3)  # along x, as in RViz
+    assert visits.problems == []
+
+
 def test_a_path_is_drawn_over_the_map(shown, visits, until) -> None:
     page = visits.open(shown.server.url, ready=False)
     shown.topics()

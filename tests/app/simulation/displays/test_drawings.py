@@ -186,9 +186,12 @@ PLACE = {"pose": SEVEN}
 @pytest.mark.parametrize(
     ("fields", "expected"),
     [
-        ({"type": 0}, {"arrow": SEVEN, "length": 0.1}),
+        ({"type": 0}, {"arrow": SEVEN, "length": 0.1, "thick": [0.2, 0.4, pytest.approx(0.023)]}),
         ({"type": 0, "scale": {}}, {"arrow": SEVEN, "length": 1.0}),
-        ({"type": 0, "points": TWO}, {"vector": [1.0, 2.0, 3.0], "from": [1.0, 2.0, 3.0], **PLACE}),
+        (
+            {"type": 0, "points": TWO},
+            {"vector": [1.0, 2.0, 3.0], "from": [1.0, 2.0, 3.0], "thick": [0.1, 0.2, 0.3], **PLACE},
+        ),
         ({"type": 1}, {"shape": "cube", **PLACE, **SCALE}),
         ({"type": 2}, {"shape": "sphere", **PLACE, **SCALE}),
         ({"type": 3}, {"shape": "cylinder", **PLACE, **SCALE}),

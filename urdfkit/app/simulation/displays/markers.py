@@ -103,9 +103,7 @@ def items(marker: Any) -> list[Item]:
     if marker.type in LISTS:
         return [{"shape": LISTS[marker.type], "pose": pose, "scale": scale, "at": flat, **look}]
     if marker.type == ARROW:
-        if len(points) == 2:  # from the first to the second point
-            return [{"vector": [b - a for a, b in zip(*points, strict=True)], "from": points[0], "pose": pose, **look}]
-        return [{"arrow": pose, "length": scale[0] or 1.0, **look}]
+        return [_arrow(pose, points, scale, look)]
     if marker.type in (STRIP, LINES):
         return [{"line" if marker.type == STRIP else "segments": flat, "pose": pose, "width": scale[0], **look}]
     if marker.type == POINTS:
@@ -115,6 +113,17 @@ def items(marker: Any) -> list[Item]:
     if marker.type == TRIANGLES:
         return [{"triangles": flat, "pose": pose, "scale": scale, **look}]
     return []
+
+
+def _arrow(pose: list[float], points: list[list[float]], scale: list[float], look: Item) -> Item:
+    """Return an arrow with the diameters of its shaft and head and the length of its head, as RViz draws them."""
+    if len(points) != 2:
+        length = scale[0] or 1.0
+        thick = {"thick": [scale[1], 2.0 * scale[1], 0.23 * length]} if scale[1] > 0.0 else {}
+        return {"arrow": pose, "length": length, **thick, **look}
+    vector = [b - a for a, b in zip(*points, strict=True)]
+    thick = {"thick": [scale[0], scale[1], scale[2] or 0.23 * math.hypot(*vector)]} if min(scale[:2]) > 0.0 else {}
+    return {"vector": vector, "from": points[0], "pose": pose, **thick, **look}
 
 
 def _rgba(color: Any) -> list[float]:

@@ -1,7 +1,7 @@
 // The display of one topic in the 3-D view, with its options: colour, size, the field that colours points, and decay.
 /* global MeshCat */
 
-import { build, dispose } from "./drawing.js";
+import { build, decode, dispose } from "./drawing.js";
 import { h } from "../page/dom.js";
 import { numberField } from "../page/number_field.js";
 
@@ -16,6 +16,7 @@ export class Display {
     Object.assign(this, { page, topic, type, controls });
     this.options = { on: false, color: COLOURS[count++ % COLOURS.length], size: 1, decay: 0, field: "", ...options };
     this.drawn = []; // {time, root, groups}
+    this.arrived = this.newest = 0; // numbers of messages with maps: the last one, and the last that needs no drawing any more
     this.late = null; // the newest message that waits for the end of a drag
     this.handles = h("div.handles");
     this.#row();
@@ -95,8 +96,17 @@ export class Display {
       last.groups.forEach((group, i) => place(group, poses[i]));
       this.page.viewport.dirty();
     } else if (groups) {
-      this.#show(time, groups);
+      this.#decoded(time, groups);
     }
+  }
+
+  // The last map stays until the next one is decoded: without one in between, a map that is published often would blink.
+  #decoded(time, groups) {
+    const maps = groups.flatMap(({ items }) => items.filter((item) => "map" in item));
+    if (!maps.length) return this.#show(time, groups);
+    const number = ++this.arrived;
+    const ready = () => number > this.newest && ((this.newest = number), this.#show(time, groups));
+    decode(maps).then(ready, (error) => console.warn(`${this.topic}: ${error.message}`));
   }
 
   #show(time, content) {
@@ -123,6 +133,7 @@ export class Display {
 
   clear() {
     while (this.drawn.length) this.#drop();
+    this.newest = this.arrived;
     this.late = null;
     this.fault.hidden = true;
     this.page.viewport.dirty();

@@ -39,7 +39,10 @@ export function dispose(group) {
 const MAKE = {
   line: ({ line, ...item }, options) => wide(line, 1, item, options),
   segments: ({ segments, ...item }, options) => wide(segments, 2, item, options),
-  arrow: (item, options) => arrow(new THREE.Vector3(...item.arrow), X.clone().applyQuaternion(turn(item.arrow)), item.length * options.size, colour(item, options)),
+  arrow: (item, options) => {
+    const look = material(THREE.MeshLambertMaterial, item, options);
+    return arrow(new THREE.Vector3(...item.arrow), X.clone().applyQuaternion(turn(item.arrow)), item.length * options.size, look, item.thick);
+  },
   vector: vector,
   ellipsoid: ({ ellipsoid, axes }, options) => {
     const mesh = new THREE.Mesh(new THREE.SphereGeometry(1, 24, 16), clear(options.color, 0.35));
@@ -104,9 +107,17 @@ function clear(color, opacity) {
   return new THREE.MeshBasicMaterial({ color, opacity, transparent: true, depthWrite: false, side: THREE.DoubleSide });
 }
 
-function arrow(from, direction, length, color) {
+// `thick`: diameters of shaft and head, and length of the head [m].
+function arrow(from, direction, length, look, thick = [Math.min(0.06 * length, 0.025), Math.min(0.18 * length, 0.08), Math.min(0.3 * length, 0.15)]) {
   if (!(length > 1e-6)) return null;
-  return new THREE.ArrowHelper(direction.normalize(), from, length, color, Math.min(0.3 * length, 0.15), Math.min(0.18 * length, 0.08));
+  const [shaft, head, tip] = [thick[0], thick[1], Math.min(thick[2], length)];
+  const group = new THREE.Group().add(
+    new THREE.Mesh(new THREE.CylinderGeometry(shaft / 2, shaft / 2, length - tip, 16).translate(0, (length - tip) / 2, 0), look),
+    new THREE.Mesh(new THREE.ConeGeometry(head / 2, tip, 16).translate(0, length - tip / 2, 0), look),
+  );
+  group.position.copy(from);
+  group.quaternion.setFromUnitVectors(new THREE.Vector3(0, 1, 0), direction.normalize());
+  return group;
 }
 
 function arrowLines(items, options) {
@@ -124,14 +135,23 @@ function arrowLines(items, options) {
 function vector(item, options) {
   const direction = new THREE.Vector3(...item.vector);
   const length = direction.length() * (item.unit ? METRES[item.unit] * options.size : 1);
-  const color = item.about ? new THREE.Color(0xf5a524) : colour(item, options);
-  const made = arrow(new THREE.Vector3(...(item.from ?? [0, 0, 0])), direction, length, color);
+  const look = material(THREE.MeshLambertMaterial, item, item.about ? { ...options, color: 0xf5a524 } : options);
+  const made = arrow(new THREE.Vector3(...(item.from ?? [0, 0, 0])), direction, length, look, item.thick);
   return made && placed(new THREE.Group().add(made), item.pose);
 }
 
-function map({ map: content, pose, size }, options) {
-  const texture = new THREE.TextureLoader().load(`data:image/png;base64,${content}`, options.changed);
-  texture.magFilter = THREE.NearestFilter;
+/** Decode the pictures of the maps among items, which `build` needs. */
+export function decode(maps) {
+  return Promise.all(
+    maps.map((item) => {
+      item.image = Object.assign(new Image(), { src: `data:image/png;base64,${item.map}` });
+      return item.image.decode();
+    }),
+  );
+}
+
+function map({ image, pose, size }) {
+  const texture = Object.assign(new THREE.Texture(image), { magFilter: THREE.NearestFilter, needsUpdate: true });
   const plane = new THREE.PlaneGeometry(...size).translate(size[0] / 2, size[1] / 2, ABOVE);
   const mesh = placed(new THREE.Mesh(plane, new THREE.MeshBasicMaterial({ map: texture, transparent: true, depthWrite: false, side: THREE.DoubleSide })), pose);
   mesh.renderOrder = -0.5; // above the grid of the ground, below all other transparent objects
@@ -246,8 +266,11 @@ function text(item, options) {
   pen.font = font;
   canvas.width = Math.ceil(pen.measureText(item.text).width) + 8;
   canvas.height = 60;
-  pen.font = font;
-  pen.fillStyle = `#${colour(item, options).getHexString()}`;
+  const color = colour(item, options);
+  const isBright = 0.3 * color.r + 0.6 * color.g + 0.1 * color.b > 0.5;
+  // An outline keeps white text legible on a light ground and black text on a dark ground.
+  Object.assign(pen, { font, fillStyle: `#${color.getHexString()}`, strokeStyle: isBright ? "#1b212b" : "#ffffff", lineWidth: 6, lineJoin: "round" });
+  pen.strokeText(item.text, 4, 46);
   pen.fillText(item.text, 4, 46);
   const sprite = new THREE.Sprite(new THREE.SpriteMaterial({ map: new THREE.CanvasTexture(canvas), transparent: true, depthTest: false }));
   sprite.scale.set((item.size * canvas.width) / 48, (item.size * canvas.height) / 48, 1);
