@@ -238,6 +238,19 @@ def test_a_correct_cmake_file_is_silent(cmake, old, new):
         ("cart.drive:", "crt.drive:", "17: module `crt` does not exist in this package; did you mean `cart`?"),
         ("cart.drive:", "cart.driv:", "17: module `cart.driv` does not exist in this package; did you mean `drive`?"),
         (":main", ":mian", "17: `cart/drive.py` does not define `mian`; did you mean `main`?"),
+        ("resource_index/packages", "resource_index/package", "11: data_files does not install the marker"),
+        (
+            'name, "config")',
+            'name, "configs")',
+            "14: `config/cart.yaml` is installed to `share/cart/configs`, but launch",
+        ),
+        ("packages=[package_name]", "packages=[]", "9: Python package `cart` is not installed, but `drive` imports it"),
+        ("console_scripts", "console_script", "17: unknown group `console_script` of entry points; did you mean"),
+        (
+            "name=package_name,",
+            'name=package_name,\n    version="1.0.1",',
+            "9: the version in setup.py is 1.0.1, but that in package.xml is 1.0.0",
+        ),
         (":main", ".main", "17: `drive = cart.drive.main` is not of the form `name = module:function`"),
     ],
 )

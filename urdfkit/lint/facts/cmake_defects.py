@@ -78,6 +78,7 @@ def cmake_defects(source: Source, every: list[CMakeCommand]) -> Iterator[BuildDe
     from urdfkit.lint.facts.build_files import misspelt_word
 
     yield from _calls(source, every)
+    yield from _order(source, every)
     yield from _variables(source, every)
     for command in every:
         words = [word for word, _ in command.words]
@@ -147,14 +148,39 @@ def _calls(source: Source, every: list[CMakeCommand]) -> Iterator[BuildDefect]:
             yield BuildDefect(source, dict(found)[near], near, message)
 
 
-def misplaced(files: BuildFiles, source: Source, every: list[CMakeCommand], used: set[str]) -> Iterator[BuildDefect]:
+def _order(source: Source, every: list[CMakeCommand]) -> Iterator[BuildDefect]:
+    """Yield calls in the wrong order: catkin_package() before catkin is found, and commands after ament_package().
+
+    Sources: catkin, user guide of CMakeLists.txt; ament_cmake, ament_cmake_core/cmake/core/ament_package.cmake, and the
+    checks of ament_cmake_export_*.
+    """
+    names = [command.name for command in every]
+    finds = [at for at, each in enumerate(every) if each.name == "find_package" and each.words[:1]]
+    catkin = [at for at in finds if every[at].words[0][0] in _TOOLS["catkin_package"]]
+    if "catkin_package" in names and catkin and names.index("catkin_package") < catkin[0]:
+        command = every[names.index("catkin_package")]
+        yield BuildDefect(source, command.start, command.name, "catkin_package() is called before find_package(catkin)")
+    if names.count("ament_package") != 1:
+        return
+    for command in every[names.index("ament_package") + 1 :]:
+        if command.name == "install" or command.name.startswith("ament_export_"):
+            severity: Severity = "warning" if command.name == "install" else "error"
+            message = f"{command.name}() is called after ament_package(), which must be the last call"
+            yield BuildDefect(source, command.start, command.name, message, severity)
+            return
+
+
+def misplaced(
+    files: BuildFiles, source: Source, every: list[CMakeCommand], used: set[str], named: set[str]
+) -> Iterator[BuildDefect]:
     """Yield the installations of folders to another place than the share folder of the package.
 
     Args:
         files: the build files of the package.
         source: its CMakeLists.txt.
         every: the commands of it.
-        used: folders of the package that launch files use.
+        used: folders of the package that launch files use, and the folder of its launch files.
+        named: folders whose paths in the share folder other files name.
     """
     from urdfkit.lint.facts.build_files import OPTIONS
 
@@ -165,9 +191,17 @@ def misplaced(files: BuildFiles, source: Source, every: list[CMakeCommand], used
             continue
         written, start = command.words[words.index("DESTINATION") + 1]
         place = _evaluated(written, files.name)
-        folders = [word.strip("/") for word in words[1 : next(i for i, word in enumerate(words) if word in OPTIONS)]]
+        written_folders = words[1 : next(i for i, word in enumerate(words) if word in OPTIONS)]
+        folders = [word.strip("/") for word in written_folders]
         if place is None or place == share or place.startswith((f"{share}/", "/")):
-            right.update(folders)
+            for word, folder in zip(written_folders, folders, strict=True):
+                # CMake installs the folder itself, or with a final slash its content.
+                installed = place if word.endswith("/") or place is None else f"{place}/{folder.rpartition('/')[2]}"
+                if installed in (None, f"{share}/{folder}") or "/" in folder or "$" in word or folder not in named:
+                    right.add(folder)
+                    continue
+                message = f"folder `{folder}` is installed as `{installed}`, but its files are searched in"
+                wrong.append((folder, BuildDefect(source, start, written, f"{message} `{share}/{folder}`")))
             continue
         is_share = re.fullmatch(r"share(/\w+)?", place) is not None
         is_elsewhere = is_share or place.partition("/")[0] in (

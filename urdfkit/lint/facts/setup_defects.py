@@ -32,6 +32,8 @@ def setup_defects(files: BuildFiles, source: Source, used: dict[str, str]) -> It
     keywords = _keywords(tree)
     yield from _data_files(files, source, reader, keywords.get("data_files"), used)
     scripts = _scripts(source, reader, keywords.get("entry_points"))
+    yield from _groups(source, reader, keywords.get("entry_points"))
+    yield from _packages(files, source, keywords.get("packages"), scripts)
     if "package_dir" not in keywords:
         for text, start in scripts:
             yield from _entry_point(files, source, text, start)
@@ -59,8 +61,8 @@ def _text(reader: LaunchReader, node: ast.expr) -> str | None:
     return reader.text(node)
 
 
-def _installed(reader: LaunchReader, data: ast.expr) -> list[tuple[str, ast.expr, bool]] | None:
-    """Return the paths and patterns in data_files, whether each is a pattern; None if one is computed."""
+def _installed(reader: LaunchReader, data: ast.expr) -> list[tuple[str, ast.expr, bool, ast.expr]] | None:
+    """Return the paths and patterns in data_files, whether each is one, and its place; None if one is computed."""
     import ast
 
     found = []
@@ -83,7 +85,7 @@ def _installed(reader: LaunchReader, data: ast.expr) -> list[tuple[str, ast.expr
             text = _text(reader, inner)
             if text is None:
                 return None
-            found.append((text.removeprefix("./"), inner, is_pattern))
+            found.append((text.removeprefix("./"), inner, is_pattern, pair.elts[0]))
     return found
 
 
@@ -97,7 +99,7 @@ def _data_files(
     if installed is None or data is None:
         return
     misspelt = set()
-    for text, node, is_pattern in installed:
+    for text, node, is_pattern, _ in installed:
         start, end = place(source, node)
         folder = text.rpartition("/")[0] if is_pattern else text
         hint = near_path(files.folder / folder) if folder and "*" not in folder and not files.has(folder) else ""
@@ -110,10 +112,14 @@ def _data_files(
             yield BuildDefect(source, start, source.text[start:end], message, kind="missing")
     left_out: dict[int, list[tuple[str, str]]] = {}
     ends: dict[int, int] = {}
+    elsewhere: dict[tuple[int, int], list[tuple[str, str, list[tuple[ast.expr, ast.expr]]]]] = {}
     for path, use in used.items():
         folder = path.rpartition("/")[0]
-        beside = [node for text, node, _ in installed if folder and text.rpartition("/")[0] == folder]
-        if not beside or misspelt or any(fnmatch.fnmatch(path, text.replace("**/", "*")) for text, _, _ in installed):
+        beside = [node for text, node, *_ in installed if folder and text.rpartition("/")[0] == folder]
+        matching = [(node, to) for text, node, _, to in installed if fnmatch.fnmatch(path, text.replace("**/", "*"))]
+        if not beside or misspelt or matching:
+            if matching and use:
+                elsewhere.setdefault(place(source, matching[0][1]), []).append((path, use, matching))
             continue
         left_out.setdefault(place(source, beside[0])[0], []).append((path, use))
         ends[place(source, beside[0])[0]] = place(source, beside[0])[1]
@@ -122,6 +128,45 @@ def _data_files(
         more = f" and {others} other file{'s' * (others > 1)} are" if others else " is"
         message = f"`{path}`{more} not installed, but {use}" if use else f"launch file `{path}`{more} not installed"
         yield BuildDefect(source, start, source.text[start : ends[start]], message, "warning")
+
+    for (start, end), uses in elsewhere.items():
+        path, use, matching = uses[0]
+        share = f"share/{files.name}/{path.rpartition('/')[0]}"
+        folders = [_text(reader, to) for _, to in matching]
+        if None not in folders and share not in [folder.rstrip("/") for folder in folders if folder is not None]:
+            message = f"`{path}` is installed to `{folders[0]}`, but {use} from `{share}`"
+            yield BuildDefect(source, start, source.text[start:end], message)
+
+
+def _groups(source: Source, reader: LaunchReader, points: ast.expr | None) -> Iterator[BuildDefect]:
+    """Yield a misspelt group of entry points, whose executables are not created."""
+    import ast
+
+    from urdfkit.lint.facts.control.launch_package_paths import place
+    from urdfkit.lint.fix_builders import nearest
+
+    keys = [key for key in points.keys if key is not None] if isinstance(points, ast.Dict) else []
+    for key in keys:
+        name = reader.text(key) or ""
+        near = nearest(name, ["console_scripts", "gui_scripts"], cutoff=0.85)
+        if near is not None and near != name:
+            message = f"unknown group `{name}` of entry points; did you mean `{near}`?"
+            yield BuildDefect(source, place(source, key)[0] + 1, name, message)
+
+
+def _packages(
+    files: BuildFiles, source: Source, packages: ast.expr | None, scripts: list[tuple[str, int]]
+) -> Iterator[BuildDefect]:
+    """Yield an empty list of packages next to console scripts of a module in the package."""
+    import ast
+
+    from urdfkit.lint.facts.control.launch_package_paths import place
+
+    own = [text for text, _ in scripts if re.search(rf"=\s*{re.escape(files.name)}[.:]", text)]
+    if isinstance(packages, ast.List) and not packages.elts and own and files.has(f"{files.name}/__init__.py"):
+        start, end = place(source, packages)
+        message = f"Python package `{files.name}` is not installed, but `{own[0].partition('=')[0].strip()}` imports it"
+        yield BuildDefect(source, start, source.text[start:end], message)
 
 
 def _scripts(source: Source, reader: LaunchReader, points: ast.expr | None) -> list[tuple[str, int]]:
@@ -208,10 +253,10 @@ def _folder(files: BuildFiles, source: Source, has_scripts: bool) -> Iterator[Bu
     config = files.config
     if config is not None:
         for at in re.finditer(
-            r"(?m)^\s*(?:script[-_]dir|install[-_]scripts)\s*=\s*\$base/lib/([\w-]+)\s*$", config.text
+            r"(?m)^\s*(?:script[-_]dir|install[-_]scripts)\s*=\s*\$base/([\w/-]+?)/?\s*$", config.text
         ):
-            if at[1] != files.name:
-                message = f"executables are installed to `lib/{at[1]}`, but `ros2 run` searches `lib/{files.name}`"
+            if at[1] != f"lib/{files.name}":
+                message = f"executables are installed to `{at[1]}`, but `ros2 run` searches `lib/{files.name}`"
                 yield BuildDefect(config, at.start(1), at[1], message)
         return
     is_elsewhere = re.search(r"script[-_]dir|install[-_]scripts", source.text) or files.has("pyproject.toml")

@@ -41,8 +41,8 @@ class BuildFileInconsistent(RobotRule):
     Checks the syntax, the name of the project, misspelt commands, variables and packages, the call of
     ``ament_package()`` or ``catkin_package()``, files and folders that ``install`` and tests name but that do not
     exist, and folders and scripts that launch files use but that are not installed, or not to the share folder of the
-    package. In setup.py it checks the name, ``data_files`` and the modules of console scripts, in setup.cfg their
-    folder.
+    package, and the order of calls. In setup.py it checks name and version, ``packages``, ``data_files`` and the
+    modules of console scripts, in setup.cfg their folder.
 
     ## Why is this bad?
     The build fails, or the installed package lacks files: "file 'cart.launch.py' was not found in the share directory".
@@ -83,6 +83,7 @@ class BuildFileInconsistent(RobotRule):
         for files in build_files(model):
             paths = used.get(files.name, {})
             folders = {path.partition("/")[0]: use for path, use in reversed(paths.items())}
+            named = {path.partition("/")[0] for path, use in paths.items() if use}
             folders = {folder: use or "it contains launch files" for folder, use in folders.items()}
             defects: list[BuildDefect] = []
             broken = unbalanced(files.cmake) if files.cmake is not None else None
@@ -90,7 +91,8 @@ class BuildFileInconsistent(RobotRule):
                 defects = [broken]
             elif files.cmake is not None:
                 every = commands(files.cmake)
-                defects = [*cmake_defects(files.cmake, every), *misplaced(files, files.cmake, every, {*folders})]
+                elsewhere = misplaced(files, files.cmake, every, {*folders}, named)
+                defects = [*cmake_defects(files.cmake, every), *elsewhere]
                 yield from self._cmake(files, files.cmake, every)
             elif files.setup is not None:
                 yield from self._setup(files, files.setup)
@@ -174,10 +176,17 @@ class BuildFileInconsistent(RobotRule):
             message = f"the name in setup.py is `{name[1]}`, but that of the package is `{files.name}`"
             yield self._at(source, name.start(1), name[1], message, kind="setup.py")
         marker = re.search(r"share/ament_index/resource_index/packages", source.text)
+        version = re.search(r"(?m)^\s*version\s*=\s*[\"']([\d.]+)[\"']", source.text)
+        released = next((text for text, tag in files.tags("version") if tag.parent is files.root), "")
+        if version is not None and released and version[1] != released:
+            message = f"the version in setup.py is {version[1]}, but that in package.xml is {released}"
+            yield self._at(source, version.start(1), version[1], message, "note", kind="version")
         data = re.search(r"data_files\s*=", source.text)
-        if marker is None and data is not None and "resource_index" not in source.text:
+        near = re.search(r"[\"'](share/ament_\w+/resource_\w+/\w+)[\"']\s*,\s*\[\s*f?[\"']resource/", source.text)
+        if marker is None and data is not None and (near is not None or "resource_index" not in source.text):
             message = "data_files does not install the marker `resource/…` to share/ament_index/resource_index/packages"
-            yield self._at(source, data.start(), "data_files", message)
+            place = (near.start(1), near[1]) if near is not None else (data.start(), "data_files")
+            yield self._at(source, *place, message)
         if data is not None and "package.xml" not in source.text:
             yield self._at(source, data.start(), "data_files", "data_files does not install package.xml")
 
@@ -252,7 +261,8 @@ def _used_paths(model: Model) -> dict[str, dict[str, str]]:
         for path in package_paths(source):
             if "/" in path.path.strip("/"):
                 line = source.position(path.start).line
-                found.setdefault(path.package, {}).setdefault(path.path.strip("/"), f"{name}:{line} uses it")
+                uses, inner = found.setdefault(path.package, {}), path.path.strip("/")
+                uses[inner] = uses.get(inner) or f"{name}:{line} uses it"
         inner = Path(name).absolute().relative_to(package).as_posix()
         if inner.startswith("launch/"):
             own = name_in(manifest(package), package.name)

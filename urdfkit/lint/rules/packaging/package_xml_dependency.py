@@ -21,14 +21,14 @@ _OF_ROS1 = ("joint_state_controller", "imu_sensor_controller", "force_torque_sen
 _GRIPPERS = "gripper_controllers"
 """Package of ``GripperActionController`` in ROS 2, whose types have the names of other packages."""
 
-_SIMULATED_CONTROL = ("gazebo_ros2_control", "gz_ros2_control", "ign_ros2_control", "gazebo_ros_control")
-"""Packages with a Gazebo plugin that runs controllers; the file of the plugin has the name of its package in it."""
-
 _PACKAGES_OF_ROS1 = {
     "GripperActionController": "gripper_action_controller",
     "JointTrajectoryController": "joint_trajectory_controller",
 }
 """Class of a controller in ROS 1 → its package; the other packages have the name before the class."""
+
+_NOT_AT_RUN_TIME = ("build_depend", "buildtool_depend", "doc_depend", "test_depend")
+"""Elements of package.xml whose packages are not installed for users of the package (REP 149)."""
 
 _TESTS = frozenset(("test", "tests"))
 """Folders whose files do not add runtime dependencies."""
@@ -41,8 +41,9 @@ class PackageXmlDependency(RobotRule):
     Compares the packages that the files of the robot's package use, by ``$(find …)`` and ``package://…``, with the
     dependencies in package.xml. Also compares the packages that launch files start, include or import, and ``xacro``
     where they call it, with the dependencies of their own package, and the packages of controllers in YAML with
-    the dependencies of all packages of the robot, if one of these is about controllers. The packages of plugins of Nav2
-    and of the Gazebo plugin that runs controllers are compared if packages depend on others of their kind.
+    the dependencies of all packages of the robot, if one of these is about controllers. The packages of plugins of
+    Nav2, of MoveIt and of the Gazebo plugin that runs controllers are compared if packages depend on others of their
+    kind, or start Gazebo. A dependency for builds or tests does not count for launch files.
     Metapackages, such as ``navigation2``, stand for the packages that they depend on. Names that misspell a dependency,
     a package of the workspace or a common package by one letter are errors at each place. Each other package is
     reported once; test folders are not checked, nor the optional launch files that the MoveIt Setup Assistant writes,
@@ -116,7 +117,9 @@ class PackageXmlDependency(RobotRule):
                     yield finding
                 elif name not in unknown:  # xacro has no other finding for it
                     yield finding
-        yield from self._check_launch_files(model, {package: declared})
+        folders = {package: declared}
+        yield from self._check_launch_files(model, folders)
+        yield from self._check_moveit(model, folders)
         yield from self._check_controllers(model)
         yield from self._check_navigation_plugins(model)
         yield from self._check_simulated_control(model)
@@ -128,6 +131,7 @@ class PackageXmlDependency(RobotRule):
 
         files = {Path(file).absolute(): source.text for file, source in model.related_files.items()}
         manifests = {file: text for file, text in files.items() if file.name == "package.xml"}
+        reported = set[tuple[Path, str]]()
         for file, source in model.related_files.items():
             package = package_of(Path(file)) if file.endswith(LAUNCH) else None
             if package is None or not _TESTS.isdisjoint(Path(file).absolute().relative_to(package).parts):
@@ -144,6 +148,7 @@ class PackageXmlDependency(RobotRule):
             is_own = name_in(own, package.name) in dependencies_in(own)
             near = {*neighbours(package), *declared[package]}
             for name, start, end in () if is_own else (*packages_used(source), *packages_imported(source, near)):
+                yield from self._not_at_run_time(name, package, model, reported)
                 if name not in declared[package] | disabled and not is_in_metapackage(name, declared[package]):
                     finding = self._missing(name, source, start, end, near)
                     if finding.severity == self.severity:
@@ -204,18 +209,56 @@ class PackageXmlDependency(RobotRule):
     def _check_simulated_control(self, model: Model) -> Findings:
         """Yield a finding for the plugin that runs controllers, if the packages depend on that of another Gazebo."""
         from urdfkit.lint.facts.gazebo.plugins import plugins
+        from urdfkit.lint.facts.plugin_packages import SIMULATED_CONTROL
 
         needed = _needed(model)
-        others = [name for name in _SIMULATED_CONTROL if name in needed]
+        others = [name for name in SIMULATED_CONTROL if name in needed]
         for plugin, _, _ in plugins(model.robot):
-            used = next((name for name in _SIMULATED_CONTROL if name in (plugin.filename or "")), None)
-            if used is not None and others and used not in needed:
-                message = (
-                    f"missing dependency on `{used}`, whose plugin the robot loads; the packages name `{others[0]}`"
-                )
+            used = next((name for name in SIMULATED_CONTROL if name in (plugin.filename or "")), None)
+            starters = [name for name in SIMULATED_CONTROL.get(used or "", "").split() if name in needed]
+            if used is not None and used not in needed and (others or starters):
+                message = f"missing dependency on `{used}`, whose plugin the robot loads"
+                message += f"; the packages name `{others[0]}`" if others else ""
                 help = f"add <exec_depend>{used}</exec_depend> to package.xml"
                 yield self.at(model, plugin.element, message, attribute="filename", help=help, names=(used,))
                 return
+
+    def _check_moveit(self, model: Model, declared: dict[Path, set[str]]) -> Findings:
+        """Yield a finding for each package of plugins or descriptions that a package with MoveIt's files needs."""
+        from urdfkit.lint.facts.plugin_packages import moveit_uses
+        from urdfkit.lint.facts.ros_packages import is_in_metapackage
+
+        for source in model.related_files.values():
+            folder = package_of(Path(source.file))
+            if folder is not None and folder not in declared:
+                manifest = model.manifest(folder)
+                needed = _dependencies(manifest, neighbours(folder))
+                declared[folder] = {name_in(manifest, folder.name), folder.name, *needed}
+        needed = _needed(model)
+        for use in moveit_uses(model, declared):
+            folder = package_of(Path(use.source.file))
+            own = declared.get(folder, set()) if folder is not None and use.is_own else needed
+            if use.package in own or is_in_metapackage(use.package, own):
+                continue
+            own.add(use.package)
+            span = use.source.span(use.start, use.end)
+            message = f"missing dependency on `{use.package}`, {use.use}"
+            help = f"add <exec_depend>{use.package}</exec_depend> to package.xml"
+            yield Finding(self.code, self.name, self.severity, message, span, help=help, names=(use.package,))
+
+    def _not_at_run_time(self, name: str, package: Path, model: Model, reported: set[tuple[Path, str]]) -> Findings:
+        """Yield a finding for a package that launch files use, but whose dependency is for builds or tests only."""
+        manifest = next((source for file, source in model.related_files.items() if _is_of(file, package)), None)
+        if manifest is None or (package, name) in reported:
+            return
+        reported.add((package, name))
+        uses = list(re.finditer(rf"<(\w+_depend|depend)\b[^>]*>\s*{re.escape(name)}\s*<", manifest.text))
+        if uses and all(use[1] in _NOT_AT_RUN_TIME for use in uses):
+            written = "run_depend" if re.search(r"<run_depend\b", manifest.text) else "exec_depend"
+            message = f"launch files need `{name}` at run time, but <{uses[0][1]}> does not install it"
+            span = manifest.span(uses[0].start(), uses[0].end() - 1)
+            help = f"write <{written}>, or <depend> if the build needs the package too"
+            yield Finding(self.code, self.name, self.severity, message, span, help=help, names=(name,))
 
     def _of_ros1(self, source: Source, package: Path, needed: set[str], model: Model) -> Findings:
         """Yield a finding for each package of a controller of ROS 1 that none of the related packages depends on."""
@@ -255,6 +298,11 @@ class PackageXmlDependency(RobotRule):
             help=f"add <exec_depend>{name}</exec_depend> to package.xml",
             names=(name,),
         )
+
+
+def _is_of(file: str, package: Path) -> bool:
+    """Return whether a file is the package.xml of a package."""
+    return file.endswith("package.xml") and Path(file).absolute().parent == package
 
 
 def _needed(model: Model) -> set[str]:

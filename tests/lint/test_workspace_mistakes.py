@@ -1,0 +1,103 @@
+"""Mistakes in workspaces of several packages, each with the one finding that names it."""
+
+from __future__ import annotations
+
+import os
+import shutil
+from pathlib import Path
+
+import pytest
+
+from tests.bench.package_mutants import bases, judging
+
+ROVER, ARM = "ros2_rover_arm", "ros1_arm"
+
+LAST = "install(DIRECTORY config DESTINATION share/${PROJECT_NAME})\n"
+OWN = "exec_depend>titan_control</exec_depend"
+BUILD = OWN.replace("exec_", "build_")
+RUN_TIME = (
+    "launch files need `titan_control` at run time, but <build_depend> does not install it "
+    "write <exec_depend>, or <depend> if the build needs the package too"
+)
+MISTAKES = [
+    (ROVER, "gofer_description/CMakeLists.txt", "NAME}\n", "NAME}/x\n", 8, "K973", "`share/gofer_description/x/"),
+    (ROVER, "gofer_description/CMakeLists.txt", "launch meshes", "launch/ meshes", 8, "K973", "as `share/gofer_descri"),
+    (
+        ROVER,
+        "gofer_moveit_config/CMakeLists.txt",
+        f"{LAST}\nament_package()",
+        f"ament_package()\n{LAST}",
+        8,
+        "K973",
+        "last",
+    ),
+    (
+        ARM,
+        "titan_control/CMakeLists.txt",
+        "find_package(c",
+        "catkin_package()\nfind_package(c",
+        4,
+        "K973",
+        "before find",
+    ),
+    (ROVER, "gofer_bringup/setup.cfg", "scripts=$base/lib/gofer_bringup", "scripts=$base/bin", 4, "K973", "to `bin`"),
+    (
+        ROVER,
+        "gofer_moveit_config/package.xml",
+        "<exec_depend>moveit_kinematics</exec_depend>",
+        "",
+        0,
+        "K956",
+        "file names",
+    ),
+    (
+        ROVER,
+        "gofer_moveit_config/package.xml",
+        "<exec_depend>gofer_description</exec_depend>",
+        "",
+        0,
+        "K956",
+        "MoveItCon",
+    ),
+    (ARM, "titan_moveit_config/package.xml", "<exec_depend>moveit_planners_ompl</exec_depend>", "", 0, "K956", "ompl`"),
+    (
+        ARM,
+        "titan_gazebo/package.xml",
+        "<exec_depend>gazebo_ros_control</exec_depend>",
+        "",
+        0,
+        "K956",
+        "the robot loads",
+    ),
+    (ARM, "titan_gazebo/package.xml", OWN, BUILD, 15, "K956", RUN_TIME),
+]
+"""Workspace, file, text, its replacement, line of the finding in that file or 0 for another file, code, and words."""
+
+
+@pytest.fixture(scope="module")
+def workspaces(tmp_path_factory):
+    made = {}
+    for name in (ROVER, ARM):
+        made[name] = tmp_path_factory.mktemp(name)
+        bases.write(name, made[name])
+    return made
+
+
+@pytest.fixture(autouse=True)
+def _here():
+    folder = Path.cwd()
+    yield
+    os.chdir(folder)
+
+
+@pytest.mark.parametrize(("base", "file", "old", "new", "line", "code", "words"), MISTAKES)
+def test_each_mistake_has_one_finding(base, file, old, new, line, code, words, workspaces, tmp_path):
+    shutil.copytree(workspaces[base], tmp_path, dirs_exist_ok=True)
+    path = tmp_path / file
+    text = path.read_text()
+    assert old in text
+    path.write_text(text.replace(old, new, 1))
+    found = judging.lint(tmp_path)
+    assert [each.code for each in found] == [code], found
+    assert words in found[0].message
+    assert not line or (found[0].file, found[0].first) == (file, line), found

@@ -1,0 +1,96 @@
+"""Packages whose plugins a robot's files name: of Gazebo, of MoveIt, and that of the description in a MoveIt package.
+
+Sources: the plugin descriptions and package.xml of moveit_kinematics, moveit_planners, moveit_plugins, trac_ik and
+pick_ik, and of gazebo_ros2_control, gz_ros2_control and gazebo_ros_control; moveit_configs_utils,
+moveit_configs_builder.py.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from pathlib import Path
+
+from urdfkit.lint.model.model import Model
+from urdfkit.record import record
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from urdfkit.description.xml.source import Source
+
+SIMULATED_CONTROL = {
+    "gazebo_ros2_control": "gazebo_ros",
+    "gz_ros2_control": "ros_gz_sim",
+    "ign_ros2_control": "ros_ign_gazebo ros_gz_sim",
+    "gazebo_ros_control": "gazebo_ros",
+}
+"""Package with a Gazebo plugin that runs controllers → packages that start its Gazebo.
+
+The file of the plugin has the name of its package in it.
+"""
+
+_MOVEIT = {
+    "cached_ik_kinematics_plugin": "moveit_kinematics",
+    "kdl_kinematics_plugin": "moveit_kinematics",
+    "lma_kinematics_plugin": "moveit_kinematics",
+    "srv_kinematics_plugin": "moveit_kinematics",
+    "pick_ik": "pick_ik",
+    "trac_ik_kinematics_plugin": "trac_ik_kinematics_plugin",
+    "chomp_interface": "moveit_planners_chomp",
+    "ompl_interface": "moveit_planners_ompl",
+    "pilz_industrial_motion_planner": "pilz_industrial_motion_planner",
+    "moveit_fake_controller_manager": "moveit_fake_controller_manager",
+    "moveit_simple_controller_manager": "moveit_simple_controller_manager",
+}
+"""Name before the class of a plugin of MoveIt → its package."""
+
+_USE = re.compile(rf"(?<![\w/-])({'|'.join(_MOVEIT)})/[A-Z]\w+")
+_BUILDER = re.compile(r"MoveItConfigsBuilder\s*\(")
+_LEAST = 2
+"""Number of packages of MoveIt in a package.xml from which on it lists all packages of MoveIt that it needs."""
+
+
+@record(eq=False)
+class PackageUse:
+    """A place that needs a package: the text in a source, the package, and the reason.
+
+    Attributes:
+        is_own: whether the package of the source has to depend on it, not another one of the robot.
+    """
+
+    source: Source
+    start: int
+    end: int
+    package: str
+    use: str
+    is_own: bool = False
+
+
+def moveit_uses(model: Model, declared: dict[Path, set[str]]) -> Iterator[PackageUse]:
+    """Yield the plugins of MoveIt, and the descriptions of `MoveItConfigsBuilder`, in packages that depend on MoveIt.
+
+    Args:
+        model: the linted model.
+        declared: folder of a package → its name and its dependencies.
+    """
+    from urdfkit.description.packages.related_files import LAUNCH, package_of
+
+    for file, source in model.related_files.items():
+        if not file.endswith((*LAUNCH, ".yaml", ".yml")):
+            continue
+        package = package_of(Path(file))
+        of_moveit = [name for name in declared.get(package, ()) if name.startswith("moveit")] if package else []
+        if package is None or len(of_moveit) < _LEAST:
+            continue
+        for match in _USE.finditer(source.text):
+            line = source.text[source.text.rfind("\n", 0, match.start()) + 1 : match.start()]
+            if "#" not in line and "<!--" not in line:
+                yield PackageUse(source, match.start(), match.end(), _MOVEIT[match[1]], "whose plugin this file names")
+        builder = _BUILDER.search(source.text)
+        assistant = package / ".setup_assistant"
+        if builder is None or ".robot_description(" in source.text or not assistant.is_file():
+            continue
+        described = re.search(r"(?im)^\s*urdf:\s*\n\s+package:\s*([\w-]+)\s*$", assistant.read_text("utf-8", "replace"))
+        if described is not None:
+            use = "whose description MoveItConfigsBuilder reads"
+            yield PackageUse(source, builder.start(), builder.end() - 1, described[1], use, is_own=True)
