@@ -40,6 +40,7 @@ class UrdfkitError(Exception):
         code: code of the lint rule that reports the same defect; None if unknown.
 
     Examples:
+        >>> import urdfkit
         >>> try:
         ...     urdfkit.load("simpelton")
         ... except urdfkit.UrdfkitError as error:

@@ -76,6 +76,7 @@ def test_a_misspelt_option_gets_the_nearest_one(capsys: pytest.CaptureFixture[st
         ("sim rum simpleton", "sim: no subcommand `rum`; did you mean `run`?"),
         ("sim run simpleton --duration 3", "sim run: unrecognized arguments: --duration 3; did you mean `--for`?"),
         ("topic ecko /odom", "topic: no subcommand `ecko`; did you mean `echo`?"),
+        ("lint simpleton --json", "lint: unrecognized arguments: --json; did you mean `--format json`?"),
         ("topic --list", "topic: unrecognized arguments: --list; did you mean `list`?"),
         (
             "view --robot artoo",

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from email.message import Message
 from pathlib import Path
 from urllib.parse import unquote, urlparse
 from xml.etree import ElementTree
@@ -82,6 +83,7 @@ RULE = an_object(
     name=WORDS,
     shortDescription=MESSAGE,
     help=an_object("text", text=WORDS, markdown=WORDS),
+    helpUri=WORDS,
     defaultConfiguration=an_object("", level=LEVEL),
 )  # 3.49
 DRIVER = an_object(
@@ -124,6 +126,21 @@ def test_sarif_of_nothing_and_of_files_elsewhere(write):
     jsonschema.Draft7Validator(LOG).validate(log)
     place = log["runs"][0]["results"][0]["locations"][0]["physicalLocation"]
     assert place["artifactLocation"] == {"uri": "file:///opt/a%20b.urdf"}
+
+
+def test_sarif_links_the_pages_of_rules_on_the_published_site(outcome, monkeypatch):
+    def rules() -> list[dict[str, str]]:
+        return json.loads(as_sarif(outcome.findings))["runs"][0]["tool"]["driver"]["rules"]
+
+    published = Message()
+    monkeypatch.setattr("importlib.metadata.metadata", lambda name: published)
+    assert not any("helpUri" in rule for rule in rules())
+    published["Project-URL"] = "Source, https://example.org/source"
+    published["Project-URL"] = "Documentation, https://example.org/docs/"
+    assert [rule["helpUri"] for rule in rules()] == [
+        f"https://example.org/docs/reference/rules/{rule['id']}.html" for rule in rules()
+    ]
+    jsonschema.Draft7Validator(LOG).validate(json.loads(as_sarif(outcome.findings)))
 
 
 def test_junit_has_a_suite_for_each_file_and_a_failure_for_each_error_and_warning(outcome):

@@ -143,6 +143,8 @@ class Parser(argparse.ArgumentParser):
         subcommands = self._commands.choices or () if self._commands is not None else ()
         if (meant := OTHER_OPTIONS.get(word)) in options or (meant := word.lstrip("-")) in subcommands:
             hint = suggestion(meant)
+        elif word == "--json" and "--format" in options:
+            hint = suggestion("--format json")
         elif word in ROBOT_OPTIONS and any(action.dest == "model" for action in self._actions):
             hint = f"; it is a positional argument: {self.prog} ROBOT"
         else:

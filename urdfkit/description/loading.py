@@ -52,6 +52,7 @@ def load(
         ModelError: the file is not a robot, the links are not a single tree, or a value is invalid.
 
     Examples:
+        >>> import urdfkit
         >>> robot = urdfkit.load("gem_e2", arguments={"velodyne": "false"})
         >>> robot.name, len(robot.links)
         ('gem_e2', 11)
@@ -222,6 +223,7 @@ def expand(
         XacroError: xacro could not expand it.
 
     Examples:
+        >>> import urdfkit
         >>> urdfkit.expand("simpleton").count("<link ")
         7
     """

@@ -58,6 +58,8 @@ class Chain:
         upper: upper limits [rad] or [m], infinity without one; shape (n,).
 
     Examples:
+        >>> import numpy as np
+        >>> from urdfkit.kinematics import Chain
         >>> arm = Chain("seven_dof_arm", None, "grasping_frame")
         >>> found = arm.solve(arm.forward(np.full(len(arm.joint_names), 0.1)))
         >>> bool(found.reached), found.q.shape

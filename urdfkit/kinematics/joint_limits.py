@@ -20,6 +20,7 @@ class JointLimitError(KinematicsError):
         upper: the upper limit [rad] or [m].
 
     Examples:
+        >>> import urdfkit
         >>> arm = urdfkit.Kinematics("seven_dof_arm")
         >>> for error in arm.limit_errors({"elbow_pitch_joint": 9.0}):
         ...     print(error.joint, error.value, error.upper)

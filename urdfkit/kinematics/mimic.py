@@ -22,6 +22,7 @@ class Coupling:
         offset: [rad] or [m].
 
     Examples:
+        >>> from urdfkit.kinematics import Coupling
         >>> finger = Coupling("left_finger", "right_finger", multiplier=-1.0, offset=0.02)
         >>> finger.multiplier * 0.01 + finger.offset  # position of the left finger [m]
         0.01

@@ -55,6 +55,7 @@ class Kinematics:
         link_names: all links in document order.
 
     Examples:
+        >>> import urdfkit
         >>> arm = urdfkit.Kinematics("seven_dof_arm")
         >>> poses = arm.link_poses(arm.configuration({"elbow_pitch_joint": 0.5}))
         >>> poses[arm.link_names.index("grasping_frame")].round(2)  # x y z [m] and quaternion x y z w

@@ -67,6 +67,8 @@ class TransformTree:
         parents: frame → the frame above it; None above the root.
 
     Examples:
+        >>> import urdfkit
+        >>> from urdfkit.kinematics import TransformTree
         >>> tree = TransformTree(urdfkit.load("simpleton"))
         >>> tree.placement("left_wheel", "base_footprint", {"left_wheel_joint": 0.3}).translation  # [m]
         array([0.  , 0.21, 0.1 ])

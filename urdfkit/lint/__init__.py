@@ -52,6 +52,7 @@ def lint(
         ResourceError: a path does not exist or has no robot description.
 
     Examples:
+        >>> import urdfkit
         >>> urdfkit.lint("simpleton")
         []
         >>> [finding.code for finding in urdfkit.lint("arm.urdf", select=["I"])]

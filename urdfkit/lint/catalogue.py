@@ -34,6 +34,21 @@ def title(rule: type[Rule]) -> str:
     return _parts(rule)[0].replace("``", "`")
 
 
+def address(code: str) -> str:
+    """Return the URL of a rule's page on the published site; empty if the package names no documentation.
+
+    The URL of the site is ``Documentation`` in ``[project.urls]`` of pyproject.toml.
+    """
+    from importlib.metadata import PackageNotFoundError, metadata
+
+    try:
+        urls = metadata("urdfkit").get_all("Project-URL") or ()
+    except PackageNotFoundError:
+        return ""
+    site = dict(url.split(", ", 1) for url in urls).get("Documentation", "")
+    return f"{site.rstrip('/')}/reference/rules/{code}.html" if site else ""
+
+
 def sections(rule: type[Rule]) -> dict[str, str]:
     """Return the sections of a rule's page by heading."""
     found: dict[str, list[str]] = {}

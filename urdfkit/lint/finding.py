@@ -71,6 +71,7 @@ class Finding:
         variant: the xacro arguments of a launch file, and the launch file, if the robot has the defect only with them.
 
     Examples:
+        >>> import urdfkit
         >>> for finding in urdfkit.lint("arm.urdf"):
         ...     print(finding.file, finding.line, finding.code, finding.severity)
         arm.urdf 6 I503 error

@@ -54,6 +54,9 @@ class MeshLoader:
             in the memory as a whole mesh then.
 
     Examples:
+        >>> import trimesh
+        >>> from pathlib import Path
+        >>> from urdfkit.scene import MeshLoader
         >>> data = trimesh.creation.box((1, 2, 3)).export("box.stl")
         >>> meshes = MeshLoader()
         >>> meshes.load(Path("box.stl"), scale=(2, 1, 1)).bounds

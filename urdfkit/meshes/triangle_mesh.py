@@ -31,6 +31,8 @@ class TriMesh:
         hash: hexadecimal digest of all of the above: equal meshes have equal hashes.
 
     Examples:
+        >>> import numpy as np
+        >>> from urdfkit.scene import TriMesh
         >>> mesh = TriMesh(np.float32([[0, 0, 0], [1, 0, 0], [0, 1, 0]]), np.int32([[0, 1, 2]]))
         >>> mesh.bounds
         array([[0., 0., 0.],

@@ -13,6 +13,8 @@ def read_points(cloud: Any) -> Any:
     without an obstacle is NaN.
 
     Example:
+        >>> import numpy as np
+        >>> from urdfkit.messages import from_fields, read_points
         >>> data = np.array([0.5, 1.5], dtype="<f4").view(np.uint8)
         >>> field = {"name": "x", "offset": 0, "datatype": 7, "count": 1}
         >>> cloud = {"height": 1, "width": 2, "fields": [field], "point_step": 4, "row_step": 8, "data": data}

@@ -28,6 +28,7 @@ def require_message_types() -> None:
         MissingDependencyError: it is not.
 
     Examples:
+        >>> from urdfkit.messages import require_message_types
         >>> require_message_types()  # no error: rosbags is installed
     """
     from importlib.util import find_spec
@@ -99,6 +100,7 @@ def typestore() -> Any:
         MissingDependencyError: rosbags is not installed.
 
     Examples:
+        >>> from urdfkit.messages import typestore
         >>> "control_msgs/msg/JointControllerState" in typestore().types
         True
     """
@@ -120,6 +122,7 @@ def register_types(name: str, text: str) -> dict[str, Any]:
         UsageError: the text is no definition.
 
     Examples:
+        >>> from urdfkit.messages import from_fields, register_types
         >>> sorted(register_types("lab_msgs/msg/Grip", "float64 force"))
         ['lab_msgs/msg/Grip']
         >>> from_fields("lab_msgs/msg/Grip", {"force": 2.5}).force
@@ -141,6 +144,8 @@ def register_in(store: Any, layouts: Mapping[str, Any]) -> None:
     """Add types to a typestore; pickle still finds the earlier classes, whose module rosbags replaces.
 
     Examples:
+        >>> import rosbags.typesys
+        >>> from urdfkit.messages import register_in, typestore
         >>> store = rosbags.typesys.get_typestore(rosbags.typesys.Stores.EMPTY)
         >>> register_in(store, {"lab_msgs/msg/Lamp": typestore().fielddefs["std_msgs/msg/Bool"]})
         >>> "lab_msgs/msg/Lamp" in store.types
@@ -160,6 +165,7 @@ def register_layouts(layouts: Mapping[str, Any]) -> None:
     """Add the unknown ones of types, by rosbags' descriptions of their fields.
 
     Examples:
+        >>> from urdfkit.messages import from_fields, register_layouts, typestore
         >>> register_layouts({"lab_msgs/msg/Switch": typestore().fielddefs["std_msgs/msg/Bool"]})
         >>> from_fields("lab_msgs/msg/Switch", {"data": True}).data
         True
@@ -175,6 +181,7 @@ def full_type_name(name: str, kind: str = "msg") -> str:
     """Turn ``geometry_msgs/Twist`` into ``geometry_msgs/msg/Twist``; keep full names. Services have kind ``srv``.
 
     Examples:
+        >>> from urdfkit.messages import full_type_name
         >>> full_type_name("geometry_msgs/Twist"), full_type_name("std_srvs/Empty", "srv")
         ('geometry_msgs/msg/Twist', 'std_srvs/srv/Empty')
     """
@@ -186,6 +193,7 @@ def stamp(t: float) -> Any:
     """Return a ``builtin_interfaces/msg/Time`` of simulated time `t` [s], rounded to the nanosecond.
 
     Examples:
+        >>> from urdfkit.messages import stamp
         >>> stamp(2.25).sec
         2
     """
@@ -197,6 +205,7 @@ def header(t: float, frame_id: str) -> Any:
     """Return a ``std_msgs/msg/Header``.
 
     Examples:
+        >>> from urdfkit.messages import header
         >>> header(1.5, "odom").stamp.nanosec
         500000000
     """
@@ -207,6 +216,7 @@ def vector(xyz: Sequence[float]) -> Any:
     """Return a ``geometry_msgs/msg/Vector3``.
 
     Examples:
+        >>> from urdfkit.messages import vector
         >>> vector((1.0, 2.0, 3.0)).z
         3.0
     """
@@ -217,6 +227,7 @@ def twist(linear: Sequence[float], angular: Sequence[float]) -> Any:
     """Return a ``geometry_msgs/msg/Twist`` [m/s, rad/s].
 
     Examples:
+        >>> from urdfkit.messages import twist
         >>> twist((0.5, 0.0, 0.0), (0.0, 0.0, 1.0)).angular.z
         1.0
     """
@@ -227,6 +238,7 @@ def transform(t: float, frame: str, child: str, position: Sequence[float], quate
     """Return a ``geometry_msgs/msg/TransformStamped``: where `child` is in `frame` [m; x y z w].
 
     Examples:
+        >>> from urdfkit.messages import transform
         >>> transform(0.0, "odom", "base_link", (1.0, 0.0, 0.0), (0.0, 0.0, 0.0, 1.0)).transform.translation.x
         1.0
     """
@@ -247,6 +259,7 @@ def from_fields(type: str, fields: Any) -> Any:
         UsageError: no such type or field, or a value of the wrong kind.
 
     Examples:
+        >>> from urdfkit.messages import from_fields
         >>> from_fields("geometry_msgs/msg/Twist", {"linear": {"x": 0.5}}).linear.x
         0.5
     """

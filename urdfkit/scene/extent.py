@@ -29,6 +29,8 @@ def bounds(
         None where there is no shape.
 
     Examples:
+        >>> import urdfkit
+        >>> from urdfkit.scene import bounds, scene_of
         >>> kinematics = urdfkit.Kinematics("simpleton")
         >>> bounds(scene_of(kinematics.robot), kinematics.link_poses(kinematics.neutral())).round(2)
         array([[-0.38, -0.26,  0.  ],
@@ -55,6 +57,8 @@ def lowest_point(scene: Scene, poses: ArrayLike, *, of: Container[str] | None = 
         of: names of the bodies; all when None.
 
     Examples:
+        >>> import urdfkit
+        >>> from urdfkit.scene import lowest_point, scene_of
         >>> kinematics = urdfkit.Kinematics("simpleton")
         >>> lowest_point(scene_of(kinematics.robot), kinematics.link_poses(kinematics.neutral()))
         0.0

@@ -48,6 +48,8 @@ class Shape:
         is_placeholder: whether it stands for a shape that cannot be shown; see `with_placeholders`.
 
     Examples:
+        >>> import urdfkit
+        >>> from urdfkit.scene import scene_of
         >>> shape = scene_of(urdfkit.load("simpleton")).shapes[0]
         >>> shape.name, shape.role, shape.geometry
         ('chassis/visual/0', 'visual', Box(size=(0.5, 0.3, 0.1)))
@@ -110,6 +112,8 @@ class Scene:
         problems: the missing shapes, unless errors are raised.
 
     Examples:
+        >>> import urdfkit
+        >>> from urdfkit.scene import scene_of
         >>> scene = scene_of(urdfkit.load("simpleton"))
         >>> scene.bodies[:2], len(scene.shapes)
         (('base_footprint', 'chassis'), 10)
@@ -170,6 +174,8 @@ def scene_of(robot: Robot, *, strict: bool = True, meshes: MeshLoader | None = N
         ResourceError: a mesh is missing or broken (`strict`), with the place where it is named.
 
     Examples:
+        >>> import urdfkit
+        >>> from urdfkit.scene import scene_of
         >>> scene = scene_of(urdfkit.load("simpleton"))
         >>> [shape.body for shape in scene.with_role("collision")]
         ['chassis', 'left_wheel', 'right_wheel', 'caster', 'camera']

@@ -87,6 +87,7 @@ class Simulator:
         requests: topic of a service → function that executes a request and raises its error.
 
     Examples:
+        >>> import urdfkit
         >>> simulator = urdfkit.Simulator("simpleton")
         >>> simulator.command(linear=(0.5, 0.0, 0.0))
         >>> simulator.run(2.0)

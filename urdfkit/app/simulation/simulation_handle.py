@@ -67,6 +67,7 @@ def teleop(
         UrdfkitError: the robot or the world cannot be loaded or simulated.
 
     Examples:
+        >>> import urdfkit
         >>> with urdfkit.teleop("simpleton") as page:
         ...     print(page.url.partition(":")[0])  # open the complete address in a browser
         http

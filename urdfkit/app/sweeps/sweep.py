@@ -79,6 +79,7 @@ def sweep(
         UrdfkitError: the robot or the world cannot be loaded or simulated.
 
     Examples:
+        >>> import urdfkit
         >>> results = urdfkit.sweep(
         ...     "simpleton", vary={"cmd.vx": "0.2,0.5"}, metrics=["x"], duration=0.5, output="results", workers=1
         ... )

@@ -50,6 +50,7 @@ def view(
         UrdfkitError: the robot cannot be loaded.
 
     Examples:
+        >>> import urdfkit
         >>> with urdfkit.view("simpleton") as page:
         ...     print(page.url.partition(":")[0])  # open the complete address in a browser
         http

@@ -98,6 +98,7 @@ class World(Written):
         position: source position.
 
     Examples:
+        >>> from urdfkit.description.sdf import load_world
         >>> world = load_world("house")
         >>> world.name, world.gravity
         ('house', (0.0, 0.0, -9.81))

@@ -293,6 +293,7 @@ class Robot:
     are the changes to a defective robot.
 
     Examples:
+        >>> import urdfkit
         >>> robot = urdfkit.load("simpleton")
         >>> [joint.name for joint in robot.joints if joint.type == "continuous"]
         ['left_wheel_joint', 'right_wheel_joint']

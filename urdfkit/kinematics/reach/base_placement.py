@@ -88,6 +88,7 @@ def base_placement(
         KinematicsError: no poses, too many, or numbers that are no pose.
 
     Examples:
+        >>> from urdfkit.kinematics import Chain, base_placement, reach_map
         >>> arm = Chain("seven_dof_arm", None, "grasping_frame")
         >>> found = reach_map(arm, resolution=0.2, orientations=10)
         >>> place = base_placement(arm, found, [[2.0, 1.0, 0.5, 0.0, 0.0, 0.0, 1.0]])

@@ -35,6 +35,7 @@ class ReachMap:
         q: a configuration for each pose that is reached, zeros elsewhere; shape (nx, ny, nz, N, n).
 
     Examples:
+        >>> from urdfkit.kinematics import Chain, reach_map
         >>> found = reach_map(Chain("seven_dof_arm", None, "grasping_frame"), resolution=0.3, orientations=4)
         >>> found.score.shape == found.centres().shape[:3], float(found.score.max())
         (True, 0.5)
@@ -90,6 +91,7 @@ def reach_map(
         ResourceError: `collision_free` is set, and a mesh cannot be read.
 
     Examples:
+        >>> from urdfkit.kinematics import Chain, reach_map
         >>> arm = Chain("seven_dof_arm", None, "grasping_frame")
         >>> found = reach_map(arm, resolution=0.3, position_only=True)
         >>> float(found.score.max())

@@ -82,6 +82,9 @@ def retime(waypoints: ArrayLike, limits: MotionLimits, *, rate: float = 100.0) -
         MissingDependencyError: toppra or ruckig is not installed.
 
     Examples:
+        >>> import urdfkit
+        >>> from urdfkit.kinematics.retiming import motion_limits
+        >>> from urdfkit.kinematics import retime
         >>> joints = ["shoulder_pan_joint", "elbow_pitch_joint"]
         >>> limits = motion_limits(urdfkit.load("seven_dof_arm"), joints, acceleration={"": 3.0})
         >>> motion = retime([[0.0, 0.0], [0.8, -0.5], [-0.6, 0.3]], limits)

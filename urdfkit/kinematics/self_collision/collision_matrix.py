@@ -105,6 +105,7 @@ def collision_matrix(
         UrdfkitError: the robot cannot be loaded.
 
     Examples:
+        >>> from urdfkit.kinematics import collision_matrix
         >>> found = collision_matrix("seven_dof_arm", samples=1000)
         >>> found.pairs[0].first, found.pairs[0].second, found.pairs[0].reason
         ('bottom_link', 'base_link', 'Adjacent')

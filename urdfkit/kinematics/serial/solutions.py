@@ -25,6 +25,7 @@ class Solutions:
         collisions: pairs of links that collide, of each target in order; None if they were not checked.
 
     Examples:
+        >>> from urdfkit.kinematics import Chain
         >>> arm = Chain("seven_dof_arm", None, "grasping_frame")
         >>> far = arm.solve([9.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0])
         >>> bool(far.reached), far.q.shape, float(far.position_error) > 8.0

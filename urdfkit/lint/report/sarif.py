@@ -54,13 +54,15 @@ def as_sarif(findings: Sequence[Finding]) -> str:
 
 
 def _rule(rule: type[Rule]) -> dict[str, Any]:
-    from urdfkit.lint.catalogue import page, title
+    from urdfkit.lint.catalogue import address, page, title
 
+    link = address(rule.code) if rule.__module__.startswith("urdfkit.") else ""
     return {
         "id": rule.code,
         "name": "".join(word.capitalize() for word in rule.name.split("-")),
         "shortDescription": {"text": title(rule)},
         "help": {"text": f"urdfkit rule {rule.code}", "markdown": page(rule)},
+        **({"helpUri": link} if link else {}),
         "defaultConfiguration": {"level": _LEVELS[rule.severity]},
     }
 

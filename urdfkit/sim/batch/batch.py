@@ -66,6 +66,8 @@ class Batch:
         diverged: worlds whose state is no longer finite; they stay as they are until they are reset; shape (n,).
 
     Examples:
+        >>> import numpy as np
+        >>> from urdfkit.sim.batch import Batch
         >>> worlds = Batch("simpleton", 4, vary={"gravity": (9.7, 9.9)}, threads=1)
         >>> worlds.step(np.ones((4, 2)))
         >>> worlds.positions.shape

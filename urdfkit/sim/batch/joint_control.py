@@ -28,6 +28,7 @@ class Servo:
         damping: [N·m·s/rad] or [N·s/m].
 
     Examples:
+        >>> from urdfkit.sim.batch import Batch, Servo
         >>> worlds = Batch("rrbot", 2, control={"joint1": Servo(stiffness=50.0, damping=5.0)}, threads=1)
         >>> worlds.actions.shape
         (2, 1)

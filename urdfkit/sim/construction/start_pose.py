@@ -33,6 +33,8 @@ class Spawn:
         velocities: joint → velocity [rad/s] or [m/s].
 
     Examples:
+        >>> import urdfkit
+        >>> from urdfkit.sim import Spawn
         >>> start = Spawn(x=1.0, yaw=1.57, joints={"left_wheel_joint": 0.3})
         >>> simulator = urdfkit.Simulator("simpleton", spawn=start)
         >>> simulator.state.base_pose[:2]

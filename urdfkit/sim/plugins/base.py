@@ -52,6 +52,7 @@ class Drive(Commanding):
         commands: topics of type Twist that it subscribes to.
 
     Examples:
+        >>> from urdfkit.sim import Drive
         >>> class Conveyor(Drive):
         ...     kind = "conveyor"  # of a `PluginSpec` table, for example in `specs`
         ...     published = ()  # no odometry
@@ -141,6 +142,8 @@ class Sensor(Publisher):
         name: its name in the description; may be empty.
 
     Examples:
+        >>> from urdfkit.messages import from_fields
+        >>> from urdfkit.sim import Sensor
         >>> class Tachometer(Sensor):
         ...     kind = "tachometer"  # of a `PluginSpec` table, for example in `specs`
         ...     rate = 50.0
@@ -181,6 +184,7 @@ class Controller(Commanding):
         initial_positions: joint → initial position [rad] or [m], unless the user sets it.
 
     Examples:
+        >>> from urdfkit.sim import Controller
         >>> class Lock(Controller):
         ...     kind = "lock"  # of a `PluginSpec` table, for example in `specs`
         ...

@@ -83,6 +83,7 @@ class State:
         odometer: the wheel odometry that the engine integrates.
 
     Examples:
+        >>> import urdfkit
         >>> state = urdfkit.Simulator("simpleton").state
         >>> state.position("left_wheel_joint"), len(state.base_pose)
         (0.0, 7)
