@@ -19,6 +19,7 @@ from typing import Any
 from mkdocs.config.defaults import MkDocsConfig
 from mkdocs.structure.files import File, Files
 from mkdocs.structure.pages import Page
+from notebook_pages import notebook_pages
 
 import urdfkit
 from urdfkit.cli import COMMANDS, parser_of
@@ -51,6 +52,7 @@ def on_files(files: Files, *, config: MkDocsConfig) -> Files:
 def on_page_markdown(markdown: str, *, page: Page, **_: Any) -> str:
     """Keep the prose for the check of the spelling, and adapt links to files that have no page on the site."""
     _PROSE[page.file.src_uri] = re.sub(r"^```.*?^```|(`+).*?\1", " ", markdown, flags=re.MULTILINE | re.DOTALL)
+    markdown = re.sub(r"(\]\(\.\./notebooks/\w+)\.ipynb\)", r"\1.md)", markdown)
     markdown = markdown.replace("](decisions/)", "](decisions/index.md)")
     for old, new in TOP_LEVEL.items():  # whose pages of the site are one folder deeper
         markdown = re.sub(rf"\]\(\.\./((?:\.\./)*){old}", rf"](\1{new}", markdown)
@@ -66,13 +68,14 @@ def on_post_build(**_: Any) -> None:
         LOG.warning("spelling: %s", line)
 
 
-def pages() -> dict[str, str]:
-    """Return path → Markdown of all generated pages."""
+def pages() -> dict[str, str | bytes]:
+    """Return path → Markdown of all generated pages, and their pictures."""
     return {
         **{new: _top_level(ROOT / old) for old, new in TOP_LEVEL.items()},
         **_commands(),
         **_rules(),
         **_interface(),
+        **notebook_pages(ROOT / "docs/notebooks"),
         "decisions/index.md": _decisions(),
     }
 

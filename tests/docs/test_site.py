@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import os
 import re
 import subprocess
@@ -40,6 +41,15 @@ def test_the_strict_build_has_every_page(tmp_path: Path) -> None:
     assert 'id="use-instead"' in (reference / "rules/I503.html").read_text("utf-8")
     lint = (reference / "commands/lint.html").read_text("utf-8")
     assert all(f"<code>{option}</code>" in lint for option in ("--fix", "--select", "--baseline"))
+    for notebook in (ROOT / "docs/notebooks").glob("*.ipynb"):
+        cells = json.loads(notebook.read_text("utf-8"))["cells"]
+        page = (tmp_path / f"notebooks/{notebook.stem}.html").read_text("utf-8")
+        plots = sum("image/png" in output.get("data", {}) for cell in cells for output in cell.get("outputs", ()))
+        assert page.count('alt="Plot of the cell above"') == plots
+        assert len(list((tmp_path / "notebooks").glob(f"{notebook.stem}-*.png"))) == plots
+        assert page.count('class="highlight"') >= sum(cell["cell_type"] == "code" for cell in cells)
+        assert (tmp_path / f"notebooks/{notebook.stem}.ipynb").is_file()
+        assert f"notebooks/{notebook.stem}.html" in (tmp_path / "guides/notebook.html").read_text("utf-8")
     assert "The same seed and the same calls give bit-identical results." in (
         reference / "api/Simulator.html"
     ).read_text("utf-8")
