@@ -350,18 +350,25 @@ BAD = [
         7,
         "`world_frame` is `x`, which is neither `map_frame` nor `odom_frame`; write `map` or `odom`",
     ),
+    (
+        "behaviors",
+        '"[[0.3, 0.2], [0.3, -0.2], [-0.3, 0.0]]"',
+        "[[0.3, 0.2], [0.3, -0.2], [-0.3, 0.0]]",
+        "K971",
+        21,
+        "`footprint` is a list of lists, which ROS 2 refuses",
+    ),
 ]
 
 GOOD = [
     ("navigation", "/scan", "/front/points"),
     ("navigation", "nav2_costmap_2d::ObstacleLayer", "my_layers::ObstaclesLayer"),
     ("navigation", '["FollowPath"]', "$(var plugins)"),
-    ("navigation", "nav2_costmap_2d::ObstacleLayer", "nav2_recoveries::Spin"),
+    ("navigation", "nav2_costmap_2d::ObstacleLayer", "my_recoveries::Spin"),
     ("navigation", "likelihood_field", "beam"),
     ("navigation", "local_costmap:\n  local_costmap", "rear_costmap:\n  rear_costmap"),
     ("navigation", "max_velocity: [0.5, 0.0, 1.0]", "max_velocity: [0.5, 0.0, 0.0, 0.0, 0.0, 1.0]"),
     ("filter", "world_frame: odom", "world_frame: $(var world)"),
-    ("behaviors", '"[[0.3, 0.2], [0.3, -0.2], [-0.3, 0.0]]"', "[[0.3, 0.2], [0.3, -0.2], [-0.3, 0.0]]"),
     ("behaviors", "use_astar", "use_my_star"),
     ("drive", "linear.x.max_velocity: 1.0", "linear.x.max_deceleration: -1.0"),
     ("behaviors", '      plugin: "nav2_navfn_planner::NavfnPlanner"\n', ""),

@@ -335,8 +335,13 @@ def _filter(group: Node, controllers: frozenset[str]) -> Defects:
             continue
         if at[2] == "config" and value.items and all(each.text == "false" for each in value.items):
             yield value, f"`{key.text}` is false for each value, so the filter does not use `{at[1]}`"
+        if at[2] == "config" and at[1] not in inputs:
+            others = [each for each in sorted(inputs) if re.fullmatch(r"(?:odom|imu|pose|twist)\d+", each)]
+            free = [each for each in others if f"{each}_config" not in inputs]
+            hint = suggestion(f"{free[0]}_config") if len(free) == 1 else ""
+            yield key, f"`{key.text}` has no topic `{at[1]}`{hint}"
         if at[2] is not None and at[2] not in _OF_INPUTS:
-            near = next((each for each in _OF_INPUTS if is_slip(at[2], each)), None)
+            near = next((each for each in _OF_INPUTS if is_slip(at[2], each) or at[2].startswith(f"{each}u")), None)
             if near is not None:
                 yield key, f"unknown parameter `{key.text}` of robot_localization; did you mean `{at[1]}_{near}`?"
         elif at[2] is None and value.kind == "text":

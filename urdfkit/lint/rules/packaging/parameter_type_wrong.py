@@ -56,6 +56,7 @@ class ParameterTypeWrong(RobotRule):
         from urdfkit.lint.facts.launch.ros_version import ros_version
         from urdfkit.lint.facts.moveit.settings import integer_limits, moveit_yamls
         from urdfkit.lint.facts.navigation.defects import wrong_numbers
+        from urdfkit.lint.facts.parameters.node_parameters import wrong_numbers_of_nodes
 
         for source in {each.file: each for each, _ in moveit_yamls(model)}.values():
             for value, name in integer_limits(source) if ros_version(source) == 2 else ():
@@ -65,7 +66,10 @@ class ParameterTypeWrong(RobotRule):
             for value, name, controller in integers_for_doubles(source):
                 message = f"`{name}` of controller `{controller}` is the integer {value.text}; write {value.text}.0"
                 yield Finding(self.code, self.name, self.severity, message, span_of(source, value))
-            for value, name, right in wrong_numbers(source):
+            wrong = {(value.line, value.column): (value, name, right) for value, name, right in wrong_numbers(source)}
+            for value, name, right in wrong_numbers_of_nodes(source):
+                wrong.setdefault((value.line, value.column), (value, name, right))
+            for value, name, right in wrong.values():
                 kind = "integer" if right.endswith(".0") else "number with a decimal point"
                 message = f"`{name}` is the {kind} {value.text}; write {right}"
                 yield Finding(self.code, self.name, self.severity, message, span_of(source, value))

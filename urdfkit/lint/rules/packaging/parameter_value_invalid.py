@@ -22,11 +22,12 @@ class ParameterValueInvalid(RobotRule):
     ## What it does
     Checks YAML files of the robot's package and of packages that depend on it: keys that occur twice in a group,
     minima above their maxima, misspelt ``true`` and ``false``, sensor configurations of robot_localization without 15
-    values and its world frame, in Nav2 plugins that are listed without a section, and limits that its nodes refuse, and
-    in maps a missing image, an unknown mode and impossible numbers. In the parameters of controllers it also checks
-    rates, wheel sizes, limits and tolerances that are negative, zero or not a number, numbers and truth values in
-    quotes, names that are not in a list, minima above maxima, joints that are listed twice or lack gains, controllers
-    without a type or a required parameter, and parameters that are indented to the level of controllers.
+    values and its world frame, in Nav2 plugins that are listed without a section, and limits that its nodes refuse,
+    types and former names of the parameters of well-known nodes, lists of lists, which ROS 2 refuses, and in maps a
+    missing image, an unknown mode and impossible numbers. In the parameters of controllers it also checks rates, wheel
+    sizes, limits and tolerances that are negative, zero or not a number, numbers and truth values in quotes, names that
+    are not in a list, minima above maxima, joints that are listed twice or lack gains, controllers without a type or a
+    required parameter, and parameters that are indented to the level of controllers.
 
     ## Why is this bad?
     The controller does not start, or the value is ignored: of a key that occurs twice, only the last value applies.
@@ -87,9 +88,12 @@ class ParameterValueInvalid(RobotRule):
         from urdfkit.lint.facts.control.ros2_controllers import PARAMETERS
         from urdfkit.lint.facts.control.yaml_tree import documents, span_of, walk, yamls
         from urdfkit.lint.facts.moveit.settings import moveit_yamls
+        from urdfkit.lint.facts.navigation.collision_monitors import monitor_defects, mux_defects
         from urdfkit.lint.facts.navigation.defects import navigation_defects
         from urdfkit.lint.facts.navigation.maps import map_defects
+        from urdfkit.lint.facts.navigation.nav2_plugins import nav2_defects
         from urdfkit.lint.facts.navigation.odometry_transforms import published_twice
+        from urdfkit.lint.facts.parameters.node_parameters import node_defects
         from urdfkit.lint.facts.parameters.ranges import out_of_order
 
         of_moveit = {source.file for source, _ in moveit_yamls(model)}
@@ -100,7 +104,9 @@ class ParameterValueInvalid(RobotRule):
         for source in yamls(model):
             is_of_controllers, seen = bool(controllers(source)), set[tuple[int, int]]()
             ordered = () if is_of_controllers else out_of_order(source)
-            for place, message in (*navigation_defects(source, names), *map_defects(source), *ordered):
+            found = (*navigation_defects(source, names), *map_defects(source), *ordered, *nav2_defects(source))
+            found += (*monitor_defects(source), *mux_defects(source))
+            for place, message in (*found, *_new(node_defects(source), found)):
                 yield Finding(self.code, self.name, self.severity, message, span_of(source, place))
             for node in (node for root in documents(source)[0] for node in walk(root)):
                 if (node.line, node.column) in seen:  # an alias
@@ -113,6 +119,16 @@ class ParameterValueInvalid(RobotRule):
                 incomplete = () if source.file in unread else incomplete_controllers(source, is_typed_at_start)
                 for place, message in (*incomplete, *contradictions(source, model.robot), *unmet_needs(source, model)):
                     yield Finding(self.code, self.name, self.severity, message, span_of(source, place))
+
+
+def _new(defects: Iterator[tuple[Node, str]], found: tuple[tuple[Node, str], ...]) -> Iterator[tuple[Node, str]]:
+    """Yield the defects at lines without another one, and not at misspelt truth values."""
+    lines = {place.line for place, _ in found}
+    yield from (
+        (place, message)
+        for place, message in defects
+        if place.line not in lines and not (place.is_plain and re.fullmatch(_MISSPELT, place.text))
+    )
 
 
 def _in_any(node: Node, is_of_moveit: bool) -> Iterator[tuple[Node, str]]:

@@ -1,0 +1,187 @@
+"""Defects of the parameters of well-known nodes of ROS 2: their types, names, plugins, inputs and frames."""
+
+from __future__ import annotations
+
+import pytest
+
+from tests.lint.test_navigation_parameters import MANIFEST, ROBOT
+from urdfkit.lint import lint
+
+FILES = {
+    "joystick": """teleop_twist_joy_node:
+  ros__parameters:
+    require_enable_button: true
+    enable_button: 4
+    enable_turbo_button: -1
+    axis_linear:
+      x: 1
+    axis_angular: {yaw: 0}
+    scale_linear:
+      x: 0.5
+joy_node:
+  ros__parameters:
+    autorepeat_rate: 20.0
+""",
+    "mux": """twist_mux:
+  ros__parameters:
+    topics:
+      keys:
+        topic: cmd_vel_keys
+        timeout: 0.5
+        priority: 100
+      stick:
+        topic: cmd_vel_stick
+        timeout: 0.5
+        priority: 10
+    locks:
+      e_stop:
+        topic: e_stop
+        timeout: 0.0
+        priority: 255
+""",
+    "monitor": """collision_monitor:
+  ros__parameters:
+    cmd_vel_in_topic: cmd_vel_smoothed
+    cmd_vel_out_topic: cmd_vel
+    polygons: [Stop]
+    Stop:
+      type: polygon
+      points: "[[0.3, 0.2], [0.3, -0.2], [0.0, 0.0]]"
+      action_type: stop
+      min_points: 4
+    observation_sources: [front]
+    front:
+      type: scan
+      topic: /scan
+""",
+    "behaviors": """amcl:
+  ros__parameters:
+    odom_frame_id: odom
+    global_frame_id: map
+    robot_model_type: nav2_amcl::DifferentialMotionModel
+controller_server:
+  ros__parameters:
+    controller_plugins: [FollowPath]
+    FollowPath:
+      plugin: dwb_core::DWBLocalPlanner
+      max_vel_y: 0.0
+      max_vel_theta: 1.0
+      decel_lim_x: -2.5
+      critics: [PathDist, GoalDist]
+      PathDist.scale: 32.0
+behavior_server:
+  ros__parameters:
+    local_frame: odom
+    behavior_plugins: [spin, wait]
+    spin:
+      plugin: nav2_behaviors::Spin
+    wait:
+      plugin: nav2_behaviors::Wait
+local_costmap:
+  local_costmap:
+    ros__parameters:
+      global_frame: odom
+      plugins: [obstacle_layer, inflation_layer]
+      obstacle_layer:
+        plugin: nav2_costmap_2d::ObstacleLayer
+        observation_sources: front
+        front: {topic: /scan, data_type: LaserScan, obstacle_max_range: 2.5}
+      inflation_layer:
+        plugin: nav2_costmap_2d::InflationLayer
+      static_layer:
+        plugin: nav2_costmap_2d::StaticLayer
+""",
+    "groups_of_lists": """gpio_controller:
+  ros__parameters:
+    command_interfaces:
+      flange:
+        - interfaces:
+          - analog_output
+          - digital_output
+""",
+    "filter": """ekf_filter_node:
+  ros__parameters:
+    frequency: 30.0
+    map_frame: map
+    odom_frame: odom
+    base_link_frame: base_link
+    world_frame: odom
+    imu0: imu/data
+    imu0_config: [false, false, false, false, false, true, false, false, false, false, false, true, false, false, false]
+""",
+}
+
+BAD = [
+    ("joystick", "x: 1", "x: 1.0", "K974", 7, "`axis_linear.x` is the number with a decimal point 1.0; write 1"),
+    ("joystick", "enable_button: 4", "enable_button: -4", "K971", 4, "`enable_button` is -4; 0 to 63 is needed"),
+    ("joystick", "enable_button: 4", "deadman_button: 4", "K971", 4, "did you mean `enable_button`?"),
+    ("joystick", "axis_linear:\n      x: 1", "axis_linear: 1", "K971", 6, "`axis_linear` is a group; write `x` below"),
+    ("joystick", "yaw: 0", "z: 0", "K971", 8, "`axis_angular` has no `z`; write `yaw`, `pitch` or `roll`"),
+    ("joystick", "yaw: 0", "yaw: 1", "K971", 8, "`axis_linear.x` and `axis_angular.yaw` are both 1"),
+    ("joystick", "x: 0.5", 'x: "0.5"', "K971", 10, '`scale_linear.x` is "0.5", a text in quotes'),
+    ("joystick", "20.0", "20", "K974", 13, "`autorepeat_rate` is the integer 20; write 20.0"),
+    (
+        "mux",
+        "priority: 100",
+        "priority: 10",
+        "K971",
+        11,
+        "inputs `keys` and `stick` of twist_mux have the same priority",
+    ),
+    ("mux", "priority: 100", "priority: high", "K971", 7, "`topics.keys.priority` is `high`, which is not a number"),
+    ("mux", "priority: 100", "priority: 100.0", "K974", 7, "write 100"),
+    ("mux", "topics:", "topic:", "K971", 3, "`twist_mux` has no parameter `topic`; did you mean `topics`?"),
+    ("mux", "priority: 255", "priority: 50", "K971", 16, "lock `e_stop` has the priority 50 and does not stop"),
+    ("monitor", "cmd_vel_out_topic: cmd_vel", "cmd_vel_out_topic: cmd_vel_smoothed", "K971", 4, "that the node reads"),
+    ("monitor", "type: polygon", "type: rectangle", "K971", 7, "unknown type `rectangle` of `Stop`"),
+    ("monitor", "action_type: stop", "action_type: halt", "K971", 9, "unknown `action_type` `halt` of `Stop`"),
+    ("monitor", ", [0.0, 0.0]", "", "K971", 8, "`points` of `Stop` has 2 points; a polygon needs at least 3"),
+    ("monitor", "[Stop]", "[Stop, Slow]", "K971", 5, "`polygons` lists `Slow`, which has no section"),
+    ("monitor", "[front]", "[laser]", "K971", 11, "`observation_sources` lists `laser`, which has no section"),
+    ("monitor", "type: scan", "type: laser", "K971", 13, "unknown type `laser` of `front`"),
+    ("behaviors", "nav2_behaviors::Spin", "nav2_recoveries::Spin", "K971", 21, "write `nav2_behaviors::Spin`"),
+    ("behaviors", "behavior_server:", "recoveries_server:", "K971", 16, "its name since Humble is `behavior_server`"),
+    ("behaviors", "[spin, wait]", "[spin]", "K971", 19, "`behavior_plugins` does not list `wait`"),
+    ("behaviors", ", inflation_layer]", "]", "K971", 28, "`plugins` does not list `inflation_layer`"),
+    ("behaviors", "plugin: nav2_costmap_2d::Static", "type: nav2_costmap_2d::Static", "K971", 36, "mean `plugin`?"),
+    ("behaviors", "[FollowPath]", "FollowPath", "K971", 8, "`controller_plugins` is not a list; write it in brackets"),
+    ("behaviors", "-2.5", "2.5", "K971", 13, "`decel_lim_x` is 2.5; DWB requires zero or negative values"),
+    ("behaviors", "PathDist.scale", "PathDst.scale", "K971", 15, "`critics` does not list `PathDst`"),
+    ("behaviors", "max_vel_theta", "max_rot_vel", "K971", 12, "did you mean `max_vel_theta`?"),
+    ("behaviors", "obstacle_max_range", "obstacle_range", "K971", 32, "did you mean `obstacle_max_range`?"),
+    ("behaviors", "Differential", "Omni", "K971", 5, "but no controller drives sideways"),
+    ("behaviors", "global_frame: odom", "global_frame: map", "K971", 27, "`local_frame` of behavior_server is `odom`"),
+    (
+        "behaviors",
+        "d: odom\n    global_frame_id: map",
+        "d: map\n    global_frame_id: odom",
+        "K971",
+        3,
+        "exchange them",
+    ),
+    ("filter", "frequency", "rate", "K971", 3, "has no parameter `rate`; did you mean `frequency`?"),
+    ("filter", "imu0_config", "imu1_config", "K971", 9, "`imu1_config` has no topic `imu1`"),
+    ("filter", "imu0_config", "imu0_configuration", "K971", 9, "did you mean `imu0_config`?"),
+]
+
+
+def findings(folder, name, old, new):
+    (folder / "config").mkdir()
+    (folder / "package.xml").write_text(MANIFEST)
+    (folder / "cart.urdf").write_text(ROBOT)
+    assert old in FILES[name]
+    (folder / f"config/{name}.yaml").write_text(FILES[name].replace(old, new, 1))
+    return [(one.code, one.line, one.message) for one in lint(folder) if one.file.endswith(".yaml")]
+
+
+@pytest.mark.parametrize(("name", "old", "new", "code", "line", "message"), BAD)
+def test_each_defect_has_a_finding_at_its_line(tmp_path, name, old, new, code, line, message):
+    first, *others = findings(tmp_path, name, old, new)
+    assert first[:2] == (code, line)
+    assert message in first[2]
+    assert len(others) <= new.count("\n")
+
+
+@pytest.mark.parametrize("name", FILES)
+def test_correct_parameters_have_no_finding(tmp_path, name):
+    assert findings(tmp_path, name, "ros__parameters", "ros__parameters") == []

@@ -1,0 +1,109 @@
+"""Defects of collision_monitor and of the inputs of twist_mux in parameter files of ROS 2.
+
+Sources: ros-navigation/navigation2 (collision_monitor_node.cpp, polygon.cpp, Humble to Rolling), ros-teleop/twist_mux
+(twist_mux.cpp, topic_handle.hpp).
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+
+from urdfkit.description.xml.source import Source
+from urdfkit.errors import nearest, suggestion
+from urdfkit.lint.facts.control.ros2_controllers import PARAMETERS
+from urdfkit.lint.facts.control.yaml_tree import Node, documents, number_of
+from urdfkit.lint.facts.navigation.sections import sections
+
+Defects = Iterator[tuple[Node, str]]
+
+_LISTS = {
+    "polygons": ("polygon", "circle", "velocity_polygon"),
+    "observation_sources": ("scan", "pointcloud", "range", "polygon", "costmap"),
+}
+"""List of names → types of the sections with these names."""
+
+_ACTIONS = ("stop", "slowdown", "limit", "approach", "none")
+_PAIR = r"\[\s*[-+.\deE]+\s*,\s*[-+.\deE]+\s*\]"
+
+
+def monitor_defects(source: Source) -> Defects:
+    """Yield the defects of collision_monitor and collision_detector."""
+    for key, group in sections(source) if PARAMETERS in source.text else ():
+        if key.text.strip("/").rpartition("/")[2] not in ("collision_monitor", "collision_detector"):
+            continue
+        into, out = group.find("cmd_vel_in_topic"), group.find("cmd_vel_out_topic")
+        if into is not None and out is not None and into.text.strip("/") == out.text.strip("/"):
+            yield out, f"`cmd_vel_out_topic` is the topic that the node reads, `{into.text}`"
+        for name, types in _LISTS.items():
+            listed = group.find(name)
+            for item in listed.items if listed is not None else ():
+                section = group.find(item.text)
+                if section is None:
+                    if item.text and not any(each.text.startswith(f"{item.text}.") for each, _ in group.entries):
+                        others = [each.text for each, value in group.entries if value.find("type") is not None]
+                        near = nearest(item.text, others, cutoff=0.6)
+                        yield item, f"`{name}` lists `{item.text}`, which has no section{suggestion(near)}"
+                else:
+                    yield from _part(section, item.text, types, name == "polygons")
+
+
+def _part(section: Node, name: str, types: tuple[str, ...], is_polygon: bool) -> Defects:
+    kind, action, points = (section.find(each) for each in ("type", "action_type", "points"))
+    if kind is not None and kind.text not in types and kind.text and "$" not in kind.text:
+        hint = suggestion(nearest(kind.text, types)) or f"; write one of {', '.join(types)}"
+        yield kind, f"unknown type `{kind.text}` of `{name}`{hint}"
+    if not is_polygon:
+        return
+    if action is not None and action.text not in _ACTIONS and "$" not in action.text:
+        hint = suggestion(nearest(action.text, _ACTIONS)) or f"; write one of {', '.join(_ACTIONS)}"
+        yield action, f"unknown `action_type` `{action.text}` of `{name}`{hint}"
+    if points is not None and points.kind == "text" and points.text and "$" not in points.text:
+        pairs = re.findall(_PAIR, points.text)
+        if not re.fullmatch(rf"\[\s*{_PAIR}(?:\s*,\s*{_PAIR})*\s*\]", points.text.strip()):
+            yield points, f"`points` of `{name}` is not a list of points; write [[x1, y1], [x2, y2], …]"
+        elif len(pairs) < 3:
+            yield points, f"`points` of `{name}` has {len(pairs)} points; a polygon needs at least 3"
+    elif points is not None and points.kind == "list":
+        count = len(points.items) if all(item.kind == "text" for item in points.items) else 6
+        if count % 2 or count < 6:
+            yield points, f"`points` of `{name}` has {count} values; write x and y of at least 3 points"
+    radius = section.find("radius")
+    if kind is not None and kind.text == "circle" and radius is None:
+        yield kind, f"circle `{name}` has no `radius`"
+
+
+def mux_defects(source: Source) -> Defects:
+    """Yield inputs of twist_mux with one priority, missing parameters, and stops that do not stop every input."""
+    for root in documents(source)[0] if "priority" in source.text else ():
+        groups = [group for _, group in sections(source)] if PARAMETERS in source.text else [root]
+        groups += [value for _, value in root.entries] if PARAMETERS not in source.text else []
+        for group in groups:
+            inputs = _inputs(group.find("topics"))
+            known: dict[float, str] = {}
+            for name, entry in inputs:
+                value = entry.find("priority")
+                number = number_of(value)
+                if value is None or number is None:
+                    continue
+                if number in known:
+                    message = f"inputs `{known[number]}` and `{name}` of twist_mux have the same priority, {number:g}"
+                    yield value, f"{message}; only one of them passes"
+                known.setdefault(number, name)
+            for name, entry in _inputs(group.find("locks")):
+                value = entry.find("priority")
+                number = number_of(value)
+                if value is None or number is None or not known or not re.search(r"stop|emergency", name, re.I):
+                    continue
+                above = [each for priority, each in known.items() if priority > number]
+                if above and number > 0:
+                    yield value, f"lock `{name}` has the priority {number:g} and does not stop input `{above[-1]}`"
+
+
+def _inputs(node: Node | None) -> list[tuple[str, Node]]:
+    """Return the inputs of twist_mux: groups in ROS 2, a list of groups in ROS 1."""
+    if node is None:
+        return []
+    named = [(key.text, value) for key, value in node.entries if value.kind == "group"]
+    items = [(name.text if (name := item.find("name")) is not None else "", item) for item in node.items]
+    return named + [(name, item) for name, item in items if item.kind == "group"]

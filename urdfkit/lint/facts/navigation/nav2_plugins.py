@@ -1,0 +1,148 @@
+"""Plugins of Nav2: unlisted sections, plugins of Galactic, wrong keys, and parameters that contradict each other.
+
+Sources: ros-navigation/navigation2 (nav2_bringup/params/nav2_params.yaml, nav2_behaviors/plugins.xml,
+nav2_behavior_server: behavior_server.cpp, nav2_dwb_controller: kinematic_parameters.cpp, xy_theta_iterator.hpp,
+nav2_costmap_2d: costmap_2d_ros.cpp), Galactic to Rolling.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+
+from urdfkit.description.xml.source import Source
+from urdfkit.lint.facts.control.ros2_controllers import PARAMETERS
+from urdfkit.lint.facts.control.yaml_tree import Node, number_of, walk
+from urdfkit.lint.facts.navigation.sections import sections
+from urdfkit.lint.facts.navigation.tables import NODES
+
+Defects = Iterator[tuple[Node, str]]
+
+_RECOVERIES = {"Spin": "Spin", "BackUp": "BackUp", "Wait": "Wait"}
+_SINCE_HUMBLE = r"nav2_behaviors|velocity_smoother|smoother_server|nav2_amcl::|general_goal_checker|behavior_plugins"
+"""Matches parameter files of Humble and later."""
+
+_ALTERNATIVES = ("ObstacleLayer", "VoxelLayer", "SpatioTemporalVoxelLayer", "NonPersistentVoxelLayer")
+"""Layers of which files often contain one that is not used."""
+
+_FRAMES = {"odom": ("odom_frame", "odom_frame_id"), "map": ("map_frame", "global_frame_id")}
+_SLOWING = ("decel_lim_x", "decel_lim_y", "decel_lim_theta")
+
+
+def nav2_defects(source: Source) -> Defects:
+    """Yield the defects of the plugins and frames of Nav2 in a parameter file of ROS 2."""
+    if PARAMETERS not in source.text:
+        return
+    groups = {key.text.strip("/").rpartition("/")[2]: (key, group) for key, group in sections(source)}
+    for name, (key, group) in groups.items():
+        if name in ("recoveries_server", *NODES):
+            yield from _of_galactic(source, key, name, group, "behavior_server" in groups)
+        if name in NODES:
+            yield from _wrong_key(group)
+            yield from _unlisted(name, group)
+            yield from _driving(group)
+        yield from _swapped_frames(group)
+    yield from _between_nodes({name: group for name, (_, group) in groups.items()})
+
+
+def _of_galactic(source: Source, key: Node, name: str, group: Node, has_behaviors: bool) -> Defects:
+    """Yield the plugins and the node of Galactic in a file of Humble or later."""
+    if name == "recoveries_server":
+        if "nav2_behaviors" in source.text and not has_behaviors:
+            yield key, "node `recoveries_server` is of Galactic and before; its name since Humble is `behavior_server`"
+        return
+    for plugin in (value for node in walk(group) if (value := node.find("plugin")) is not None):
+        package, _, kind = plugin.text.replace("::", "/").partition("/")
+        if package == "nav2_recoveries" and kind in _RECOVERIES and re.search(_SINCE_HUMBLE, source.text):
+            yield plugin, f"plugin `{plugin.text}` is of Galactic and before; write `nav2_behaviors::{kind}`"
+
+
+def _wrong_key(group: Node) -> Defects:
+    """Yield ``type`` in the section of a plugin, which is ``plugin`` in Nav2."""
+    for node in walk(group):
+        for key, value in node.entries:
+            is_class = value.kind == "text" and re.fullmatch(r"(?:nav2_\w+|dwb_\w+)(?:::|/)\w+", value.text)
+            if key.text in ("type", "plugin_type", "class", "plugin_name") and is_class and node.find("plugin") is None:
+                yield key, f"unknown key `{key.text}` of a plugin; did you mean `plugin`?"
+
+
+def _unlisted(name: str, group: Node) -> Defects:
+    """Yield the sections of behaviors and of layers that the list of their node does not name."""
+    lists = {
+        key.text: {item.text for item in value.items}
+        for key, value in group.entries
+        if key.text in ("plugins", "filters", "behavior_plugins") and value.kind == "list"
+    }
+    wanted = "behavior_plugins" if name == "behavior_server" else "plugins"
+    if wanted not in lists or (name != "behavior_server" and not name.endswith("_costmap")):
+        return
+    named = set().union(*lists.values())
+    sections_of = [(key, value, _class(value)) for key, value in group.entries if value.find("plugin") is not None]
+    if not named <= {key.text for key, _, _ in sections_of}:
+        return  # the list and the sections have other names
+    used = {kind for key, _, kind in sections_of if key.text in named}
+    for key, _, kind in sections_of:
+        is_spare = kind in _ALTERNATIVES and not used.isdisjoint(_ALTERNATIVES)
+        is_spare = is_spare or kind.endswith("Filter") or (name == "local_costmap" and kind == "StaticLayer")
+        if key.text not in named and kind not in used and not is_spare:
+            place = next(each for each, _ in group.entries if each.text == wanted)
+            yield place, f"`{wanted}` does not list `{key.text}`, so its section has no effect"
+
+
+def _class(value: Node) -> str:
+    plugin = value.find("plugin")
+    return plugin.text.replace("/", "::").rpartition("::")[2] if plugin is not None else ""
+
+
+def _driving(group: Node) -> Defects:
+    """Yield decelerations with the sign of accelerations, and scales of unlisted critics of DWB."""
+    from urdfkit.lint.facts.ros_packages import is_slip
+
+    for node in (each for each in walk(group) if _class(each) == "DWBLocalPlanner"):
+        for name in _SLOWING:
+            value = node.find(name)
+            number = number_of(value)
+            if value is not None and number is not None and number > 0.0:
+                yield value, f"`{name}` is {number:g}; DWB requires zero or negative values"
+        critics = node.find("critics")
+        names = {item.text for item in critics.items} if critics is not None else set()
+        for key, _ in node.entries:
+            first, dot, _ = key.text.partition(".")
+            near = next((each for each in sorted(names) if is_slip(first, each)), None)
+            if dot and first not in names and near is not None:
+                yield key, f"`critics` does not list `{first}`; did you mean `{near}`?"
+
+
+def _swapped_frames(group: Node) -> Defects:
+    """Yield the frame of the odometry that is called ``map`` while that of the map is called ``odom``."""
+    odom, world = ([value for key, value in group.entries if key.text in _FRAMES[name]] for name in ("odom", "map"))
+    if odom and world and odom[0].text == "map" and world[0].text == "odom":
+        yield odom[0], "the frame of the odometry is `map` and that of the map is `odom`; exchange them"
+
+
+def _between_nodes(groups: dict[str, Node]) -> Defects:
+    """Yield a local costmap in another frame than the behaviors, and a motion model that contradicts the controller."""
+    local, behaviors = groups.get("local_costmap"), groups.get("behavior_server")
+    frame = local.find("global_frame") if local is not None else None
+    expected = behaviors.find("local_frame") if behaviors is not None else None
+    if frame is not None and expected is not None and {frame.text, expected.text} == {"map", "odom"}:
+        message = f"`global_frame` of the local costmap is `{frame.text}`, but `local_frame` of behavior_server is"
+        yield frame, f"{message} `{expected.text}`"
+    amcl = groups.get("amcl")
+    model = amcl.find("robot_model_type") if amcl is not None else None
+    controllers = groups.get("controller_server")
+    sideways = [
+        number_of(value)
+        for node in (walk(controllers) if controllers is not None else ())
+        for key, value in node.entries
+        if key.text in ("max_vel_y", "vy_max")
+    ]
+    if model is not None and sideways and None not in sideways:
+        moves = any(each for each in sideways)
+        if "Omni" in model.text and not moves:
+            yield model, f"`robot_model_type` is `{model.text}`, but no controller drives sideways: `max_vel_y` is 0"
+        elif "Differential" in model.text and moves and all(sideways):
+            yield (
+                model,
+                f"`robot_model_type` is `{model.text}`, but the controller drives sideways: `max_vel_y` is not 0",
+            )

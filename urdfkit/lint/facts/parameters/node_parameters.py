@@ -1,0 +1,174 @@
+"""Parameters of well-known nodes of ROS 2 in YAML: values of the wrong type, names of other nodes, nested lists."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from fnmatch import fnmatchcase
+
+from urdfkit.description.xml.source import Source
+from urdfkit.lint.facts.control.ros2_controllers import PARAMETERS
+from urdfkit.lint.facts.control.yaml_tree import Node, documents, walk
+from urdfkit.lint.facts.navigation.sections import sections
+from urdfkit.lint.facts.parameters.schemas import OF_GROUPS, renamed, schemas
+
+Defects = Iterator[tuple[Node, str]]
+
+_INTEGER = r"[-+]?\d+"
+_DOUBLE = r"[-+]?(?:\d+\.\d*|\.\d+|\d+(?=[eE]))(?:[eE][-+]?\d+)?"
+_TRUTH = r"(?i:true|false|yes|no|on|off|y|n)"
+_FREE = {"text": 0, "bool": 1, "int": 2, "double": 3}
+
+
+def node_defects(source: Source) -> Defects:
+    """Yield values of the wrong type, renamed parameters and nested lists in a YAML file of ROS 2."""
+    for key, group in sections(source) if PARAMETERS in source.text else ():
+        kind = kind_of(key, group)
+        others, written = renamed().get(kind, {}), {name for name, _, _ in parameters(group)}
+        for name, parameter, value in parameters(group):
+            right = others.get(name)
+            if right is not None and right not in written and not _is_named_by(group, name):
+                yield parameter, f"`{key.text}` has no parameter `{name}`; did you mean `{right}`?"
+            for pattern, type in schemas().get(kind, ()):
+                if fnmatchcase(name, pattern) and (problem := _problem(name, value, type)):
+                    yield (parameter if value.kind == "group" else value), problem
+        if kind.startswith("teleop"):
+            yield from _shared_axes(group)
+        for node in walk(group):
+            yield from _renamed_in_groups(node)
+    yield from _nested_lists(source)
+
+
+def wrong_numbers_of_nodes(source: Source) -> Iterator[tuple[Node, str, str]]:
+    """Yield integers in parameters of the type double, and the reverse: value, parameter, the right text."""
+    for key, group in sections(source) if PARAMETERS in source.text else ():
+        kind = kind_of(key, group)
+        for name, _, value in parameters(group):
+            if value.kind != "text" or not value.is_plain:
+                continue
+            for pattern, type in schemas().get(kind, ()) if re.fullmatch(r"[-+.\d]+", value.text) else ():
+                if type == "double" and re.fullmatch(_INTEGER, value.text) and fnmatchcase(name, pattern):
+                    yield value, name, f"{value.text}.0"
+                elif type.split()[0] == "int" and re.fullmatch(_DOUBLE, value.text) and fnmatchcase(name, pattern):
+                    yield value, name, f"{float(value.text):.0f}"
+
+
+def kind_of(key: Node, group: Node) -> str:
+    """Return the node of the schemas to which a section belongs."""
+    name = key.text.strip("/").rpartition("/")[2]
+    if group.find("world_frame") is not None or re.fullmatch(r"[eu]kf_(?:filter|localization|se)?_?node\w*", name):
+        return "ekf"
+    return name
+
+
+def parameters(group: Node, prefix: str = "", depth: int = 0) -> Iterator[tuple[str, Node, Node]]:
+    """Yield the parameters of a node: full name, key and value; groups too."""
+    for key, value in group.entries:
+        yield f"{prefix}{key.text}", key, value
+        if value.kind == "group" and depth < 4:
+            yield from parameters(value, f"{prefix}{key.text}.", depth + 1)
+
+
+def _is_named_by(group: Node, name: str) -> bool:
+    """Return whether a list of the node names a group, such as a plugin ``topic``."""
+    return any(item.text == name for _, value in group.entries for item in value.items)
+
+
+def _problem(name: str, value: Node, type: str) -> str:
+    """Return why a value has not the type of its parameter; empty if it has, or if it is computed."""
+    kind, *rest = type.split()
+    if kind == "keys":
+        if value.kind == "group":
+            wrong = next((key.text for key, _ in value.entries if key.text not in rest), None)
+            return f"`{name}` has no `{wrong}`; write {_listed(rest)}" if wrong is not None else ""
+        is_empty = value.kind == "text" and not value.text
+        return "" if is_empty or "$" in value.text else f"`{name}` is a group; write `{rest[0]}` below it"
+    if value.kind == "group":
+        return f"`{name}` is a group of parameters, but {_KINDS[kind]} is needed" if value.entries else ""
+    if kind == "list":
+        if value.kind != "list":
+            needs_list = value.text and "$" not in value.text
+            return f"`{name}` is not a list; write it in brackets" if needs_list else ""
+        lengths = [int(each) for each in rest[1:]]
+        if lengths and len(value.items) not in lengths:
+            return f"`{name}` has {len(value.items)} values; {' or '.join(rest[1:])} are needed"
+        if rest[0] == "bool" and any(re.fullmatch(_INTEGER, each.text) for each in value.items if each.is_plain):
+            return f"`{name}` has numbers; write true and false"
+        return ""
+    if value.kind == "list":
+        return f"`{name}` is a list, but {_KINDS[kind]} is needed"
+    if rest and re.fullmatch(_INTEGER, value.text) and not int(rest[0]) <= int(value.text) <= int(rest[1]):
+        return f"`{name}` is {value.text}; {rest[0]} to {rest[1]} is needed"
+    return _scalar(name, value, kind) if value.text and "$" not in value.text else ""
+
+
+_KINDS = {
+    "bool": "true or false",
+    "double": "a number",
+    "int": "an integer",
+    "list": "a list",
+    "text": "a text",
+}
+
+
+def _scalar(name: str, value: Node, kind: str) -> str:
+    text, is_number = value.text, re.fullmatch(rf"{_INTEGER}|{_DOUBLE}|[-+]?\.(?i:inf|nan)", value.text) is not None
+    if kind == "text":
+        is_other = value.is_plain and (is_number or re.fullmatch(r"(?i:true|false)", text))
+        return f"`{name}` is {text}, which is no text" if is_other else ""
+    if kind == "bool":
+        is_truth = re.fullmatch(_TRUTH, text) is not None
+        if is_truth and value.is_plain:
+            return ""
+        return (
+            f'`{name}` is "{text}", a text; write {text.lower()}'
+            if is_truth
+            else f"`{name}` is `{text}`, which is neither true nor false"
+        )
+    if not is_number:
+        return f"`{name}` is `{text}`, which is not a number"
+    return "" if value.is_plain else f'`{name}` is "{text}", a text in quotes'
+
+
+def _listed(names: list[str]) -> str:
+    return ", ".join(f"`{name}`" for name in names[:-1]) + f" or `{names[-1]}`"
+
+
+def _renamed_in_groups(node: Node) -> Defects:
+    """Yield the parameters of ROS 1 in plugins and observation sources of Nav2."""
+    kinds = [value.text for key, value in node.entries if key.text in ("plugin", "data_type")]
+    names = {key.text for key, _ in node.entries}
+    for kind in kinds:
+        for key, _ in node.entries:
+            right = OF_GROUPS.get(kind, {}).get(key.text)
+            if right is not None and right not in names:
+                yield key, f"`{kind}` has no parameter `{key.text}`; did you mean `{right}`?"
+
+
+def _shared_axes(group: Node) -> Defects:
+    """Yield the axes of a joystick that move the robot in two directions."""
+    seen: dict[str, str] = {}
+    for name, _, value in parameters(group):
+        if re.match(r"axis_(?:linear|angular)\.", name) and re.fullmatch(r"\d+", value.text):
+            if value.text in seen:
+                yield value, f"`{seen[value.text]}` and `{name}` are both {value.text}"
+            seen.setdefault(value.text, name)
+
+
+def _nested_lists(source: Source) -> Defects:
+    """Yield lists and groups in lists below ``ros__parameters``, which rcl_yaml_param_parser refuses.
+
+    Sources: rcl_yaml_param_parser/src/parse.c; ros-navigation/navigation2, issues 1874 and 1976.
+    """
+    for root in documents(source)[0] if PARAMETERS in source.text else ():
+        for section in [inner for node in walk(root) if (inner := node.find(PARAMETERS)) is not None]:
+            for key, value in (entry for node in walk(section) for entry in node.entries):
+                lists = [item for item in value.items if item.kind == "list"]
+                # The parser accepts groups of lists by chance.
+                groups = [item for item in value.items if len(item.entries) > 1 and item.entries[0][1].kind == "text"]
+                if len(lists) > 1:
+                    message = f"`{key.text}` is a list of lists, which ROS 2 refuses; a node that reads points reads a"
+                    yield value, f'{message} text, "[[x, y], ...]"'
+                elif groups:
+                    message = f"`{key.text}` is a list of groups, which ROS 2 refuses; list names, and write"
+                    yield value, f"{message} a group for each name"
