@@ -80,22 +80,24 @@ def mux_defects(source: Source) -> Defects:
         groups += [value for _, value in root.entries] if PARAMETERS not in source.text else []
         for group in groups:
             inputs = _inputs(group.find("topics"))
-            known: dict[float, str] = {}
+            by_priority: dict[float, str] = {}
             for name, entry in inputs:
                 value = entry.find("priority")
                 number = number_of(value)
                 if value is None or number is None:
                     continue
-                if number in known:
-                    message = f"inputs `{known[number]}` and `{name}` of twist_mux have the same priority, {number:g}"
+                if number in by_priority:
+                    message = (
+                        f"inputs `{by_priority[number]}` and `{name}` of twist_mux have the same priority, {number:g}"
+                    )
                     yield value, f"{message}; only one of them passes"
-                known.setdefault(number, name)
+                by_priority.setdefault(number, name)
             for name, entry in _inputs(group.find("locks")):
                 value = entry.find("priority")
                 number = number_of(value)
-                if value is None or number is None or not known or not re.search(r"stop|emergency", name, re.I):
+                if value is None or number is None or not by_priority or not re.search(r"stop|emergency", name, re.I):
                     continue
-                above = [each for priority, each in known.items() if priority > number]
+                above = [each for priority, each in by_priority.items() if priority > number]
                 if above and number > 0:
                     yield value, f"lock `{name}` has the priority {number:g} and does not stop input `{above[-1]}`"
 

@@ -23,7 +23,7 @@ _SINCE_HUMBLE = r"nav2_behaviors|velocity_smoother|smoother_server|nav2_amcl::|g
 """Matches parameter files of Humble and later."""
 
 _ALTERNATIVES = ("ObstacleLayer", "VoxelLayer", "SpatioTemporalVoxelLayer", "NonPersistentVoxelLayer")
-"""Layers of which files often contain one that is not used."""
+"""Layers of which a file often has several, and uses one."""
 
 _FRAMES = {"odom": ("odom_frame", "odom_frame_id"), "map": ("map_frame", "global_frame_id")}
 _SLOWING = ("decel_lim_x", "decel_lim_y", "decel_lim_theta")
