@@ -19,6 +19,16 @@ RUN_TIME = (
     "launch files need `titan_control` at run time, but <build_depend> does not install it "
     "write <exec_depend>, or <depend> if the build needs the package too"
 )
+SRDF = "gofer_moveit_config/config/gofer.srdf"
+OUTSIDE = (
+    "parent frame `tcp` of virtual joint `odom_joint` is a link of the robot "
+    "write a frame outside of the robot, such as `world`"
+)
+CARRIES = (
+    "parent link `boom` of end effector `jaw_ee` does not carry group `jaw` write `hand`, or a link that is fixed to it"
+)
+FIXED = "virtual joint `odom_joint` is fixed to `odom`, but the robot drives write `planar`"
+NEVER = "the reason is `Never`, but a joint connects links `turret` and `boom` write `Adjacent`"
 MISTAKES = [
     (ROVER, "gofer_description/CMakeLists.txt", "NAME}\n", "NAME}/x\n", 8, "K973", "`share/gofer_description/x/"),
     (ROVER, "gofer_description/CMakeLists.txt", "launch meshes", "launch/ meshes", 8, "K973", "as `share/gofer_descri"),
@@ -70,6 +80,18 @@ MISTAKES = [
         "the robot loads",
     ),
     (ARM, "titan_gazebo/package.xml", OWN, BUILD, 15, "K956", RUN_TIME),
+    (
+        ROVER,
+        SRDF,
+        'type="planar"',
+        'type="fixed"',
+        32,
+        "M105",
+        FIXED,
+    ),
+    (ROVER, SRDF, 'parent_frame="odom"', 'parent_frame="tcp"', 32, "M105", OUTSIDE),
+    (ROVER, SRDF, 'parent_link="tcp"', 'parent_link="boom"', 31, "M105", CARRIES),
+    (ROVER, SRDF, '"boom" reason="Adjacent"', '"boom" reason="Never"', 41, "M102", NEVER),
 ]
 """Workspace, file, text, its replacement, line of the finding in that file or 0 for another file, code, and words."""
 

@@ -24,6 +24,16 @@ ORDERED = (("min_depth", "max_depth"), ("min_range", "max_range"))
 NOISES = ("none", "gaussian", "gaussian_quantized")
 """Types of noise (sdformat, noise.sdf)."""
 
+PIXEL_FORMATS = frozenset(
+    (
+        *("L8", "L16", "R8G8B8", "R8G8B8A8", "B8G8R8", "B8G8R8A8", "R16G16B16", "R32G32B32", "B16G16R16", "B32G32R32"),
+        *("L_INT8", "L_INT16", "RGB_INT8", "RGBA_INT8", "BGRA_INT8", "RGB_INT16", "RGB_INT32", "BGR_INT8", "BGR_INT16"),
+        *("BGR_INT32", "R_FLOAT16", "RGB_FLOAT16", "R_FLOAT32", "RGB_FLOAT32", "UNKNOWN_PIXEL_FORMAT", "UNKNOWN"),
+        *("BAYER_RGGB8", "BAYER_BGGR8", "BAYER_GBRG8", "BAYER_GRBG8", "BAYER_RGGR8", "R16", "R32"),
+    )
+)
+"""Pixel formats of a camera (sdformat, camera.sdf and Camera.cc; Gazebo Classic, rendering/Conversions and Image)."""
+
 NUMBERS = frozenset(
     (
         *("update_rate", "samples", "resolution", "min_angle", "max_angle"),
@@ -117,6 +127,10 @@ def senseless_camera(camera: Element, *, is_wide: bool = False) -> Senseless:
         pixels = _number(image, tag, 1.0)
         if isfinite(pixels) and (pixels < 1 or pixels != int(pixels)) and image is not None:
             yield image.find(tag) or image, f"<{tag}> is {pixels:g}; it must be a whole number, one or greater"
+    written = image.find("format") if image is not None else None
+    if written is not None and written.text and written.text.strip().upper() not in PIXEL_FORMATS:
+        hint = did_you_mean(written.text, sorted(PIXEL_FORMATS)) or "; use `R8G8B8` for colours or `L8` for grey"
+        yield written, f"unknown pixel format `{written.text}`{hint}"
     near, far = _number(clip, "near", 0.1), _number(clip, "far", 100.0)
     if not isnan(near + far) and not near < far:
         yield clip or camera, f"the range of the camera, {near:g} m to {far:g} m, is empty"

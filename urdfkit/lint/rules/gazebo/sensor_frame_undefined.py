@@ -79,6 +79,10 @@ class SensorFrameUndefined(RobotRule):
                 yield text, element, parameter.tag
         for block in model.robot.gazebo:
             for sensor in block.sensors:
-                for child in sensor.element.children:
-                    if child.tag in ("gz_frame_id", "ignition_frame_id") and child.text and "$" not in child.text:
+                for child in sensor.element.walk():
+                    if (
+                        child.tag in ("gz_frame_id", "ignition_frame_id", "optical_frame_id")
+                        and child.text
+                        and "$" not in child.text
+                    ):
                         yield child.text, child, child.tag

@@ -99,6 +99,12 @@ class SrdfElementUnknown(RobotRule):
         if near is not None and near.lower() != reason.lower():
             message = f"unknown reason `{reason}`; did you mean `{near}`?"
             yield self.at(model, pair, message, attribute="reason", severity="note")
+        elif reason == "Never" and any(
+            {joint.parent, joint.child} == {one, other} and joint.type != "fixed" for joint in model.robot.joints
+        ):
+            message = f"the reason is `Never`, but a joint connects links `{one}` and `{other}`"
+            help = "write `Adjacent`"
+            yield self.at(model, pair, message, attribute="reason", help=help, severity="note", kind="reason")
         elif reason != "Adjacent" or one not in links or other not in links or model.is_incomplete:
             return
         elif other not in _adjacent(one, model):

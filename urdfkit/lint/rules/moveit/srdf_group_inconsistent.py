@@ -15,8 +15,9 @@ class SrdfGroupInconsistent(RobotRule):
 
     ## What it does
     Checks that the tip of a chain is below its base, that groups do not contain themselves, that parent link and parent
-    group of an end effector are not its own group, that the parent link is in the parent group, that no other joint
-    follows a passive joint and no controller moves it, and that a virtual joint ends at the root link.
+    group of an end effector are not its own group, that the parent link is in the parent group and carries the end
+    effector, that no other joint follows a passive joint and no controller moves it, and that a virtual joint ends at
+    the root link, begins outside of the robot, and is not fixed to ``odom`` or ``map`` if the robot drives.
 
     ## Why is this bad?
     The group lacks its joints, and planning fails; MoveIt skips a virtual joint whose child is not the root link.
@@ -69,6 +70,7 @@ class SrdfGroupInconsistent(RobotRule):
                     )
                     help = f"write `{root_link}`"
                     yield self.at(model, joint, message, attribute="child_link", help=help, severity=severity)
+                yield from self._frame(joint, model, severity)
             for effector in root.find_all("end_effector"):
                 name, parent = effector.get("group") or "", effector.get("parent_link") or ""
                 links = [link.get("name") for link in by_name[name].find_all("link")] if name in by_name else []
@@ -96,7 +98,38 @@ class SrdfGroupInconsistent(RobotRule):
                     )
                     help = f"write a link of `{carrier}`"
                     yield self.at(model, effector, message, attribute="parent_link", help=help, severity=severity)
+                elif not is_own and parent in model.robot.link_by_name and name != effector.get("parent_group"):
+                    yield from self._carried(effector, root, model, severity)
             yield from self._passive(root, model, severity)
+
+    def _frame(self, joint: Element, model: Model, severity: Severity | None) -> Findings:
+        """Yield a finding for a virtual joint that begins in the robot, or that is fixed although the robot drives."""
+        from urdfkit.lint.facts.gazebo.rolling_wheels import pairs_of_wheels
+
+        name, frame = joint.get("name"), joint.get("parent_frame") or ""
+        if frame in model.robot.link_by_name:
+            message = f"parent frame `{frame}` of virtual joint `{name}` is a link of the robot"
+            help = "write a frame outside of the robot, such as `world`"
+            yield self.at(model, joint, message, attribute="parent_frame", help=help, severity=severity)
+        elif joint.get("type") == "fixed" and frame in ("odom", "map") and pairs_of_wheels(model):
+            message = f"virtual joint `{name}` is fixed to `{frame}`, but the robot drives"
+            yield self.at(model, joint, message, attribute="type", help="write `planar`", severity=severity)
+
+    def _carried(self, effector: Element, root: Element, model: Model, severity: Severity | None) -> Findings:
+        """Yield a finding for a parent link that moving joints separate from the group of an end effector."""
+        from urdfkit.lint.facts.moveit.srdf import joints_of, rigid_links
+
+        robot, group, parent = model.robot, effector.get("group") or "", effector.get("parent_link") or ""
+        members = [
+            robot.joint_by_name[name] for name in joints_of(group, root, robot) or () if name in robot.joint_by_name
+        ]
+        inside = {joint.child for joint in members if joint.child}
+        carriers = sorted({joint.parent for joint in members if joint.parent and joint.parent not in inside})
+        near = {link for each in (*carriers, *inside) for link in rigid_links(each, robot)}
+        if carriers and parent not in near:  # Pinocchio's SRDF names the tip of the group.
+            message = f"parent link `{parent}` of end effector `{effector.get('name')}` does not carry group `{group}`"
+            help = f"write `{carriers[0]}`, or a link that is fixed to it"
+            yield self.at(model, effector, message, attribute="parent_link", help=help, severity=severity)
 
     def _passive(self, root: Element, model: Model, severity: Severity | None) -> Findings:
         """Yield a finding for each passive joint that a mimic joint follows, or that a controller of MoveIt moves."""
