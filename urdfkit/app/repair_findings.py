@@ -5,14 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable, Collection, Iterable
 from functools import cache
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from urdfkit.app.page import note
-from urdfkit.description.urdf.repair_record import grouped
+from urdfkit.description.urdf.repair_record import Repair, grouped
 from urdfkit.description.xml.source import Source
-
-if TYPE_CHECKING:
-    from urdfkit.description.urdf.repair_record import Repair
 
 Row = dict[str, Any]
 

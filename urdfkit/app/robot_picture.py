@@ -2,15 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from math import cos, radians, sin, tan
 
+from urdfkit.description.urdf.robot import Robot
 from urdfkit.errors import ModelError, UsageError
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Mapping
-
-    from urdfkit.description.urdf.robot import Robot
 
 MAX_PIXELS = 2_000_000
 """Maximum number of pixels of a picture."""

@@ -8,14 +8,11 @@ from pathlib import Path
 
 from urdfkit.cli.parser import add_model, add_time_limit
 from urdfkit.cli.robot_arguments.macro_option import add_macro, with_macro
+from urdfkit.description.packages.resolver import Packages
 from urdfkit.description.xacro.declared_arguments import unused_arguments
+from urdfkit.description.xacro.expanded import Expanded
 from urdfkit.errors import ModelError, ResourceError, UrdfkitError, UsageError, XacroError
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from urdfkit.description.packages.resolver import Packages
-    from urdfkit.description.xacro.expanded import Expanded
-    from urdfkit.resources import ModelArgument
+from urdfkit.resources import ModelArgument
 
 
 def configure(parser: argparse.ArgumentParser) -> None:

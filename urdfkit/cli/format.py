@@ -2,17 +2,13 @@
 
 from __future__ import annotations
 
+import argparse
 import sys
+from collections.abc import Iterator
 from pathlib import Path
 
 from urdfkit.errors import ResourceError, UrdfkitError, UsageError
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    import argparse
-    from collections.abc import Iterator
-
-    from urdfkit.lint.fixes.file_changes import FileChange
+from urdfkit.lint.fixes.file_changes import FileChange
 
 _EPILOG = """examples:
   urdfkit format urdf/robot.urdf.xacro

@@ -6,17 +6,15 @@ import argparse
 import json
 import sys
 from collections import Counter
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from urdfkit.cli.parser import add_model
 from urdfkit.cli.robot_arguments.macro_option import add_macro, with_macro
 from urdfkit.cli.robot_arguments.robot_loading import add_strict, load_robot, print_repairs, repairs_as_json
 from urdfkit.cli.robot_arguments.unused_arguments import note_unused
+from urdfkit.description.urdf.robot import Robot
 from urdfkit.description.urdf.version import RATES
 from urdfkit.errors import MissingDependencyError, UrdfkitError, shortened
-
-if TYPE_CHECKING:
-    from urdfkit.description.urdf.robot import Robot
 
 _SHOWN = 3
 """Largest number of links in a line."""

@@ -2,13 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+
 from urdfkit.description.urdf.repair_record import Repair
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Iterable
-
-    from urdfkit.description.xml.source import Source
+from urdfkit.description.xml.source import Source
 
 
 def encoding_repairs(sources: Iterable[Source]) -> tuple[Repair, ...]:

@@ -3,16 +3,13 @@
 from __future__ import annotations
 
 import re
-from typing import TYPE_CHECKING
 
 from urdfkit.description.plugins import match
 from urdfkit.description.plugins.drives.table import DRIVES
+from urdfkit.description.urdf.robot import Robot, Ros2Control
 from urdfkit.description.xacro.declared_arguments import declared_arguments
+from urdfkit.description.xml.element import Element
 from urdfkit.description.xml.reader import read_source
-
-if TYPE_CHECKING:
-    from urdfkit.description.urdf.robot import Robot, Ros2Control
-    from urdfkit.description.xml.element import Element
 
 _FALSE = ("false", "False", "0")
 _SIMULATION = re.compile(r"(^|_)(sim|simulation|gazebo|gz|ignition|ign|mock|fake)(_|$)")

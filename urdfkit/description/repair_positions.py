@@ -2,15 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import replace
 
+from urdfkit.description.urdf.repair_record import Repair
 from urdfkit.description.xml.written_attributes import WrittenAttributes
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Iterable
-
-    from urdfkit.description.urdf.repair_record import Repair
 
 _ATTRIBUTES = {
     **dict.fromkeys(("C701", "C703", "I511", "T203", "T204", "T206", "T207"), "name"),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import replace
 
 from urdfkit.description.unusable_values import LEFT_OUT, Defect, unusable_values
@@ -10,10 +11,6 @@ from urdfkit.description.urdf.queries import cycles, is_loop, repeated
 from urdfkit.description.urdf.robot import Joint, Link, Pose, Robot
 from urdfkit.description.xml.element import Element
 from urdfkit.errors import did_you_mean
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Iterable
 
 _HINTS = 20
 """Number of defects whose messages suggest a similar name."""

@@ -2,20 +2,16 @@
 
 from __future__ import annotations
 
-from urdfkit.description.urdf.queries import owners
+from collections.abc import Mapping
+
+from urdfkit.description.urdf.queries import Owner, owners
 from urdfkit.description.urdf.repair_record import Repair
 from urdfkit.description.urdf.robot import Problem, Robot
 from urdfkit.description.xacro.evaluation.failures import chain_words
 from urdfkit.description.xml.element import Element
 from urdfkit.errors import ModelError, with_effect
+from urdfkit.position import Position
 from urdfkit.record import field, record
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Mapping
-
-    from urdfkit.description.urdf.queries import Owner
-    from urdfkit.position import Position
 
 LEFT_OUT = "the joint is left out"
 """Effect of the repair of a joint without a parent or a child."""

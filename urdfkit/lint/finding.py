@@ -13,6 +13,8 @@ if TYPE_CHECKING:
 
     Severity = Literal["error", "warning", "note"]
     Safety = Literal["safe", "unsafe"]
+else:
+    Severity = Safety = str
 
 SEVERITIES = ("error", "warning", "note")
 """From most to least severe. A `note` does not make ``urdfkit lint`` exit with status 1."""

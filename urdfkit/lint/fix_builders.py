@@ -7,19 +7,13 @@ its value.
 from __future__ import annotations
 
 import re
+from collections.abc import Iterable
 
+from urdfkit.description.xml.element import Element
 from urdfkit.errors import nearest as nearest
-from urdfkit.lint.finding import Edit, Fix
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Iterable
-
-    from urdfkit.description.xml.element import Element
-    from urdfkit.lint.finding import Finding, Safety
-    from urdfkit.lint.model.model import Model
-    from urdfkit.lint.model.tags import Document, Tag
-
+from urdfkit.lint.finding import Edit, Finding, Fix, Safety
+from urdfkit.lint.model.model import Model
+from urdfkit.lint.model.tags import Document, Tag
 
 _WORD = r"\d+|[A-Z]?[a-z]+|[A-Z]+(?![a-z])|[^\W\d_]"
 _SIMILAR_WORDS, _SIMILAR_NAMES = 0.6, 0.75

@@ -7,21 +7,15 @@ checks the expanded robot. All rules yield findings at a position in the source 
 from __future__ import annotations
 
 from collections.abc import Iterator
+from typing import Any, ClassVar, Literal
 
-from urdfkit.description.xml.source import Position
+from urdfkit.description.xacro.faults import Fault
+from urdfkit.description.xml.element import Element
+from urdfkit.description.xml.source import Origin, Position
 from urdfkit.errors import nearest, shortened
-from urdfkit.lint.finding import Finding
+from urdfkit.lint.finding import Finding, Fix, Severity
 from urdfkit.lint.model.model import Model as Model
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from typing import Any, ClassVar, Literal
-
-    from urdfkit.description.xacro.faults import Fault
-    from urdfkit.description.xml.element import Element
-    from urdfkit.description.xml.source import Origin
-    from urdfkit.lint.finding import Fix, Severity
-    from urdfkit.lint.model.tags import Document
+from urdfkit.lint.model.tags import Document
 
 Findings = Iterator[Finding]
 """What `Rule.check` returns."""

@@ -2,16 +2,14 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 
 from urdfkit.description.urdf.volume_moments import Moments
 from urdfkit.errors import MissingDependencyError
 from urdfkit.linear_algebra import matmul
 from urdfkit.meshes.triangle_mesh import TriMesh
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from typing import Any
 
 
 def moments(triangles: TriMesh, name: str) -> tuple[Moments, str]:

@@ -9,7 +9,6 @@ import tempfile
 from collections.abc import Iterator, Sequence
 from math import cos, isfinite, pi
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,10 +16,8 @@ from numpy.typing import NDArray
 from urdfkit.app.pictures.camera_placement import lens_of, placement
 from urdfkit.app.pictures.studio import Studio, camera_of
 from urdfkit.errors import MissingDependencyError, UsageError, did_you_mean
+from urdfkit.kinematics import Kinematics
 from urdfkit.linear_algebra import Array
-
-if TYPE_CHECKING:
-    from urdfkit.kinematics import Kinematics
 
 ANIMATED = (".gif", ".png", ".webp")
 """Animated pictures, which Pillow writes; ``.png`` is APNG."""

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from dataclasses import replace
 from math import pi, sqrt
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from urdfkit.app.pictures.camera_placement import lens_of, placement
 from urdfkit.description.sdf import Plane
@@ -20,9 +20,6 @@ from urdfkit.scene.ray_renderer import RayRenderer
 from urdfkit.scene.rays.ray_scene import RayTable
 from urdfkit.scene.rays.shading.direct_lighting import DIRECTIONAL, LIGHT
 from urdfkit.scene.rays.shading.surface_attributes import GLOSS
-
-if TYPE_CHECKING:
-    from numpy.typing import ArrayLike
 
 PICTURE, FILM = (100, 16), (30, 8)
 """Numbers of directions of the soft light and of the sun; each casts a shadow ray.

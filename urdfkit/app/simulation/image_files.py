@@ -5,14 +5,12 @@ from __future__ import annotations
 import io
 from collections.abc import Iterator, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from urdfkit.app.simulation import save_options
+from urdfkit.app.simulation.save_options import TopicFile
 from urdfkit.errors import MissingDependencyError, UsageError
-
-if TYPE_CHECKING:
-    from urdfkit.app.simulation.save_options import TopicFile
-    from urdfkit.sim.simulator import Simulator
+from urdfkit.sim.simulator import Simulator
 
 IMAGE = "sensor_msgs/msg/Image"
 

@@ -4,18 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from urdfkit.errors import SimulationError, UsageError
 from urdfkit.kinematics.retiming import JointPath, read_path
+from urdfkit.linear_algebra import Array
 from urdfkit.messages import TRAJECTORY, from_fields
 from urdfkit.sim import Simulator
-
-if TYPE_CHECKING:
-    from urdfkit.linear_algebra import Array
-    from urdfkit.sim.plugins.controllers.control_loop import ControllerStatus
+from urdfkit.sim.plugins.controllers.control_loop import ControllerStatus
 
 PERIOD = 0.01
 """Time between two commands [s]."""

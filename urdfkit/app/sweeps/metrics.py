@@ -6,13 +6,11 @@ import ast
 import math
 import re
 from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from urdfkit.app.simulation.runs.expression import NAMES, Expression, parsed, state_values
 from urdfkit.errors import UsageError
-
-if TYPE_CHECKING:
-    from urdfkit.sim.simulator import Simulator
+from urdfkit.sim.simulator import Simulator
 
 PERIOD = 0.01
 """Simulated time between two samples of `highest`, `lowest` and `mean` [s]."""

@@ -8,17 +8,15 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from urdfkit.app.simulation.runs.run_options import RunOptions
 from urdfkit.app.sweeps.variations import WORLD, XACRO, Value
+from urdfkit.description import Robot
 from urdfkit.description.urdf.robot import Dynamics, Joint, Limit
 from urdfkit.errors import UnknownNameError, UsageError, did_you_mean
 from urdfkit.sim.construction.start_pose import Spawn
-
-if TYPE_CHECKING:
-    from urdfkit.description import Robot
-    from urdfkit.sim.simulator import Simulator
+from urdfkit.sim.simulator import Simulator
 
 POSE = ("x", "y", "z", "roll", "pitch", "yaw")
 COMMAND = ("vx", "vy", "wz")

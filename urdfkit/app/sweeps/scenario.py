@@ -5,19 +5,16 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 from urdfkit.app.simulation.runs.expression import Expression, state_values
 from urdfkit.app.simulation.runs.run_options import RunOptions
 from urdfkit.app.sweeps.metrics import Measurement, commanded_path
 from urdfkit.app.sweeps.parameters import options_with, robot_with, tune
 from urdfkit.app.sweeps.variations import WORLD, XACRO, SweepRun
+from urdfkit.description import Robot
+from urdfkit.description.sdf import World
 from urdfkit.errors import SimulationError
-
-if TYPE_CHECKING:
-    from urdfkit.description import Robot
-    from urdfkit.description.sdf import World
-    from urdfkit.sim.simulator import Simulator
+from urdfkit.sim.simulator import Simulator
 
 Arguments = tuple[tuple[str, str], ...]
 """Names and values of xacro arguments."""

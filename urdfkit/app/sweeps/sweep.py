@@ -6,7 +6,7 @@ import hashlib
 import os
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from urdfkit import __version__
 from urdfkit.app.page import require_packages
@@ -19,11 +19,9 @@ from urdfkit.app.sweeps.plots import write_plots
 from urdfkit.app.sweeps.results import Sweep, tabulate
 from urdfkit.app.sweeps.scenario import Scenario, arguments_of
 from urdfkit.app.sweeps.variations import WORLD, Interval, Variation, combine, parse_variation, variation
+from urdfkit.description import Robot
+from urdfkit.description.sdf import World
 from urdfkit.errors import UsageError
-
-if TYPE_CHECKING:
-    from urdfkit.description import Robot
-    from urdfkit.description.sdf import World
 
 PACKAGES = {"distributed": "distributed", "pyarrow": "pyarrow", "matplotlib": "matplotlib", "numba": "numba"}
 """Module → package."""

@@ -6,18 +6,15 @@ import time
 from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING
 
+from urdfkit.description import Robot
+from urdfkit.description.packages.resolver import Packages
+from urdfkit.description.urdf.repair_record import Repair
 from urdfkit.description.urdf.robot import Collision, Mesh, Visual
 from urdfkit.errors import ResourceError
-
-if TYPE_CHECKING:
-    from urdfkit.description import Robot
-    from urdfkit.description.packages.resolver import Packages
-    from urdfkit.description.urdf.repair_record import Repair
-    from urdfkit.kinematics import Kinematics
-    from urdfkit.resources import ModelArgument
-    from urdfkit.scene import MeshLoader, Scene
+from urdfkit.kinematics import Kinematics
+from urdfkit.resources import ModelArgument
+from urdfkit.scene import MeshLoader, Scene
 
 SEARCH_PERIOD = 0.3
 """Seconds between two searches for missing mesh files."""

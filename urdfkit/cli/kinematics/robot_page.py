@@ -4,13 +4,11 @@ from __future__ import annotations
 
 import argparse
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from urdfkit.app.page import Page, note, until_interrupted
 from urdfkit.cli.page_options import announce, read_layout
-
-if TYPE_CHECKING:
-    from urdfkit.resources import ModelArgument
+from urdfkit.resources import ModelArgument
 
 
 def show_page(arguments: argparse.Namespace, model: ModelArgument, messages: Mapping[str, Mapping[str, Any]]) -> None:

@@ -5,13 +5,10 @@ from __future__ import annotations
 import os
 import sys
 import time
+from collections.abc import Callable, Iterable
 from pathlib import Path
 
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable
-
-    from urdfkit.lint.engine.run import Outcome
+from urdfkit.lint.engine.run import Outcome
 
 INTERVAL = 0.3
 """Seconds between two checks of the files."""

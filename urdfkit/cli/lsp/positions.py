@@ -3,16 +3,12 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING
 from urllib.parse import unquote, urlparse
 
 from lsprotocol import types
 
-from urdfkit.description.xml.source import absolute
-
-if TYPE_CHECKING:
-    from urdfkit.description.xml.source import Source, Span
-    from urdfkit.lint.finding import Finding
+from urdfkit.description.xml.source import Source, Span, absolute
+from urdfkit.lint.finding import Finding
 
 
 def path_of(uri: str) -> Path | None:

@@ -5,11 +5,8 @@ from __future__ import annotations
 import sys
 from collections.abc import Iterable, Mapping
 
+from urdfkit.description import Robot
 from urdfkit.errors import UsageError
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from urdfkit.description import Robot
 
 
 def joint_positions(words: Iterable[str], option: str) -> dict[str, float]:

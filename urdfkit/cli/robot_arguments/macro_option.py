@@ -5,9 +5,7 @@ from __future__ import annotations
 import argparse
 from dataclasses import replace
 
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from urdfkit.resources import ModelArgument
+from urdfkit.resources import ModelArgument
 
 
 def add_macro(parser: argparse.ArgumentParser) -> None:

@@ -8,10 +8,7 @@ from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 
 from urdfkit.errors import UrdfkitError, XacroError
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from urdfkit.resources import ModelArgument
+from urdfkit.resources import ModelArgument
 
 
 @contextmanager

@@ -8,12 +8,9 @@ import sys
 from urdfkit.cli.parser import add_package_path
 from urdfkit.cli.robot_arguments.macro_option import add_macro, with_macro
 from urdfkit.cli.robot_arguments.robot_loading import add_strict, load_robot, print_repairs
+from urdfkit.description import Robot
 from urdfkit.errors import UsageError
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from urdfkit.description import Robot
-    from urdfkit.resources import ModelArgument
+from urdfkit.resources import ModelArgument
 
 
 def add_tip(parser: argparse.ArgumentParser) -> None:

@@ -4,12 +4,10 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from math import hypot
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
+from urdfkit.sim.simulator import Simulator
 from urdfkit.sim.state.quaternion import to_rpy
-
-if TYPE_CHECKING:
-    from urdfkit.sim.simulator import Simulator
 
 MAX_JOINTS = 8
 """Number of joints in the summary."""

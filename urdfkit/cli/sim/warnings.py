@@ -3,15 +3,10 @@
 from __future__ import annotations
 
 import re
-from typing import TYPE_CHECKING
+from collections.abc import Iterable
 
 from urdfkit.cli.sim.repair_options import print_warning
-from urdfkit.description.urdf.repair_record import ALL_PLACES
-
-if TYPE_CHECKING:
-    from collections.abc import Iterable
-
-    from urdfkit.description.urdf.repair_record import Repair
+from urdfkit.description.urdf.repair_record import ALL_PLACES, Repair
 
 SMALLEST = 4
 """Number of alike warnings from which on they share a line; warnings about one missing package always do."""

@@ -2,14 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterator, Sequence
+
 from urdfkit.description.control.controller_types import TYPES
+from urdfkit.description.control.settings import Settings
 from urdfkit.errors import DescriptionError
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator, Sequence
-
-    from urdfkit.description.control.settings import Settings
 
 _NUMBERS = (
     *("state_publish_rate", "action_monitor_rate", "stop_trajectory_duration", "publish_rate", "cmd_vel_timeout"),

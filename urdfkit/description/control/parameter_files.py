@@ -6,13 +6,10 @@ import re
 from pathlib import Path
 
 from urdfkit.description.packages.existence import is_file
+from urdfkit.description.packages.resolver import Packages
 from urdfkit.description.packages.similar_names import near_path
 from urdfkit.errors import ResourceError
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from urdfkit.description.packages.resolver import Packages
-    from urdfkit.position import Position
+from urdfkit.position import Position
 
 _FIND = re.compile(r"\$\(\s*(?:find|find-pkg-share)\s+([^()\s]+)\s*\)")
 

@@ -8,11 +8,8 @@ from pathlib import Path
 from urdfkit.description.launch.launch_file import read_launch_file
 from urdfkit.description.launch.launch_scope import LaunchContents
 from urdfkit.description.packages.related_files import LAUNCH, around, package_of
+from urdfkit.description.packages.resolver import Packages
 from urdfkit.record import record
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from urdfkit.description.packages.resolver import Packages
 
 _SIMULATORS = frozenset(("gazebo_ros", "ros_gz_sim", "ros_ign_gazebo", "gazebo", "gz", "ign", "gzserver"))
 _JOINT_SLIDERS = frozenset(("joint_state_publisher_gui", "joint_state_publisher", "urdf_launch"))

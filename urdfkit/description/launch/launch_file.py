@@ -5,12 +5,9 @@ from __future__ import annotations
 from pathlib import Path
 
 from urdfkit.description.launch.launch_scope import LaunchContents, LaunchScope
+from urdfkit.description.packages.resolver import Packages
 from urdfkit.description.xml.reader import document_of, read_source, shown_path
 from urdfkit.errors import UrdfkitError
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from urdfkit.description.packages.resolver import Packages
 
 _MAX_BYTES = 100_000
 

@@ -8,12 +8,9 @@ from collections.abc import Callable, Mapping
 from pathlib import Path
 
 from urdfkit.description.packages.existence import is_file
+from urdfkit.description.packages.resolver import Packages
 from urdfkit.errors import ResourceError
 from urdfkit.record import field, record
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from urdfkit.description.packages.resolver import Packages
 
 UNKNOWN = "\0"
 """Character that stands for a computed part of a text."""

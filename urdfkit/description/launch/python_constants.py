@@ -2,13 +2,10 @@
 
 from __future__ import annotations
 
+import ast
 from functools import lru_cache
 
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    import ast
-
-    from urdfkit.description.xml.source import Source
+from urdfkit.description.xml.source import Source
 
 SHARE = frozenset(("get_package_share_directory", "get_package_share_path", "FindPackageShare"))
 """Functions and substitutions that return the share folder of a package."""

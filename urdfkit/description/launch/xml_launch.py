@@ -3,16 +3,12 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator
 
+from urdfkit.description.control.settings import Settings
 from urdfkit.description.launch.launch_scope import MAX_TEXT, UNKNOWN, LaunchScope, is_false, is_true
 from urdfkit.description.xml.element import Element
 from urdfkit.description.xml.source import Origin
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from urdfkit.description.control.settings import Settings
 
 _SUBSTITUTION = re.compile(r"\$\(\s*([\w-]+)([^$()]*)\)")
 _COMMAND = re.compile(r"\$\(\s*command\s+(?:'([^']*)'|\"([^\"]*)\"|([^'\"].*)\))", re.DOTALL)

@@ -12,10 +12,7 @@ from urdfkit.description.packages.related_files import CODE, around, state_of
 from urdfkit.description.packages.similar_names import near_package, near_path
 from urdfkit.description.xml.source import absolute
 from urdfkit.errors import ResourceError
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from urdfkit.position import Position
+from urdfkit.position import Position
 
 NOT_READ = "is not read, as --confined hides the environment"
 OUTSIDE = "outside of the package, its workspace and the package path"

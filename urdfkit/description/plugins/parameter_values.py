@@ -6,17 +6,13 @@ The simulator leaves out a plugin with another value, and the linter reports the
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator
 from math import isfinite
 
 from urdfkit.description.plugins.lookup import read_all, values
 from urdfkit.description.plugins.spec import Parameter, PluginSpec
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from urdfkit.description.urdf.robot import Plugin
-    from urdfkit.description.xml.element import Element
+from urdfkit.description.urdf.robot import Plugin
+from urdfkit.description.xml.element import Element
 
 TOPIC = re.compile(r"[A-Za-z0-9_./:~-]*")
 """Valid topic names. ROS allows fewer characters; gz sim makes topics of entity names with any of these."""

@@ -5,14 +5,12 @@ SI units throughout. Records compare by content, not by source position.
 
 from __future__ import annotations
 
+from typing import Any
+
 from urdfkit.description.urdf.robot import Box, Capsule, Cylinder, Mesh, Plugin, Pose, Sphere, Vector
 from urdfkit.description.xml.element import Element
 from urdfkit.description.xml.source import Position
 from urdfkit.record import field, record
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from typing import Any
 
 Rgba = tuple[float, float, float, float]
 

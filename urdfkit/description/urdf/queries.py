@@ -12,8 +12,9 @@ if TYPE_CHECKING:
     from typing import Literal, TypeVar
 
     Named = TypeVar("Named", Link, Joint)
-    Owner = tuple[str | None, str | None]
-    """Name of the link, or of the joint, that an element belongs to."""
+
+Owner = tuple[str | None, str | None]
+"""Name of the link, or of the joint, that an element belongs to."""
 
 UNDRIVEN = ("fixed", "floating", "planar")
 """Types of joints without exactly one degree of freedom: no transmission or interface can drive them."""

@@ -17,6 +17,8 @@ if TYPE_CHECKING:
         "xacro", "structure", "inertia", "mass", "shape", "mesh", "joint", "plugin", "hardware", "controller"
     ]
     Severity = Literal["warning", "note"]
+else:
+    RepairKind = Severity = str
 
 SMALLEST_GROUP = 10
 """Number of warnings of one kind from which on they are one line in the terminal; notes of one kind always are."""

@@ -10,14 +10,11 @@ import subprocess
 import sys
 from collections.abc import Mapping, Sequence
 from pathlib import Path
+from typing import Any
 
 from urdfkit.description.packages.resolver import Packages
 from urdfkit.errors import MissingDependencyError, XacroError
 from urdfkit.record import record
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from typing import Any
 
 TIME_LIMIT = 60.0
 """Seconds for the xacro package."""

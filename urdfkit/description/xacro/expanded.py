@@ -7,14 +7,11 @@ from functools import cached_property
 from pathlib import Path
 from types import MappingProxyType
 
+from urdfkit.description.packages.resolver import Packages
 from urdfkit.description.xacro.faults import Fault, MacroDefinition, Unprefixed, Warned
 from urdfkit.description.xml.element import Element
 from urdfkit.description.xml.source import Position, Source
 from urdfkit.record import field, record
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from urdfkit.description.packages.resolver import Packages
 
 
 @record(eq=False)

@@ -7,17 +7,14 @@ from collections.abc import Mapping
 from pathlib import Path
 from xml.sax.saxutils import quoteattr
 
+from urdfkit.description.packages.resolver import Packages
 from urdfkit.description.xacro.expand import expand_leniently
+from urdfkit.description.xacro.expanded import Expanded
+from urdfkit.description.xacro.faults import MacroDefinition
 from urdfkit.description.xml.extended_text import ExtendedText
 from urdfkit.description.xml.reader import read_source, shown_path
 from urdfkit.description.xml.source import absolute
 from urdfkit.errors import UsageError, did_you_mean, nearest, suggestion
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from urdfkit.description.packages.resolver import Packages
-    from urdfkit.description.xacro.expanded import Expanded
-    from urdfkit.description.xacro.faults import MacroDefinition
 
 _ORIGIN = '<origin xyz="0 0 0" rpy="0 0 0"/>'
 _LISTED = 8

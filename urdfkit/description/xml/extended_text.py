@@ -2,13 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from urdfkit.description.xml.source import Source
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    from urdfkit.position import Position
+from urdfkit.position import Position
 
 
 class ExtendedText(str):

@@ -5,14 +5,10 @@ from __future__ import annotations
 from pathlib import Path
 
 from urdfkit.description.xml.reader import read_source
-from urdfkit.description.xml.start_tag import start_tag
+from urdfkit.description.xml.source import Source
+from urdfkit.description.xml.start_tag import AttributeText, start_tag
 from urdfkit.errors import ResourceError
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from urdfkit.description.xml.source import Source
-    from urdfkit.description.xml.start_tag import AttributeText
-    from urdfkit.position import Position
+from urdfkit.position import Position
 
 
 class WrittenAttributes:

@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 
-    from urdfkit.lint.model.model import Model
-    from urdfkit.lint.model.tags import Document, Tag
+from urdfkit.lint.model.model import Model
+from urdfkit.lint.model.tags import Document, Tag
 
 _SHOWN = 2
 _LONGEST = 40

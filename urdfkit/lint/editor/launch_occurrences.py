@@ -7,16 +7,12 @@ The files are searched as text. A word counts only where launch files name frame
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator
 
 from urdfkit.description.packages.related_files import LAUNCH
+from urdfkit.description.xml.source import Source
 from urdfkit.lint.editor.symbol_occurrences import Occurrence
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from urdfkit.description.xml.source import Source
-    from urdfkit.lint.model.model import Model
+from urdfkit.lint.model.model import Model
 
 _FRAME = r"[\w-]*(?:frame|link)[\w-]*[\"']?(?:\s*[:=,]\s*|\s+value\s*=\s*)([\"'])([^\"'\s]+)\1"
 _JOINT = r"([\"'])([^\"'\s]+)\1"

@@ -3,14 +3,10 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator, Sequence
 
+from urdfkit.lint.model.tags import Document, Tag
 from urdfkit.record import record
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Iterator, Sequence
-
-    from urdfkit.lint.model.tags import Document, Tag
 
 KINDS = ("robot", "link", "joint", "material", "macro", "property", "argument", "call", "include", "plugin", "sensor")
 """Kinds of the elements of an outline; ``call`` is a macro call."""

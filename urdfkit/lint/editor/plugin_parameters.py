@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from urdfkit.description.plugins.spec import Parameter, PluginSpec
-    from urdfkit.lint.model.tags import Tag
+from urdfkit.description.plugins.spec import Parameter, PluginSpec
+from urdfkit.lint.model.tags import Tag
 
 
 def plugin_around(tag: Tag | None) -> list[PluginSpec]:

@@ -5,11 +5,8 @@ from __future__ import annotations
 import re
 
 from urdfkit.lint.editor.symbol_occurrences import parameters_around, written_occurrences
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from urdfkit.lint.model.model import Model
-    from urdfkit.lint.model.tags import Document, Tag
+from urdfkit.lint.model.model import Model
+from urdfkit.lint.model.tags import Document, Tag
 
 TYPES = ("keyword", "macro", "variable", "parameter")
 """Types of the protocol that are used: directives, macros, properties, and parameters of macros or arguments."""

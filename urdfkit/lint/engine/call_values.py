@@ -4,11 +4,9 @@ from __future__ import annotations
 
 import re
 
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from urdfkit.description.xml.source import Span
-    from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model.model import Model
+from urdfkit.description.xml.source import Span
+from urdfkit.lint.finding import Finding
+from urdfkit.lint.model.model import Model
 
 _HANDED_ON = r"\s*\$\{\s*([A-Za-z_]\w*)\s*\}\s*"
 _ATTRIBUTE = rf"(?:<[\w:.-]+\s+)?[\w:.-]+\s*=\s*[\"']{_HANDED_ON}[\"'](?:\s*/?>)?"

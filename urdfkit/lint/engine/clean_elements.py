@@ -8,14 +8,11 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
+from urdfkit.description.xml.element import Element
+from urdfkit.lint.finding import Finding
 from urdfkit.lint.model.model import Model
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from urdfkit.description.xml.element import Element
-    from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model.placement import Extent
-    from urdfkit.lint.rule import Rule
+from urdfkit.lint.model.placement import Extent
+from urdfkit.lint.rule import Rule
 
 _MAX_NEW = 0.25
 """Proportion of new elements above which a rule is run on the whole model."""

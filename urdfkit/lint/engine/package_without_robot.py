@@ -3,19 +3,15 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
+from urdfkit.description.packages.resolver import Packages
 from urdfkit.description.xml.element import Element
 from urdfkit.description.xml.source import Origin, Position
 from urdfkit.lint.model.model import Model
+from urdfkit.lint.project.options import Options
 from urdfkit.lint.project.target_platform import family_of, release_of
 from urdfkit.lint.rules import related_file_rules, robot_rules
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from typing import Any
-
-    from urdfkit.description.packages.resolver import Packages
-    from urdfkit.lint.project.options import Options
 
 _FAMILIES = "KLM"
 """First letters of the codes of rules on packages, launch files and MoveIt."""

@@ -5,13 +5,10 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
+from urdfkit.description.xml.source import Source
+from urdfkit.lint.facts.build_files import BuildFiles, CMakeCommand
+from urdfkit.lint.finding import Severity
 from urdfkit.record import record
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from urdfkit.description.xml.source import Source
-    from urdfkit.lint.facts.build_files import BuildFiles, CMakeCommand
-    from urdfkit.lint.finding import Severity
 
 _TOKENS = r"#\[(=*)\[(?s:.*?)(?:\]\1\]|\Z)|#[^\n]*|\"(?:\\(?s:.)|[^\"\\])*\"|\[(=*)\[(?s:.*?)(?:\]\2\]|\Z)|\\.|[()]"
 _TOOLS = {

@@ -6,13 +6,10 @@ import re
 from collections import Counter
 from collections.abc import Iterator
 
+from urdfkit.lint.facts.build_files import BuildFiles
+from urdfkit.lint.finding import Severity
 from urdfkit.lint.model.tags import Tag
 from urdfkit.record import record
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from urdfkit.lint.facts.build_files import BuildFiles
-    from urdfkit.lint.finding import Severity
 
 REQUIRED = ("name", "version", "description", "maintainer", "license")
 _IN_ALL = (*REQUIRED, "url", "author", "build_depend", "buildtool_depend", "test_depend", "conflict", "replace")

@@ -2,19 +2,15 @@
 
 from __future__ import annotations
 
+import ast
 import fnmatch
 import re
 from collections.abc import Iterator
 
 from urdfkit.description.launch.python_constants import LaunchReader, launch_reader, name_of, parsed
+from urdfkit.description.xml.source import Source
+from urdfkit.lint.facts.build_files import BuildFiles
 from urdfkit.lint.facts.cmake_defects import BuildDefect
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    import ast
-
-    from urdfkit.description.xml.source import Source
-    from urdfkit.lint.facts.build_files import BuildFiles
 
 
 def setup_defects(files: BuildFiles, source: Source, used: dict[str, str]) -> Iterator[BuildDefect]:

@@ -3,15 +3,11 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator
 
+from urdfkit.description.urdf.robot import Joint, Link, Vector
+from urdfkit.lint.model.model import Model
 from urdfkit.record import record
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from urdfkit.description.urdf.robot import Joint, Link, Vector
-    from urdfkit.lint.model.model import Model
 
 _SIDES: dict[str, tuple[str, ...]] = {
     "left": ("right",),

@@ -12,6 +12,8 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Sequence
 from pathlib import Path
 
+from urdfkit.description.xacro.expanded import Expanded
+from urdfkit.description.xml.element import Element
 from urdfkit.errors import UrdfkitError
 from urdfkit.lint.engine.run import Outcome, run
 from urdfkit.lint.finding import Edit, Finding
@@ -22,11 +24,6 @@ from urdfkit.lint.fixes.regressions import WrittenText, new_findings, unmatched
 from urdfkit.lint.project.entry_files import Entry
 from urdfkit.lint.project.options import Options
 from urdfkit.record import record
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from urdfkit.description.xacro.expanded import Expanded
-    from urdfkit.description.xml.element import Element
 
 _ROUNDS = 10
 

@@ -10,14 +10,11 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from difflib import SequenceMatcher
 
+from urdfkit.description.xacro.expanded import Expanded
 from urdfkit.description.xml.element import Element
 from urdfkit.description.xml.source import Position, Source
 from urdfkit.lint.finding import Edit, Finding
 from urdfkit.lint.model.tags import Document, Tag
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from urdfkit.description.xacro.expanded import Expanded
 
 _MAX_DEPTH = 50
 _DIRECTIVES = ("property", "arg", "macro", "if", "unless", "include")

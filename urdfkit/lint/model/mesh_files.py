@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-    from pathlib import Path
+from collections.abc import Iterator
+from pathlib import Path
 
-    from urdfkit.description.urdf.robot import Link, Mesh, Robot
-    from urdfkit.description.xacro.expanded import Expanded
-    from urdfkit.description.xml.element import Element
+from urdfkit.description.urdf.robot import Link, Mesh, Robot
+from urdfkit.description.xacro.expanded import Expanded
+from urdfkit.description.xml.element import Element
 
 
 def meshes(robot: Robot) -> Iterator[tuple[Mesh, Element, Link]]:

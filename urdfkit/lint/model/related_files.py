@@ -2,24 +2,20 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
 
 from urdfkit.description.control.parameter_files import parameter_file
 from urdfkit.description.control.ros2_controllers import manager_files
 from urdfkit.description.hardware_defects import mock_blocks
 from urdfkit.description.packages.related_files import SRDF, package_of
+from urdfkit.description.packages.resolver import Packages
+from urdfkit.description.urdf.robot import Robot
+from urdfkit.description.xacro.expanded import Expanded
+from urdfkit.description.xml.element import Element
 from urdfkit.description.xml.reader import document_of, read_source, shown_path
+from urdfkit.description.xml.source import Source
 from urdfkit.errors import ResourceError, UrdfkitError, XmlError
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Mapping
-
-    from urdfkit.description.packages.resolver import Packages
-    from urdfkit.description.urdf.robot import Robot
-    from urdfkit.description.xacro.expanded import Expanded
-    from urdfkit.description.xml.element import Element
-    from urdfkit.description.xml.source import Source
 
 
 def related_files(

@@ -5,12 +5,10 @@ They differ in their names and in the macro call only. A rule that checks each e
 
 from __future__ import annotations
 
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Hashable
-    from typing import Any
+from collections.abc import Hashable
+from typing import Any
 
-    from urdfkit.description.xml.element import Element
+from urdfkit.description.xml.element import Element
 
 _NAMED = {"parent": "link", "child": "link"}
 """Element → attribute whose value is the name of another element."""

@@ -7,12 +7,9 @@ import sys
 import sysconfig
 from collections.abc import Iterable
 from pathlib import Path
+from typing import Any
 
 from urdfkit.description.packages.resolver import OUTSIDE
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from typing import Any
 
 _EVENTS = ("open", "os.listdir", "os.scandir")
 

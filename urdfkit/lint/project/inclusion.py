@@ -3,10 +3,7 @@
 from __future__ import annotations
 
 import re
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from pathlib import Path
+from pathlib import Path
 
 # Compiled on first use.
 INCLUDE = r"<(?:xacro:)?include\b[^<>]*?filename\s*=\s*(?:\"([^\"]*)\"|'([^']*)')"

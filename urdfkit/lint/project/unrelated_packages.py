@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from pathlib import Path
 
 from urdfkit.description.packages.discovery import packages_below
@@ -12,10 +13,6 @@ from urdfkit.description.packages.related_files import (
     package_of,
     packages_around,
 )
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Iterable
 
 WITHOUT_ROBOT = " has no robot: only its other files are linted"
 """End of the note on a package without a robot, after its name."""

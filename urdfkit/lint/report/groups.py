@@ -3,13 +3,10 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterable
 
 from urdfkit.errors import kind_of
 from urdfkit.lint.finding import SEVERITIES, Finding
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Iterable
 
 SMALLEST = 4
 """Number of warnings, or of errors with a named cause, from which on they are grouped. Fewer are shown one by one."""

@@ -5,17 +5,14 @@ https://docs.oasis-open.org/sarif/sarif/v2.1.0/sarif-v2.1.0.html; numbers in com
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from pathlib import Path
+from typing import Any
 from urllib.parse import quote
 
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
-    from typing import Any
-
-    from urdfkit.description.xml.source import Position, Span
-    from urdfkit.lint.finding import Finding, Fix
-    from urdfkit.lint.rule import Rule
+from urdfkit.description.xml.source import Position, Span
+from urdfkit.lint.finding import Finding, Fix
+from urdfkit.lint.rule import Rule
 
 SCHEMA = "https://docs.oasis-open.org/sarif/sarif/v2.1.0/errata01/os/schemas/sarif-schema-2.1.0.json"
 """URL of the SARIF schema."""

@@ -5,19 +5,13 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from urdfkit.description.sdf import WorldLink, WorldModel, WorldShape
-from urdfkit.description.urdf.repair_record import Repair
-from urdfkit.description.urdf.robot import Mesh
+from urdfkit.description.urdf.repair_record import Repair, Severity
+from urdfkit.description.urdf.robot import Mesh, Robot
 from urdfkit.errors import ResourceError, SimulationError, with_effect
 from urdfkit.scene import MeshLoader, Scene
 from urdfkit.sim.construction.repairs.collector import Repairs
-
-if TYPE_CHECKING:
-    from urdfkit.description.urdf.repair_record import Severity
-    from urdfkit.description.urdf.robot import Robot
-
 
 _SEEING = ("camera", "gpu", "depth")
 """Parts of the types of sensors that see visual shapes."""

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -16,9 +15,10 @@ from urdfkit.description.plugins.lookup import stem
 from urdfkit.description.plugins.sensors.table import BARE, INSTEAD, SENSOR_TYPES
 from urdfkit.description.plugins.unknown_plugins import unknown, unsupported
 from urdfkit.description.sdf.reader.world_plugins import NEEDLESS
-from urdfkit.description.urdf.repair_record import Repair
+from urdfkit.description.urdf.repair_record import Repair, RepairKind
 from urdfkit.description.urdf.robot import Plugin, Robot, SensorTag
 from urdfkit.errors import DescriptionError, SimulationError, UrdfkitError, UsageError, nearest, with_effect
+from urdfkit.position import Position
 from urdfkit.sim.plugins.base import Controller, Drive, Sensor
 from urdfkit.sim.plugins.builtin_publishers import JointStates, all_joint_states, joint_states
 from urdfkit.sim.plugins.controllers import CONTROLLERS
@@ -28,10 +28,6 @@ from urdfkit.sim.plugins.drives import DRIVES
 from urdfkit.sim.plugins.sensors import SENSORS
 from urdfkit.sim.plugins.setup import Setup
 from urdfkit.sim.plugins.unknown_tags import SharedTopics, misspelt, not_read
-
-if TYPE_CHECKING:
-    from urdfkit.description.urdf.repair_record import RepairKind
-    from urdfkit.position import Position
 
 _NOT_SIMULATED = "Z833"
 """Code of the lint rule that reports parts that are not simulated."""

@@ -10,19 +10,17 @@ from __future__ import annotations
 from collections import deque
 from functools import cache, partial
 from types import FunctionType, MethodType
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from urdfkit.bus import Topic
+from urdfkit.sim.plugins.controllers.control_loop import ControlLoop
+from urdfkit.sim.plugins.controllers.controller import RosController
 from urdfkit.sim.plugins.namespaced_bus import OwnBus
 from urdfkit.sim.plugins.setup import Setup
 from urdfkit.sim.state.joint_commands import Servos
 from urdfkit.sim.state.periodic_steps import PeriodicSteps
-
-if TYPE_CHECKING:
-    from urdfkit.sim.plugins.controllers.control_loop import ControlLoop
-    from urdfkit.sim.plugins.controllers.controller import RosController
 
 ATOMS = frozenset((int, float, str, bytes, bool, complex, type(None), type))
 """Types of values without references."""

@@ -2,14 +2,11 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
 from xml.sax.saxutils import escape, quoteattr
 
 from urdfkit.description import Robot
 from urdfkit.description.xml.element import Element
-
-if TYPE_CHECKING:
-    from urdfkit.sim.simulator import Simulator
+from urdfkit.sim.simulator import Simulator
 
 DESCRIPTION = "/robot_description"
 STRING = "std_msgs/msg/String"

@@ -6,12 +6,10 @@ import ast
 import math
 import operator
 from collections.abc import Callable, Mapping, Sequence
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from urdfkit.errors import UsageError, did_you_mean
-
-if TYPE_CHECKING:
-    from urdfkit.sim.state.robot_state import State
+from urdfkit.sim.state.robot_state import State
 
 NAMES = ("t", "x", "y", "z", "roll", "pitch", "yaw", "vx", "vy", "vz", "wx", "wy", "wz", "contacts", "pi")
 """Time [s], pose of the root link [m, rad], its velocity along the world's axes, the number of contacts."""

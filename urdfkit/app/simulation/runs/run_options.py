@@ -5,14 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from urdfkit.app.simulation.runs.commands import TopicMessage, publish_at, ramp, require_free
-
-if TYPE_CHECKING:
-    from urdfkit.description import Robot
-    from urdfkit.description.sdf import World
-    from urdfkit.sim import Simulator, Spawn
+from urdfkit.description import Robot
+from urdfkit.description.sdf import World
+from urdfkit.sim import Simulator, Spawn
 
 
 @dataclass(frozen=True)

@@ -10,13 +10,10 @@ from urdfkit.cli.kinematics.ik.printing import solution_as_json, table
 from urdfkit.cli.robot_arguments.joint_positions import warn_of_limits
 from urdfkit.cli.robot_arguments.robot_loading import repairs_as_json
 from urdfkit.cli.robot_arguments.tip_link import announce
+from urdfkit.description import Robot
 from urdfkit.errors import short_lines
 from urdfkit.kinematics.serial.serial_chain import SerialChain
 from urdfkit.kinematics.serial.serial_solver import SerialSolver, SolverOptions
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from urdfkit.description import Robot
 
 MOST = 256
 """Maximum number of solutions with --all, before whole turns."""

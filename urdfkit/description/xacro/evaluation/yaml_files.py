@@ -4,13 +4,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from typing import Any
 
 from urdfkit.description.xacro.evaluation.expressions.limits import MAX_ELEMENTS, MAX_NESTING, TooLarge
 from urdfkit.description.xacro.evaluation.expressions.values import wrapped
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from typing import Any
 
 _UNITS = {
     "!radians": 1.0,

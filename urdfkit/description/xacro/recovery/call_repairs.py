@@ -2,17 +2,13 @@
 
 from __future__ import annotations
 
-from urdfkit.description.xacro.evaluation.failures import macro_arguments
+from collections.abc import Iterable, Iterator
+
+from urdfkit.description.xacro.evaluation.failures import Failure, macro_arguments
+from urdfkit.description.xacro.evaluation.macros import Macro
+from urdfkit.description.xacro.evaluation.tree import Tag
 from urdfkit.description.xacro.recovery.unknown_values import Unknown
 from urdfkit.errors import similar
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator
-
-    from urdfkit.description.xacro.evaluation.failures import Failure
-    from urdfkit.description.xacro.evaluation.macros import Macro
-    from urdfkit.description.xacro.evaluation.tree import Tag
 
 
 def near_macros(name: str, macros: Iterable[str]) -> list[str]:

@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 from urdfkit.description.xacro.evaluation.macros import Macro
 from urdfkit.description.xml.source import Position
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from typing import Any
 
 
 class LateDefinitions:

@@ -2,16 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 from urdfkit.description.urdf.repair_record import Repair
+from urdfkit.description.xacro.expanded import Expanded
+from urdfkit.description.xacro.faults import Fault
+from urdfkit.description.xml.element import Element
 from urdfkit.errors import with_effect
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from urdfkit.description.xacro.expanded import Expanded
-    from urdfkit.description.xacro.faults import Fault
-    from urdfkit.description.xml.element import Element
 
 _CODES = {
     "include-not-found": "X113",

@@ -2,15 +2,11 @@
 
 from __future__ import annotations
 
-from urdfkit.description.xacro.evaluation.tree import MORE
+from collections.abc import Collection, Iterable, Iterator
+from typing import Any
+
+from urdfkit.description.xacro.evaluation.tree import MORE, Tag
 from urdfkit.description.xacro.faults import Unprefixed
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Collection, Iterable, Iterator
-    from typing import Any
-
-    from urdfkit.description.xacro.evaluation.tree import Tag
 
 _DIRECTIVES: dict[str, tuple[str, ...]] = {
     "macro": ("name",),

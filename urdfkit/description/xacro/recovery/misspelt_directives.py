@@ -6,13 +6,10 @@ import re
 from collections.abc import Iterator
 from functools import lru_cache
 
+from urdfkit.description.xacro.evaluation.tree import Tag
 from urdfkit.description.xacro.faults import Fault
 from urdfkit.description.xacro.recovery.missing_prefix import FOREIGN, is_directive, names_above, rename, tags_below
 from urdfkit.description.xml.known_tags import TAGS
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from urdfkit.description.xacro.evaluation.tree import Tag
 
 ATTRIBUTES: dict[str, tuple[str, ...]] = {
     "macro": ("name", "params"),

@@ -2,17 +2,13 @@
 
 from __future__ import annotations
 
+import ast
 import re
+from collections.abc import Collection, Iterator
 
 from urdfkit.description.launch.python_constants import JOINS, SHARE, launch_reader, name_of, parsed
+from urdfkit.description.xml.source import Source
 from urdfkit.record import record
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    import ast
-    from collections.abc import Collection, Iterator
-
-    from urdfkit.description.xml.source import Source
 
 _FIND = r"\$\(find(?:-pkg-share)?\s+([\w-]+)\)/([^\s\"'<>$(){}:;,|&*]+)(?=[\s\"'<:;])"
 _USES = r"\$\(find(?:-pkg-share)?\s+([\w-]+)\)|<(?:node|composable_node)\b[^<>]*?\bpkg\s*=\s*[\"']([\w-]+)[\"']"

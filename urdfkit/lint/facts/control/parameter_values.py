@@ -9,14 +9,11 @@ import re
 from collections.abc import Iterator
 
 from urdfkit.description.control.parameter_defects import SIGNS, SIGNS_OF_MINIMA, sign_defect
+from urdfkit.description.urdf.robot import Robot
+from urdfkit.description.xml.source import Source
 from urdfkit.lint.facts.control.controller_settings import ControllerSettings, settings
 from urdfkit.lint.facts.control.ros2_controllers import PARAMETERS, declared
 from urdfkit.lint.facts.control.yaml_tree import Node, documents, not_a_number, number_of, walk
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from urdfkit.description.urdf.robot import Robot
-    from urdfkit.description.xml.source import Source
 
 _POSITIVE = frozenset(
     (

@@ -8,11 +8,8 @@ from collections.abc import Iterator
 from urdfkit.description.xml.source import Source
 from urdfkit.lint.facts.control.controller_joints import Named
 from urdfkit.lint.facts.control.yaml_tree import Node
+from urdfkit.lint.model.model import Model
 from urdfkit.record import record
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from urdfkit.lint.model.model import Model
 
 _PAIRS = """
 actuator_msgs/Actuators=Actuators builtin_interfaces/Time=Time geometry_msgs/Point=Vector3d geometry_msgs/Pose=Pose

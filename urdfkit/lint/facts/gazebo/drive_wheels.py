@@ -2,23 +2,19 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Iterator
+
+from urdfkit.description.plugins import PluginSpec
 from urdfkit.description.urdf.geometry import rotate, rotation_of
-from urdfkit.description.urdf.robot import Cylinder, Sphere
+from urdfkit.description.urdf.robot import Cylinder, Joint, Plugin, Sphere, Vector
+from urdfkit.description.xml.element import Element
 from urdfkit.lint.facts.gazebo.plugins import is_foreign, plugins, spec_of
+from urdfkit.lint.finding import Finding
 from urdfkit.lint.fix_builders import nearest, new_text
+from urdfkit.lint.model.model import Model
 from urdfkit.lint.model.placement import Frame, shapes_of
+from urdfkit.lint.rule import Rule
 from urdfkit.record import record
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator
-
-    from urdfkit.description.plugins import PluginSpec
-    from urdfkit.description.urdf.robot import Joint, Plugin, Vector
-    from urdfkit.description.xml.element import Element
-    from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model.model import Model
-    from urdfkit.lint.rule import Rule
 
 _SIDES = {
     "diff_drive": (("left_joint",), ("right_joint",)),

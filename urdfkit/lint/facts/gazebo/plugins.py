@@ -2,16 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
+from urdfkit.description.plugins import Parameter, PluginSpec
+from urdfkit.description.urdf.robot import GazeboBlock, Plugin, Robot, SensorTag
+from urdfkit.description.xml.element import Element
+from urdfkit.lint.model.model import Model
 from urdfkit.lint.project.target_platform import WITHOUT_CLASSIC
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from urdfkit.description.plugins import Parameter, PluginSpec
-    from urdfkit.description.urdf.robot import GazeboBlock, Plugin, Robot, SensorTag
-    from urdfkit.description.xml.element import Element
-    from urdfkit.lint.model.model import Model
 
 OUTSIDE_FRAMES = frozenset(("world", "map", "odom", "/world", "/map", "/odom", "base_footprint_odom"))
 """Frames outside of the robot."""

@@ -2,17 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
+from urdfkit.description.plugins import PluginSpec
+from urdfkit.description.urdf.robot import Plugin, SensorTag
+from urdfkit.description.xml.element import Element
 from urdfkit.lint.facts.gazebo.plugins import plugins, spec_of
+from urdfkit.lint.model.model import Model
 from urdfkit.record import record
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from urdfkit.description.plugins import PluginSpec
-    from urdfkit.description.urdf.robot import Plugin, SensorTag
-    from urdfkit.description.xml.element import Element
-    from urdfkit.lint.model.model import Model
 
 _TOPICS = ("topic", "image_topic", "depth_topic", "cloud_topic")
 """Meanings of ROS 1 plugin parameters that name a topic; camera_info accompanies the image."""

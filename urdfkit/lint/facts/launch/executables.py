@@ -3,15 +3,12 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterable, Mapping
 from functools import cache
 from pathlib import Path
 
 from urdfkit.description.packages.related_files import manifest
 from urdfkit.record import record
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping
 
 _RELEASED = """
 robot_state_publisher: robot_state_publisher; joint_state_publisher: joint_state_publisher;

@@ -8,18 +8,13 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Collection, Iterable, Iterator
 
+from urdfkit.description.urdf.robot import Joint, Robot
+from urdfkit.description.xml.element import Element
+from urdfkit.description.xml.source import Source
 from urdfkit.lint.facts.control.yaml_tree import Node, documents, not_a_number, walk
 from urdfkit.lint.facts.moveit.settings import CONTROLLER_TYPES, MoveitEntry, entries, unwrapped
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Collection
-
-    from urdfkit.description.urdf.robot import Joint, Robot
-    from urdfkit.description.xml.element import Element
-    from urdfkit.description.xml.source import Source
 
 _PLANNERS = """
 AITstar ABITstar AnytimePathShortening BFMT BITstar BKPIECE BiEST BiTRRT EST FMT KPIECE LBKPIECE LBTRRT LazyPRM

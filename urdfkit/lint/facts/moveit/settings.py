@@ -10,14 +10,11 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from urdfkit.description.packages.related_files import package_of
+from urdfkit.description.xml.element import Element
 from urdfkit.description.xml.source import Source
 from urdfkit.lint.facts.control.yaml_tree import Node, documents, yamls
 from urdfkit.lint.model.model import Model
 from urdfkit.record import record
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from urdfkit.description.xml.element import Element
 
 SOLVER_KEYS = (
     *("kinematics_solver", "kinematics_solver_search_resolution", "kinematics_solver_timeout", "position_only_ik"),

@@ -6,19 +6,14 @@ Sources: srdfdom, src/model.cpp (elements); moveit_core, robot_model/src/robot_m
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from functools import lru_cache
 
+from urdfkit.description.urdf.robot import Joint, Robot
+from urdfkit.description.xml.element import Element
+from urdfkit.lint.finding import Severity
 from urdfkit.lint.model.model import Model
 from urdfkit.record import record
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Collection
-
-    from urdfkit.description.urdf.robot import Joint, Robot
-    from urdfkit.description.xml.element import Element
-    from urdfkit.lint.finding import Severity
 
 ELEMENTS: dict[str, dict[str, str]] = {
     "group": {"name": ""},

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from urdfkit.description.packages.related_files import LAUNCH
+from urdfkit.description.xml.element import Element
 from urdfkit.lint.facts.control.controller_joints import controllers
 from urdfkit.lint.facts.control.ros_gz_bridges import in_launch
 from urdfkit.lint.facts.control.yaml_tree import documents, yamls
@@ -11,10 +12,6 @@ from urdfkit.lint.facts.gazebo.sensor_topics import published
 from urdfkit.lint.facts.ros_packages import is_slip
 from urdfkit.lint.model.model import Model
 from urdfkit.record import record
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from urdfkit.description.xml.element import Element
 
 BRIDGE_KEYS = ("ros_topic_name", "topic_name", "gz_topic_name", "ign_topic_name")
 """Keys of ros_gz_bridge in YAML that name a topic."""

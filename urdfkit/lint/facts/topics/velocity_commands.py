@@ -10,6 +10,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
+from urdfkit.description.xml.source import Source
 from urdfkit.errors import suggestion
 from urdfkit.lint.facts.control.controller_joints import Named, controllers
 from urdfkit.lint.facts.control.ros2_controllers import declared
@@ -20,11 +21,7 @@ from urdfkit.lint.facts.launch.ros_version import reads_ros1
 from urdfkit.lint.facts.nodes.started import LaunchedNode, launched_nodes, parameter_files
 from urdfkit.lint.facts.topics.words import Words
 from urdfkit.lint.fix_builders import nearest
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from urdfkit.description.xml.source import Source
-    from urdfkit.lint.model.model import Model
+from urdfkit.lint.model.model import Model
 
 _NAMES = {
     "joint_state_publisher": "joint_states robot_description",

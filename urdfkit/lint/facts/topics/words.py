@@ -10,11 +10,8 @@ from itertools import islice
 from pathlib import Path
 
 from urdfkit.description.packages.related_files import CODE, LAUNCH, package_of
+from urdfkit.lint.model.model import Model
 from urdfkit.lint.project.code_files import code_texts
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from urdfkit.lint.model.model import Model
 
 _NAMING_TOPICS = (*CODE, ".rviz", ".xacro", ".sdf", ".world", ".md", ".lua", ".json")
 """Endings of the other files that can name a topic."""

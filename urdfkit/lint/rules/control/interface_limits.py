@@ -3,11 +3,8 @@
 from urdfkit.description.urdf.robot import Joint
 from urdfkit.description.xml.element import Element
 from urdfkit.description.xml.numbers import number
+from urdfkit.lint.finding import Severity
 from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from urdfkit.lint.finding import Severity
 
 _DEGREES_RATIO = 20.0
 """Ratio of a value to the limit of a revolute joint above which the value must be in degrees."""

@@ -3,12 +3,8 @@
 from urdfkit.description.urdf.robot import Transmission
 from urdfkit.description.xml.element import Element
 from urdfkit.lint.facts.control.hardware_interfaces import has_gazebo_ros_control, is_old, misspelt_parts
-from urdfkit.lint.finding import Edit, Fix
+from urdfkit.lint.finding import Edit, Fix, Severity
 from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from urdfkit.lint.finding import Severity
 
 
 class TransmissionInterfaceMissing(RobotRule):

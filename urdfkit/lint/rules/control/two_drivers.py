@@ -2,14 +2,11 @@
 
 from __future__ import annotations
 
+from urdfkit.description.plugins import Parameter, PluginSpec
 from urdfkit.description.urdf.robot import Robot
 from urdfkit.lint.facts.control.hardware_interfaces import has_gazebo_ros_control
 from urdfkit.lint.facts.gazebo.plugins import generations, plugins, spec_of
 from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from urdfkit.description.plugins import Parameter, PluginSpec
 
 
 class TwoDrivers(RobotRule):

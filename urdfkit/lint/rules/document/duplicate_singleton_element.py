@@ -3,14 +3,10 @@
 from __future__ import annotations
 
 from urdfkit.description.xml.element import Element
-from urdfkit.lint.finding import Finding
+from urdfkit.lint.finding import Finding, Severity
 from urdfkit.lint.fix_builders import without_element
 from urdfkit.lint.model.xacro_prefix import URDF_CHILDREN
 from urdfkit.lint.rule import Findings, Model, RobotRule
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from urdfkit.lint.finding import Severity
 
 
 class DuplicateSingletonElement(RobotRule):

@@ -4,12 +4,8 @@ from __future__ import annotations
 
 from urdfkit.description.xml.element import Element
 from urdfkit.lint.facts.gazebo.plugins import plugins
-from urdfkit.lint.finding import Finding
+from urdfkit.lint.finding import Finding, Severity
 from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from urdfkit.lint.finding import Severity
 
 
 class DuplicateSensorOrPlugin(RobotRule):

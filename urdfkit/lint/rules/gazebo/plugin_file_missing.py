@@ -6,11 +6,8 @@ import re
 from pathlib import Path
 
 from urdfkit.lint.facts.gazebo.plugins import plugins, specs
+from urdfkit.lint.finding import Severity
 from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from urdfkit.lint.finding import Severity
 
 
 class PluginFileMissing(RobotRule):

@@ -2,13 +2,10 @@
 
 from __future__ import annotations
 
+from urdfkit.description.plugins import Parameter
 from urdfkit.description.urdf.robot import Plugin
 from urdfkit.lint.model.masked_names import unless_masked
 from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from urdfkit.description.plugins import Parameter
 
 _MAY_BE_FIXED = ("joint", "joints")
 """Meanings of parameters whose joints are only read, by force-torque sensors and state publishers."""

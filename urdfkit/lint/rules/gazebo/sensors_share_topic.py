@@ -1,10 +1,7 @@
 """Z826 sensors-share-topic."""
 
+from urdfkit.lint.facts.gazebo.sensor_topics import Published
 from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from urdfkit.lint.facts.gazebo.sensor_topics import Published
 
 
 class SensorsShareTopic(RobotRule):

@@ -2,18 +2,14 @@
 
 from __future__ import annotations
 
-from urdfkit.description.urdf.robot import Sphere
+from urdfkit.description.urdf.robot import Collision, Link, Sphere, Visual
+from urdfkit.description.xml.element import Element
 from urdfkit.description.xml.numbers import numbers
 from urdfkit.description.xml.source import Position
 from urdfkit.lint.facts.root_cause import is_not_positive, root_cause
+from urdfkit.lint.finding import Severity
 from urdfkit.lint.model.placement import shapes_of
 from urdfkit.lint.rule import Findings, Model, RobotRule
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from urdfkit.description.urdf.robot import Collision, Link, Visual
-    from urdfkit.description.xml.element import Element
-    from urdfkit.lint.finding import Severity
 
 _SIZES = {
     "box": ("size",),

@@ -1,11 +1,8 @@
 """G610 visual-without-collision."""
 
 from urdfkit.lint.facts.gazebo.drive_wheels import drives
+from urdfkit.lint.finding import Severity
 from urdfkit.lint.rule import Findings, Model, RobotRule
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from urdfkit.lint.finding import Severity
 
 
 class VisualWithoutCollision(RobotRule):

@@ -4,11 +4,8 @@ from __future__ import annotations
 
 from urdfkit.description.urdf.attached_bodies import AttachedBodies
 from urdfkit.description.urdf.principal_moments import principal_moments, reordered
+from urdfkit.lint.finding import Severity
 from urdfkit.lint.rule import Findings, Model, RobotRule
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from urdfkit.lint.finding import Severity
 
 TOLERANCE = 1e-9
 """Tolerance relative to the largest principal moment; rounding errors are about 1e-15."""

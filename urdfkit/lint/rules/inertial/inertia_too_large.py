@@ -9,11 +9,8 @@ from urdfkit.description.urdf.principal_moments import is_identity, principal_mo
 from urdfkit.description.urdf.robot import Link
 from urdfkit.description.xml.element import Element
 from urdfkit.lint.facts.inertia.inertia_from_shapes import computed
+from urdfkit.lint.finding import Severity
 from urdfkit.lint.rule import Findings, Model, RobotRule
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from urdfkit.lint.finding import Severity
 
 MARGIN = 1.2
 """Largest plausible ratio; simplified shapes may be slightly smaller than the body."""

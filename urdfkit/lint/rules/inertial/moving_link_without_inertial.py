@@ -2,11 +2,8 @@
 
 from urdfkit.description.urdf.massless_links import first_massless, is_free, massless
 from urdfkit.lint.facts.gazebo.plugins import is_simulated, is_simulator
+from urdfkit.lint.finding import Severity
 from urdfkit.lint.rule import Findings, Model, RobotRule
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from urdfkit.lint.finding import Severity
 
 
 class MovingLinkWithoutInertial(RobotRule):

@@ -4,13 +4,10 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from urdfkit.description.xml.source import Source
+from urdfkit.lint.facts.launch.spawned_controllers import Spawner
 from urdfkit.lint.finding import Finding
 from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from urdfkit.description.xml.source import Source
-    from urdfkit.lint.facts.launch.spawned_controllers import Spawner
 
 _OTHER_WAYS = r"--?param-file|--?controller-type|[\"' ]-[pt][\"' ]|load_controller"
 

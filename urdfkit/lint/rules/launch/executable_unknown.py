@@ -2,12 +2,9 @@
 
 from __future__ import annotations
 
+from urdfkit.lint.facts.launch.executables import Executables
 from urdfkit.lint.finding import Finding
 from urdfkit.lint.rule import Findings, Model, RobotRule
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from urdfkit.lint.facts.launch.executables import Executables
 
 _RELEASES = {1: "ROS 1", 2: "this release of ROS 2"}
 

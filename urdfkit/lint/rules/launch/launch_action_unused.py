@@ -2,14 +2,11 @@
 
 from __future__ import annotations
 
+import ast
+
+from urdfkit.description.xml.source import Source
 from urdfkit.lint.finding import Finding
 from urdfkit.lint.rule import Findings, Model, RobotRule
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    import ast
-
-    from urdfkit.description.xml.source import Source
 
 _ACTIONS = """
 AppendEnvironmentVariable ComposableNodeContainer DeclareLaunchArgument ExecuteProcess GroupAction

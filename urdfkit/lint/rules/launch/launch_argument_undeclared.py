@@ -4,13 +4,10 @@ from __future__ import annotations
 
 import re
 
+from urdfkit.lint.facts.control.controller_joints import Named
+from urdfkit.lint.facts.launch.records import LaunchActions
 from urdfkit.lint.finding import Finding
 from urdfkit.lint.rule import Findings, Model, RobotRule
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from urdfkit.lint.facts.control.controller_joints import Named
-    from urdfkit.lint.facts.launch.records import LaunchActions
 
 
 class LaunchArgumentUndeclared(RobotRule):

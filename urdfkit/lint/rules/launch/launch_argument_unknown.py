@@ -3,18 +3,13 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterable
 from pathlib import Path
 
-from urdfkit.lint.finding import Finding
+from urdfkit.lint.facts.control.controller_joints import Named
+from urdfkit.lint.facts.launch.records import Call, LaunchActions
+from urdfkit.lint.finding import Finding, Severity
 from urdfkit.lint.rule import Findings, Model, RobotRule
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Iterable
-
-    from urdfkit.lint.facts.control.controller_joints import Named
-    from urdfkit.lint.facts.launch.records import Call, LaunchActions
-    from urdfkit.lint.finding import Severity
 
 
 class LaunchArgumentUnknown(RobotRule):

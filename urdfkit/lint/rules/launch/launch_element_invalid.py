@@ -2,14 +2,10 @@
 
 from __future__ import annotations
 
-from urdfkit.lint.finding import Finding
+from urdfkit.description.xml.source import Source
+from urdfkit.lint.finding import Finding, Severity
+from urdfkit.lint.model.tags import Attribute, Tag
 from urdfkit.lint.rule import Findings, Model, RobotRule
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from urdfkit.description.xml.source import Source
-    from urdfkit.lint.finding import Severity
-    from urdfkit.lint.model.tags import Attribute, Tag
 
 
 class LaunchElementInvalid(RobotRule):

@@ -4,12 +4,9 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from urdfkit.lint.facts.launch.records import LaunchActions
 from urdfkit.lint.finding import Finding
 from urdfkit.lint.rule import Findings, Model, RobotRule
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from urdfkit.lint.facts.launch.records import LaunchActions
 
 
 class LaunchIncludeCycle(RobotRule):

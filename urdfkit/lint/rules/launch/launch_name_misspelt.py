@@ -3,17 +3,13 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator
 from functools import lru_cache
 
+from urdfkit.description.xml.source import Source
+from urdfkit.lint.facts.control.controller_joints import Named
 from urdfkit.lint.finding import Finding
 from urdfkit.lint.rule import Findings, Model, RobotRule
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from urdfkit.description.xml.source import Source
-    from urdfkit.lint.facts.control.controller_joints import Named
 
 _NAMES = ("use_sim_time", "robot_description")
 _OF_MOVEIT = tuple(f"robot_description_{name}" for name in ("semantic", "planning", "kinematics"))

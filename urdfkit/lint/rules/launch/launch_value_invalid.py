@@ -2,14 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 from urdfkit.lint.finding import Finding
+from urdfkit.lint.model.tags import Attribute, Tag
 from urdfkit.lint.rule import Findings, Model, RobotRule
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from urdfkit.lint.model.tags import Attribute, Tag
 
 _BOOLEANS = {
     1: ("respawn", "required", "clear_params", "pass_all_args", "subst_value"),

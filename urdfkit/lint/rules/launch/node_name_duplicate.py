@@ -3,11 +3,8 @@
 from __future__ import annotations
 
 from urdfkit.lint.finding import Finding
+from urdfkit.lint.model.tags import Tag
 from urdfkit.lint.rule import Findings, Model, RobotRule
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from urdfkit.lint.model.tags import Tag
 
 
 class NodeNameDuplicate(RobotRule):

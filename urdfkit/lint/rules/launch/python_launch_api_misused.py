@@ -2,15 +2,12 @@
 
 from __future__ import annotations
 
+import ast
+
+from urdfkit.description.launch.python_constants import LaunchReader
+from urdfkit.description.xml.source import Source
 from urdfkit.lint.finding import Finding
 from urdfkit.lint.rule import Findings, Model, RobotRule
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    import ast
-
-    from urdfkit.description.launch.python_constants import LaunchReader
-    from urdfkit.description.xml.source import Source
 
 
 class PythonLaunchApiMisused(RobotRule):

@@ -4,13 +4,10 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from urdfkit.description.xml.source import Source
 from urdfkit.lint.finding import Finding
+from urdfkit.lint.model.tags import Tag
 from urdfkit.lint.rule import Findings, Model, RobotRule
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from urdfkit.description.xml.source import Source
-    from urdfkit.lint.model.tags import Tag
 
 _SLIDERS = {"joint_state_publisher", "joint_state_publisher_gui"}
 

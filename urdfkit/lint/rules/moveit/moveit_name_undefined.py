@@ -4,14 +4,11 @@ from __future__ import annotations
 
 import re
 
+from urdfkit.description.xml.source import Source
+from urdfkit.lint.facts.control.yaml_tree import Node
 from urdfkit.lint.finding import Finding
 from urdfkit.lint.model.masked_names import unless_masked
 from urdfkit.lint.rule import Findings, Model, RobotRule
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from urdfkit.description.xml.source import Source
-    from urdfkit.lint.facts.control.yaml_tree import Node
 
 
 class MoveitNameUndefined(RobotRule):

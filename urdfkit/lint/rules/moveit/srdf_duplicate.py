@@ -5,11 +5,8 @@ from __future__ import annotations
 from collections.abc import Hashable
 
 from urdfkit.description.xml.element import Element
+from urdfkit.lint.finding import Severity
 from urdfkit.lint.rule import Findings, Model, RobotRule
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from urdfkit.lint.finding import Severity
 
 _NAMED = ("group", "end_effector", "virtual_joint", "passive_joint")
 _PAIRS = ("disable_collisions", "enable_collisions")

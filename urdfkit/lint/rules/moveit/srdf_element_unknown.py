@@ -2,11 +2,8 @@
 
 from __future__ import annotations
 
+from urdfkit.description.xml.element import Element
 from urdfkit.lint.rule import Findings, Model, RobotRule
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from urdfkit.description.xml.element import Element
 
 _TYPES = ("fixed", "floating", "planar")
 _REASONS = ("Never", "Default", "Adjacent", "Always", "User")

@@ -3,11 +3,8 @@
 from __future__ import annotations
 
 from urdfkit.description.xml.element import Element
+from urdfkit.lint.finding import Severity
 from urdfkit.lint.rule import Findings, Model, RobotRule
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from urdfkit.lint.finding import Severity
 
 
 class SrdfGroupInconsistent(RobotRule):

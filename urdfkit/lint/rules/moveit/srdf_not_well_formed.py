@@ -4,12 +4,9 @@ from __future__ import annotations
 
 import re
 
+from urdfkit.description.xml.source import Source
 from urdfkit.lint.finding import Finding
 from urdfkit.lint.rule import Findings, Model, RobotRule
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from urdfkit.description.xml.source import Source
 
 
 class SrdfNotWellFormed(RobotRule):

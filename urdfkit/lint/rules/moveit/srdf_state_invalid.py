@@ -5,11 +5,8 @@ from __future__ import annotations
 import math
 
 from urdfkit.description.xml.element import Element
+from urdfkit.lint.finding import Severity
 from urdfkit.lint.rule import Findings, Model, RobotRule
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from urdfkit.lint.finding import Severity
 
 _TOLERANCE = 0.005
 """Accepted excess over a limit [rad or m]; angles in SRDF are often rounded to two decimals."""

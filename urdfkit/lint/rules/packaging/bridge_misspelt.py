@@ -6,13 +6,10 @@ import re
 from collections.abc import Iterator
 
 from urdfkit.description.xml.source import Source
+from urdfkit.lint.facts.control.controller_joints import Named
+from urdfkit.lint.facts.control.ros_gz_bridges import Bridged
 from urdfkit.lint.finding import Finding
 from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from urdfkit.lint.facts.control.controller_joints import Named
-    from urdfkit.lint.facts.control.ros_gz_bridges import Bridged
 
 _PUBLISHED = frozenset(
     (

@@ -7,14 +7,10 @@ from itertools import pairwise
 
 from urdfkit.description.packages.existence import is_folder
 from urdfkit.description.xml.source import Source
-from urdfkit.lint.finding import Finding
+from urdfkit.lint.facts.build_files import BuildFiles, CMakeCommand
+from urdfkit.lint.facts.cmake_defects import BuildDefect
+from urdfkit.lint.finding import Finding, Severity
 from urdfkit.lint.rule import Findings, Model, RobotRule
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from urdfkit.lint.facts.build_files import BuildFiles, CMakeCommand
-    from urdfkit.lint.facts.cmake_defects import BuildDefect
-    from urdfkit.lint.finding import Severity
 
 _COMMANDS = (
     *("cmake_minimum_required", "project", "find_package", "install", "catkin_package", "ament_package"),

@@ -5,13 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from urdfkit.description.xml.source import Source
+from urdfkit.lint.facts.control.controller_settings import ControllerSettings
+from urdfkit.lint.facts.control.yaml_tree import Node
 from urdfkit.lint.finding import Finding
 from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from urdfkit.lint.facts.control.controller_settings import ControllerSettings
-    from urdfkit.lint.facts.control.yaml_tree import Node
 
 TOLERANCE = 0.1
 """Accepted relative deviation; twice that of Gazebo plugins, because controllers are tuned on real robots."""

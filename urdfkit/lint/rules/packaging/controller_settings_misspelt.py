@@ -5,12 +5,8 @@ from __future__ import annotations
 import re
 
 from urdfkit.description.xml.source import Source
-from urdfkit.lint.finding import Finding
+from urdfkit.lint.finding import Finding, Severity
 from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from urdfkit.lint.finding import Severity
 
 _PARAMETERS = "ros__parameters"
 _LEVEL = r"(?m)^[ \t]+(ros_{1,3}param\w*)[ \t]*:[ \t]*\r?$"

@@ -3,12 +3,9 @@
 from __future__ import annotations
 
 from urdfkit.description.xml.source import Source
+from urdfkit.lint.facts.control.ros2_controllers import DeclaredController
 from urdfkit.lint.finding import Finding
 from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from urdfkit.lint.facts.control.ros2_controllers import DeclaredController
 
 _BROADCASTERS = (
     "force_torque_sensor_broadcaster/ForceTorqueSensorBroadcaster",

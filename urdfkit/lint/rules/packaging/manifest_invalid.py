@@ -4,14 +4,10 @@ from __future__ import annotations
 
 import re
 
-from urdfkit.lint.finding import Finding
+from urdfkit.lint.facts.build_files import BuildFiles
+from urdfkit.lint.finding import Finding, Severity
+from urdfkit.lint.model.tags import Tag
 from urdfkit.lint.rule import Findings, Model, RobotRule
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from urdfkit.lint.facts.build_files import BuildFiles
-    from urdfkit.lint.finding import Severity
-    from urdfkit.lint.model.tags import Tag
 
 _TYPES = ("catkin", "ament_cmake", "ament_python", "cmake")
 """Common build types."""

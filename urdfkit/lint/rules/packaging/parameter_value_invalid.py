@@ -5,12 +5,9 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
+from urdfkit.lint.facts.control.yaml_tree import Node
 from urdfkit.lint.finding import Finding
 from urdfkit.lint.rule import Findings, Model, RobotRule
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from urdfkit.lint.facts.control.yaml_tree import Node
 
 _MISSPELT = r"[Tt](?:ure|reu|ru|rie|ruee|tue|reue)|[Ff](?:asle|lase|ales|als|alsee|lse|ase)"
 _SENSOR_CONFIG = r"(?:odom|imu|pose|twist)\d+_config"

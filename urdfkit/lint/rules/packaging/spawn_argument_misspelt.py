@@ -5,14 +5,11 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
+from urdfkit.description.xml.source import Source
+from urdfkit.lint.facts.control.controller_joints import Named
+from urdfkit.lint.facts.control.launched_nodes import Started
 from urdfkit.lint.finding import Finding
 from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from urdfkit.description.xml.source import Source
-    from urdfkit.lint.facts.control.controller_joints import Named
-    from urdfkit.lint.facts.control.launched_nodes import Started
 
 _CREATE = "world file param string topic name allow_renaming x y z R P Y"
 _SPAWN = "reference_frame gazebo_namespace robot_namespace unpause wait package_to_model x y z R P Y J b"

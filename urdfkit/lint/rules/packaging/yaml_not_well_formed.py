@@ -5,12 +5,9 @@ from __future__ import annotations
 import re
 
 from urdfkit.description.xml.source import Source
+from urdfkit.lint.facts.control.yaml_tree import Broken, Node
 from urdfkit.lint.finding import Finding
 from urdfkit.lint.rule import Findings, Model, RobotRule
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from urdfkit.lint.facts.control.yaml_tree import Broken, Node
 
 _TEMPLATE = r"\{%|\{\{|\$\{"
 _WITHOUT_COLON = r"\s*(?:-\s+)?([A-Za-z_][\w/.-]*)(?:\s+[^\s:#]\S*)?\s*(?:#.*)?$"

@@ -2,13 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
+from urdfkit.description.xml.element import Element
 from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from urdfkit.description.xml.element import Element
 
 
 class CameraFrameNotOptical(RobotRule):

@@ -1,12 +1,8 @@
 """X127 directive-attribute-unknown."""
 
 from urdfkit.description.xacro.faults import Fault
-from urdfkit.lint.finding import Edit, Fix
+from urdfkit.lint.finding import Edit, Fix, Severity
 from urdfkit.lint.rule import FaultRule, Findings, Model
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from urdfkit.lint.finding import Severity
 
 
 class DirectiveAttribute(FaultRule):

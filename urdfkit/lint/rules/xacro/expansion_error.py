@@ -3,11 +3,8 @@
 from __future__ import annotations
 
 from urdfkit.description.xacro.faults import Fault
+from urdfkit.lint.finding import Severity
 from urdfkit.lint.rule import FaultRule, Findings, Model
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from urdfkit.lint.finding import Severity
 
 
 class ExpansionError(FaultRule):

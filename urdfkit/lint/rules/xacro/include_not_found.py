@@ -6,13 +6,9 @@ from pathlib import Path
 
 from urdfkit.description.packages.existence import is_folder
 from urdfkit.description.xacro.faults import Fault
-from urdfkit.lint.finding import Edit, Fix
+from urdfkit.lint.finding import Edit, Fix, Severity
 from urdfkit.lint.fix_builders import nearest
 from urdfkit.lint.rule import FaultRule, Findings, Model
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from urdfkit.lint.finding import Severity
 
 
 class IncludeNotFound(FaultRule):

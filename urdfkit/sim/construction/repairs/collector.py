@@ -3,16 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import TYPE_CHECKING
 
 from urdfkit.description.repair_positions import at_attributes
-from urdfkit.description.urdf.repair_record import Repair, grouped
-from urdfkit.errors import SimulationError, with_effect
-
-if TYPE_CHECKING:
-    from urdfkit.description.urdf.repair_record import RepairKind
-    from urdfkit.description.xml.source import Position
-    from urdfkit.errors import UrdfkitError
+from urdfkit.description.urdf.repair_record import Repair, RepairKind, grouped
+from urdfkit.description.xml.source import Position
+from urdfkit.errors import SimulationError, UrdfkitError, with_effect
 
 _REFUSED = " (refused: strict)"
 

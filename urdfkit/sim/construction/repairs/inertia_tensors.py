@@ -8,21 +8,17 @@ the negative eigenvalues replaced by zero (Higham, Computing a nearest symmetric
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
 from urdfkit.description.urdf.attached_bodies import AttachedBodies
-from urdfkit.description.urdf.repair_record import Repair
+from urdfkit.description.urdf.repair_record import Repair, RepairKind
 from urdfkit.description.urdf.robot import Inertia, Link
 from urdfkit.description.xacro.evaluation.failures import chain_words
+from urdfkit.description.xml.element import Element
 from urdfkit.linear_algebra import matmul, symmetric_eigen, vector_norm
 from urdfkit.sim.construction.validation import impossible, tensor_matrix
-
-if TYPE_CHECKING:
-    from urdfkit.description.urdf.repair_record import RepairKind
-    from urdfkit.description.xml.element import Element
 
 Array = NDArray[np.float64]
 
