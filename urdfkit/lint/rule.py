@@ -11,7 +11,7 @@ from typing import Any, ClassVar, Literal
 
 from urdfkit.description.xacro.faults import Fault
 from urdfkit.description.xml.element import Element
-from urdfkit.description.xml.source import Origin, Position
+from urdfkit.description.xml.source import Origin, Position, Span
 from urdfkit.errors import nearest, shortened
 from urdfkit.lint.finding import Finding, Fix, Severity
 from urdfkit.lint.model.model import Model as Model
@@ -84,21 +84,31 @@ class Rule:
         message = shortened(message)
         place: Any = where if isinstance(where, Position) else getattr(where, "origin", where)
         chain = getattr(place, "expansions", ())
-        return Finding(
-            self.code,
-            self.name,
-            severity or self.severity,
+        span = model.span(getattr(place, "position", place), attribute)
+        return self.at_span(
+            span,
             message,
-            model.span(getattr(place, "position", place), attribute),
-            link,
-            joint,
-            help,
-            fix,
-            (chain,) if chain else (),
-            cause,
-            kind,
-            names,
+            severity,
+            link=link,
+            joint=joint,
+            help=help,
+            fix=fix,
+            chains=(chain,) if chain else (),
+            cause=cause,
+            kind=kind,
+            names=names,
         )
+
+    def at_span(self, span: Span, message: str, severity: Severity | None = None, **details: Any) -> Finding:
+        """Create a finding at a place in a file.
+
+        Args:
+            span: the place.
+            message: one line that describes the defect, with values and units.
+            severity: overrides the rule's severity.
+            details: further attributes of `Finding`, such as ``help``.
+        """
+        return Finding(self.code, self.name, severity or self.severity, message, span, **details)
 
 
 class SourceRule(Rule):

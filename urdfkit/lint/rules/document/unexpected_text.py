@@ -1,7 +1,7 @@
 """E007 unexpected-text."""
 
 from urdfkit.description.xml.element import Element
-from urdfkit.lint.finding import Edit, Finding, Fix
+from urdfkit.lint.finding import Edit, Fix
 from urdfkit.lint.model.tags import Document, Tag
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
@@ -79,12 +79,10 @@ class UnexpectedText(RobotRule):
                 first = offset + len(piece) - len(piece.lstrip())
                 span = source.span(first, first + len(piece.strip()))
                 shown = words if len(words) <= 40 else words[:39] + "…"
-                yield Finding(
-                    self.code,
-                    self.name,
-                    "note" if words.startswith(("#", "//")) else self.severity,
-                    f"unexpected text `{shown}` in <{tag.name}>: readers ignore it",
+                yield self.at_span(
                     span,
+                    f"unexpected text `{shown}` in <{tag.name}>: readers ignore it",
+                    severity="note" if words.startswith(("#", "//")) else self.severity,
                     help="remove it, or restore the tag or comment it belongs to",
                     fix=Fix("unsafe", "Remove the text", (Edit(span, ""),)),
                     chains=(element.origin.expansions,) if element.origin.expansions else (),

@@ -6,7 +6,6 @@ from pathlib import Path
 
 from urdfkit.description.xml.source import Source
 from urdfkit.lint.facts.launch.spawned_controllers import Spawner
-from urdfkit.lint.finding import Finding
 from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
 
 _OTHER_WAYS = r"--?param-file|--?controller-type|[\"' ]-[pt][\"' ]|load_controller"
@@ -58,7 +57,7 @@ class ControllerParametersMissing(RobotRule):
             message = _message(spawner, files, defined, model)
             if message:
                 span = spawner.source.span(spawner.tag.start, spawner.tag.end)
-                yield Finding(self.code, self.name, self.severity, message, span)
+                yield self.at_span(span, message)
         yield from self._controller_list(model, files)
         yield from self._controller_manager(model)
 
@@ -78,7 +77,7 @@ class ControllerParametersMissing(RobotRule):
                 continue
             if own and is_unread and not any(is_mentioned_elsewhere(Path(file.file).name, model) for file in lists):
                 message = f"no launch file loads {Path(own[0].file).name}, which defines `controller_list`"
-                yield Finding(self.code, self.name, self.severity, message, source.span(tag.start, tag.end))
+                yield self.at_span(source.span(tag.start, tag.end), message)
 
     def _controller_manager(self, model: Model) -> Findings:
         import re
@@ -95,7 +94,7 @@ class ControllerParametersMissing(RobotRule):
             if is_manager and is_bare and not node.has_arguments:
                 lacks = "no parameters of controllers" if node.parameters else "no parameters"
                 message = f"`ros2_control_node` has {lacks}, so its controllers have no types"
-                yield Finding(self.code, self.name, self.severity, message, node.source.span(node.start, node.end))
+                yield self.at_span(node.source.span(node.start, node.end), message)
 
 
 def _message(spawner: Spawner, files: list[Source], defined: dict[str, list[tuple[Source, str]]], model: Model) -> str:

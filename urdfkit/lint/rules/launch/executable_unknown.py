@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from urdfkit.lint.facts.launch.executables import Executables
-from urdfkit.lint.finding import Finding
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
 _RELEASES = {1: "ROS 1", 2: "this release of ROS 2"}
@@ -83,7 +82,7 @@ class ExecutableUnknown(RobotRule):
                 if new is not None:
                     span = file.source.span(node.package.start, node.package.start + len(package))
                     message = f"since Humble, the package `{new}` replaces `{package}`"
-                    yield Finding(self.code, self.name, self.severity, message, span, help=f"write `{new}`")
+                    yield self.at_span(span, message, help=f"write `{new}`")
                     continue
                 if package in near:
                     model.expanded.packages.watch(near[package], ".txt")
@@ -110,4 +109,4 @@ class ExecutableUnknown(RobotRule):
                 release = f" in {_RELEASES[version]}" if program in others else ""
                 message = f"package `{package}` has no executable `{program}`{release}{suggestion(meant)}"
                 span = file.source.span(node.program.start, node.program.start + len(program))
-                yield Finding(self.code, self.name, self.severity, message, span, names=(program,))
+                yield self.at_span(span, message, names=(program,))

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from urdfkit.lint.finding import Finding
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
 
@@ -60,4 +59,4 @@ class ExitHandlerNeverRuns(RobotRule):
             for place, program in never_run(source, tree) if "OnProcessExit" in source.text else ():
                 message = f"`{program}` runs until the launch ends, so `on_exit` starts nothing"
                 help = "name the process whose end the nodes wait for, or use OnProcessStart"
-                yield Finding(self.code, self.name, self.severity, message, source.span(*place), help=help)
+                yield self.at_span(source.span(*place), message, help=help)

@@ -78,7 +78,7 @@ class LaunchActionUnused(RobotRule):
         only = "is only the target of an event handler and " if is_target else ""
         effect = "the argument is not declared" if kind == "DeclareLaunchArgument" else "it has no effect"
         message = f"{kind} `{node.id}` {only}is not added to the launch description: {effect}"
-        return Finding(self.code, self.name, self.severity, message, source.span(*place(source, node)))
+        return self.at_span(source.span(*place(source, node)), message)
 
 
 def _names(tree: ast.Module) -> tuple[dict[str, tuple[ast.Name, str]], set[str], set[str]]:

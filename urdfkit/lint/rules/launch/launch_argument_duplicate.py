@@ -1,6 +1,5 @@
 """L115 launch-argument-duplicate."""
 
-from urdfkit.lint.finding import Finding
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
 
@@ -42,4 +41,4 @@ class LaunchArgumentDuplicate(RobotRule):
         for one in repeated_arguments(model):
             effect = "roslaunch stops" if one.is_ros1 else "its default has no effect"
             message = f"launch argument `{one.name}` is declared in line {one.first} already; {effect}"
-            yield Finding(self.code, self.name, "error" if one.is_ros1 else self.severity, message, one.span)
+            yield self.at_span(one.span, message, severity="error" if one.is_ros1 else self.severity)

@@ -6,7 +6,6 @@ import re
 
 from urdfkit.lint.facts.control.controller_joints import Named
 from urdfkit.lint.facts.launch.records import LaunchActions
-from urdfkit.lint.finding import Finding
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
 
@@ -92,7 +91,7 @@ class LaunchArgumentUndeclared(RobotRule):
             message = f"launch argument `{use.name}` is not declared{hint}"
         span = file.source.span(place.start, place.start + len(place.name))
         severity = "warning" if has_default else self.severity
-        yield Finding(self.code, self.name, severity, message, span)
+        yield self.at_span(span, message, severity=severity)
 
 
 def _is_rarer(name: str, other: str, file: LaunchActions) -> bool:

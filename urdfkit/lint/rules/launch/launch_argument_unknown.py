@@ -117,7 +117,7 @@ class LaunchArgumentUnknown(RobotRule):
         if missing and not call.passes_all and file.is_ros1 == actions.is_ros1 and passed <= names:
             message = f"the include does not pass the required argument `{missing[0]}` of {target}"
             span = file.source.span(call.start, call.end)
-            yield Finding(self.code, self.name, severity, message, span)
+            yield self.at_span(span, message, severity=severity)
 
     def _xacro(self, file: LaunchActions, call: Call, model: Model) -> Findings:
         from urdfkit.description.xacro.declared_arguments import declared_arguments, is_used
@@ -157,7 +157,7 @@ class LaunchArgumentUnknown(RobotRule):
 
     def _at(self, file: LaunchActions, name: Named, message: str, severity: Severity) -> Finding:
         span = file.source.span(name.start, name.start + len(name.name))
-        return Finding(self.code, self.name, severity, message, span)
+        return self.at_span(span, message, severity=severity)
 
 
 def _leaves_out_files(model: Model) -> bool:

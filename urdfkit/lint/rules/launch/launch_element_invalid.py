@@ -71,7 +71,7 @@ class LaunchElementInvalid(RobotRule):
         from urdfkit.lint.facts.launch.yaml_elements import yaml_launch_defects
 
         for node, message in yaml_launch_defects(source):
-            yield Finding(self.code, self.name, self.severity, message, span_of(source, node))
+            yield self.at_span(span_of(source, node), message)
         yield from self._substitutions(source, 2)
 
     def _substitutions(self, source: Source, version: int) -> Findings:
@@ -126,7 +126,7 @@ class LaunchElementInvalid(RobotRule):
                 yield self._at(source, (tag.start, tag.end), message)
 
     def _at(self, source: Source, place: tuple[int, int], message: str, severity: Severity | None = None) -> Finding:
-        return Finding(self.code, self.name, severity or self.severity, message, source.span(*place))
+        return self.at_span(source.span(*place), message, severity=severity)
 
 
 def _unknown(name: str, above: str, version: int) -> str | None:

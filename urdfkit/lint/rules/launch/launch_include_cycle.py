@@ -5,7 +5,6 @@ from __future__ import annotations
 from pathlib import Path
 
 from urdfkit.lint.facts.launch.records import LaunchActions
-from urdfkit.lint.finding import Finding
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
 
@@ -60,7 +59,7 @@ class LaunchIncludeCycle(RobotRule):
                         names = " → ".join(each.name for each in (*path, first))
                         message = "launch file includes itself" + (f": {names}" if len(path) > 1 else "")
                         span = current.source.span(call.start, call.end)
-                        yield Finding(self.code, self.name, self.severity, message, span)
+                        yield self.at_span(span, message)
                     elif found is not None and target is not None and target not in seen:
                         seen.add(target)
                         inner = actions_at(found, model)

@@ -92,13 +92,13 @@ class LaunchNameMisspelt(RobotRule):
                     yield self._at(source, written, start, near)
             for key, node, near in () if is_launch else misspelt_parameters(source):
                 message = f"unknown parameter `{key.text}` of node `{node}`; did you mean `{near}`?"
-                yield Finding(self.code, self.name, "warning", message, span_of(source, key))
+                yield self.at_span(span_of(source, key), message, severity="warning")
             for key, kind, near in () if is_launch else misspelt_navigation(source):
                 if kind == "plugin" and is_exported_plugin(model, key.text):
                     continue
                 of = "Nav2" if "ros__parameters" in source.text else "costmap_2d"
                 message = f"unknown {kind} `{key.text}` in the parameters of {of}; did you mean `{near}`?"
-                yield Finding(self.code, self.name, "warning", message, span_of(source, key))
+                yield self.at_span(span_of(source, key), message, severity="warning")
             for word in re.finditer(_COMMAND, uncommented(source)) if is_launch else ():
                 if _nearest(word[1], ("xacro",)) is not None:
                     yield self._at(source, word[1], word.start(1), "xacro")
@@ -107,7 +107,7 @@ class LaunchNameMisspelt(RobotRule):
             for parameter, package, near in misspelt_in_launch(source) if is_launch else ():
                 message = f"unknown parameter `{parameter.name}` of a node of `{package}`; did you mean `{near}`?"
                 span = source.span(parameter.start, parameter.start + len(parameter.name))
-                yield Finding(self.code, self.name, "warning", message, span, names=(near,))
+                yield self.at_span(span, message, severity="warning", names=(near,))
             for world in re.finditer(_WORLD, uncommented(source)) if is_launch and "gz" in source.text else ():
                 near = _nearest(world[1], _WORLDS)
                 if near is not None and world[1] not in _WORLDS:
@@ -134,7 +134,7 @@ class LaunchNameMisspelt(RobotRule):
 
     def _at(self, source: Source, written: str, start: int, near: str) -> Finding:
         message, span = f"unknown name `{written}`; did you mean `{near}`?", source.span(start, start + len(written))
-        return Finding(self.code, self.name, self.severity, message, span, kind="name", names=(near,))
+        return self.at_span(span, message, kind="name", names=(near,))
 
 
 @lru_cache(maxsize=4096)

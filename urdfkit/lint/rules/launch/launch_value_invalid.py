@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from urdfkit.lint.finding import Finding
 from urdfkit.lint.model.tags import Attribute, Tag
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
@@ -68,7 +67,7 @@ class LaunchValueInvalid(RobotRule):
             found = (each for tag in tags for each in _invalid(tag, version, model, defaults))
             for attribute, message in (*found, *_conditions(tags)):
                 span = source.span(attribute.value_start, attribute.value_end)
-                yield Finding(self.code, self.name, self.severity, message, span)
+                yield self.at_span(span, message)
 
 
 _TYPES = {

@@ -1,6 +1,5 @@
 """L108 launch-words-joined."""
 
-from urdfkit.lint.finding import Finding
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
 
@@ -43,4 +42,4 @@ class LaunchWordsJoined(RobotRule):
 
         for source, tree in python_files(model):
             for place, message in joined_words(source, tree):
-                yield Finding(self.code, self.name, self.severity, message, source.span(*place))
+                yield self.at_span(source.span(*place), message)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from urdfkit.lint.finding import Finding
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
 
@@ -47,4 +46,4 @@ class MapTransformPublishedTwice(RobotRule):
 
         for source, place, message in published_together(model):
             span = source.span(*place)
-            yield Finding(self.code, self.name, self.severity, message, span, help="check the conditions of both")
+            yield self.at_span(span, message, help="check the conditions of both")

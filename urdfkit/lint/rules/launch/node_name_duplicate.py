@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from urdfkit.lint.finding import Finding
 from urdfkit.lint.model.tags import Tag
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
@@ -58,11 +57,11 @@ class NodeNameDuplicate(RobotRule):
                     message = f"the node in line {line} has the name `{written.value}` too"
                     severity = self.severity if reads_ros1(source) else "warning"
                     span = source.span(written.value_start, written.value_end)
-                    yield Finding(self.code, self.name, severity, message, span)
+                    yield self.at_span(span, message, severity=severity)
         for source, tree in python_files(model):
             for name, span, line in duplicates(source, tree):
                 message = f"the node in line {line} has the name `{name}` too"
-                yield Finding(self.code, self.name, "warning", message, span)
+                yield self.at_span(span, message, severity="warning")
 
 
 def _full_name(tag: Tag) -> str | None:

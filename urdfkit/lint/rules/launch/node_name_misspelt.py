@@ -1,6 +1,5 @@
 """L117 node-name-misspelt."""
 
-from urdfkit.lint.finding import Finding
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
 
@@ -61,4 +60,4 @@ class NodeNameMisspelt(RobotRule):
         from urdfkit.lint.facts.nodes.names import misnamed
 
         for _, span, message in misnamed(model):
-            yield Finding(self.code, self.name, self.severity, message, span)
+            yield self.at_span(span, message)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from urdfkit.lint.finding import Finding
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
 _FIXED = ("command", "file", "ns", "param")
@@ -61,4 +60,4 @@ class ParametersLoadedTwice(RobotRule):
                 line = source.span(first, first).line
                 message = f"{at['file'].rpartition('/')[2]} is loaded into {space} in line {line} already"
                 span = source.span(tag.start, tag.end)
-                yield Finding(self.code, self.name, self.severity, message, span, help="write another namespace")
+                yield self.at_span(span, message, help="write another namespace")

@@ -124,7 +124,7 @@ class PythonLaunchApiMisused(RobotRule):
                 yield self._at(source, (start, end), f"`{word.arg}` of `{kind}` is not a list; write it in brackets")
 
     def _at(self, source: Source, place: tuple[int, int], message: str) -> Finding:
-        return Finding(self.code, self.name, self.severity, message, source.span(*place))
+        return self.at_span(source.span(*place), message)
 
 
 def _not_text(node: ast.expr) -> list[ast.expr]:

@@ -5,7 +5,6 @@ from __future__ import annotations
 import ast
 
 from urdfkit.description.xml.source import Source
-from urdfkit.lint.finding import Finding
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
 _FUNCTION = "generate_launch_description"
@@ -56,7 +55,7 @@ class PythonLaunchNameUndefined(RobotRule):
             names = defined(tree) or set()
             for name, node in undefined(tree).items():
                 message = f"name `{name}` is not defined or imported{suggestion(first_slip(name, names))}"
-                yield Finding(self.code, self.name, self.severity, message, source.span(*place(source, node)))
+                yield self.at_span(source.span(*place(source, node)), message)
             yield from self._description(source, tree, _FUNCTION in names)
 
     def _description(self, source: Source, tree: ast.Module, is_defined: bool) -> Findings:
@@ -73,10 +72,10 @@ class PythonLaunchNameUndefined(RobotRule):
             span = source.span(start, start + len(function.name))
             if differs_by_a_letter(function.name, _FUNCTION) and not is_defined:
                 message = f"no function `{_FUNCTION}`, which `ros2 launch` calls; did you mean it by `{function.name}`?"
-                yield Finding(self.code, self.name, self.severity, message, span)
+                yield self.at_span(span, message)
             elif function.name == _FUNCTION and not any(_ends(node) for node in own_nodes(function)):
                 message = f"`{_FUNCTION}` does not return a LaunchDescription"
-                yield Finding(self.code, self.name, self.severity, message, span)
+                yield self.at_span(span, message)
 
 
 def _ends(node: ast.AST) -> bool:

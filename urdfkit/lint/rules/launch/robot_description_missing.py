@@ -5,7 +5,6 @@ from __future__ import annotations
 from pathlib import Path
 
 from urdfkit.description.xml.source import Source
-from urdfkit.lint.finding import Finding
 from urdfkit.lint.model.tags import Tag
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
@@ -63,7 +62,7 @@ class RobotDescriptionMissing(RobotRule):
             if not any(is_slip(name, "robot_description") for name in names):  # launch-name-misspelt reports these
                 message = "`robot_state_publisher` is started without the parameter `robot_description`"
                 span = node.source.span(node.start, node.end)
-                yield Finding(self.code, self.name, self.severity, message, span, names=("robot_description",))
+                yield self.at_span(span, message, names=("robot_description",))
         yield from self._in_ros1(model)
 
     def _in_ros1(self, model: Model) -> Findings:
@@ -90,7 +89,7 @@ class RobotDescriptionMissing(RobotRule):
             if is_mentioned_elsewhere(Path(file.file).name, model):
                 continue
             message = "the parameter `robot_description` is not set by this launch file or its includes"
-            yield Finding(self.code, self.name, self.severity, message, file.span(user.start, user.end))
+            yield self.at_span(file.span(user.start, user.end), message)
 
 
 def _user(file: Source) -> Tag | None:

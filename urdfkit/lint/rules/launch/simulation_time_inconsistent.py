@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from urdfkit.lint.finding import Finding
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
 
@@ -55,4 +54,4 @@ class SimulationTimeInconsistent(RobotRule):
         from urdfkit.lint.facts.nodes.simulation_time import computer_time, without_clock
 
         for source, place, message in (*without_clock(model), *computer_time(model)):
-            yield Finding(self.code, self.name, self.severity, message, source.span(*place))
+            yield self.at_span(source.span(*place), message)

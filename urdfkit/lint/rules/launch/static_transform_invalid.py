@@ -1,6 +1,5 @@
 """L118 static-transform-invalid."""
 
-from urdfkit.lint.finding import Finding
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
 
@@ -44,4 +43,4 @@ class StaticTransformInvalid(RobotRule):
 
         for source, word, message in static_transform_defects(model):
             span = source.span(word.start, word.start + len(word.name))
-            yield Finding(self.code, self.name, self.severity, message, span)
+            yield self.at_span(span, message)

@@ -1,6 +1,5 @@
 """L114 xacro-argument-malformed."""
 
-from urdfkit.lint.finding import Finding
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
 
@@ -40,4 +39,4 @@ class XacroArgumentMalformed(RobotRule):
                 end = word.start + len(word.name)
                 message = f"`{word.name}=` is no argument of xacro; write `{word.name}:=`"
                 span = file.source.span(word.start, end + 1)
-                yield Finding(self.code, self.name, self.severity, message, span)
+                yield self.at_span(span, message)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from urdfkit.lint.finding import Finding
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
 
@@ -43,4 +42,4 @@ class XacroNotExpanded(RobotRule):
 
         for span, name in descriptions_as_text(model):
             message = f"{name} is loaded as text, so its macros and expressions are not expanded"
-            yield Finding(self.code, self.name, self.severity, message, span, help="expand it with `xacro`")
+            yield self.at_span(span, message, help="expand it with `xacro`")

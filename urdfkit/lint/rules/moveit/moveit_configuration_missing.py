@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from urdfkit.lint.finding import Finding
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
 TYPE_CHECKING = False
@@ -68,11 +67,11 @@ class MoveitConfigurationMissing(RobotRule):
             yield from self._builder(builder, model, list(near))
             folder = near.get(builder.package)
             for span, message in wrong_methods(builder.source, builder.tree, builder.call, folder, model):
-                yield Finding(self.code, self.name, self.severity, message, span)
+                yield self.at_span(span, message)
         for package in dict.fromkeys(builder.package for builder in used):
             replaced = frozenset.intersection(*(each.replaced for each in used if each.package == package))
             for source, node, message in missing_paths(near.get(package), replaced, near, model):
-                yield Finding(self.code, self.name, self.severity, message, span_of(source, node))
+                yield self.at_span(span_of(source, node), message)
 
     def _builder(self, builder: Builder, model: Model, packages: list[str]) -> Findings:
         import re
@@ -85,7 +84,7 @@ class MoveitConfigurationMissing(RobotRule):
         stems = [name.partition("_moveit")[0] for name in (builder.package, near or "")]
         if near is not None and (stems[0] == stems[1] or is_slip(builder.package, near)):
             message = f"unknown package `{builder.package}`; did you mean `{near}`?"
-            yield Finding(self.code, self.name, self.severity, message, builder.place)
+            yield self.at_span(builder.place, message)
             return
         names = robot_names(model)
         if any(re.fullmatch(name, builder.robot) for name in names):
@@ -93,4 +92,4 @@ class MoveitConfigurationMissing(RobotRule):
         near = nearest(builder.robot, [name for name in names if name.isidentifier()], cutoff=0.7)
         if near is not None:
             message = f"no robot has the name `{builder.robot}`; did you mean `{near}`?"
-            yield Finding(self.code, self.name, "warning", message, builder.robot_place)
+            yield self.at_span(builder.robot_place, message, severity="warning")

@@ -1,6 +1,5 @@
 """M112 moveit-controller-contradiction."""
 
-from urdfkit.lint.finding import Finding
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
 
@@ -61,7 +60,7 @@ class MoveitControllerContradiction(RobotRule):
                     meant = meant_controller(entry, started, taken)
                     if meant is not None:
                         message = f"no controller is called `{name}`; did you mean `{meant}`?"
-                        yield Finding(self.code, self.name, self.severity, message, span_of(source, entry.name))
+                        yield self.at_span(span_of(source, entry.name), message)
                 elif entry.kind == "controller":
                     for node, message in contradictions(entry, started.get(name, []), model):
-                        yield Finding(self.code, self.name, self.severity, message, span_of(source, node))
+                        yield self.at_span(span_of(source, node), message)

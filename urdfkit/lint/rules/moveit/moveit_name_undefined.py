@@ -127,4 +127,4 @@ class MoveitNameUndefined(RobotRule):
         from urdfkit.lint.fix_builders import meant
 
         hint = meant(node.text.rpartition("/")[2], names)[1]  # type: ignore[arg-type]
-        return Finding(self.code, self.name, self.severity, f"{message}{hint}", span_of(source, node))
+        return self.at_span(span_of(source, node), f"{message}{hint}")

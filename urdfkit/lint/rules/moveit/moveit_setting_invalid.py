@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from urdfkit.lint.finding import Finding
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
 TYPE_CHECKING = False
@@ -78,11 +77,11 @@ class MoveitSettingInvalid(RobotRule):
                 *(uncontrolled_joints(source, root, model.robot) if not model.is_incomplete else ()),
             ]
             for node, message in defects:
-                yield Finding(self.code, self.name, self.severity, message, span_of(source, node))
+                yield self.at_span(span_of(source, node), message)
             stops = ros_version(source) == 2
             for key, node, message in (flag for entry in entries(source) for flag in _not_boolean(entry)):
                 severity = "error" if stops and key in _READ_BY_MOVEIT2 else self.severity
-                yield Finding(self.code, self.name, severity, message, span_of(source, node))
+                yield self.at_span(span_of(source, node), message, severity=severity)
 
 
 def _defects(entry: MoveitEntry, model: Model) -> Iterator[tuple[Node, str]]:

@@ -5,7 +5,6 @@ from __future__ import annotations
 import re
 
 from urdfkit.description.xml.source import Source
-from urdfkit.lint.finding import Finding
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
 
@@ -57,7 +56,7 @@ class SrdfNotWellFormed(RobotRule):
                 at = error.position
                 start = source.offset(at.line, at.column) if at is not None else 0
                 span = source.span(start, min(start + 1, len(source.text)))
-                yield Finding(self.code, self.name, self.severity, error.message, span)
+                yield self.at_span(span, error.message)
 
 
 def _is_of_another_robot(source: Source, model: Model) -> bool:

@@ -82,12 +82,12 @@ class BridgeMisspelt(RobotRule):
                 for parameter, others in REQUIRED.items():
                     if not any(nearest(each, names, cutoff=0.85) for each in (parameter, *others)):
                         message = f"bridge has no `{parameter}`"
-                        yield Finding(self.code, self.name, self.severity, message, span_of(source, keys[0]))
+                        yield self.at_span(span_of(source, keys[0]), message)
                 for key in keys:
                     suggestion = nearest(key.text, KEYS, cutoff=0.7) if key.text not in KEYS else None
                     if suggestion is not None:
                         message = f"unknown key `{key.text}` of ros_gz_bridge; did you mean `{suggestion}`?"
-                        yield Finding(self.code, self.name, self.severity, message, span_of(source, key))
+                        yield self.at_span(span_of(source, key), message)
         for source in (each for each in sources if not each.file.endswith((".yaml", ".yml"))):
             for word in malformed_in_launch(source):
                 yield self._at(source, word, f"`{word.name}` is not of the form `topic@ROS type@Gazebo type`")
@@ -100,7 +100,7 @@ class BridgeMisspelt(RobotRule):
 
     def _at(self, source: Source, reference: Named, message: str) -> Finding:
         span = source.span(reference.start, reference.start + len(reference.name))
-        return Finding(self.code, self.name, self.severity, message, span)
+        return self.at_span(span, message)
 
 
 def _type_defect(bridge: Bridged) -> tuple[Named, str] | None:

@@ -239,7 +239,7 @@ class BuildFileInconsistent(RobotRule):
         names: tuple[str, ...] = (),
     ) -> Finding:
         span = source.span(start, min(start + len(text), len(source.text)))
-        return Finding(self.code, self.name, severity, message, span, kind=kind, names=names)
+        return self.at_span(span, message, severity=severity, kind=kind, names=names)
 
 
 def _used_paths(model: Model) -> dict[str, dict[str, str]]:

@@ -138,9 +138,7 @@ class ControllerContradictsWheels(RobotRule):
         from urdfkit.lint.facts.control.yaml_tree import span_of
 
         span = span_of(source, node)
-        return Finding(
-            self.code, self.name, self.severity, message, span, joint=joint, help=help, kind=kind, names=names
-        )
+        return self.at_span(span, message, joint=joint, help=help, kind=kind, names=names)
 
 
 def _positive_number(controller: ControllerSettings, name: str) -> Iterator[tuple[Node, float]]:

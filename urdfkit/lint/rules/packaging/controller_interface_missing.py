@@ -1,6 +1,5 @@
 """K963 controller-interface-missing."""
 
-from urdfkit.lint.finding import Finding
 from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
 
 _REQUIRED_INTERFACES = {
@@ -75,19 +74,16 @@ class ControllerInterfaceMissing(RobotRule):
                     needed = f"`{controller_type.name}` requires the {required} of joint `{unprovided[0]}`"
                     message = f"{needed}, which has no transmission"
                     span = source.span(controller_type.start, controller_type.start + len(controller_type.name))
-                    yield Finding(self.code, self.name, "note", message, span, joint=unprovided[0])
+                    yield self.at_span(span, message, severity="note", joint=unprovided[0])
                 if required is None or not missing or any("$" in name for name in provided[missing[0]]):
                     continue
                 if any(is_misspelt(name) for name in provided[missing[0]]):
                     continue
                 others = ", ".join(f"`{name}`" for name in sorted(provided[missing[0]]))
-                yield Finding(
-                    self.code,
-                    self.name,
-                    self.severity,
+                yield self.at_span(
+                    source.span(controller_type.start, controller_type.start + len(controller_type.name)),
                     f"`{controller_type.name}` requires the {required} of joint `{missing[0]}`, "
                     f"whose transmission provides {others}",
-                    source.span(controller_type.start, controller_type.start + len(controller_type.name)),
                     joint=missing[0],
                     help="change the controller type or the <hardwareInterface>",
                 )

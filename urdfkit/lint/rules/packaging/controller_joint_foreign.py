@@ -1,6 +1,5 @@
 """K976 controller-joint-foreign."""
 
-from urdfkit.lint.finding import Finding
 from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
 
 
@@ -71,6 +70,4 @@ class ControllerJointForeign(RobotRule):
                         if is_joint and "$" not in inner.text and (inner.line, inner.column) not in misspelt:
                             message = f"`{key.text}` has `{inner.text}`, which controller `{one.name}` does not control"
                             hint = meant(inner.text, names)[1]
-                            yield Finding(
-                                self.code, self.name, self.severity, f"{message}{hint}", span_of(source, inner)
-                            )
+                            yield self.at_span(span_of(source, inner), f"{message}{hint}")

@@ -1,6 +1,5 @@
 """K959 controller-joint-undefined."""
 
-from urdfkit.lint.finding import Finding
 from urdfkit.lint.model.masked_names import is_typo, unless_masked
 from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
 
@@ -95,13 +94,11 @@ class ControllerJointUndefined(RobotRule):
                 is_misspelt = suggestion is not None and is_typo(reference.name, suggestion)
                 if not is_misspelt and (is_of_another_robot or model.neighbouring_descriptions.unresolved_package):
                     continue
-                finding = Finding(
-                    self.code,
-                    self.name,
-                    "error" if is_misspelt else self.severity,
+                finding = self.at_span(
+                    source.span(reference.start, reference.start + len(reference.name)),
                     f"controller joint `{reference.name}` does not exist in robot `{model.robot.name}`"
                     f"{f'; did you mean `{suggestion}`?' if suggestion else ''}",
-                    source.span(reference.start, reference.start + len(reference.name)),
+                    severity="error" if is_misspelt else self.severity,
                     joint=reference.name,
                 )
                 yield from unless_masked(model, reference.name, suggestion, finding)

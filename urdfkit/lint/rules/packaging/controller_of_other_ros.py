@@ -4,7 +4,6 @@ import re
 from collections.abc import Iterator
 
 from urdfkit.description.xml.source import Source, Span
-from urdfkit.lint.finding import Finding
 from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
 
 _TRAJECTORY = "joint_trajectory_controller/JointTrajectoryController"
@@ -98,7 +97,7 @@ class ControllerOfOtherRos(RobotRule):
                 help = f"write `{replacement}`"
                 if name in _SINGLE_JOINT and ros == 2:
                     help += " and list the joint in `joints`"
-                yield Finding(self.code, self.name, self.severity, message, span, help=help)
+                yield self.at_span(span, message, help=help)
 
 
 def _types(source: Source) -> Iterator[tuple[str, Span]]:

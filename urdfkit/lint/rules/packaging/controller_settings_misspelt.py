@@ -134,11 +134,11 @@ class ControllerSettingsMisspelt(RobotRule):
                 matches = [name for name in TYPES if written == name or name.endswith(f"/{written}")]
                 if matches:
                     message = f"unknown controller type `{kind.text}`; did you mean `{matches[0]}`?"
-                    yield Finding(self.code, self.name, "error", message, span_of(source, kind))
+                    yield self.at_span(span_of(source, kind), message, severity="error")
         for key in sections_without_parameters(source):
             message = f"section `{key.text}` has no `{_PARAMETERS}`; ROS 2 refuses the file"
             help = f"write `{_PARAMETERS}:` in the line below and indent the parameters"
-            yield Finding(self.code, self.name, "error", message, span_of(source, key), help=help)
+            yield self.at_span(span_of(source, key), message, severity="error", help=help)
 
     def _parameters(self, source: Source, model: Model) -> Findings:
         from urdfkit.lint.facts.control.controller_settings import INTERFACES, misspelt, misspelt_names
@@ -150,11 +150,11 @@ class ControllerSettingsMisspelt(RobotRule):
             if suggestion not in INTERFACES or not offered(model):
                 message = f"{description}; did you mean `{suggestion}`?"
                 severity: Severity = "error" if suggestion in INTERFACES else self.severity
-                yield Finding(self.code, self.name, severity, message, span_of(source, node))
+                yield self.at_span(span_of(source, node), message, severity=severity)
 
         for key, suggestion, controller in misspelt(source):
             message = f"unknown parameter `{key.text}` of controller `{controller.name}`; did you mean `{suggestion}`?"
-            yield Finding(self.code, self.name, self.severity, message, span_of(source, key))
+            yield self.at_span(span_of(source, key), message)
 
     def _at(
         self,
@@ -166,4 +166,4 @@ class ControllerSettingsMisspelt(RobotRule):
         severity: Severity | None = None,
     ) -> Finding:
         span = source.span(start, start + len(text))
-        return Finding(self.code, self.name, severity or self.severity, message, span, help=help)
+        return self.at_span(span, message, severity=severity, help=help)

@@ -1,6 +1,5 @@
 """K975 controllers-share-interface."""
 
-from urdfkit.lint.finding import Finding
 from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
 
 
@@ -70,4 +69,4 @@ class ControllersShareInterface(RobotRule):
             if (source.file, span.line, span.column) not in seen:
                 seen.add((source.file, span.line, span.column))
                 message = f"`{other}` commands `{claim.interface}` of joint `{claim.joint}` too, and is spawned before"
-                yield Finding(self.code, self.name, self.severity, message, span)
+                yield self.at_span(span, message)

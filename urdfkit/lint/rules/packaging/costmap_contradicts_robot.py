@@ -4,7 +4,6 @@ import re
 from math import hypot
 
 from urdfkit.description.urdf.robot import Pose
-from urdfkit.lint.finding import Finding
 from urdfkit.lint.model.placement import shapes_of
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
@@ -73,7 +72,7 @@ class CostmapContradictsRobot(RobotRule):
                     continue
                 if value is not None and (inner < _TOO_SMALL * half or outer > _TOO_LARGE * reach):
                     message = f"`{what}` {shown}, but the robot extends {half:.3g} to {reach:.3g} m from its centre"
-                    yield Finding(self.code, self.name, self.severity, message, span_of(source, value))
+                    yield self.at_span(span_of(source, value), message)
 
 
 def _size(model: Model) -> tuple[float, float] | None:

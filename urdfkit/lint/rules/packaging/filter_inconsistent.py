@@ -1,6 +1,5 @@
 """K983 filter-inconsistent."""
 
-from urdfkit.lint.finding import Finding
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
 
@@ -53,4 +52,4 @@ class FilterInconsistent(RobotRule):
         from urdfkit.lint.facts.navigation.filters import filter_defects
 
         for source, node, message in filter_defects(model):
-            yield Finding(self.code, self.name, self.severity, message, span_of(source, node))
+            yield self.at_span(span_of(source, node), message)

@@ -1,6 +1,5 @@
 """K984 frame-inconsistent."""
 
-from urdfkit.lint.finding import Finding
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
 
@@ -50,4 +49,4 @@ class FrameInconsistent(RobotRule):
 
         equal = [(source, *found) for source in yamls(model) for found in equal_frames(source)]
         for source, node, message in (*lone_frames(model), *equal):
-            yield Finding(self.code, self.name, self.severity, message, span_of(source, node))
+            yield self.at_span(span_of(source, node), message)

@@ -5,7 +5,6 @@ from collections.abc import Iterator
 
 from urdfkit.description.packages.related_files import LAUNCH
 from urdfkit.description.xml.source import Source
-from urdfkit.lint.finding import Finding
 from urdfkit.lint.model.masked_names import unless_masked
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
@@ -86,12 +85,9 @@ class FrameUndefined(RobotRule):
                     continue
                 if model.neighbouring_descriptions.define("link", name):
                     continue
-                finding = Finding(
-                    self.code,
-                    self.name,
-                    self.severity,
-                    f"`{match[1]}` is `{name}`, but robot `{model.robot.name}` has no such link{hint}",
+                finding = self.at_span(
                     source.span(*match.span(3)),
+                    f"`{match[1]}` is `{name}`, but robot `{model.robot.name}` has no such link{hint}",
                     link=name,
                 )
                 yield from unless_masked(model, name, suggestion, finding)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from urdfkit.description.xml.source import Source
 from urdfkit.lint.facts.control.ros2_controllers import DeclaredController
-from urdfkit.lint.finding import Finding
 from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
 
 _BROADCASTERS = (
@@ -96,7 +95,7 @@ class HardwareInterfaceLacking(RobotRule):
         suggestion = nearest(sensor.text, hardware, cutoff=0.7)
         if suggestion is not None:
             message = f"unknown sensor `{sensor.text}` of controller `{controller.name}`; did you mean `{suggestion}`?"
-            yield Finding(self.code, self.name, self.severity, message, span_of(source, sensor))
+            yield self.at_span(span_of(source, sensor), message)
 
     def _missing_interfaces(
         self,
@@ -149,4 +148,4 @@ class HardwareInterfaceLacking(RobotRule):
             reported.add(position)
             span, kind = span_of(source, requirement.where), "joint" if interfaces is None else "interface"
             joint = requirement.joint
-            yield Finding(self.code, self.name, self.severity, message, span, joint=joint, help=help, kind=kind)
+            yield self.at_span(span, message, joint=joint, help=help, kind=kind)

@@ -3,7 +3,6 @@
 import re
 
 from urdfkit.description.xml.source import Source
-from urdfkit.lint.finding import Finding
 from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
 
 _FEWEST = 2
@@ -84,9 +83,7 @@ class JointWithoutController(RobotRule):
                 if all(_are_in_line(name, left[0], model) for name in moved):
                     message = f"`joints` of controller `{controller.name}` lacks joint `{left[0]}`, which has hardware"
                     span = span_of(source, named)
-                    yield Finding(
-                        self.code, self.name, self.severity, message, span, joint=left[0], help="add the joint"
-                    )
+                    yield self.at_span(span, message, joint=left[0], help="add the joint")
 
 
 def _declares(source: Source, name: str) -> bool:

@@ -1,7 +1,6 @@
 """K964 launch-not-well-formed."""
 
 from urdfkit.description.xml.source import Source
-from urdfkit.lint.finding import Finding
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
 
@@ -45,7 +44,7 @@ class LaunchNotWellFormed(RobotRule):
             if error is not None:
                 line, column, message = error
                 span = source.span(start := source.offset(line, column), min(start + 1, len(source.text)))
-                yield Finding(self.code, self.name, self.severity, message, span)
+                yield self.at_span(span, message)
 
 
 def _in_xml(source: Source) -> tuple[int, int, str] | None:

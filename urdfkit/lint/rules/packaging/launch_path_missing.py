@@ -4,7 +4,6 @@ import re
 from fnmatch import fnmatchcase
 from pathlib import Path
 
-from urdfkit.lint.finding import Finding
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
 
@@ -65,12 +64,10 @@ class LaunchPathMissing(RobotRule):
                 hint = near_path(package / reference.path)
                 if not hint and _is_created_at_run_time(package, reference.path):
                     continue
-                yield Finding(
-                    self.code,
-                    self.name,
-                    "error" if hint or Path(reference.path).suffix in _REQUIRED else self.severity,
-                    f"`{reference.path}` does not exist in package `{reference.package}`{hint}",
+                yield self.at_span(
                     source.span(reference.start, reference.end),
+                    f"`{reference.path}` does not exist in package `{reference.package}`{hint}",
+                    severity="error" if hint or Path(reference.path).suffix in _REQUIRED else self.severity,
                 )
 
 

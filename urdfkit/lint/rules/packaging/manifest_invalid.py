@@ -152,7 +152,7 @@ class ManifestInvalid(RobotRule):
     ) -> Finding:
         text = files.manifest.text[tag.start : tag.close_end]
         span = files.manifest.span(tag.start, tag.end if in_start or "\n" in text else tag.close_end)
-        return Finding(self.code, self.name, severity, message, span, kind=kind)
+        return self.at_span(span, message, severity=severity, kind=kind)
 
 
 def _other_ros(package: str, files: BuildFiles) -> str:

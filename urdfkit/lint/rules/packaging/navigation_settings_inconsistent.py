@@ -1,6 +1,5 @@
 """K982 navigation-settings-inconsistent."""
 
-from urdfkit.lint.finding import Finding
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
 
@@ -52,4 +51,4 @@ class NavigationSettingsInconsistent(RobotRule):
         from urdfkit.lint.facts.navigation.planners import plugin_defects
 
         for source, node, message in (*costmap_defects(model), *plugin_defects(model)):
-            yield Finding(self.code, self.name, self.severity, message, span_of(source, node))
+            yield self.at_span(span_of(source, node), message)

@@ -5,7 +5,6 @@ from pathlib import Path
 
 from urdfkit.description.packages.existence import is_folder
 from urdfkit.description.packages.related_files import name_in
-from urdfkit.lint.finding import Finding
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
 
@@ -69,12 +68,10 @@ class NotInstalled(RobotRule):
                 word = rf"(?<![\w-]){re.escape(folder)}(?![\w-])"
                 if not install_rules or re.search(rf"{word}|DIRECTORY\s+(?:\.|\$)|GLOB|foreach", install_rules):
                     continue
-                yield Finding(
-                    self.code,
-                    self.name,
-                    "warning" if "ament" in install_rules else "note",
-                    f"folder `{folder}` of this package is not installed",
+                yield self.at_span(
                     source.span(match.start(), match.end()),
+                    f"folder `{folder}` of this package is not installed",
+                    severity="warning" if "ament" in install_rules else "note",
                     help="add it to install(DIRECTORY …) in CMakeLists.txt, or to data_files in setup.py",
                 )
 

@@ -109,7 +109,7 @@ class PackageXmlDependency(RobotRule):
                     declared.add(name)
                     span = source.span(match.start(), match.end())
                     message = f"`{name}` is the folder of this package; its name in package.xml is `{own}`"
-                    yield Finding(self.code, self.name, self.severity, message, span, names=(name, own))
+                    yield self.at_span(span, message, names=(name, own))
                     continue
                 finding = self._missing(name, source, match.start(), match.end(), {*near, *declared})
                 if finding.severity == self.severity:
@@ -185,7 +185,7 @@ class PackageXmlDependency(RobotRule):
                     span = span_of(source, controller.kind)
                     message = f"missing dependency on `{name}`, whose controller `{controller.name}` is"
                     help = f"add <exec_depend>{name}</exec_depend> to package.xml"
-                    yield Finding(self.code, self.name, self.severity, message, span, help=help)
+                    yield self.at_span(span, message, help=help)
 
     def _check_navigation_plugins(self, model: Model) -> Findings:
         """Yield a finding for each package of plugins of Nav2 on which none depends, unlike on those of the others."""
@@ -204,7 +204,7 @@ class PackageXmlDependency(RobotRule):
                     span = source.span(*uses[name].span(1))
                     help = f"add <exec_depend>{name}</exec_depend> to package.xml"
                     message = f"missing dependency on `{name}`, whose plugin this file names"
-                    yield Finding(self.code, self.name, self.severity, message, span, help=help, names=(name,))
+                    yield self.at_span(span, message, help=help, names=(name,))
 
     def _check_simulated_control(self, model: Model) -> Findings:
         """Yield a finding for the plugin that runs controllers, if the packages depend on that of another Gazebo."""
@@ -244,7 +244,7 @@ class PackageXmlDependency(RobotRule):
             span = use.source.span(use.start, use.end)
             message = f"missing dependency on `{use.package}`, {use.use}"
             help = f"add <exec_depend>{use.package}</exec_depend> to package.xml"
-            yield Finding(self.code, self.name, self.severity, message, span, help=help, names=(use.package,))
+            yield self.at_span(span, message, help=help, names=(use.package,))
 
     def _not_at_run_time(self, name: str, package: Path, model: Model, reported: set[tuple[Path, str]]) -> Findings:
         """Yield a finding for a package that launch files use, but whose dependency is for builds or tests only."""
@@ -258,7 +258,7 @@ class PackageXmlDependency(RobotRule):
             message = f"launch files need `{name}` at run time, but <{uses[0][1]}> does not install it"
             span = manifest.span(uses[0].start(), uses[0].end() - 1)
             help = f"write <{written}>, or <depend> if the build needs the package too"
-            yield Finding(self.code, self.name, self.severity, message, span, help=help, names=(name,))
+            yield self.at_span(span, message, help=help, names=(name,))
 
     def _of_ros1(self, source: Source, package: Path, needed: set[str], model: Model) -> Findings:
         """Yield a finding for each package of a controller of ROS 1 that none of the related packages depends on."""
@@ -278,7 +278,7 @@ class PackageXmlDependency(RobotRule):
                 span = source.span(reference.start, reference.start + len(reference.name))
                 message = f"missing dependency on `{name}`, which has the controller type `{reference.name}`"
                 help = f"add <exec_depend>{name}</exec_depend> to package.xml"
-                yield Finding(self.code, self.name, self.severity, message, span, help=help, kind="controller type")
+                yield self.at_span(span, message, help=help, kind="controller type")
 
     def _missing(self, name: str, source: Source, start: int, end: int, near: set[str]) -> Finding:
         from urdfkit.lint.facts.launch.ros_version import reads_version
@@ -288,13 +288,10 @@ class PackageXmlDependency(RobotRule):
         version = reads_version(source) if source.file.endswith(LAUNCH) else 0
         if (meant := misspelling_of(name, near, version)) is not None:
             message = f"unknown package `{name}`; did you mean `{meant}`?"
-            return Finding(self.code, self.name, "error", message, span, cause=f"package {name}", kind="misspelt")
-        return Finding(
-            self.code,
-            self.name,
-            self.severity,
-            f"missing dependency on `{name}`",
+            return self.at_span(span, message, severity="error", cause=f"package {name}", kind="misspelt")
+        return self.at_span(
             span,
+            f"missing dependency on `{name}`",
             help=f"add <exec_depend>{name}</exec_depend> to package.xml",
             names=(name,),
         )

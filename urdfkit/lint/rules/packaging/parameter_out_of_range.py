@@ -1,6 +1,5 @@
 """K981 parameter-out-of-range."""
 
-from urdfkit.lint.finding import Finding
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
 
@@ -42,4 +41,4 @@ class ParameterOutOfRange(RobotRule):
 
         for source in yamls(model):
             for node, message in out_of_range(source):
-                yield Finding(self.code, self.name, self.severity, message, span_of(source, node))
+                yield self.at_span(span_of(source, node), message)

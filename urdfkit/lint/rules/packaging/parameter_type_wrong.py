@@ -1,6 +1,5 @@
 """K974 parameter-type-wrong."""
 
-from urdfkit.lint.finding import Finding
 from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
 
 
@@ -61,18 +60,18 @@ class ParameterTypeWrong(RobotRule):
         for source in {each.file: each for each, _ in moveit_yamls(model)}.values():
             for value, name in integer_limits(source) if ros_version(source) == 2 else ():
                 message = f"`{name}` is the integer {value.text}; write {value.text}.0"
-                yield Finding(self.code, self.name, self.severity, message, span_of(source, value))
+                yield self.at_span(span_of(source, value), message)
         for source in yamls(model):
             for value, name, controller in integers_for_doubles(source):
                 message = f"`{name}` of controller `{controller}` is the integer {value.text}; write {value.text}.0"
-                yield Finding(self.code, self.name, self.severity, message, span_of(source, value))
+                yield self.at_span(span_of(source, value), message)
             wrong = {(value.line, value.column): (value, name, right) for value, name, right in wrong_numbers(source)}
             for value, name, right in wrong_numbers_of_nodes(source):
                 wrong.setdefault((value.line, value.column), (value, name, right))
             for value, name, right in wrong.values():
                 kind = "integer" if right.endswith(".0") else "number with a decimal point"
                 message = f"`{name}` is the {kind} {value.text}; write {right}"
-                yield Finding(self.code, self.name, self.severity, message, span_of(source, value))
+                yield self.at_span(span_of(source, value), message)
             for key, item in mixed_lists(source):
                 message = f"`{key.text}` has integers and numbers with a decimal point; write all with a decimal point"
-                yield Finding(self.code, self.name, self.severity, message, span_of(source, item))
+                yield self.at_span(span_of(source, item), message)

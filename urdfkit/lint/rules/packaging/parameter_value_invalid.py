@@ -6,7 +6,6 @@ import re
 from collections.abc import Iterator
 
 from urdfkit.lint.facts.control.yaml_tree import Node
-from urdfkit.lint.finding import Finding
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
 _MISSPELT = r"[Tt](?:ure|reu|ru|rie|ruee|tue|reue)|[Ff](?:asle|lase|ales|als|alsee|lse|ase)"
@@ -97,25 +96,25 @@ class ParameterValueInvalid(RobotRule):
         is_typed_at_start = any(re.search(r"controller.type", file.text) for file in model.related_files.values())
         names = frozenset(name for source in yamls(model) for name in controllers(source))
         for source, place, message in published_twice(model):
-            yield Finding(self.code, self.name, self.severity, message, span_of(source, place))
+            yield self.at_span(span_of(source, place), message)
         for source in yamls(model):
             is_of_controllers, seen = bool(controllers(source)), set[tuple[int, int]]()
             ordered = () if is_of_controllers else out_of_order(source)
             found = (*navigation_defects(source, names), *map_defects(source), *ordered, *nav2_defects(source))
             found += (*monitor_defects(source), *mux_defects(source))
             for place, message in (*found, *_new(node_defects(source), found)):
-                yield Finding(self.code, self.name, self.severity, message, span_of(source, place))
+                yield self.at_span(span_of(source, place), message)
             for node in (node for root in documents(source)[0] for node in walk(root)):
                 if (node.line, node.column) in seen:  # an alias
                     continue
                 seen.add((node.line, node.column))
                 in_controllers = value_defects(node, PARAMETERS in source.text) if is_of_controllers else ()
                 for place, message in (*_in_any(node, source.file in of_moveit), *in_controllers):
-                    yield Finding(self.code, self.name, self.severity, message, span_of(source, place))
+                    yield self.at_span(span_of(source, place), message)
             if is_of_controllers:
                 incomplete = () if source.file in unread else incomplete_controllers(source, is_typed_at_start)
                 for place, message in (*incomplete, *contradictions(source, model.robot), *unmet_needs(source, model)):
-                    yield Finding(self.code, self.name, self.severity, message, span_of(source, place))
+                    yield self.at_span(span_of(source, place), message)
 
 
 def _new(defects: Iterator[tuple[Node, str]], found: tuple[tuple[Node, str], ...]) -> Iterator[tuple[Node, str]]:

@@ -8,7 +8,6 @@ from collections.abc import Iterator
 from urdfkit.description.xml.source import Source
 from urdfkit.lint.facts.control.controller_joints import Named
 from urdfkit.lint.facts.control.launched_nodes import Started
-from urdfkit.lint.finding import Finding
 from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
 
 _CREATE = "world file param string topic name allow_renaming x y z R P Y"
@@ -92,11 +91,11 @@ class SpawnArgumentMisspelt(RobotRule):
                 for word in _in_unknown_namespaces(node, source, model):
                     message = f"no node of these packages is in the namespace of `{word.name}`"
                     span = source.span(word.start, word.start + len(word.name))
-                    yield Finding(self.code, self.name, "warning", message, span)
+                    yield self.at_span(span, message, severity="warning")
                 if node.package == "controller_manager" and node.program in ("spawner", "spawner.py"):
                     for start, text, message in _unknown_options(node, 1 if reads_ros1(source) else 2):
                         span, names = source.span(start, start + len(text)), (node.program,)
-                        yield Finding(self.code, self.name, self.severity, message, span, kind="option", names=names)
+                        yield self.at_span(span, message, kind="option", names=names)
                 is_own = (node.package == "gazebo_ros") == (node.program != "create")
                 if node.package in _PACKAGES and node.program in _OPTIONS and is_own:
                     invalid = (*_invalid_arguments(node, model), *_unknown_joints(node, model), *_without_source(node))
@@ -104,7 +103,7 @@ class SpawnArgumentMisspelt(RobotRule):
                         span = source.span(start, start + len(text))
                         severity = "warning" if _is_ignored(node, text) else self.severity
                         kind, names = "option" if text.startswith("-") else "", (node.program or "",)
-                        yield Finding(self.code, self.name, severity, message, span, kind=kind, names=names)
+                        yield self.at_span(span, message, severity=severity, kind=kind, names=names)
 
 
 def _in_unknown_namespaces(node: Started, source: Source, model: Model) -> Iterator[Named]:

@@ -5,7 +5,6 @@ from __future__ import annotations
 import re
 
 from urdfkit.description.xml.source import Source
-from urdfkit.lint.finding import Finding
 from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
 
 
@@ -63,7 +62,7 @@ class SpawnedControllerUndefined(RobotRule):
         for source, key, launch in untyped(model):
             message = f"controller `{key.text}` has no `type`, but {launch.file} spawns it"
             help = "add it to the parameters of `controller_manager`"
-            yield Finding(self.code, self.name, self.severity, message, span_of(source, key), help=help)
+            yield self.at_span(span_of(source, key), message, help=help)
         for source in launches:
             if source.file.endswith(".launch"):
                 yield from self._namespaces(source, model)
@@ -77,12 +76,9 @@ class SpawnedControllerUndefined(RobotRule):
                     or any(re.search(key_pattern, file.text) for file in parameter_files)
                 ):
                     continue
-                yield Finding(
-                    self.code,
-                    self.name,
-                    self.severity,
-                    f"unknown controller `{reference.name}`{hint}",
+                yield self.at_span(
                     source.span(reference.start, reference.start + len(reference.name)),
+                    f"unknown controller `{reference.name}`{hint}",
                 )
 
     def _namespaces(self, source: Source, model: Model) -> Findings:
@@ -93,4 +89,4 @@ class SpawnedControllerUndefined(RobotRule):
             found, expected = (f"namespace `{name}`" if name else "no namespace" for name in (one.found, one.expected))
             spawner = f"{source.file}:{one.line}"
             message = f"`{one.controller}` is in {found}, but its spawner in {spawner} has {expected}"
-            yield Finding(self.code, self.name, self.severity, message, span_of(one.source, one.key))
+            yield self.at_span(span_of(one.source, one.key), message)

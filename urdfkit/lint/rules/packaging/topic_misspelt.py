@@ -1,6 +1,5 @@
 """K977 topic-misspelt."""
 
-from urdfkit.lint.finding import Finding
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
 
@@ -47,4 +46,4 @@ class TopicMisspelt(RobotRule):
 
         for span, topic, meant in misspelt_topics(model):
             message = f"no other file names the topic `{topic}`; did you mean `{meant}`?"
-            yield Finding(self.code, self.name, self.severity, message, span)
+            yield self.at_span(span, message)

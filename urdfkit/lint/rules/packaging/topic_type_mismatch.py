@@ -1,6 +1,5 @@
 """K985 topic-type-mismatch."""
 
-from urdfkit.lint.finding import Finding
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
 
@@ -57,4 +56,4 @@ class TopicTypeMismatch(RobotRule):
         from urdfkit.lint.facts.topics.message_types import mistyped, unequal_stamps
 
         for span, message in (*mistyped(model), *unequal_stamps(model)):
-            yield Finding(self.code, self.name, self.severity, message, span)
+            yield self.at_span(span, message)

@@ -1,6 +1,5 @@
 """K980 topic-unconnected."""
 
-from urdfkit.lint.finding import Finding
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
 
@@ -46,4 +45,4 @@ class TopicUnconnected(RobotRule):
 
         for source, name, message in (*misnamed_remappings(model), *unread_commands(model)):
             span = source.span(name.start, name.start + len(name.name))
-            yield Finding(self.code, self.name, self.severity, message, span)
+            yield self.at_span(span, message)

@@ -80,7 +80,7 @@ class YamlNotWellFormed(RobotRule):
                             )
                             message = f"missing {missing}: `{key.text}` is parsed as the string `{value.text}`"
                             span = span_of(source, value)
-                            yield Finding(self.code, self.name, self.severity, message, span, help=f"write `{word}: …`")
+                            yield self.at_span(span, message, help=f"write `{word}: …`")
 
     def _syntax_error(self, source: Source, broken: Broken) -> Finding:
         """Return the finding at the line that lacks a colon, or else at the position of the syntax error."""
@@ -101,9 +101,7 @@ class YamlNotWellFormed(RobotRule):
                 message = f"invalid YAML: missing {missing}"
                 break
         start = source.offset(line, min(column, len(source.line(line)) + 1))
-        return Finding(
-            self.code, self.name, self.severity, message, source.span(start, min(start + 1, len(source.text)))
-        )
+        return self.at_span(source.span(start, min(start + 1, len(source.text))), message)
 
 
 def _unseparated_parameter(key: Node, value: Node) -> str | None:

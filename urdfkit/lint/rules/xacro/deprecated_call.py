@@ -2,7 +2,7 @@
 
 import re
 
-from urdfkit.lint.finding import Edit, Finding, Fix
+from urdfkit.lint.finding import Edit, Fix
 from urdfkit.lint.model.tags import Document
 from urdfkit.lint.rule import Findings, Model, SourceRule
 
@@ -57,12 +57,9 @@ class DeprecatedCall(SourceRule):
             if any(start <= match.start() < end for start, end, _ in document.comments):
                 continue
             span = source.span(match.start(1), match.end(1))
-            yield Finding(
-                self.code,
-                self.name,
-                self.severity,
-                "`load_yaml()` without `xacro.` is deprecated",
+            yield self.at_span(
                 span,
+                "`load_yaml()` without `xacro.` is deprecated",
                 help="write `xacro.load_yaml()`",
                 fix=Fix("safe", "Replace with `xacro.load_yaml`", (Edit(span, "xacro.load_yaml"),)),
             )
