@@ -74,7 +74,7 @@ def test_a_page_too_many_is_refused_with_a_line_and_accepted_when_another_closes
 
 
 def test_a_request_that_does_not_end_is_closed(until, monkeypatch) -> None:
-    monkeypatch.setattr("urdfkit.view.server.server.REQUEST_TIMEOUT", 0.2)
+    monkeypatch.setattr("urdfkit.network.server_thread.REQUEST_TIMEOUT", 0.2)
     with Server("view", port=0) as brief, unfinished(brief) as headers, unfinished(brief) as body:
         body.sendall(b"Content-Length: 9\r\n\r\n12")
         until(lambda: is_closed(headers) and is_closed(body))

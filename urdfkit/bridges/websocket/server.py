@@ -5,9 +5,7 @@ from __future__ import annotations
 import asyncio
 import contextlib
 import logging
-import threading
 from collections.abc import Callable, Sequence
-from concurrent.futures import Future
 from typing import Any, Protocol, cast
 from urllib.parse import urlsplit
 
@@ -19,9 +17,9 @@ from urdfkit.bridges.graph import Graph
 from urdfkit.bridges.websocket.address import Address
 from urdfkit.bridges.websocket.send_queue import Frame, SendQueue
 from urdfkit.network.access_control import LOOPBACK_NAMES, AccessControl, is_ip_literal
-from urdfkit.network.connection_limit import REQUEST_TIMEOUT, LimitedHTTPServer
 from urdfkit.network.listen_address import bind, urls
 from urdfkit.network.rejection_log import RejectionLog
+from urdfkit.network.server_thread import ServerThread
 from urdfkit.network.websocket_frame import framed, framed_parts
 
 MAX_INBOUND = 32 * 1024 * 1024
@@ -71,7 +69,7 @@ class WebSocketServer:
         subprotocols: Sequence[str] = (),
         origins: Sequence[str] = (),
     ) -> None:
-        self._socket, port = bind(*address)
+        socket, port = bind(*address)
         self.graph, self.connect, self.subprotocols = graph, connect, tuple(subprotocols)
         self.needs_token = not address.is_private
         self.access = AccessControl(port, names=(*LOOPBACK_NAMES, address.host), open_to_network=self.needs_token)
@@ -80,12 +78,9 @@ class WebSocketServer:
         self.peers = 0
         base = [url.replace("http", "ws", 1) for url in urls(address.host, port, self.access.token)]
         self.urls = base if self.needs_token else [url.partition("/?")[0] for url in base]
-        self._loop = asyncio.new_event_loop()
-        self._started: Future[None] = Future()
-        self._thread = threading.Thread(target=self._serve, name=f"urdfkit-bridge-{port}", daemon=True)
-        graph.post = self._post
+        self._thread = ServerThread(f"urdfkit-bridge-{port}", socket, self._application)
+        graph.post = self._thread.post
         self._thread.start()
-        self._started.result()
 
     def accepts_origin(self, origin: str | None) -> bool:
         """Whether a page of this origin may connect; programs send no origin, and files of this machine ``file://``."""
@@ -102,46 +97,17 @@ class WebSocketServer:
 
     def close(self) -> None:
         """Disconnect all peers and end the thread; closing twice is harmless."""
-        if self._thread.is_alive():
-            self._loop.call_soon_threadsafe(self._loop.stop)
-            self._thread.join()
-        self._socket.close()
+        self._thread.stop()
         self.graph.close()
 
-    def _post(self, function: Callable[[], None]) -> None:
-        with contextlib.suppress(RuntimeError):  # the loop is closed, so no peer is connected
-            self._loop.call_soon_threadsafe(function)
-
-    def _serve(self) -> None:
-        asyncio.set_event_loop(self._loop)
-        try:
-            http = self._loop.run_until_complete(self._open())
-        except BaseException as error:
-            self._started.set_exception(error)
-            return
-        self._started.set_result(None)
-        try:
-            self._loop.run_forever()
-        finally:
-            self._loop.run_until_complete(http.close())
-            self._loop.close()
-
-    async def _open(self) -> LimitedHTTPServer:
-        application = Application(
+    def _application(self) -> Application:
+        return Application(
             [(r"/.*", PeerSocket, {"server": self})],
             websocket_max_message_size=MAX_INBOUND,
             websocket_ping_interval=PING,
             websocket_ping_timeout=PING,
             log_function=lambda handler: None,
         )
-        http = LimitedHTTPServer(
-            application,
-            max_header_size=16 * 1024,
-            idle_connection_timeout=REQUEST_TIMEOUT,
-            body_timeout=REQUEST_TIMEOUT,
-        )
-        http.add_socket(self._socket)
-        return http
 
 
 class PeerSocket(WebSocketHandler):

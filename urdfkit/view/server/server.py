@@ -2,22 +2,18 @@
 
 from __future__ import annotations
 
-import asyncio
-import contextlib
 import itertools
 import threading
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from concurrent.futures import Future
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from tornado.web import Application
 
 from urdfkit.network.access_control import LOOPBACK_NAMES, AccessControl, is_loopback
-from urdfkit.network.connection_limit import REQUEST_TIMEOUT, LimitedHTTPServer
 from urdfkit.network.listen_address import bind, urls
 from urdfkit.network.rejection_log import RejectionLog
+from urdfkit.network.server_thread import ServerThread
 from urdfkit.view.content.mesh_store import GeometryStore
 from urdfkit.view.protocol import websocket_messages as protocol
 from urdfkit.view.protocol.page_requests import Request, Schema, check
@@ -63,7 +59,7 @@ class Server:
         requests: Mapping[str, Schema] | None = None,
         watchers_may: Iterable[str] = (),
     ) -> None:
-        self._socket, self.port = bind(host, port)
+        socket, self.port = bind(host, port)
         loopback = is_loopback(host)
         names = LOOPBACK_NAMES if loopback else (*LOOPBACK_NAMES, *local_names(host))
         # With port 0 the next start has another port, so no page can reconnect.
@@ -85,9 +81,10 @@ class Server:
         self._sequence = 0
         self._latest: tuple[int, bytes] | None = None
         self._latest_lock = threading.Lock()
-        self._loop = asyncio.new_event_loop()
-        self._thread = threading.Thread(target=self._serve, name="urdfkit-view", daemon=True)
-        self._started: Future[None] = Future()
+        self._thread = ServerThread(
+            "urdfkit-view", socket, lambda: application(self), max_body_size=protocol.MAX_INBOUND
+        )
+        self._post = self._thread.post
         may = {"watchers_may": sorted(self.watchers_may)} if self.watchers_may else {}
         self._settings = {**(settings or {}), **may}
         self.hub.latch("hello", self._hello())
@@ -100,16 +97,10 @@ class Server:
     def start(self) -> None:
         """Start the server."""
         self._thread.start()
-        self._started.result()
 
     def stop(self) -> None:
         """Close all connections and end the thread; may be called twice."""
-        if self._thread.is_alive():
-            self._loop.call_soon_threadsafe(self._loop.stop)
-            self._thread.join()
-        self._socket.close()
-        if not self._loop.is_closed():
-            self._loop.close()
+        self._thread.stop()
 
     def __enter__(self) -> Server:
         self.start()
@@ -264,41 +255,6 @@ class Server:
             self.answer(request, OTHER_DRIVES)
         elif not self.inbox.put_request(request):
             self.answer(request, "too many requests are waiting; try again in a moment")
-
-    # The thread
-
-    def _post(self, function: Callable[..., None], *arguments: Any) -> None:
-        with contextlib.suppress(RuntimeError):  # the loop is closed, so no page is connected
-            self._loop.call_soon_threadsafe(function, *arguments)
-
-    def _serve(self) -> None:
-        asyncio.set_event_loop(self._loop)
-        try:
-            http = self._loop.run_until_complete(self._open())
-        except BaseException as error:
-            self._started.set_exception(error)
-            return
-        self._started.set_result(None)
-        try:
-            self._loop.run_forever()
-        finally:
-            self._loop.run_until_complete(self._close(http))
-
-    async def _open(self) -> LimitedHTTPServer:
-        app: Application = application(self)
-        http = LimitedHTTPServer(
-            app,
-            max_header_size=16 * 1024,
-            max_body_size=protocol.MAX_INBOUND,
-            idle_connection_timeout=REQUEST_TIMEOUT,
-            body_timeout=REQUEST_TIMEOUT,
-        )
-        http.add_socket(self._socket)
-        return http
-
-    async def _close(self, http: LimitedHTTPServer) -> None:
-        await http.close()
-        await asyncio.get_running_loop().shutdown_default_executor()  # threads that packed meshes
 
 
 def local_names(host: str) -> tuple[str, ...]:
