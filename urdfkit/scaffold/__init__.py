@@ -11,9 +11,10 @@ from urdfkit.scaffold.templates.recipe_file import read_made, read_recipe
 from urdfkit.scaffold.templates.template import Template
 from urdfkit.scaffold.templates.template_parser import load_template
 from urdfkit.scaffold.templates.template_sources import named_template, template_at, template_names
+from urdfkit.scaffold.update.changes import Change, Update
 from urdfkit.scaffold.update.rendering import create, is_fresh
 from urdfkit.scaffold.update.staged_packages import PackageFault
-from urdfkit.scaffold.update.updating import NEW_SUFFIX, Change, Update, find_recipe, updating
+from urdfkit.scaffold.update.updating import NEW_SUFFIX, find_recipe, updating
 
 __all__ = [
     "NEW_SUFFIX",

@@ -59,7 +59,7 @@ class Articulation:
         self.coordinates = _read_only(arrays["s"][coordinates])
         self.read_coordinates, self.computed_poses = arrays["read_s"][coordinates], arrays["link_pose"][links]
         first, beyond = arrays["tree_dof"][tree : tree + 2].tolist()
-        a = {name: arrays[name][first:beyond] for name in _PER_DOF}
+        a = {name: arrays[name][first:beyond] for name in PER_DOF}
         self.motor_velocity, self.motor_effort, self.applied = a["motor_velocity"], a["motor_effort"], a["applied"]
         self.position_target, self.velocity_target = a["position_target"], a["velocity_target"]
         self.kp, self.kd, self.servo_effort = a["kp"], a["kd"], a["servo_effort"]
@@ -171,7 +171,7 @@ class Articulation:
         self._targets_at_sleep[:] = np.nan  # wakes it, even where it was
 
 
-_PER_DOF = (
+PER_DOF = (
     "motor_velocity",
     "motor_effort",
     "applied",
@@ -194,6 +194,7 @@ _PER_DOF = (
     "effort",
     "tau",
 )
+"""Arrays of the engine with a value for each degree of freedom."""
 
 
 def _checked(name: str, values: Array, size: int) -> Array:

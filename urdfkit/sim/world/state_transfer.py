@@ -10,32 +10,10 @@ from dataclasses import dataclass
 
 from urdfkit.linear_algebra import Array
 from urdfkit.sim.engine import Engine
+from urdfkit.sim.engine.articulation import PER_DOF
 from urdfkit.sim.engine.simulation_memory import ITERATED, LAST_PAIRS, SLEEPING, STEPS, Arrays
 
-_PER_DOF = (
-    "motor_velocity",
-    "motor_effort",
-    "applied",
-    "position_target",
-    "velocity_target",
-    "kp",
-    "kd",
-    "servo_effort",
-    "approach_rate",
-    "fastest",
-    "acceleration",
-    "deceleration",
-    "ki",
-    "i_min",
-    "i_max",
-    "antiwindup",
-    "feedforward",
-    "integral",
-    "v",
-    "strayed",
-    "effort",
-    "tau",
-)
+_PER_DOF = (*PER_DOF, "strayed")
 
 
 @dataclass(frozen=True)
