@@ -94,7 +94,7 @@ def python_files() -> Iterator[tuple[str, bytes]]:
 
 def compiled_modules() -> Iterator[str]:
     """Return the modules and folders whose change compiles kernels again, without suffix."""
-    yield "urdfkit/compilation/"
+    yield from ("urdfkit/compilation/", "urdfkit/kinematics/serial/kernel/")
     for file in KERNEL_LISTS:
         for node in ast.parse((ROOT / file).read_bytes()).body:
             if isinstance(node, ast.Assign) and ast.unparse(node.targets[0]) in ("KERNEL_MODULES", "WORLD_FOLDERS"):
