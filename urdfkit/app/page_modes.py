@@ -5,19 +5,16 @@ from __future__ import annotations
 from contextlib import AbstractContextManager
 from dataclasses import dataclass, field
 from threading import Event
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-from urdfkit.app.page import note
+from urdfkit.app.page import Page, note
+from urdfkit.app.simulation.loop import DriveLoop
 from urdfkit.app.simulation.simulation_handle import driving
 from urdfkit.app.viewer.shown_robot import ShownRobot
 from urdfkit.app.viewer.viewing import viewing
 from urdfkit.errors import UrdfkitError
-
-if TYPE_CHECKING:
-    from urdfkit.app.page import Page
-    from urdfkit.app.simulation.loop import DriveLoop
-    from urdfkit.resources import ModelArgument
-    from urdfkit.view.protocol.page_requests import Request
+from urdfkit.resources import ModelArgument
+from urdfkit.view.protocol.page_requests import Request
 
 WORLD = "empty"
 """World of the simulation until the page names another."""

@@ -4,18 +4,15 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-from urdfkit.app.simulation.bridging.action_requests import SimulationActions
+from urdfkit.app.replay.live_topics import LiveTopics
+from urdfkit.app.simulation.bridging.action_requests import Actions, SimulationActions
 from urdfkit.bridges.actions import SentGoal, find_action
 from urdfkit.bridges.node.node import UnknownTypeError
 from urdfkit.bridges.ros2.rclpy_node import RclpyNode
 from urdfkit.bus import Bus, Subscription
 from urdfkit.errors import ResourceError
-
-if TYPE_CHECKING:
-    from urdfkit.app.replay.live_topics import LiveTopics
-    from urdfkit.app.simulation.bridging.action_requests import Actions
 
 CONNECTED = 5.0
 """Longest time until an action server is connected [s]; it publishes its status five times a second."""

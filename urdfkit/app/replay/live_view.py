@@ -5,16 +5,13 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from typing import TYPE_CHECKING
 from urllib.parse import urlsplit
 
+from urdfkit.app.page import Page
+from urdfkit.app.replay.live_session import LiveSession
+from urdfkit.app.viewer.shown_robot import ShownRobot
+from urdfkit.bridges.node.node import Node
 from urdfkit.errors import UsageError
-
-if TYPE_CHECKING:
-    from urdfkit.app.page import Page
-    from urdfkit.app.replay.live_session import LiveSession
-    from urdfkit.app.viewer.shown_robot import ShownRobot
-    from urdfkit.bridges.node.node import Node
 
 SOURCES = "ros1, ros2 or rosbridge://HOST:PORT"
 

@@ -6,15 +6,12 @@ import tempfile
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING
 
+from urdfkit.app.page import Page
+from urdfkit.app.replay.replay_session import ReplaySession
+from urdfkit.bridges.bag_file import BagFile
 from urdfkit.errors import UsageError
-
-if TYPE_CHECKING:
-    from urdfkit.app.page import Page
-    from urdfkit.app.replay.replay_session import ReplaySession
-    from urdfkit.bridges.bag_file import BagFile
-    from urdfkit.resources import ModelArgument
+from urdfkit.resources import ModelArgument
 
 
 @contextmanager

@@ -2,19 +2,15 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
+from urdfkit.description import Robot
+from urdfkit.description.sdf import World
 from urdfkit.kinematics import Kinematics
 from urdfkit.scene import Scene, scene_of
 from urdfkit.sim.construction.loading import require_masses
 from urdfkit.sim.construction.repairs.collector import DENSITY, Repairs
 from urdfkit.sim.construction.repairs.robot_repairs import repaired
 from urdfkit.sim.construction.start_pose import Spawn
-
-if TYPE_CHECKING:
-    from urdfkit.description import Robot
-    from urdfkit.description.sdf import World
-    from urdfkit.view.content.display_interface import Display
+from urdfkit.view.content.display_interface import Display
 
 
 class InitialScene:

@@ -5,14 +5,11 @@ from __future__ import annotations
 import threading
 from collections.abc import Iterator
 from contextlib import contextmanager
-from typing import TYPE_CHECKING
 
 from urdfkit.app.page import note
-
-if TYPE_CHECKING:
-    from urdfkit.sim.engine.compiling_process import CompilingProcess
-    from urdfkit.view.content.display_interface import StatusDisplay
-    from urdfkit.view.server.server import Server
+from urdfkit.sim.engine.compiling_process import CompilingProcess
+from urdfkit.view.content.display_interface import StatusDisplay
+from urdfkit.view.server.server import Server
 
 PATIENCE = 1.0
 """Seconds that an operation may take before it is reported."""

@@ -5,17 +5,14 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import ExitStack, closing, contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from urdfkit.app.page import Page, faults_on_page, require_page
 from urdfkit.app.page_handle import PageHandle
+from urdfkit.app.simulation.loop import DriveLoop
 from urdfkit.description import Robot
 from urdfkit.description.loading import load, load_repaired
 from urdfkit.description.sdf import World, load_world
-
-if TYPE_CHECKING:
-    from urdfkit.app.simulation.loop import DriveLoop
-    from urdfkit.sim import Simulator
+from urdfkit.sim import Simulator
 
 
 class SimulationHandle(PageHandle):

@@ -6,12 +6,10 @@ import io
 import math
 import re
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
+from urdfkit.app.sweeps.results import Sweep
 from urdfkit.atomic import write_bytes
-
-if TYPE_CHECKING:
-    from urdfkit.app.sweeps.results import Sweep
 
 
 def write_plots(sweep: Sweep) -> tuple[Path, ...]:

@@ -4,20 +4,18 @@ from __future__ import annotations
 
 import re
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
+from urdfkit.app.viewer.source_links import SourceLinks
+from urdfkit.description.urdf.robot import Robot
+from urdfkit.description.xml.source import Expansion, Source, Span
 from urdfkit.errors import ResourceError, UrdfkitError, UsageError
-
-if TYPE_CHECKING:
-    from urdfkit.app.viewer.source_links import SourceLinks
-    from urdfkit.description.urdf.robot import Robot
-    from urdfkit.description.xml.source import Expansion, Source, Span
-    from urdfkit.lint.engine.run import Outcome
-    from urdfkit.lint.engine.settings import LintSettings
-    from urdfkit.lint.finding import Finding, Fix
-    from urdfkit.lint.project.entry_files import Entry
-    from urdfkit.lint.project.options import Options
-    from urdfkit.resources import ModelArgument
+from urdfkit.lint.engine.run import Outcome
+from urdfkit.lint.engine.settings import LintSettings
+from urdfkit.lint.finding import Finding, Fix
+from urdfkit.lint.project.entry_files import Entry
+from urdfkit.lint.project.options import Options
+from urdfkit.resources import ModelArgument
 
 LINES = 12
 """Maximum number of source lines shown per finding."""

@@ -5,15 +5,13 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from threading import Thread
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from urdfkit.errors import UrdfkitError
-
-if TYPE_CHECKING:
-    from urdfkit.kinematics import Chain
-    from urdfkit.kinematics.self_collision.collision_free_search import CollisionFreeSearch
-    from urdfkit.kinematics.serial.serial_solver import Solution
-    from urdfkit.view.protocol.page_requests import Schema
+from urdfkit.kinematics import Chain
+from urdfkit.kinematics.self_collision.collision_free_search import CollisionFreeSearch
+from urdfkit.kinematics.serial.serial_solver import Solution
+from urdfkit.view.protocol.page_requests import Schema
 
 TOLERANCE = (1e-4, 1e-3)
 """Distance [m] and angle [rad] within which a pose is reached: less than a pixel."""

@@ -4,13 +4,11 @@ from __future__ import annotations
 
 import base64
 from threading import Thread
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from urdfkit.errors import KinematicsError, UrdfkitError
-
-if TYPE_CHECKING:
-    from urdfkit.kinematics import Chain, ReachMap
-    from urdfkit.view.server.server import Server
+from urdfkit.kinematics import Chain, ReachMap
+from urdfkit.view.server.server import Server
 
 RESOLUTION, ORIENTATIONS = 0.1, 20
 """Edge of a cell [m] and orientations of a map on request, which takes a few seconds."""

@@ -3,26 +3,23 @@
 from __future__ import annotations
 
 import time
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from threading import Event
-from typing import TYPE_CHECKING, Any, cast
+from typing import Any, cast
 
 from urdfkit.app.page import note
 from urdfkit.app.repair_findings import note_repairs, with_repairs
+from urdfkit.app.viewer.findings_panel import FindingsPanel
 from urdfkit.app.viewer.link_solver import LinkSolver
 from urdfkit.app.viewer.reach_layer import ReachLayer
 from urdfkit.app.viewer.shown_robot import MissingMeshes, ShownRobot
 from urdfkit.errors import UrdfkitError
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping, Sequence
-
-    from urdfkit.app.viewer.findings_panel import FindingsPanel
-    from urdfkit.resources import ModelArgument
-    from urdfkit.view.html_export import Recording
-    from urdfkit.view.protocol.page_requests import Request, Schema
-    from urdfkit.view.server.request_inbox import PageInput
-    from urdfkit.view.server.server import Server
+from urdfkit.resources import ModelArgument
+from urdfkit.view.html_export import Recording
+from urdfkit.view.protocol.page_requests import Request, Schema
+from urdfkit.view.server.request_inbox import PageInput
+from urdfkit.view.server.server import Server
 
 CHECK_PERIOD = 0.05
 """Seconds between two checks of the files, which take 0.3 % of a core; a changed file is read if two checks agree."""

@@ -6,17 +6,15 @@ from collections.abc import Iterable, Iterator, Mapping
 from contextlib import ExitStack, contextmanager
 from pathlib import Path
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from urdfkit.app.page import Page, require_page
 from urdfkit.app.page_handle import PageHandle
+from urdfkit.app.viewer.session import Session
+from urdfkit.app.viewer.shown_robot import ShownRobot
 from urdfkit.description import Robot
 from urdfkit.description.loading import model_argument, refuse_unused
-
-if TYPE_CHECKING:
-    from urdfkit.app.viewer.session import Session
-    from urdfkit.app.viewer.shown_robot import ShownRobot
-    from urdfkit.resources import ModelArgument
+from urdfkit.resources import ModelArgument
 
 
 def view(

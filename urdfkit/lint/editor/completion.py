@@ -3,20 +3,16 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterable, Iterator
 from pathlib import Path
 
 from urdfkit.description.urdf.robot import JOINT_TYPES
+from urdfkit.lint.editor.cursor import Cursor
 from urdfkit.lint.editor.plugin_parameters import described, plugin_around
+from urdfkit.lint.model.model import Model
+from urdfkit.lint.model.tags import Tag
 from urdfkit.lint.model.xacro_prefix import URDF_ATTRIBUTES, URDF_CHILDREN
 from urdfkit.record import record
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator
-
-    from urdfkit.lint.editor.cursor import Cursor
-    from urdfkit.lint.model.model import Model
-    from urdfkit.lint.model.tags import Tag
 
 _DIRECTIVES = {
     "xacro:macro": ("name", "params"),

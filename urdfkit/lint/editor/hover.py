@@ -2,17 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterable
+
+from urdfkit.description.urdf.robot import Link
+from urdfkit.lint.editor.cursor import Cursor
 from urdfkit.lint.editor.navigation import at
 from urdfkit.lint.editor.plugin_parameters import described, plugin_around
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable
-
-    from urdfkit.description.urdf.robot import Link
-    from urdfkit.lint.editor.cursor import Cursor
-    from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model.model import Model
+from urdfkit.lint.finding import Finding
+from urdfkit.lint.model.model import Model
 
 _SHOWN = 5
 _MASSES = frozenset(("link", "inertial", "mass", "inertia"))

@@ -3,14 +3,11 @@
 from __future__ import annotations
 
 from urdfkit.lint.engine.rule_runner import RuleRunner, every_code
+from urdfkit.lint.facts.suppressions import Suppression
 from urdfkit.lint.finding import Finding
 from urdfkit.lint.model.model import Model
 from urdfkit.lint.project.entry_files import Entry
 from urdfkit.lint.project.options import Options
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from urdfkit.lint.facts.suppressions import Suppression
 
 
 def without_suppressed(
