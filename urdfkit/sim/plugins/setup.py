@@ -14,7 +14,7 @@ from urdfkit.kinematics import Kinematics
 from urdfkit.sim.construction.repairs.collector import Repairs
 from urdfkit.sim.plugins.ros_distro import Distro
 from urdfkit.sim.scene_view import Surroundings
-from urdfkit.sim.state.arguments import LARGEST
+from urdfkit.sim.state.arguments import LARGEST as LARGEST
 
 
 def is_command(numbers: Iterable[float]) -> bool:
