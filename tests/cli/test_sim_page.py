@@ -117,6 +117,28 @@ def test_a_change_of_the_model_leaves_no_pose_frame_unacknowledged(page) -> None
     assert waits
 
 
+def test_the_first_view_shows_two_robot_lengths_around_the_robot(page) -> None:
+    sized(page)
+    share, outside = page.evaluate(
+        """() => {
+          const { viewport, scene } = urdfkit, { THREE } = MeshCat, { camera, controls } = viewport.viewer;
+          const { center, radius } = scene.bounds().getBoundingSphere(new THREE.Sphere());
+          camera.updateMatrixWorld();
+          const seen = (x, z) => new THREE.Vector3(center.x + x, 0, center.z + z).project(camera);
+          const angles = [0, 1, 2, 3, 4, 5, 6, 7].map((k) => (k * Math.PI) / 4);
+          const places = angles.map((angle) => [Math.cos(angle), Math.sin(angle)]);
+          const outside = places.filter(([x, z]) => {
+            const at = seen(4 * radius * x, 4 * radius * z);
+            return Math.max(Math.abs(at.x), Math.abs(at.y)) > 1;
+          });
+          const distance = camera.position.distanceTo(controls.target);
+          return [radius / distance / Math.tan((camera.fov * Math.PI) / 360), outside.length];
+        }"""
+    )
+    assert share == pytest.approx(1 / 3, abs=0.05)  # of the height
+    assert outside <= 2  # of eight directions: those behind the robot
+
+
 def test_step_and_speed(page, keep, until) -> None:
     page.get_by_role("button", name="Pause").click()
     until(lambda: page.locator("#rtf").inner_text() == "paused")

@@ -4,6 +4,11 @@ import { h, icon } from "./dom.js";
 
 const FIT = "M4 9V4h5M20 9V4h-5M4 15v5h5M20 15v5h-5M9 9h6v6H9z";
 
+// Distances of the first view of a simulation, relative to the fitted one. A robot that drives spans a third of the height, so
+// that its driver sees two robot lengths ahead and to both sides.
+const DRIVING = 2.6;
+const STANDING = 1.2;
+
 export class Tools {
   constructor(page, bar) {
     this.page = page;
@@ -62,7 +67,7 @@ export function tools(page) {
   page.fit = (direction) => {
     // In the simulation the camera is behind the robot, so that forward is away from the driver and left is left.
     const sim = page.mode === "sim";
-    const room = sim ? (page.drives === false ? 1.2 : 2.6) : 1; // a driver needs to see the surroundings
+    const room = sim ? (page.drives === false ? STANDING : DRIVING) : 1;
     const box = page.scene.bounds();
     const view = sim && !box.isEmpty() ? page.sight.clear(box, [-1, -0.55, 0.75], page.viewport.distance(box, room)) : { direction: [1, 0.75, 0.6], part: 1 };
     const done = page.viewport.fit(box, direction === null ? null : view.direction, room * view.part);
