@@ -676,6 +676,23 @@ TYPED = """async (text) => {
 }"""
 
 
+def test_long_names_of_controllers_break_at_words(page) -> None:
+    fold, breaks = page.evaluate(
+        """() => {
+          const arm = (k) => ({ name: `arm/joint${k}_position_controller`, type: "t", running: true, joints: [] });
+          urdfkit.page.emit("arms", { arms: [1, 2, 3, 4, 5, 6].map(arm) });
+          urdfkit.page.panels.open("arms");
+          const first = document.querySelector("#panel-arms .controller");
+          const [fold, name] = [first.querySelector(".unfold"), first.querySelector("h3")];
+          const found = [fold.offsetWidth, name.querySelectorAll("wbr").length];
+          urdfkit.page.emit("arms", { arms: [] });
+          return found;
+        }"""
+    )
+    assert fold < 40  # leaves the width to the name
+    assert breaks == 3
+
+
 def test_plots_below_the_view_have_their_legend_beside_them(page) -> None:
     # One script each: a sample of the simulation between two scripts changes values and widths.
     shown = page.evaluate(

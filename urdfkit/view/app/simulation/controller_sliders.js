@@ -5,7 +5,7 @@ import { redraw, refill } from "../page/edited_fields.js";
 import { numberField } from "../page/number_field.js";
 
 const ARM = "M5 20h6M8 20v-6l-2-4 5-5 4 2M15 7l3-3M15 7l4 1M6 10a1 1 0 1 0 0 .1";
-const MANY = 4; // controllers with more joints than this are collapsed
+const MANY = 4; // more controllers than this are collapsed
 const PERIOD = 60; // ms between two commands while a slider is dragged
 
 export function arms(page) {
@@ -64,7 +64,7 @@ export function arms(page) {
     };
     show(all.length <= MANY || (unfolded.get(arm.name) ?? false));
     fold.addEventListener("click", () => (unfolded.set(arm.name, list.hidden), show(list.hidden)));
-    const words = h("div.row", {}, fold, h("h3", { title: arm.type }, arm.name.split("/").slice(1).join("/")), h("span.space"), switched);
+    const words = h("div.row", {}, fold, h("h3", { title: arm.type }, arm.name.split("/").slice(1).join("/").split(/(?<=[_/])/).flatMap((part) => [part, h("wbr")])), h("span.space"), switched);
     return h("section.controller", { "data-controller": arm.name, "data-running": String(arm.running) }, words, list);
   }
 
