@@ -214,6 +214,10 @@ def test_a_map_stays_until_the_next_one_is_decoded_and_arrows_have_their_thickne
         }"""
     )
     assert pictures == [True, True]
+    color = "urdfkit.page.displays.all.get('/map').drawn[0].groups[0].children[0].material.color.getHexString()"
+    assert page.evaluate(color) == "ffffff"
+    page.emulate_media(color_scheme="dark")
+    until(lambda: page.evaluate(color) == "8f99a8")
     head = """() => {
       const box = new MeshCat.THREE.Box3();
       urdfkit.viewport.viewer.scene.traverse((object) => {

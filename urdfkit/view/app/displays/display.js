@@ -60,9 +60,14 @@ export class Display {
     if (on && "field" in options) this.#subscribe(false);
     Object.assign(this.options, options);
     if (on && "field" in options) this.#subscribe(true);
+    this.redraw();
+    this.page.emit("displays", null);
+  }
+
+  /** Draw the last message again, in the colours of the theme and with the options. */
+  redraw() {
     const last = this.drawn.at(-1);
     if (last) this.#show(last.time, last.content);
-    this.page.emit("displays", null);
   }
 
   turn(on) {

@@ -23,6 +23,7 @@ export class Displays {
     });
     page.on("topics", ({ rows }) => this.#take(rows));
     page.on("display", (message) => [...this.all.values()].find(({ key }) => key === message.source)?.take(message));
+    page.on("theme", () => this.all.forEach((display) => display.redraw()));
     page.on("lost", () => this.all.forEach((display) => display.clear()));
     page.on("hello", () => page.whileOpen(this.panel, "topics"));
   }

@@ -153,7 +153,8 @@ export function decode(maps) {
 function map({ image, pose, size }) {
   const texture = Object.assign(new THREE.Texture(image), { magFilter: THREE.NearestFilter, needsUpdate: true });
   const plane = new THREE.PlaneGeometry(...size).translate(size[0] / 2, size[1] / 2, ABOVE);
-  const mesh = placed(new THREE.Mesh(plane, new THREE.MeshBasicMaterial({ map: texture, transparent: true, depthWrite: false, side: THREE.DoubleSide })), pose);
+  const color = document.documentElement.dataset.theme === "dark" ? 0x8f99a8 : 0xffffff; // free space does not dazzle
+  const mesh = placed(new THREE.Mesh(plane, new THREE.MeshBasicMaterial({ color, map: texture, transparent: true, depthWrite: false, side: THREE.DoubleSide })), pose);
   mesh.renderOrder = -0.5; // above the grid of the ground, below all other transparent objects
   return mesh;
 }
