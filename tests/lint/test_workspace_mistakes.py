@@ -29,7 +29,28 @@ CARRIES = (
 )
 FIXED = "virtual joint `odom_joint` is fixed to `odom`, but the robot drives write `planar`"
 NEVER = "the reason is `Never`, but a joint connects links `turret` and `boom` write `Adjacent`"
+URDF = "titan_description/urdf/titan.urdf.xacro"
+OUTSIDE_PARENT = (
+    "joint `joint_3` is 0.25 m outside of its parent link `upper_arm_link`; all other moving joints are at theirs "
+    "check the axes, signs and units of the origin"
+)
+STROKE = (
+    "joint `joint_3` slides from -2.4 to 2.4 m, but the whole robot extends 1.09 m "
+    "write limits of prismatic joints in metres, or the type of a joint that turns"
+)
+CYLINDER = "the inertia of link `left_wheel_link` is that of a cylinder with radius and length swapped"
 MISTAKES = [
+    (ARM, URDF, 'xyz="0 0 0.25"', 'xyz="0 0 -0.25"', 100, "J421", OUTSIDE_PARENT),
+    (ARM, URDF, '"joint_3" type="revolute"', '"joint_3" type="prismatic"', 102, "J422", STROKE),
+    (
+        ROVER,
+        "gofer_description/urdf/base.xacro",
+        'radius}" h="${wheel_width',
+        'width}" h="${wheel_radius',
+        0,
+        "I519",
+        CYLINDER,
+    ),
     (ROVER, "gofer_description/CMakeLists.txt", "NAME}\n", "NAME}/x\n", 8, "K973", "`share/gofer_description/x/"),
     (ROVER, "gofer_description/CMakeLists.txt", "launch meshes", "launch/ meshes", 8, "K973", "as `share/gofer_descri"),
     (

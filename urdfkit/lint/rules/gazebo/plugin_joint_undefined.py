@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from urdfkit.description.plugins import Parameter
+from urdfkit.description.plugins import Parameter, PluginSpec
 from urdfkit.description.urdf.robot import Plugin
+from urdfkit.description.xml.element import Element
 from urdfkit.lint.model.masked_names import unless_masked
 from urdfkit.lint.rule import NOT_GAZEBO, Findings, Model, RobotRule
 
@@ -17,7 +18,7 @@ class PluginJointUndefined(RobotRule):
     ## What it does
     Checks the joint parameters of known plugins (differential drive, skid steer, joint state publisher, joint
     controllers), including the default names of missing parameters. Joints with an axis that a drive turns must not be
-    fixed.
+    fixed. A joint that one plugin names twice is a warning.
 
     ## Why is this bad?
     The plugin does nothing, or crashes the simulator.
@@ -78,6 +79,22 @@ class PluginJointUndefined(RobotRule):
                     for parameter in spec.parameters:
                         if parameter.names == "joint":
                             yield from self._check(model, plugin, parameter)
+                    yield from self._repeated(model, plugin, spec)
+
+    def _repeated(self, model: Model, plugin: Plugin, spec: PluginSpec) -> Findings:
+        """Yield a finding for each joint that a plugin names twice: in one parameter, or for both sides of steering."""
+        from urdfkit.description.plugins import values
+
+        joints = model.robot.joint_by_name
+        seen: dict[tuple[str, str], Element] = {}
+        for parameter in spec.parameters:
+            kind = "steering" if "steering" in parameter.tag else parameter.meaning
+            for text, element in values(plugin, parameter) if parameter.names == "joint" else ():
+                if text not in joints or parameter.separator or element is plugin.element:
+                    continue
+                if seen.setdefault((kind, text), element) is not element:
+                    message = f"<{parameter.tag}> names joint `{text}` a second time"
+                    yield self.at(model, element, message, joint=text, help="name each joint once", severity="warning")
 
     def _check(self, model: Model, plugin: Plugin, parameter: Parameter) -> Findings:
         from urdfkit.description.plugins import values

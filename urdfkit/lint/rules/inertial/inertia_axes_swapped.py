@@ -2,11 +2,15 @@
 
 from itertools import permutations
 
+from urdfkit.description.urdf.robot import Cylinder, Link
 from urdfkit.lint.facts.inertia.inertia_from_shapes import computed, tensor_of
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
 _ALIKE = 0.1
 """Largest relative difference of moments that agree."""
+
+_EQUAL = 0.02
+"""Largest relative difference of moments that were computed with the same formula."""
 
 _UNLIKE = 0.25
 """Smallest relative difference of moments that contradict each other."""
@@ -17,8 +21,9 @@ class InertiaAxesSwapped(RobotRule):
 
     ## What it does
     Compares ixx, iyy and izz of each link with the moments of its shapes with uniform density. Reports the tensor if
-    it differs from them, but agrees to 10 % in another order of the axes. A common factor is ignored. Meshes count as
-    their bounding boxes.
+    it differs from them, but agrees to 10 % in another order of the axes, or to 2 % with the moments of a cylinder with
+    radius and length swapped. A common factor of the moments in another order is ignored. Meshes count as their
+    bounding boxes.
 
     ## Why is this bad?
     The link turns about its axes with the inertia of other axes. Often a cylinder was turned, as that of a wheel,
@@ -83,18 +88,36 @@ class InertiaAxesSwapped(RobotRule):
             )
             if products > _ALIKE * min(*actual, *expected) or _difference(actual, expected) < _UNLIKE:
                 continue
+            message = f"ixx, iyy and izz of link `{link.name}` are those of its shapes in another order"
             if min(_difference(actual, order) for order in permutations(expected)) > _ALIKE:
-                continue
+                if not _is_of_swapped_cylinder(link, inertial.mass, actual, expected):
+                    continue
+                message = f"the inertia of link `{link.name}` is that of a cylinder with radius and length swapped"
             element = inertial.element.find("inertia") or inertial.element
             shown = " ".join(f"{value:.3g}" for value in expected)
             yield self.at(
                 model,
                 element,
-                f"ixx, iyy and izz of link `{link.name}` are those of its shapes in another order",
+                message,
                 link=link.name,
                 help=f"the moments of its shapes are {shown} kg·m²; check the rpy of its shapes and of <inertial>",
                 fix=computed(model, link, element),
             )
+
+
+def _is_of_swapped_cylinder(link: Link, mass: float, actual: tuple[float, ...], expected: tuple[float, ...]) -> bool:
+    """Return whether moments are those of the only cylinder of a link with its radius and its length swapped."""
+    shapes = [shape.geometry for shape in link.collisions or link.visuals]
+    if len(shapes) != 1 or not isinstance(shapes[0], Cylinder) or not shapes[0].radius or not shapes[0].length:
+        return False
+    radius, length = shapes[0].length, shapes[0].radius
+    along, across = mass * radius**2 / 2.0, mass * (3.0 * radius**2 + length**2) / 12.0
+    pairs = [
+        abs(a - b) for a, b in ((expected[1], expected[2]), (expected[0], expected[2]), (expected[0], expected[1]))
+    ]
+    axis = pairs.index(min(pairs))
+    swapped = tuple(along if each == axis else across for each in range(3))
+    return max(abs(a - b) / b for a, b in zip(actual, swapped, strict=True)) < _EQUAL
 
 
 def _difference(first: tuple[float, ...], second: tuple[float, ...]) -> float:

@@ -21,6 +21,15 @@ _MIN_GAP = 0.05
 _PART_OF_LENGTH = 0.6
 """Ratio of the gap to the longer of the two parts of the robot above which they are not connected."""
 
+_MIN_CHAIN = 3
+"""Smallest number of moving joints of which one stands out."""
+
+_MIN_OPEN, _OPEN = 0.02, 0.2
+"""Smallest distance of a moving joint from its parent link [m], and its ratio to the size of that link."""
+
+_CLOSED = 0.1
+"""Largest ratio of the distances of the other moving joints to that distance."""
+
 _MAX_CHECKED = 50
 """Largest number of joints for which the gap is computed."""
 
@@ -35,7 +44,8 @@ class OriginTooFar(RobotRule):
     Checks for joints that are at least 10 m from the frame of their parent link, and 20 times as far as the largest
     link extends. If the sizes of all shapes are known, also reports joints whose child link, with all that is attached
     to it, is farther from the rest of the robot than most of the robot is long, and than the largest link, or four
-    times the two links of the joint, extends.
+    times the two links of the joint, extends. A moving joint outside of the box around its parent link is reported if
+    all other moving joints are in or at theirs.
     Joints of a root link without shapes are not checked, because they place the robot in the world.
 
     ## Why is this bad?
@@ -93,6 +103,8 @@ class OriginTooFar(RobotRule):
         is_complete = not model.is_incomplete and all(
             link.name in model.extents or not shapes_of(link) for link in model.robot.links
         )
+        if is_complete:
+            yield from self._outside(model)
         checked = 0
         for joint, distance in distances:
             origin = joint.element.find("origin")
@@ -114,6 +126,26 @@ class OriginTooFar(RobotRule):
                     help = "check the decimal points and units of the origin"
             if message:
                 yield self.at(model, origin, message, attribute="xyz", joint=joint.name, help=help)
+
+    def _outside(self, model: Model) -> Findings:
+        """Yield a finding for the only moving joint that is not at its parent link."""
+        moving = [joint for joint in model.robot.joints if joint.type in ("revolute", "continuous", "prismatic")]
+        parents = [model.extents.get(joint.parent or "") for joint in moving]
+        gaps = [
+            (_distance((joint.origin.xyz, joint.origin.xyz), (parent.low, parent.high)), joint, parent.diagonal)
+            for joint, parent in zip(moving, parents, strict=True)
+            if parent is not None
+        ]
+        if not _MIN_CHAIN <= len(gaps) <= _MAX_CHECKED or len(gaps) < len(moving):
+            return
+        (second, _, _), (gap, joint, size) = sorted(gaps, key=lambda each: each[0])[-2:]
+        origin = joint.element.find("origin")
+        if gap < max(_MIN_OPEN, _OPEN * size) or second > _CLOSED * gap or origin is None:
+            return
+        message = f"joint `{joint.name}` is {gap:.3g} m outside of its parent link `{joint.parent}`; "
+        message += "all other moving joints are at theirs"
+        help = "check the axes, signs and units of the origin"
+        yield self.at(model, origin, message, attribute="xyz", joint=joint.name, help=help)
 
 
 def _times_its_links(joint: Joint, model: Model) -> float:

@@ -8,6 +8,9 @@ from urdfkit.lint.rule import Findings, Model, RobotRule
 _TIMES = 3.0
 """Ratio of a limit to the size of the robot that only another unit explains."""
 
+_SYMMETRIC = 0.1
+"""Largest ratio of the mean of two limits to their difference in a symmetric range."""
+
 _MIN_STROKE = 1.0
 """Shortest stroke that is checked [m]."""
 
@@ -102,6 +105,14 @@ class StrokeTooLong(RobotRule):
                         help="write limits of prismatic joints in metres",
                     )
                     break
+            else:
+                lower, upper = limit.lower or 0.0, limit.upper or 0.0
+                is_symmetric = lower < 0.0 < upper and abs(lower + upper) < _SYMMETRIC * (upper - lower)
+                if size > 0.0 and is_symmetric and upper - lower >= max(_MIN_STROKE, _TIMES * size):
+                    message = f"joint `{joint.name}` slides from {lower:g} to {upper:g} m, "
+                    message += f"but the whole robot extends {size:.3g} m"
+                    help = "write limits of prismatic joints in metres, or the type of a joint that turns"
+                    yield self.at(model, limit.element, message, joint=joint.name, help=help)
 
 
 def _size(model: Model) -> float:
