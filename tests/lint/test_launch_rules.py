@@ -435,3 +435,36 @@ def test_an_unclosed_substitution_before_another_one_is_reported(source):
     assert any("`$(arg x ` has no closing parenthesis" in each for each in findings(source))
     write(source / "cart_description/launch/drive.launch", launch.format("$(arg x) $(arg x)"))
     assert not any("parenthesis" in each for each in findings(source))
+
+
+HELPER = '''
+import os
+from ament_index_python.packages import get_package_share_directory
+from launch import LaunchDescription
+from launch.actions import DeclareLaunchArgument, IncludeLaunchDescription
+from launch.launch_description_sources import PythonLaunchDescriptionSource
+
+
+def include(name, **arguments):
+    path = os.path.join(get_package_share_directory("cart_description"), "launch", name)
+    return IncludeLaunchDescription(PythonLaunchDescriptionSource(path), launch_arguments=arguments.items())
+
+
+def generate_launch_description():
+    return LaunchDescription([
+        DeclareLaunchArgument("gui", default_value="true"),
+        include("gz.launch.py", {argument}="true"),
+    ])
+'''
+
+
+def test_arguments_that_a_function_of_the_file_passes_are_checked_at_the_call(source):
+    declared = "from launch.actions import DeclareLaunchArgument\na = DeclareLaunchArgument('paused')\n"
+    write(source / "cart_description/launch/gz.launch.py", declared)
+    write(source / "cart_description/launch/all.launch.py", HELPER.replace("{argument}", "pausd"))
+    unknown = [finding for finding in lint(source / "cart_description") if finding.code == "L102"]
+    assert [(finding.line, finding.message) for finding in unknown] == [
+        (17, "gz.launch.py has no argument `pausd`; did you mean `paused`?")
+    ]
+    write(source / "cart_description/launch/all.launch.py", HELPER.replace("{argument}", "paused"))
+    assert "L102" not in {finding.code for finding in lint(source / "cart_description")}

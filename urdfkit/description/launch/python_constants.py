@@ -15,7 +15,10 @@ JOINS = frozenset(("join", "PathJoinSubstitution"))
 
 
 def parsed(source: Source) -> ast.Module | None:
-    """Return the syntax tree of a Python launch file, which all callers share; None if it cannot be parsed."""
+    """Return the syntax tree of a Python launch file, with calls of its functions written out; None without one.
+
+    All callers share it. `inlined` of `python_inlining` is the tree's form; a file that is not Python has no tree.
+    """
     return _tree(source.text)
 
 
@@ -24,10 +27,12 @@ def _tree(text: str) -> ast.Module | None:
     import ast
     import warnings
 
+    from urdfkit.description.launch.python_inlining import inlined
+
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         try:
-            return ast.parse(text)
+            return inlined(ast.parse(text))
         except (SyntaxError, ValueError, RecursionError, MemoryError):
             return None
 

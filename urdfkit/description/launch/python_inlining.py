@@ -1,0 +1,173 @@
+"""Calls of the functions that a Python launch file defines, replaced by what they return.
+
+Launch files often shorten themselves with functions, such as ``include(package, name, **arguments)``, and with lists
+over names. Readers of the syntax tree then see the actions as if each had been written out. Nodes of the arguments keep
+their place at the call, the others theirs in the function.
+"""
+
+from __future__ import annotations
+
+import ast
+import copy
+from collections import Counter
+from collections.abc import Mapping, Set
+
+_MOST_CALLS = 200
+_DEEPEST = 6
+_MOST_NODES = 40_000
+
+
+def inlined(tree: ast.Module) -> ast.Module:
+    """Return the syntax tree with calls of simple functions, and lists over constants, written out.
+
+    A function is simple if it consists of assignments and one ``return`` of a value, and stands in the module or in a
+    function of the module. Its definition is removed if nothing else names it.
+
+    Args:
+        tree: of a launch file; it is changed.
+    """
+    functions = _simple_functions(tree)
+    inliner = _Inliner(functions)
+    inliner.visit(tree)
+    gone, named = inliner.replaced - {"generate_launch_description"}, {""}
+    while named:
+        named = gone & _names(tree, gone)
+        gone -= named
+    for block in _blocks(tree):
+        block[:] = [node for node in block if not (isinstance(node, ast.FunctionDef) and node.name in gone)]
+    return tree
+
+
+def _blocks(tree: ast.Module) -> list[list[ast.stmt]]:
+    return [tree.body, *(node.body for node in tree.body if isinstance(node, ast.FunctionDef))]
+
+
+def _names(node: ast.AST, without: Set[str]) -> set[str]:
+    """Return the names that are read, but not in the functions `without`."""
+    if isinstance(node, ast.FunctionDef) and node.name in without:
+        return set()
+    own = {node.id} if isinstance(node, ast.Name) and isinstance(node.ctx, ast.Load) else set()
+    return own.union(*(_names(child, without) for child in ast.iter_child_nodes(node)))
+
+
+def _simple_functions(tree: ast.Module) -> dict[str, ast.FunctionDef]:
+    defined = Counter(node.name for node in ast.walk(tree) if isinstance(node, (ast.FunctionDef, ast.ClassDef)))
+    defined.update(node.id for node in ast.walk(tree) if isinstance(node, ast.Name) and isinstance(node.ctx, ast.Store))
+    return {
+        node.name: node
+        for block in _blocks(tree)
+        for node in block
+        if isinstance(node, ast.FunctionDef) and defined[node.name] == 1 and _is_simple(node)
+    }
+
+
+def _is_simple(function: ast.FunctionDef) -> bool:
+    *before, last = function.body
+    if before and isinstance(before[0], ast.Expr) and isinstance(before[0].value, ast.Constant):
+        before = before[1:]
+    assigned = [each.targets[0].id for each in before if _is_plain(each)]  # type: ignore[attr-defined]
+    return (
+        isinstance(last, ast.Return)
+        and last.value is not None
+        and len(assigned) == len(before) == len(set(assigned))
+        and not (function.decorator_list or function.args.vararg or function.args.posonlyargs)
+        and not any(isinstance(node, (ast.Lambda, ast.NamedExpr, ast.Await, ast.Yield)) for node in ast.walk(function))
+    )
+
+
+def _is_plain(node: ast.stmt) -> bool:
+    return isinstance(node, ast.Assign) and len(node.targets) == 1 and isinstance(node.targets[0], ast.Name)
+
+
+class _Inliner(ast.NodeTransformer):
+    def __init__(self, functions: Mapping[str, ast.FunctionDef]) -> None:
+        self.functions, self.replaced = functions, set[str]()
+        self._depth = self._calls = self._nodes = 0
+
+    def visit_FunctionDef(self, node: ast.FunctionDef) -> ast.AST:
+        if node.name not in self.functions or node.name == "generate_launch_description":
+            self.generic_visit(node)
+        return node
+
+    def visit_Call(self, node: ast.Call) -> ast.AST:
+        self.generic_visit(node)
+        if isinstance(node.func, ast.Name) and node.func.id in ("list", "tuple") and len(node.args) == 1:
+            return node.args[0]
+        function = self.functions.get(node.func.id) if isinstance(node.func, ast.Name) else None
+        values = _values(function, node) if function is not None else None
+        if function is None or values is None or self._depth >= _DEEPEST or not self._may_copy(function):
+            return node
+        self.replaced.add(function.name)
+        self._depth += 1
+        *before, last = function.body
+        for each in before:
+            if isinstance(each, ast.Assign) and isinstance(each.targets[0], ast.Name):
+                values[each.targets[0].id] = self._replaced(each.value, values)
+        result = self._replaced(last.value, values)  # type: ignore[attr-defined]
+        self._depth -= 1
+        return result
+
+    def visit_BoolOp(self, node: ast.BoolOp) -> ast.AST:
+        """Return the first value of ``a or b`` that is a constant and not false, such as a default name."""
+        self.generic_visit(node)
+        values = node.values
+        while isinstance(node.op, ast.Or) and len(values) > 1 and isinstance(values[0], ast.Constant):
+            values = values[:1] if values[0].value else values[1:]
+        return values[0] if len(values) == 1 else node
+
+    def visit_ListComp(self, node: ast.ListComp) -> ast.AST:
+        self.generic_visit(node)
+        each = node.generators[0]
+        items = each.iter.elts if isinstance(each.iter, (ast.List, ast.Tuple)) else None
+        if len(node.generators) > 1 or each.ifs or not items or not isinstance(each.target, ast.Name):
+            return node
+        if any(isinstance(item, ast.Starred) for item in items) or not self._may_copy(node.elt, len(items)):
+            return node
+        copies = [self._replaced(node.elt, {each.target.id: item}) for item in items]
+        return ast.copy_location(ast.List(copies, ast.Load()), node)
+
+    def _replaced(self, node: ast.expr, values: Mapping[str, ast.expr]) -> ast.expr:
+        """Return a copy of an expression with values for names, and with the calls in it written out."""
+        replaced: ast.expr = self.visit(_Names(values).visit(copy.deepcopy(node)))
+        return replaced
+
+    def _may_copy(self, node: ast.AST, times: int = 1) -> bool:
+        """Whether the limits, which keep a file from growing without bound, allow copies of a node."""
+        self._calls += 1
+        self._nodes += times * sum(1 for _ in ast.walk(node))
+        return self._calls <= _MOST_CALLS and self._nodes <= _MOST_NODES
+
+
+class _Names(ast.NodeTransformer):
+    def __init__(self, values: Mapping[str, ast.expr]) -> None:
+        self._values = values
+
+    def visit_Name(self, node: ast.Name) -> ast.AST:
+        value = self._values.get(node.id) if isinstance(node.ctx, ast.Load) else None
+        return node if value is None else copy.deepcopy(value)
+
+
+def _values(function: ast.FunctionDef, call: ast.Call) -> dict[str, ast.expr] | None:
+    """Return the values of the parameters in a call; None if the call is computed or does not fit."""
+    if any(isinstance(each, ast.Starred) for each in call.args) or any(word.arg is None for word in call.keywords):
+        return None
+    arguments = function.args
+    plain = [each.arg for each in arguments.args]
+    named = plain + [each.arg for each in arguments.kwonlyargs]
+    values: dict[str, ast.expr] = dict(zip(plain, call.args, strict=False))
+    rest: list[ast.keyword] = []
+    for word in call.keywords:
+        if word.arg in values or (word.arg not in named and arguments.kwarg is None):
+            return None
+        if word.arg in named:
+            values[str(word.arg)] = word.value
+        else:
+            rest.append(word)
+    defaults = dict(zip(plain[len(plain) - len(arguments.defaults) :], arguments.defaults, strict=True))
+    defaults |= {k.arg: d for k, d in zip(arguments.kwonlyargs, arguments.kw_defaults, strict=True) if d is not None}
+    values = defaults | values
+    if arguments.kwarg is not None:
+        keys: list[ast.expr | None] = [ast.copy_location(ast.Constant(word.arg), word) for word in rest]
+        items = ast.Dict(keys, [word.value for word in rest])
+        values[arguments.kwarg.arg] = ast.copy_location(items, rest[0] if rest else call)
+    return values if len(call.args) <= len(plain) and all(name in values for name in named) else None
