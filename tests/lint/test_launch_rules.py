@@ -437,7 +437,7 @@ def test_an_unclosed_substitution_before_another_one_is_reported(source):
     assert not any("parenthesis" in each for each in findings(source))
 
 
-HELPER = '''
+HELPER = """
 import os
 from ament_index_python.packages import get_package_share_directory
 from launch import LaunchDescription
@@ -455,7 +455,7 @@ def generate_launch_description():
         DeclareLaunchArgument("gui", default_value="true"),
         include("gz.launch.py", {argument}="true"),
     ])
-'''
+"""
 
 
 def test_arguments_that_a_function_of_the_file_passes_are_checked_at_the_call(source):

@@ -72,7 +72,9 @@ _METAPACKAGES = {
     "image_pipeline": "camera_calibration depth_image_proc image_proc image_publisher image_rotate image_view"
     " stereo_image_proc",
     "moveit": "moveit_commander moveit_core moveit_kinematics moveit_planners* moveit_plugins moveit_ros*"
-    " moveit_setup_assistant moveit_*controller_manager",
+    " moveit_setup_assistant moveit_*controller_manager pilz_industrial_motion_planner*",
+    "moveit_planners": "moveit_planners_* pilz_industrial_motion_planner*",
+    "moveit_plugins": "moveit_*controller_manager moveit_ros_control_interface",
     "moveit_ros": "moveit_core moveit_kinematics moveit_ros_*",
     "nav2_bringup": "launch_ros nav2_* navigation2 slam_toolbox",
     "navigation": "amcl base_local_planner carrot_planner clear_costmap_recovery costmap_2d dwa_local_planner"
