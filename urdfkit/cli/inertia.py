@@ -21,9 +21,6 @@ if TYPE_CHECKING:
     from urdfkit.lint.project.entry_files import Entry
     from urdfkit.lint.project.options import Options
 
-MAX_RATIO = 10.0
-"""Ratio to the moments of shapes of uniform density above which a moment is reported; motors explain smaller ones."""
-
 
 def configure(parser: argparse.ArgumentParser) -> None:
     """Add the arguments of ``urdfkit inertia``."""
@@ -78,6 +75,7 @@ def run(arguments: argparse.Namespace) -> int:
         UsageError: an argument is invalid.
         UrdfkitError: the model or link is unknown, or its inertia cannot be computed or written.
     """
+    from urdfkit.cli.inertia_rows import row_of, text_of
     from urdfkit.lint.engine.checker import model_of
     from urdfkit.lint.project.entry_files import Entry
     from urdfkit.lint.project.options import Options
@@ -99,7 +97,7 @@ def run(arguments: argparse.Namespace) -> int:
     wrong = _wrong(path, options)
     rows, writes = [], []
     for link in links:
-        row, value = _row(arguments, model, link, wrong.get(link.name, []), alone=name is not None)
+        row, value = row_of(arguments, model, link, wrong.get(link.name, []), alone=name is not None)
         rows.append(row)
         if value is not None and arguments.write and (name is not None or row["findings"]):
             writes.append((link, value, row))
@@ -110,7 +108,7 @@ def run(arguments: argparse.Namespace) -> int:
 
         print(json.dumps(rows[0] if name is not None else rows, ensure_ascii=False))
     else:
-        print(short_lines("\n\n".join(map(_text, rows))))
+        print(short_lines("\n\n".join(map(text_of, rows))))
     for row in rows:
         if row["written"] and not arguments.quiet:
             print(f"urdfkit: wrote the inertia of `{row['link']}` into {', '.join(row['written'])}", file=sys.stderr)
@@ -145,71 +143,6 @@ def _wrong(path: Path, options: Options) -> dict[str, list[Finding]]:
         if finding.link and finding.severity != "note":
             by_link.setdefault(finding.link, []).append(finding)
     return by_link
-
-
-def _row(
-    arguments: argparse.Namespace, model: Model, link: Link, findings: list[Finding], *, alone: bool
-) -> tuple[dict[str, Any], ComputedInertial | None]:
-    from urdfkit.lint.facts.inertia.inertia_from_shapes import COMPONENTS
-    from urdfkit.lint.fixes.inertia_edits import compute_inertial
-
-    at = (link.inertial.element if link.inertial is not None else link.element).origin.position
-    row: dict[str, Any] = {
-        "link": link.name,
-        "file": at.file,
-        "line": at.line,
-        "present": _present(link.inertial),
-        "computed": None,
-        "shapes": None,
-        "findings": [{"code": f.code, "severity": f.severity, "message": f.message} for f in findings],
-        "notes": [],
-        "written": [],
-    }
-    try:
-        value = compute_inertial(model, link, mass=arguments.mass, density=arguments.density, kind=arguments.kind)
-    except UrdfkitError as error:
-        if alone:
-            raise
-        row["notes"] = [error.message]
-        return row, None
-    row["computed"] = {
-        "mass": value.mass,
-        "xyz": list(value.xyz),
-        "rpy": list(link.inertial.origin.rpy) if link.inertial is not None else [0.0, 0.0, 0.0],
-        "inertia": dict(zip(COMPONENTS, value.tensor, strict=True)),
-    }
-    row["findings"] += _deviations(row["present"], row["computed"])
-    row["shapes"] = {"kind": value.kind, "count": value.count, "volume": value.volume, "shared": value.shared}
-    row["notes"] = list(value.notes)
-    return row, value
-
-
-def _deviations(present: dict[str, Any] | None, computed: dict[str, Any]) -> list[dict[str, Any]]:
-    """Return findings about moments that differ from those of the shapes by more than `MAX_RATIO`."""
-    tensor = (present or {}).get("inertia")
-    if tensor is None:
-        return []
-    findings = []
-    for name in ("ixx", "iyy", "izz"):
-        ratio = tensor[name] / computed["inertia"][name]
-        if not 1.0 / MAX_RATIO < ratio < MAX_RATIO:
-            message = f"{name} is {ratio:.3g} times that of the shapes"
-            findings.append({"code": None, "severity": "warning", "message": message})
-    return findings
-
-
-def _present(inertial: Inertial | None) -> dict[str, Any] | None:
-    from urdfkit.lint.facts.inertia.inertia_from_shapes import COMPONENTS
-
-    if inertial is None:
-        return None
-    tensor = inertial.inertia
-    return {
-        "mass": inertial.mass,
-        "xyz": list(inertial.origin.xyz),
-        "rpy": list(inertial.origin.rpy),
-        "inertia": {name: getattr(tensor, name) for name in COMPONENTS} if tensor is not None else None,
-    }
 
 
 def _write(
@@ -268,40 +201,3 @@ def _agree(inertial: Inertial | None, value: ComputedInertial) -> bool:
         abs(a - b) <= 1e-4 * scale
         for a, b, scale in zip(own, (value.mass, *value.tensor), (value.mass, *[size] * 6), strict=True)
     )
-
-
-def _text(row: dict[str, Any]) -> str:
-    present, computed, shapes = row["present"], row["computed"], row["shapes"]
-    lines = [f"{row['link']}  {row['file']}:{row['line']}"]
-    if computed is not None:
-        shared = f", of which {shapes['shared']:.4g} m³ are overlaps, counted once" if shapes["shared"] else ""
-        plural = "s" if shapes["count"] > 1 else ""
-        lines.append(f"  {shapes['count']} {shapes['kind']} shape{plural}, {shapes['volume']:.6g} m³ in total{shared}")
-        lines.append(f"  {'':14}{'present':>16}{'computed':>16}")
-        pairs = [("mass [kg]", present and present["mass"], computed["mass"])]
-        middle = present["xyz"] if present else [None] * 3
-        pairs += [(f"{axis} [m]", a, b) for axis, a, b in zip("xyz", middle, computed["xyz"], strict=True)]
-        tensor = (present or {}).get("inertia") or {}
-        pairs += [(f"{name} [kg·m²]", tensor.get(name), b) for name, b in computed["inertia"].items()]
-        scale = max(computed["inertia"].values())
-        lines += [
-            f"  {name:14}{_number(a, scale):>16}{_number(b, scale):>16}{_times(a, b, scale)}" for name, a, b in pairs
-        ]
-    lines += [
-        f"  {finding['severity']}: {finding['code'] or ''}{' ' if finding['code'] else ''}{finding['message']}"
-        for finding in row["findings"]
-    ]
-    lines += [f"  note: {note}" for note in row["notes"]]
-    return "\n".join(lines)
-
-
-def _number(value: float | None, scale: float) -> str:
-    return "-" if value is None else "0" if abs(value) < 1e-9 * scale else f"{value:.6g}"
-
-
-def _times(present: float | None, computed: float, scale: float) -> str:
-    """Return how many times too large or small a value is; empty where the ratio is less than 1.5."""
-    if present is None or present <= 0.0 or computed <= 1e-9 * scale:
-        return ""
-    ratio = present / computed
-    return f"  {ratio:.3g} times" if not 2.0 / 3.0 < ratio < 1.5 else ""

@@ -7,7 +7,8 @@ from pathlib import Path
 import pytest
 
 from urdfkit.description.sdf import load_world, to_sdf
-from urdfkit.description.sdf.model_as_robot import groups_of, tree_of
+from urdfkit.description.sdf.link_groups import groups_of
+from urdfkit.description.sdf.model_as_robot import tree_of
 from urdfkit.description.urdf.geometry import compose, difference
 from urdfkit.description.urdf.robot import Pose
 from urdfkit.errors import DescriptionError, SimulationError

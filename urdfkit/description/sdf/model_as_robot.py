@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from math import isinf
 
+from urdfkit.description.sdf.link_groups import Group, ends_of
 from urdfkit.description.sdf.model import WorldAxis, WorldJoint, WorldLink, WorldModel
 from urdfkit.description.sdf.shapes import Kept
 from urdfkit.description.urdf.extensions import plugins_in
@@ -65,70 +66,6 @@ class Tree:
     poses: dict[str, Pose]
     self_collide: frozenset[str]
     weightless: frozenset[str]
-
-
-@record(eq=False)
-class Group:
-    """Connected links and joints of a model, in the form of the file.
-
-    Attributes:
-        name: see `Tree`.
-        links: name in the model, pose in the model, and link; the first is the root.
-        joints: name prefix, and joint.
-        fixed_base: whether a joint connects the group to the world.
-        first: whether the group contains the canonical link; the plugins of the model apply to this group.
-    """
-
-    name: str
-    links: tuple[tuple[str, Pose, WorldLink], ...]
-    joints: tuple[tuple[str, WorldJoint], ...]
-    fixed_base: bool
-    first: bool
-
-    @property
-    def moves(self) -> bool:
-        """Whether any joint of the group is movable."""
-        return any(joint.type != "fixed" for _, joint in self.joints)
-
-
-def groups_of(model: WorldModel) -> tuple[Group, ...]:
-    """Return the connected groups of a model's links, in the order of their first links."""
-    links = {name: (name, pose, link) for name, pose, link in model.all_links()}
-    joints = list(model.all_joints())
-    leader = {name: name for name in links}
-
-    def find(name: str) -> str:
-        while leader[name] != name:
-            name = leader[name]
-        return name
-
-    on_world = set()
-    for prefix, joint in joints:
-        ends = _ends(prefix, joint)
-        if "world" in ends:
-            on_world.add(ends[1])
-        else:
-            leader[find(ends[1])] = find(ends[0])
-    canonical = model.canonical_link or next(iter(links), "")
-    found: dict[str, list[str]] = {}
-    for name in links:
-        found.setdefault(find(name), []).append(name)
-    groups = []
-    for members in found.values():
-        own = tuple([each for each in joints if _ends(*each)[1] in members])
-        inner = {_ends(*each)[1] for each in own if "world" not in _ends(*each)}
-        root = next((name for name in members if name not in inner), members[0])
-        ordered = [root, *(name for name in members if name != root)]
-        groups.append(
-            Group(
-                model.name if len(found) == 1 else f"{model.name}::{root}",
-                tuple([links[name] for name in ordered]),
-                own,
-                bool(on_world.intersection(members)),
-                canonical in members,
-            )
-        )
-    return tuple(groups)
 
 
 def tree_of(model: WorldModel, group: Group) -> Tree:
@@ -197,9 +134,9 @@ class _Builder:
         left = list(group.joints)
         while stack:
             here = stack.pop()
-            for each in [each for each in left if here in _ends(*each)]:
+            for each in [each for each in left if here in ends_of(*each)]:
                 left.remove(each)
-                parent, child = _ends(*each)
+                parent, child = ends_of(*each)
                 beyond = child if here == parent else parent
                 if beyond in reached:
                     raise SimulationError(
@@ -224,7 +161,7 @@ class _Builder:
             self._add(beyond)
             return
         axis = _axis_of(self._model, joint)
-        frame = compose(self._poses[_ends(*each)[1]], joint.pose)
+        frame = compose(self._poses[ends_of(*each)[1]], joint.pose)
         x, y, z = axis.xyz
         direction = (-x, -y, -z) if reverse else axis.xyz
         offset = between(frame, end) if reverse or joint.pose != IDENTITY else IDENTITY
@@ -315,12 +252,6 @@ def _axis_of(model: WorldModel, joint: WorldJoint) -> WorldAxis:
             position=joint.position,
         )
     return axis
-
-
-def _ends(prefix: str, joint: WorldJoint) -> tuple[str, str]:
-    """Return the names of parent and child link in the model; the parent may be ``world``."""
-    parent = joint.parent if joint.parent == "world" else prefix + joint.parent
-    return parent, prefix + joint.child
 
 
 def _common_prefix(names: Sequence[str]) -> str:

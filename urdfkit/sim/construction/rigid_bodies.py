@@ -8,7 +8,8 @@ import numpy as np
 
 from urdfkit.description.plugins import match
 from urdfkit.description.sdf import Cone, Ellipsoid, Plane, World, WorldLink, WorldModel, WorldShape
-from urdfkit.description.sdf.model_as_robot import Group, Tree, all_kept, groups_of, tree_of
+from urdfkit.description.sdf.link_groups import Group, groups_of
+from urdfkit.description.sdf.model_as_robot import Tree, all_kept, tree_of
 from urdfkit.description.sdf.shapes import plugins_of
 from urdfkit.description.urdf.geometry import compose
 from urdfkit.description.urdf.robot import Geometry, Mesh, Pose

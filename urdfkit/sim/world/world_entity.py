@@ -6,7 +6,7 @@ from pathlib import Path
 
 from urdfkit.description.loading import load_repaired
 from urdfkit.description.sdf import WorldModel, WorldRobot
-from urdfkit.description.sdf.model_as_robot import groups_of
+from urdfkit.description.sdf.link_groups import groups_of
 from urdfkit.description.urdf.geometry import IDENTITY, compose
 from urdfkit.description.urdf.robot import Pose, Robot
 from urdfkit.scene import MeshLoader, Scene
