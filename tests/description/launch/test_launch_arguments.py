@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 
 from urdfkit.description.launch.launch_arguments import choose, description_of, passed_to, values_of
+from urdfkit.description.launch.launch_scope import MAX_TEXT
 from urdfkit.description.packages.resolver import Packages
 
 PYTHON = """
@@ -222,3 +223,21 @@ def test_display_launch_files_are_those_with_sliders_or_rviz(package: Package) -
 def test_launch_files_that_cannot_be_read_count_as_empty(name: str, text: str, package: Package) -> None:
     description = package({name: text})
     assert passed_to(description, Packages(near=description)) == []
+
+
+@pytest.mark.parametrize(("more", "expected"), [(0, [{"sim_mode": "true"}]), (1, [])])
+def test_texts_above_the_limit_are_unknown(more: int, expected: list[dict[str, str]], package: Package) -> None:
+    command = "$(find xacro)/xacro $(find arm)/urdf/arm.urdf.xacro sim_mode:=true$(arg{}empty)"
+    text = command.format(" " * (MAX_TEXT + more - len(command) + len("{}")))
+    parameter = f'<param name="robot_description" command="{text}"/>'
+    description = package({"sim.launch": f'<launch><arg name="empty" default=""/>{parameter}</launch>'})
+    assert [dict(each.arguments) for each in passed_to(description, Packages(near=description))] == expected
+
+
+@pytest.mark.parametrize(("more", "expected"), [(0, {"a": "x" * MAX_TEXT}), (1, {})])
+def test_values_above_the_limit_are_unknown(more: int, expected: dict[str, str], package: Package) -> None:
+    file = 'Path(get_package_share_directory("arm")) / "urdf" / "arm.urdf.xacro"'
+    value = "x" * (MAX_TEXT + more)
+    description = package({"sim.launch.py": f"document = xacro.process_file({file}, mappings={{'a': '{value}'}})\n"})
+    (each,) = passed_to(description, Packages(near=description))
+    assert dict(each.arguments) == expected

@@ -14,6 +14,8 @@ from urdfkit.description.packages.resolver import Packages
 from urdfkit.description.xacro.expand import expand
 from urdfkit.description.xml.start_tag import start_tag
 from urdfkit.errors import ResourceError, XacroError, XmlError
+from urdfkit.lint.engine.checker import model_of
+from urdfkit.lint.project.options import Options
 
 Write = Callable[[str, str], Path]
 
@@ -358,3 +360,25 @@ def test_symbolic_links_that_lead_back_are_named(tmp_path: Path, monkeypatch: py
         )
         with pytest.raises(XacroError, match=message):
             expand("r.xacro", packages=Packages((), Path("r.xacro")))
+
+
+@pytest.mark.parametrize(
+    ("written", "text"),
+    [
+        ("a<![CDATA[b]]>", "ab"),
+        ("a<!-- b --><![CDATA[c]]>d", "acd"),
+        ("<![CDATA[ a ]]>", "a"),
+        ("a<![CDATA[b]]>${name}<!-- c -->", "abone"),
+        ("${name}<!-- ${unknown} --><![CDATA[${name}]]>", "one${name}"),
+    ],
+)
+def test_the_text_of_an_element_is_its_character_data_without_comments(write: Write, written: str, text: str) -> None:
+    path = write(
+        "a.xacro",
+        f"""<robot name="a" xmlns:xacro="http://www.ros.org/wiki/xacro">
+        <xacro:property name="name" value="one"/>
+        <xacro:macro name="noted"><link name="base"><origin>{written}</origin></link></xacro:macro>
+        <link name="base"><origin>{written}</origin></link><xacro:noted/><xacro:noted/></robot>""",
+    )
+    links = model_of(path, Options((), (), None, {}, ())).robot.links
+    assert [link.element.children[0].text for link in links] == [text] * 3
