@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from collections.abc import Iterator
 from functools import partial
 from pathlib import Path
@@ -161,6 +162,8 @@ def test_topics_are_drawn_with_their_options_and_saved_as_a_layout(shown, visits
     until(lambda: shown.tick() or "BufferGeometry" in page.evaluate(DRAWN, "/scan"))
     page.locator("#transforms summary").click()
     until(lambda: shown.tick() or page.locator("[data-frame=base]").is_visible())
+    age = re.compile(r"^[\d.]+ s$")
+    until(lambda: shown.tick() or age.match(page.locator("[data-frame=base] small").inner_text()))
     page.evaluate("urdfkit.viewport.fit(urdfkit.scene.bounds(), [-0.3, -1, 0.9], 9)")
     drawn(page)
     keep(page, "displays")
@@ -190,6 +193,37 @@ def test_topics_are_drawn_with_their_options_and_saved_as_a_layout(shown, visits
         drawn(second)
         keep(second, "layout")
     visits.problems.clear()  # the browser reports the closed connection
+
+
+XYZ = {"x": 0.5, "y": 0.2, "z": 1.0}
+PLACE = {"position": XYZ, "orientation": {"w": 1.0}}
+ARROW = ["ConeGeometry", "CylinderGeometry"]
+FURTHER = {
+    "nav_msgs/msg/Odometry": ({"pose": {"pose": PLACE, "covariance": [0.1] * 36}}, [*ARROW, "SphereGeometry"]),
+    "nav_msgs/msg/GridCells": ({"cell_width": 0.1, "cell_height": 0.1, "cells": [XYZ]}, ["PlaneGeometry"]),
+    "geometry_msgs/msg/PoseStamped": ({"pose": PLACE}, ARROW),
+    "geometry_msgs/msg/PoseArray": ({"poses": [PLACE]}, ARROW),
+    "geometry_msgs/msg/PointStamped": ({"point": XYZ}, ["SphereGeometry"]),
+    "geometry_msgs/msg/PolygonStamped": ({"polygon": {"points": [XYZ, {"x": 1.0}, {}]}}, ["InstancedBufferGeometry"]),
+    "geometry_msgs/msg/TwistStamped": ({"twist": {"linear": XYZ}}, ARROW),
+    "geometry_msgs/msg/AccelStamped": ({"accel": {"linear": XYZ}}, ARROW),
+    "geometry_msgs/msg/WrenchStamped": ({"wrench": {"force": XYZ}}, ARROW),
+}
+"""Type → fields and the geometries of its drawing."""
+
+
+def test_further_types_of_messages_are_drawn(shown, visits, until) -> None:
+    page = visits.open(shown.server.url, ready=False)
+    until(lambda: shown.tick() or page.locator("#open-displays").is_visible())
+    panel(page, "displays")
+    for kind, (fields, geometries) in FURTHER.items():
+        topic = f"/{kind.split('/')[-1].lower()}"
+        shown.simulation.publish(topic, kind, "base", **fields)
+        until(lambda topic=topic: shown.tick() or page.locator(f"[data-display='{topic}']").is_visible())
+        page.locator(f"[data-display='{topic}'] input[type=checkbox]").check()
+        until(lambda topic=topic: shown.tick() or page.evaluate(DRAWN, topic))
+        assert set(geometries) <= set(page.evaluate(DRAWN, topic)), kind
+    assert visits.problems == []
 
 
 def test_a_map_stays_until_the_next_one_is_decoded_and_arrows_have_their_thickness(shown, visits, until) -> None:

@@ -392,11 +392,13 @@ def test_objects_are_inserted_moved_turned_and_deleted(page, keep, until) -> Non
     drawn(page)
     page.mouse.move(*handle)
     page.mouse.down()
-    goal = spot(page, -1.0, 1.0, order(page, "get_pose", name="crate")["pose"][2])
+    goal = spot(page, -1.03, 1.02, order(page, "get_pose", name="crate")["pose"][2])
     page.mouse.move(*goal, steps=5)
     keep(page, "moving")
     page.mouse.up()
     until(lambda: order(page, "get_pose", name="crate")["pose"][0] < -0.7)
+    for at in order(page, "get_pose", name="crate")["pose"][:2]:
+        assert at == pytest.approx(0.05 * round(at / 0.05), abs=3e-3)  # on the grid
     keep(page, "moved")
     page.keyboard.press("Delete")
     until(lambda: "crate" not in names(page))
