@@ -185,3 +185,60 @@ def test_each_defect_has_a_finding_at_its_line(tmp_path, name, old, new, code, l
 @pytest.mark.parametrize("name", FILES)
 def test_correct_parameters_have_no_finding(tmp_path, name):
     assert findings(tmp_path, name, "ros__parameters", "ros__parameters") == []
+
+
+ROS1 = """<launch>
+  <node pkg="amcl" type="amcl" name="amcl">
+    <param name="odom_model_type" value="diff"/>
+    <param name="min_particles" value="500"/>
+    <param name="max_particles" value="5000"/>
+    <param name="laser_max_range" value="12.0"/>
+    <param name="odom_frame_id" value="odom"/>
+    <param name="global_frame_id" value="map"/>
+  </node>
+</launch>
+"""
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "line", "message"),
+    [
+        ('"diff"', '"omni"', 0, ""),
+        ('"diff"', '"differential"', 3, "unknown `odom_model_type` `differential` of amcl"),
+        ('"500"', '"50000"', 4, "`min_particles` is 50000, more than `max_particles`, 5000"),
+        ('"12.0"', '"12m"', 6, "`laser_max_range` is `12m`, which is not a number"),
+        (
+            '"odom"/>\n    <param name="global_frame_id" value="map"',
+            '"map"/>\n    <param name="global_frame_id" value="odom"',
+            7,
+            "exchange",
+        ),
+        ("odom_frame_id", "odom_frame", 7, "`amcl` has no parameter `odom_frame`; did you mean `odom_frame_id`?"),
+    ],
+)
+def test_parameters_in_launch_files_of_ros_1(tmp_path, old, new, line, message):
+    manifest = MANIFEST.replace("ament_cmake</build", "catkin</build").replace("diff_drive_controller", "amcl")
+    (tmp_path / "package.xml").write_text(manifest.replace("<export><build_type>catkin</build_type></export>", ""))
+    (tmp_path / "cart.urdf").write_text(ROBOT)
+    (tmp_path / "launch").mkdir()
+    launch_file = tmp_path / "launch/nodes.launch"
+    launch_file.write_text(ROS1.replace(old, new, 1))
+    found = [one for one in lint(tmp_path) if one.code == "L110"]
+    assert [one.line for one in found] == ([line] if line else [])
+    assert all(message in one.message for one in found)
+
+
+@pytest.mark.parametrize(
+    ("file", "message"),
+    [
+        ("DWAPlannerROS: {max_trans_vel: 0.5}", "`DWAPlannerROS` has no parameter `max_trans_vel`"),
+        ("plugins: [{name: a, type: 'costmap_2d/StaticLayer'}]", "did you mean `costmap_2d::StaticLayer`?"),
+        ("base_global_planner: nav2_navfn_planner/NavfnPlanner", "is of Nav2, which ROS 1 does not have"),
+    ],
+)
+def test_planners_and_layers_of_ros_1(tmp_path, file, message):
+    (tmp_path / "config").mkdir()
+    (tmp_path / "package.xml").write_text(MANIFEST)
+    (tmp_path / "cart.urdf").write_text(ROBOT)
+    (tmp_path / "config/planner.yaml").write_text(f"{file}\n")
+    assert [message in one.message for one in lint(tmp_path) if one.file.endswith(".yaml")] == [True]

@@ -249,7 +249,7 @@ RELATED_FILES: tuple[Row, ...] = (
     (_LAUNCH, "launch.static_transform_invalid", "StaticTransformInvalid"),
     (_PYTHON, "launch.xacro_not_expanded", "XacroNotExpanded"),
     (_XML, "launch.parameters_loaded_twice", "ParametersLoadedTwice"),
-    (_LAUNCH, "launch.simulation_time_inconsistent", "SimulationTimeInconsistent"),
+    (f"{_LAUNCH} {_YAML}", "launch.simulation_time_inconsistent", "SimulationTimeInconsistent"),
     (_PYTHON, "launch.exit_handler_never_runs", "ExitHandlerNeverRuns"),
     (_LAUNCH, "launch.map_transform_published_twice", "MapTransformPublishedTwice"),
     (_SRDF, "moveit.srdf_not_well_formed", "SrdfNotWellFormed"),

@@ -5,6 +5,7 @@ Sources: move_base (move_base.cpp, Noetic), navigation2 (plugin descriptions of 
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -40,10 +41,14 @@ _PACKAGES = {
 """Package of ROS 1 → the classes of its plugins."""
 
 _OTHER_NAMES = {
-    "DWAPlannerROS": {"vtheta_samples": "vth_samples", "acc_lim_th": "acc_lim_theta"},
+    "DWAPlannerROS": {
+        **{"vtheta_samples": "vth_samples", "acc_lim_th": "acc_lim_theta", "max_trans_vel": "max_vel_trans"},
+        **{"min_trans_vel": "min_vel_trans", "max_rot_vel": "max_vel_theta", "min_rot_vel": "min_vel_theta"},
+        **{"rot_stopped_vel": "theta_stopped_vel", "trans_stopped_velocity": "trans_stopped_vel"},
+    },
     "TrajectoryPlannerROS": {"vth_samples": "vtheta_samples", "acc_lim_th": "acc_lim_theta"},
 }
-"""Section of a planner → parameters of other planners and what they are called there."""
+"""Section of a planner → parameters of other planners and releases, and what they are called there."""
 
 _SINCE_JAZZY = (
     *("nav2_navfn_planner", "nav2_smac_planner", "nav2_theta_star_planner", "nav2_behaviors", "nav2_bt_navigator"),
@@ -97,7 +102,12 @@ def _in_ros1(source: Source) -> Defects:
                 place = next((inner for inner, _ in value.entries if inner.text == old), None)
                 if place is not None and value.find(new) is None:
                     yield source, place, f"`{key.text}` has no parameter `{old}`; did you mean `{new}`?"
-            if key.text in _LOADED or (key.text == "type" and value.text.startswith("costmap_2d")):
+            is_class = key.text in (*_LOADED, "type") and value.kind == "text"
+            if is_class and value.text.startswith("nav2_") and re.search("costmap_2d|planner", value.text):
+                yield source, value, f"plugin `{value.text}` is of Nav2, which ROS 1 does not have"
+            elif key.text == "type" and (at := re.fullmatch(r"costmap_2d/(\w+)", value.text)):
+                yield source, value, f"unknown plugin `{value.text}`; did you mean `costmap_2d::{at[1]}`?"
+            elif key.text in _LOADED or (key.text == "type" and value.text.startswith("costmap_2d")):
                 package, _, kind = value.text.replace("::", "/").partition("/")
                 classes = _PACKAGES.get(package, ())
                 if classes and kind not in classes and "/" not in kind:

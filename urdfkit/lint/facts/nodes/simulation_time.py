@@ -3,15 +3,20 @@
 from __future__ import annotations
 
 import ast
+import re
 from collections.abc import Iterator
 
 from urdfkit.description.launch.python_constants import launch_reader, name_of
 from urdfkit.description.xml.source import Source
 from urdfkit.lint.facts.control.launch_package_paths import place
+from urdfkit.lint.facts.control.yaml_tree import Node, start_of
 from urdfkit.lint.facts.launch.actions import actions_of, all_elements
 from urdfkit.lint.facts.launch.python_names import python_files
+from urdfkit.lint.facts.launch.receivers import actions_at, receiver
 from urdfkit.lint.facts.launch.ros_version import reads_ros1
+from urdfkit.lint.facts.navigation.sections import sections
 from urdfkit.lint.facts.navigation.tables import NODES
+from urdfkit.lint.facts.nodes.names import name_of_node
 from urdfkit.lint.facts.nodes.started import LaunchedNode, launched_nodes, parameter_files
 from urdfkit.lint.model.model import Model
 
@@ -22,6 +27,9 @@ _TIMED = ("robot_localization", "robot_state_publisher", "slam_toolbox", "cartog
 
 _FOR_ALL = ("SetParameter", "SetUseSimTime", "set_parameter")
 _IDLE = ("lifecycle_manager", "map_server", "map_saver_server")
+
+_SCOPES = r"\b(?:GroupAction|OpaqueFunction)\(|<group\b(?:(?!</group>).)*<include"
+"""Matches launch files whose includes can be conditional without a condition of their own."""
 
 Defects = Iterator[tuple[Source, tuple[int, int], str]]
 
@@ -53,11 +61,17 @@ def without_clock(model: Model) -> Defects:
 def computer_time(model: Model) -> Defects:
     """Yield each constant ``use_sim_time`` that is false in a launch file that always starts Gazebo."""
     for source, tree in python_files(model):
-        if _KEY in source.text and _starts_gazebo(source):
+        if _KEY in source.text and _starts_gazebo(source, model):
             yield from _in_python(source, tree)
+    yield from _in_parameter_files(model)
     for name, source in model.related_files.items():
-        if name.endswith((".launch.xml", ".launch.yaml", ".launch")) and _KEY in source.text and _starts_gazebo(source):
+        is_launch = name.endswith((".launch.xml", ".launch.yaml", ".launch")) and _KEY in source.text
+        if is_launch and _starts_gazebo(source, model):
             for element in all_elements(source):
+                key, default = (element.attributes.get(each) for each in ("name", "default"))
+                is_key = element.tag == "arg" and key is not None and key.name == _KEY
+                if is_key and default is not None and default.name.lower() == "false" and not reads_ros1(source):
+                    yield source, (default.start, default.start + len(default.name)), _message()
                 if element.tag == "include" and not {"if", "unless"} & element.attributes.keys():
                     for child in element.children:
                         key, value = (child.attributes.get(each) for each in ("name", "value"))
@@ -66,16 +80,62 @@ def computer_time(model: Model) -> Defects:
                             yield source, (value.start, value.start + len(value.name)), _message()
 
 
+def _in_parameter_files(model: Model) -> Defects:
+    """Yield each ``use_sim_time`` that is false in YAML, if the other nodes of the file use the simulated time.
+
+    Also yields those of a node that is started together with Gazebo and has no other setting.
+    """
+    files, seen = parameter_files(model), set[tuple[str, int]]()
+    for source in files.values():
+        found = [value for _, group in sections(source) if (value := group.find(_KEY)) is not None]
+        off = [value for value in found if value.text.lower() == "false"]
+        if off and 3 * len(off) <= len(found):
+            for value in off:
+                seen.add((source.file, value.line))
+                yield source, _value_place(source, value), f"`{_KEY}` is false here and true for the other nodes"
+    for node in launched_nodes(model):
+        if node.inline is None or _KEY in node.inline or not _is_timed(node) or not _starts_gazebo(node.source, model):
+            continue
+        for source in (files[file] for file in node.files if file in files):
+            for key, group in sections(source):
+                value, name = group.find(_KEY), key.text.strip("/").rpartition("/")[2]
+                is_own = name == (name_of_node(node) or node.program)
+                if (
+                    value is not None
+                    and value.text.lower() == "false"
+                    and is_own
+                    and (source.file, value.line) not in seen
+                ):
+                    seen.add((source.file, value.line))
+                    message = f"`{_KEY}` is false, but {_short(node.source)} starts this node and Gazebo"
+                    yield source, _value_place(source, value), message
+
+
+def _value_place(source: Source, value: Node) -> tuple[int, int]:
+    start = start_of(source, value)
+    return start, start + len(value.text)
+
+
+def _short(source: Source) -> str:
+    return source.file.rpartition("/")[2]
+
+
 def _in_python(source: Source, tree: ast.Module) -> Defects:
     reader = launch_reader(tree)
     for call in (node for node in ast.walk(tree) if isinstance(node, ast.Call)):
         words = {word.arg: word.value for word in call.keywords}
+        default = words.get("default_value")
+        is_declared = name_of(call.func) == "DeclareLaunchArgument" and call.args and reader.text(call.args[0]) == _KEY
+        if is_declared and default is not None and (reader.text(default) or "").lower() == "false":
+            yield source, place(source, default), _message()
         package = reader.text(words["package"]) if "package" in words else None
         is_timed = name_of(call.func) == "Node" and (package in _TIMED or (package or "").startswith("nav2_"))
         if "condition" in words or not (is_timed or name_of(call.func) == "IncludeLaunchDescription"):
             continue
         for part in (words.get("launch_arguments"), words.get("parameters")):
-            for inner in ast.walk(part) if part is not None else ():
+            named = [reader.assigned.get(each.id) for each in getattr(part, "elts", ()) if isinstance(each, ast.Name)]
+            parts = [part, *(each for each in named if isinstance(each, ast.Dict))]
+            for inner in (each for one in parts if one is not None for each in ast.walk(one)):
                 keys = inner.keys if isinstance(inner, ast.Dict) else []
                 values = inner.values if isinstance(inner, ast.Dict) else []
                 if isinstance(inner, ast.Tuple) and len(inner.elts) == 2:
@@ -90,11 +150,18 @@ def _message() -> str:
     return f"`{_KEY}` is false, but this file starts Gazebo, which publishes the time"
 
 
-def _starts_gazebo(source: Source) -> bool:
-    actions = actions_of(source)
-    return any(call.package in _GAZEBO and not call.is_conditional for call in actions.includes) and not any(
-        word in source.text for word in ("GroupAction", "<group", "OpaqueFunction")
-    )
+def _starts_gazebo(source: Source, model: Model, depth: int = 0) -> bool:
+    """Return whether a launch file always starts Gazebo, itself or by its includes."""
+    if re.search(_SCOPES, source.text, re.DOTALL):
+        return False
+    for call in actions_of(source).includes:
+        if call.is_conditional:
+            continue
+        path = receiver(call, model) if depth < 3 and call.package not in _GAZEBO else None
+        included = actions_at(path, model) if path is not None else None
+        if call.package in _GAZEBO or (included is not None and _starts_gazebo(included.source, model, depth + 1)):
+            return True
+    return False
 
 
 def _is_timed(node: LaunchedNode) -> bool:

@@ -41,6 +41,15 @@ _NAMES = {
 }
 """Package, or package and executable → topics and services of the nodes; those of their parameters are accepted too."""
 
+_OF_ROS1 = {
+    "amcl": ("scan",),
+    "gmapping": ("scan",),
+    "move_base": ("cmd_vel", "odom"),
+    "robot_state_publisher": ("joint_states",),
+    "twist_mux": ("cmd_vel_out",),
+}
+"""Package of ROS 1 → topics of its node that launch files usually remap."""
+
 _EVERY_NODE = ("tf", "tf_static", "clock", "rosout", "parameter_events")
 
 _COMMANDS = {
@@ -61,6 +70,19 @@ def misnamed_remappings(model: Model) -> Iterator[tuple[Source, Named, str]]:
     """Yield the launch file, the old name and the message of each remapping that has no effect."""
     inputs, files = set(_mux_topics(model, ("topics", "locks"))), parameter_files(model)
     for node in launched_nodes(model):
+        for old, new in node.remappings:
+            if new.name.startswith("~/") and re.fullmatch(rf"/?{re.escape(new.name[2:])}", old.name):
+                yield node.source, old, f"the names of this remapping are exchanged; write `{new.name}` first"
+            elif (
+                ("$" in old.name or old.name.strip("/") in inputs)
+                and new.name in _OF_ROS1.get(node.package, ())
+                and reads_ros1(node.source)
+            ):
+                yield (
+                    node.source,
+                    old,
+                    f"`{node.program}` has the topic `{new.name}`, not `{old.name}`; exchange the names",
+                )
         label = node.program if f"{node.package}/{node.program}" in _NAMES else node.package
         names = (_NAMES.get(f"{node.package}/{label}") or _NAMES.get(node.package, "")).split()
         if node.program == "navsat_transform_node" and reads_ros1(node.source):
@@ -73,7 +95,8 @@ def misnamed_remappings(model: Model) -> Iterator[tuple[Source, Named, str]]:
             name = old.name.removeprefix("~").strip("/")
             is_moved = "/" in name and name.rpartition("/")[2] in accepted and new.name.strip("/") not in names
             texts = [files[file].text if file in files else name for file in node.files]
-            if name in accepted or is_moved or not re.fullmatch(r"[\w/]+", name) or any(name in text for text in texts):
+            is_read = any(re.search(rf"(?<![\w/]){re.escape(name)}(?![\w/])", text) for text in texts)
+            if name in accepted or is_moved or not re.fullmatch(r"[\w/]+", name) or is_read:
                 continue
             left = [each for each in names if each not in written]
             near = new.name if new.name in left else nearest(name, left, cutoff=0.6)

@@ -22,8 +22,9 @@ class LaunchValueInvalid(RobotRule):
 
     ## What it does
     Checks conditions and other truth values without substitutions, the ``output`` of nodes, the defaults of arguments
-    that are conditions, the command of ``<rosparam>``, and whether the description is a file without xacro
-    (``textfile``), a command (``command``) or a value (``value``).
+    that are conditions, the command of ``<rosparam>``, the parameters of amcl, gmapping and other
+    nodes of ROS 1, and whether the description is a file without xacro (``textfile``), a command (``command``) or a
+    value (``value``).
 
     ## Why is this bad?
     The launch stops with "invalid bool value" or a similar error, or the nodes read a wrong description. A dump
@@ -55,6 +56,7 @@ class LaunchValueInvalid(RobotRule):
         """Yield a finding for each unusable value."""
         from urdfkit.lint.facts.launch.actions import actions_of
         from urdfkit.lint.facts.launch.ros_version import reads_ros1, ros_version
+        from urdfkit.lint.facts.parameters.launch_parameters import launch_parameter_defects
         from urdfkit.lint.model.tags import Document
 
         for name, source in model.related_files.items():
@@ -68,6 +70,9 @@ class LaunchValueInvalid(RobotRule):
             for attribute, message in (*found, *_conditions(tags)):
                 span = source.span(attribute.value_start, attribute.value_end)
                 yield self.at_span(span, message)
+            for word, message in launch_parameter_defects(source):
+                span = source.span(word.start, word.start + len(word.name))
+                yield self.at_span(span, message, severity="warning")
 
 
 _TYPES = {

@@ -58,6 +58,7 @@ class PythonLaunchApiMisused(RobotRule):
         from urdfkit.description.launch.python_constants import launch_reader
         from urdfkit.lint.facts.control.launch_package_paths import place
         from urdfkit.lint.facts.launch.python_names import class_called, launch_classes, python_files
+        from urdfkit.lint.facts.launch.python_values import wrong_values
         from urdfkit.lint.facts.nodes.python_bindings import miscalled
 
         for source, tree in python_files(model):
@@ -70,6 +71,8 @@ class PythonLaunchApiMisused(RobotRule):
                     yield from self._call(source, node, kind, reader)
             for call, message in miscalled(tree):
                 yield self._at(source, place(source, call), message)
+            for span, message in wrong_values(source, tree):
+                yield self._at(source, span, message)
 
     def _import(self, source: Source, node: ast.ImportFrom) -> Findings:
         from urdfkit.lint.facts.control.launch_package_paths import place

@@ -1,0 +1,128 @@
+"""Values of the wrong kind in launch files in Python: handlers, conditions, remappings, parameters and actions.
+
+Sources: ros2/launch (event_handlers/on_action_event_base.py, conditions/evaluate_condition_expression_impl.py,
+actions/timer_action.py, launch_description.py), ros2/launch_ros (actions/node.py, utilities/normalize_parameters.py,
+utilities/normalize_remap_rule.py), Humble to Rolling.
+"""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+
+from urdfkit.description.launch.python_constants import LaunchReader, launch_reader, name_of
+from urdfkit.description.xml.source import Source
+from urdfkit.lint.facts.control.launch_package_paths import place
+from urdfkit.lint.facts.launch.python_names import class_called, launch_classes
+
+Defects = Iterator[tuple[ast.expr, str]]
+
+_HANDLERS = {"OnProcessExit": "on_exit", "OnProcessStart": "on_start", "OnExecutionComplete": "on_completion"}
+_TRUTH = ("true", "false", "1", "0")
+_PATHS = ("join", "LaunchConfiguration", "ParameterFile", "PathJoinSubstitution", "PathSubstitution", "RewrittenYaml")
+_VALUES = ("Command", "ParameterValue")
+_ACTIONS = (
+    *("DeclareLaunchArgument", "ExecuteProcess", "GroupAction", "IncludeLaunchDescription", "LifecycleNode", "Node"),
+    *("RegisterEventHandler", "SetEnvironmentVariable", "SetParameter", "TimerAction", "ComposableNodeContainer"),
+)
+_NODES = ("Node", "LifecycleNode", "ComposableNodeContainer", "ComposableNode")
+
+
+def wrong_values(source: Source, tree: ast.Module) -> Iterator[tuple[tuple[int, int], str]]:
+    """Yield the place and message of each value of the wrong kind."""
+    reader, classes = launch_reader(tree), launch_classes(tree)
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Call) and (kind := class_called(node, classes)):
+            found = _of_call(node, kind, reader)
+        elif isinstance(node, (ast.Compare, ast.If, ast.IfExp)):
+            found = _compared(node, reader)
+        else:
+            continue
+        yield from ((place(source, at), message) for at, message in found)
+
+
+def _value(node: ast.expr, reader: LaunchReader) -> ast.expr:
+    return (reader.assigned.get(node.id) or node) if isinstance(node, ast.Name) else node
+
+
+def _called(node: ast.expr, reader: LaunchReader) -> str:
+    value = _value(node, reader)
+    return name_of(value.func) if isinstance(value, ast.Call) else ""
+
+
+def _is_text(node: ast.expr) -> bool:
+    return isinstance(node, ast.Constant) and isinstance(node.value, str)
+
+
+def _items(node: ast.expr, reader: LaunchReader) -> list[ast.expr]:
+    value = _value(node, reader)
+    return list(value.elts) if isinstance(value, (ast.List, ast.Tuple)) else []
+
+
+def _of_call(call: ast.Call, kind: str, reader: LaunchReader) -> Defects:
+    words = {word.arg: word.value for word in call.keywords if word.arg is not None}
+    if kind in _HANDLERS:
+        yield from _handler(words.get("target_action"), words.get(_HANDLERS[kind]), _HANDLERS[kind], reader)
+    elif kind in ("IfCondition", "UnlessCondition") and len(call.args) == 1 and _is_text(call.args[0]):
+        text = reader.text(call.args[0]) or ""
+        if text.strip().lower() not in _TRUTH:
+            yield call.args[0], f'`{text}` is neither true nor false; write `LaunchConfiguration("{text}")`'
+    elif kind in _NODES:
+        yield from _node(words, kind, reader)
+    elif kind in ("TimerAction", "GroupAction"):
+        actions = words.get("actions") or (call.args[0] if kind == "GroupAction" and call.args else None)
+        if actions is not None and _called(actions, reader) in _ACTIONS:
+            yield actions, f"`actions` of `{kind}` is not a list; write it in brackets"
+    elif kind == "LaunchDescription":
+        if len(call.args) > 1:
+            yield call.args[1], "`LaunchDescription` has one list of actions; join the lists with `+`"
+        elif call.args and _called(call.args[0], reader) in _ACTIONS:
+            yield call.args[0], "the argument of `LaunchDescription` is not a list; write it in brackets"
+
+
+def _handler(target: ast.expr | None, reactions: ast.expr | None, word: str, reader: LaunchReader) -> Defects:
+    if target is not None and (_is_text(target) or isinstance(_value(target, reader), (ast.List, ast.Tuple))):
+        what = "text" if _is_text(target) else "list"
+        yield target, f"`target_action` is a {what}; write one action"
+    listed = [] if reactions is None else _items(reactions, reader) or [reactions]
+    for item in listed:
+        if _is_text(item):
+            yield item, f"`{word}` has a text; write the variable of an action without quotes"
+        elif isinstance(item, ast.Name) and isinstance(target, ast.Name) and item.id == target.id:
+            yield target, f"`{target.id}` waits for its own end, so it never starts"
+
+
+def _node(words: dict[str, ast.expr], kind: str, reader: LaunchReader) -> Defects:
+    for name in ("parameters", "remappings", "arguments"):
+        value = words.get(name)
+        if value is not None and _called(value, reader) in (*_PATHS, *_VALUES):
+            yield value, f"`{name}` of `{kind}` is not a list; write it in brackets"
+    for item in _items(words["parameters"], reader) if "parameters" in words else ():
+        value = _value(item, reader)
+        if isinstance(value, ast.Set):
+            yield value, "an item of `parameters` is a set; write a colon between name and value"
+        elif _called(item, reader) in _VALUES:
+            yield item, "an item of `parameters` is a value without a name; write {name: value}"
+        elif _called(item, reader) == "to_moveit_configs":
+            yield item, "an item of `parameters` is a MoveItConfigs; write `.to_dict()` after it"
+    for item in _items(words["arguments"], reader) if "arguments" in words else ():
+        number = item.operand if isinstance(item, ast.UnaryOp) else item
+        if isinstance(number, ast.Constant) and isinstance(number.value, (int, float)):
+            yield item, "an item of `arguments` is not a text; write it in quotes"
+    remappings = words.get("remappings")
+    pairs = _items(remappings, reader) if remappings is not None else []
+    if remappings is not None and (pairs and all(_is_text(each) for each in pairs)):
+        yield remappings, 'an item of `remappings` is a text; write pairs, [("from", "to")]'
+
+
+def _compared(node: ast.Compare | ast.If | ast.IfExp, reader: LaunchReader) -> Defects:
+    """Yield the uses of a ``LaunchConfiguration`` as a value of Python, which are always true or always false."""
+    if isinstance(node, ast.Compare):
+        parts = [node.left, *node.comparators]
+        if all(isinstance(each, (ast.Eq, ast.NotEq, ast.In)) for each in node.ops):
+            use = next((each for each in parts if _called(each, reader) == "LaunchConfiguration"), None)
+            if use is not None:
+                message = "this comparison reads the object and not its value; use `EqualsSubstitution` in a condition"
+                yield node, message
+    elif _called(node.test, reader) == "LaunchConfiguration":
+        yield node.test, "a LaunchConfiguration is always true in Python; use `condition=IfCondition(...)`"
