@@ -71,11 +71,14 @@ class ResourceError(UrdfkitError):
         position: see `UrdfkitError`.
         kind: ``name`` for an empty one, ``package`` or ``file`` for a missing one, ``format`` for an unsupported format
             of a file, otherwise empty.
+        near: for a missing file, the similar name of a file or folder that the message suggests.
     """
 
-    def __init__(self, message: str, *, position: Position | None = None, kind: str = "") -> None:
+    def __init__(
+        self, message: str, *, position: Position | None = None, kind: str = "", near: str | None = None
+    ) -> None:
         super().__init__(message, position=position)
-        self.kind = kind
+        self.kind, self.near = kind, near
 
 
 class DescriptionError(UrdfkitError):

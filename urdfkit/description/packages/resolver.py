@@ -9,9 +9,9 @@ from pathlib import Path
 from urdfkit.description.packages.existence import exists, is_folder
 from urdfkit.description.packages.package_search import PackageSearch
 from urdfkit.description.packages.related_files import CODE, around, state_of
-from urdfkit.description.packages.similar_names import near_package, near_path
+from urdfkit.description.packages.similar_names import near_package, similar_file
 from urdfkit.description.xml.source import absolute
-from urdfkit.errors import ResourceError
+from urdfkit.errors import ResourceError, suggestion
 from urdfkit.position import Position
 
 NOT_READ = "is not read, as --confined hides the environment"
@@ -54,7 +54,7 @@ class Packages:
             self.search, self.near, os.environ if environment is None else environment, permits, {}
         )
         self._states: dict[tuple[str, ...], str] = {}
-        self._hints: dict[Path, str] = {}
+        self._similar_files: dict[Path, str | None] = {}
         self.notes: dict[str, str] = {}
         """Notes on files that were found under a name with other capital letters, in order."""
         self.answers: dict[tuple[str, ...], str] = {}
@@ -75,7 +75,7 @@ class Packages:
             if kind == "find":
                 return str(self.find(words[0]))
             if kind == "resolve":
-                return str(self._resolved(words[0], words[1], self._hints))
+                return str(self._resolved(words[0], words[1], self._similar_files))
             if kind == "files":
                 return self._state_of(question)
             if kind == "variable":
@@ -104,7 +104,11 @@ class Packages:
         """Return a resolver that searches near another file and shares the cache of folders."""
         search = self._package_search
         other = Packages(self.search, near, environment=search.environment, permits=search.permitted)
-        other._package_search.scanned, other._states, other._hints = search.scanned, self._states, self._hints
+        other._package_search.scanned, other._states, other._similar_files = (
+            search.scanned,
+            self._states,
+            self._similar_files,
+        )
         return other
 
     def find(self, name: str) -> Path:
@@ -188,7 +192,7 @@ class Packages:
         self.notes.setdefault(written, f"{place}{written}: {name}")
         return found
 
-    def _resolved(self, uri: str, relative_to: str | Path, hints: dict[Path, str] | None = None) -> Path:
+    def _resolved(self, uri: str, relative_to: str | Path, found: dict[Path, str | None] | None = None) -> Path:
         path = self._path_of(uri, Path(relative_to))
         if not self.permits(path):
             raise ResourceError(f"{uri} is {OUTSIDE}")
@@ -205,7 +209,8 @@ class Packages:
             decoded = Path(unquote(str(path)))
             if exists(decoded):
                 return decoded
-        raise ResourceError(f"no file {uri}{near_path(path, hints)}", kind="file")
+        near = similar_file(path, found)
+        raise ResourceError(f"no file {uri}{suggestion(near)}", kind="file", near=near)
 
     def relocate(self, path: str | Path) -> Path | None:
         """Return the path in the source folder for a path that exists only in an installed package.

@@ -7,7 +7,7 @@ from collections.abc import Iterable
 from pathlib import Path
 
 from urdfkit.description.packages.existence import is_folder
-from urdfkit.errors import did_you_mean, may_suggest, nearest
+from urdfkit.errors import did_you_mean, may_suggest, nearest, suggestion
 
 
 def near_package(name: str, packages: Iterable[str]) -> str:
@@ -19,34 +19,39 @@ def near_package(name: str, packages: Iterable[str]) -> str:
     return did_you_mean(name, [other for other, own, end in parts if end != last or nearest(stem, [own], cutoff=0.7)])
 
 
-def near_path(path: Path, hints: dict[Path, str] | None = None, user: Path | None = None) -> str:
-    """Return a did-you-mean hint for the first part of `path` that does not exist, ignoring case.
+def near_path(path: Path, user: Path | None = None) -> str:
+    """Return a did-you-mean hint for the first part of `path` that does not exist; see `similar_file`."""
+    return suggestion(similar_file(path, user=user))
+
+
+def similar_file(path: Path, found: dict[Path, str | None] | None = None, user: Path | None = None) -> str | None:
+    """Return the name that is similar to the first part of `path` that does not exist, ignoring case.
 
     A common suffix from the first dot on does not make two names similar, and only a folder stands for a folder.
 
     Args:
         path: a path that does not exist.
-        hints: earlier hints by the first part that does not exist, to be used again; None to search again.
+        found: earlier results by the first part that does not exist, to be used again; None to search again.
         user: the file that names the path, which cannot be meant.
     """
     if not may_suggest():
-        return ""
+        return None
     missing, parent = path, path.parent
     while not is_folder(parent) and parent != parent.parent:
         missing, parent = parent, parent.parent
-    if hints is not None and missing in hints:
-        return hints[missing]
+    if found is not None and missing in found:
+        return found[missing]
     try:
         children = (child for child in parent.iterdir() if missing is path or child.is_dir())
         names = sorted(child.name for child in children if user is None or not _is_same(child, user))
     except OSError:
-        return ""
+        return None
     stem = _stem(missing.name)
     written = [name for name in names if _letters(name) == _letters(missing.name)]
-    hint = did_you_mean(missing.name, written or [name for name in names if did_you_mean(stem, [_stem(name)])])
-    if hints is not None:
-        hints[missing] = hint
-    return hint
+    near = nearest(missing.name, written or [name for name in names if nearest(stem, [_stem(name)]) is not None])
+    if found is not None:
+        found[missing] = near
+    return near
 
 
 def _is_same(path: Path, other: Path) -> bool:

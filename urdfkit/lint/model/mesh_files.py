@@ -35,8 +35,11 @@ def path_of(mesh: Mesh, expanded: Expanded) -> Path | None:
         return None
 
 
-def missing(mesh: Mesh, expanded: Expanded) -> tuple[str, str] | None:
-    """Return the missing part of a mesh's URI (``package`` or ``file``) with its name or a hint; None if it exists."""
+def missing(mesh: Mesh, expanded: Expanded) -> tuple[str, str | None] | None:
+    """Return the missing part of a mesh's URI; None if it exists.
+
+    The part is ``package`` with its name, or ``file`` with the similar name of a file or folder, if there is one.
+    """
     from urdfkit.errors import ResourceError
 
     uri = mesh.uri.strip()
@@ -52,7 +55,7 @@ def missing(mesh: Mesh, expanded: Expanded) -> tuple[str, str] | None:
     try:
         expanded.packages.resolve(uri, expanded.path)
     except ResourceError as error:
-        return "file", str(error)
+        return "file", error.near
     return None
 
 

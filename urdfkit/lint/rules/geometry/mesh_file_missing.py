@@ -1,9 +1,9 @@
 """G601 mesh-file-missing."""
 
-import re
 from pathlib import Path
 
 from urdfkit.description.packages.existence import is_absolute, is_file
+from urdfkit.errors import suggestion
 from urdfkit.lint.fix_builders import new_value
 from urdfkit.lint.model.mesh_files import is_remote, missing
 from urdfkit.lint.rule import Findings, Model, RobotRule
@@ -52,7 +52,7 @@ class MeshFileMissing(RobotRule):
 
     def check(self, model: Model) -> Findings:
         """Yield a finding for each missing mesh file."""
-        failures: dict[str, tuple[str, str] | None] = {}
+        failures: dict[str, tuple[str, str | None] | None] = {}
         for mesh, element, link in model.meshes:
             if model.is_unresolved(element, "filename"):
                 continue
@@ -69,15 +69,15 @@ class MeshFileMissing(RobotRule):
             if is_absolute(mesh.uri) and model.literal(element, "filename") is not None:
                 continue  # Reported by G603.
             is_of_output = _is_relative_to_output(mesh.uri.strip(), model.expanded.path)
-            near = re.search(r"did you mean `([^`]+)`", failure[1])
-            uri = f"{mesh.uri.strip().rpartition('/')[0]}/{near[1]}".lstrip("/") if near else ""
+            near = failure[1]
+            uri = f"{mesh.uri.strip().rpartition('/')[0]}/{near}".lstrip("/") if near else ""
             has_same_suffix = (
-                near is not None and near[1].rpartition(".")[2].lower() == mesh.uri.strip().rpartition(".")[2].lower()
+                near is not None and near.rpartition(".")[2].lower() == mesh.uri.strip().rpartition(".")[2].lower()
             )
             yield self.at(
                 model,
                 element,
-                f"mesh `{mesh.uri.strip()}` not found{f'; did you mean `{near[1]}`?' if near else ''}",
+                f"mesh `{mesh.uri.strip()}` not found{suggestion(near)}",
                 attribute="filename",
                 link=link.name,
                 fix=new_value(model, element, "filename", uri, "unsafe", f"Replace with `{uri}`")
