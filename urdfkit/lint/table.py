@@ -78,6 +78,7 @@ ROBOT: tuple[Row, ...] = (
     ("name!", "names.reserved_sdf_name", "ReservedSdfName"),
     ("", "packaging.package_xml_dependency", "PackageXmlDependency"),
     ("", "packaging.not_installed", "NotInstalled"),
+    ("", "packaging.fragment_not_included", "FragmentNotIncluded"),
     ("type=None", "joints.joint_type_missing", "JointTypeMissing"),
     ("type=unknown", "joints.joint_type_unknown", "JointTypeUnknown"),
     ("no-limit!", "joints.limit_missing", "LimitMissing"),

@@ -29,7 +29,9 @@ class HardwareMismatch(RobotRule):
     hardware is a note if the robot has such a plugin, because its joints are not controlled in a simulation.
 
     ROS 2 from Jazzy on (``--target ros2-jazzy``) and Gazebo Sim (``--target gz``) have no
-    ``gazebo_ros2_control/GazeboSystem``; Gazebo Classic (``--target classic``) has only that hardware.
+    ``gazebo_ros2_control/GazeboSystem``; Gazebo Classic (``--target classic``) has only that hardware. After Humble,
+    gz_ros2_control does not have the hardware of ign_ros2_control (its gz_hardware_plugins.xml), only the name of the
+    plugin.
 
     ## Why is this bad?
     pluginlib does not find the class, and the controller manager stops.
@@ -88,6 +90,13 @@ class HardwareMismatch(RobotRule):
                 continue
             if text == HARDWARE["gazebo_ros2_control"] and model.release in WITHOUT_CLASSIC:
                 expected, message = HARDWARE["gz_ros2_control"], f"hardware `{text}` does not exist for {model.release}"
+            elif text == HARDWARE["ign_ros2_control"] and hosts == {"gz_ros2_control"} and model.release != "humble":
+                expected = HARDWARE["gz_ros2_control"]
+                if model.release not in WITHOUT_CLASSIC:
+                    message = f"hardware `{text}` exists in Humble only; later releases have `{expected}`"
+                    yield self.at(model, element, message, help=f"write `{expected}`", severity="note")
+                    continue
+                message = f"hardware `{text}` does not exist for {model.release}"
             elif text in HARDWARE.values():
                 if not hosts and (supported := simulated_hardware(model)) is not None and package not in supported:
                     hosts = {supported[0]}

@@ -13,7 +13,7 @@ class DriveWheelWithoutFriction(RobotRule):
 
     ## What it does
     Checks ``mu1`` and ``mu`` of the wheels of differential and skid-steer drives, without ``fdir1``. Casters are left
-    out.
+    out. The only wheel without coefficients is reported too.
 
     ## Why is this bad?
     The wheel spins and the robot stays where it is.
@@ -74,7 +74,9 @@ class DriveWheelWithoutFriction(RobotRule):
 
     def check(self, model: Model) -> Findings:
         """Yield a finding for each drive wheel with a coefficient of zero."""
-        wheels = {joint.child: joint.name for joint in _driven(model)}
+        driven = list(_driven(model))
+        wheels = {joint.child: joint.name for joint in driven}
+        yield from self._of_others_only(model, driven)
         for block in model.robot.gazebo:
             elements = list(block.element.walk()) if block.reference in wheels else []
             if any(element.tag == "fdir1" for element in elements):
@@ -85,6 +87,20 @@ class DriveWheelWithoutFriction(RobotRule):
                     name = block.reference
                     message = f"<{element.tag}> of wheel `{name}` is 0, but its joint `{wheels[name]}` drives the robot"
                     yield self.at(model, element, message, link=name, help="write a coefficient near 1")
+
+    def _of_others_only(self, model: Model, driven: list[Joint]) -> Findings:
+        """Yield a finding for the only drive wheel without the coefficients that all others have."""
+        written = {
+            block.reference
+            for block in model.robot.gazebo
+            if block.reference and any(each.tag in ("mu", "mu1") for each in block.element.walk())
+        }
+        lacking = [joint for joint in driven if joint.child not in written]
+        if len(lacking) == 1 and len({joint.child for joint in driven}) > 1 and not model.is_incomplete:
+            joint = lacking[0]
+            message = f"wheel `{joint.child}` has no <mu1>, unlike the other wheels that drive the robot"
+            help = f'write it in <gazebo reference="{joint.child}">'
+            yield self.at(model, joint.element, message, link=joint.child, joint=joint.name, help=help)
 
 
 def _driven(model: Model) -> Iterator[Joint]:
