@@ -111,7 +111,7 @@ def test_a_baseline_hides_what_is_known(package, capsys):
         (["--write-baseline", "x", "--fix"], "--write-baseline cannot be combined"),
         (["--statistics", "--format", "sarif"], "--statistics supports the formats text and json"),
         (["--config", "x", "--no-config"], "--config cannot be combined with --no-config"),
-        (["--jobs", "0"], "`0` is not a number of processes"),
+        (["--jobs", "0"], "`0` is not a number of processes; use 1 or more"),
         (["--format", "sarf"], "did you mean `sarif`?"),
         (["--baseline", "none.json"], "create one with --write-baseline"),
     ],

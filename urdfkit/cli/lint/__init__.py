@@ -85,7 +85,7 @@ def _count(text: str) -> int:
     if not text.isdecimal() or int(text) < 1:
         from argparse import ArgumentTypeError
 
-        raise ArgumentTypeError(f"`{text}` is not a number of processes")
+        raise ArgumentTypeError(f"`{text}` is not a number of processes; use 1 or more")
     return int(text)
 
 

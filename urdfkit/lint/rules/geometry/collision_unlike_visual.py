@@ -28,9 +28,9 @@ class CollisionUnlikeVisual(RobotRule):
     """The collision shape of a link differs from its visual shape in orientation, place or size.
 
     ## What it does
-    Compares the collision shapes of a link with its visual shapes. Reports shapes of about the same size that are
-    turned against each other or apart, cylinders and boxes with the same sizes in another order, and a single
-    collision shape that is three times as large or as small as a visual shape of the same kind in all directions.
+    Compares the collision shapes of a link with its visual shapes. Reports shapes of about the same size in
+    different poses, and cylinders and boxes with the same dimensions in another order. Also reports a single collision
+    shape that is three times larger or smaller in all directions than a visual shape of the same kind.
 
     ## Why is this bad?
     The robot collides where nothing is visible, or passes through visible parts. Usually an ``<origin>`` or a size was

@@ -12,8 +12,8 @@ class OdometryFrameNotRoot(RobotRule):
     Compares the base frame of Gazebo drives that publish the transform of the odometry with the root link.
 
     ## Why is this bad?
-    ``robot_state_publisher`` publishes another parent of the same frame. A frame has one parent in TF: it changes
-    between the two, and the links above it are not connected with the odometry.
+    ``robot_state_publisher`` publishes another parent of the same frame. A frame has only one parent in TF: the latest
+    message replaces it, so the parent alternates, and the links above the frame are not connected with the odometry.
 
     ## Example
     ```xml

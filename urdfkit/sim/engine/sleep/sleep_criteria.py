@@ -1,7 +1,7 @@
 """Criteria for sleep: a tree is at rest, and neither targets nor forces act on it.
 
 A tree is at rest if it moved, in `PATIENCE` or since it came to rest, no farther than it would at a speed of `QUIET`
-(`TURNING`), and was never faster than `LOUD`. So a body in a heap is at rest even if it trembles a little where
+(`TURNING`), and was never faster than `LOUD`. So a body in a heap is at rest even if it jitters a little where
 contacts open and close.
 """
 
