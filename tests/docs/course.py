@@ -118,12 +118,28 @@ def run(page: str, folder: Path) -> Iterator[Step]:
                         printed = output(command, folder, (2,) if REFUSED.match(shown) else (0, 1))
                     yield Step(command, shown, printed)
             elif block.title:
-                file = folder / block.title
-                named = f"folder `{Path(block.title).parent}`" in " ".join(page.split())
-                assert named or file.parent.is_dir(), block.title
-                file.parent.mkdir(parents=True, exist_ok=True)
-                text = _changed(file, block.text) if block.language == "diff" else block.text
-                file.write_text(text, encoding="utf-8")
+                write(block, page, folder)
+
+
+def prepare(page: str, folder: Path) -> None:
+    """Write the files of a page into a folder, as its reader has them at the end; see `run`."""
+    for block in blocks(page):
+        if block.language == "console":
+            for command, _ in commands(block.text):
+                if command.startswith("urdfkit new ") or re.search(r" --(write|fix)\b", command):
+                    output(command, folder, (0, 1))
+        elif block.title:
+            write(block, page, folder)
+
+
+def write(block: Block, page: str, folder: Path) -> None:
+    """Write or change the file of a block."""
+    file = folder / block.title
+    named = f"folder `{Path(block.title).parent}`" in " ".join(page.split())
+    assert named or file.parent.is_dir(), block.title
+    file.parent.mkdir(parents=True, exist_ok=True)
+    text = _changed(file, block.text) if block.language == "diff" else block.text
+    file.write_text(text, encoding="utf-8")
 
 
 def agrees(shown: str, printed: str) -> bool:
