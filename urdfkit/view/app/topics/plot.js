@@ -189,6 +189,10 @@ export class Plot {
     pen.textAlign = "center";
     for (const value of ticks(begin, end, width / 80)) {
       if (x(value) < LEFT + 8 || x(value) > width - 12) continue;
+      pen.beginPath();
+      pen.moveTo(x(value), 0);
+      pen.lineTo(x(value), height - BELOW);
+      pen.stroke();
       pen.fillText(`${label(value, this.span)} s`, x(value), height - BELOW / 2);
     }
   }
