@@ -204,6 +204,9 @@ def _binary_stl(count: int, triangles: bytes) -> bytes:
         ("a.glb", b"glTF\x02\0\0\0\xff\xff\xff\xff", r"mesh a\.glb is truncated"),
         ("a.dae", b"<COLLADA", r"mesh a\.dae cannot be read"),
         ("a.dae", b"<?xml version='1.0'?><html/>", r"mesh a\.dae "),
+        ("a.dae", b"solid a\nfacet normal 0 0 1", r"mesh a\.dae is not a COLLADA file but an STL file: rename it"),
+        ("a.dae", b"glTF\x02\0\0\0", r"mesh a\.dae is not a COLLADA file but a binary glTF file: rename it"),
+        ("a.dae", b"{}", r"mesh a\.dae is not a COLLADA file$"),
         (
             "a.dae",
             b"<!DOCTYPE x [<!ENTITY a 'aa'>]><COLLADA>&a;</COLLADA>",

@@ -43,3 +43,15 @@ def test_the_compared_lines_grow_with_the_number_of_findings(tmp_path: Path, mon
         compared.clear()
         assert len(rows(tmp_path / "r.urdf", links)) == links
         assert compared == [2] * links
+
+
+@pytest.mark.parametrize("may_write", [True, False])
+def test_only_safe_fixes_may_be_applied_where_files_may_be_written(tmp_path: Path, *, may_write: bool) -> None:
+    path = tmp_path / "r.urdf"
+    path.write_text(
+        '<robot name="r">\n  <link name="base"/>\n  <link name="wheel"/>\n'
+        '  <joint name="j" type=" fixed"><parent link="bsae"/><child link="wheel"/></joint>\n</robot>\n'
+    )
+    found = FindingsPanel(find_model([str(path)]), may_write=may_write).lint()["findings"]
+    may = {row["fix"]["safety"]: row["fix"]["may"] for row in found if "fix" in row}
+    assert may == {"safe": may_write, "unsafe": False}
