@@ -52,6 +52,15 @@ def test_rooms_of_an_office_share_the_length_on_both_sides_of_the_corridor():
     ]
 
 
+@pytest.mark.parametrize("doors", range(5))
+def test_the_first_doors_of_an_office_are_at_the_ends_of_its_corridor(doors):
+    plan = office(10.0, 8.0, rooms=5, doors=doors, door_width=0.8, thickness=0.1)
+    ends = [wall.doors for wall in plan.walls if wall.axis == 1 and abs(wall.at) == 5.0]
+    assert [0.0 in places for places in ends] == [doors > 0, doors > 1]
+    outer = [wall for wall in plan.walls if abs(wall.at) == (5.0 if wall.axis else 4.0)]
+    assert sum(len(wall.doors) for wall in outer) == doors
+
+
 @pytest.mark.parametrize("seed", range(3))
 def test_furniture_stands_in_its_room_with_its_back_to_a_wall(seed):
     plan = house(12.0, 9.0, rooms=5, doors=1, door_width=0.9, thickness=0.1, random=Random(seed))
