@@ -36,7 +36,7 @@ def generate_launch_description():
 def generate_values(context):
     gui = launch.substitutions.LaunchConfiguration("gui")
     server = Node(package="rviz2", executable="rviz2", remappings=[("a", "b")], arguments=["-x", "0.5", gui])
-    other = Node(package="rviz2", executable="rviz2", parameters=[{"gui": gui}, "x.yaml", share_of("x")])
+    other = Node(package="rviz2", executable="rviz2", parameters=[{"gui": gui}, "x.yaml", share_of("rviz2")])
     handler = launch.event_handlers.OnProcessExit(target_action=server, on_exit=other)
     always = launch.conditions.IfCondition("true")
     if gui.perform(context) == "true" and gui is not None:
