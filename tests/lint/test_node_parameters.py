@@ -53,6 +53,10 @@ joy_node:
     front:
       type: scan
       topic: /scan
+twist_mux:
+  ros__parameters:
+    topics:
+      monitor: {topic: cmd_vel, timeout: 0.5, priority: 10}
 """,
     "behaviors": """amcl:
   ros__parameters:
@@ -133,6 +137,15 @@ BAD = [
     ("mux", "topics:", "topic:", "K971", 3, "`twist_mux` has no parameter `topic`; did you mean `topics`?"),
     ("mux", "priority: 255", "priority: 50", "K971", 16, "lock `e_stop` has the priority 50 and does not stop"),
     ("monitor", "cmd_vel_out_topic: cmd_vel", "cmd_vel_out_topic: cmd_vel_smoothed", "K971", 4, "that the node reads"),
+    (
+        "monitor",
+        "in_topic: cmd_vel_smoothed",
+        "in_topic: cmd_vel_smooth",
+        "K980",
+        3,
+        "did you mean `cmd_vel_smoothed`?",
+    ),
+    ("monitor", "out_topic: cmd_vel", "out_topic: cmd_vel_safe", "K980", 4, "no node reads the velocity commands on"),
     ("monitor", "type: polygon", "type: rectangle", "K971", 7, "unknown type `rectangle` of `Stop`"),
     ("monitor", "action_type: stop", "action_type: halt", "K971", 9, "unknown `action_type` `halt` of `Stop`"),
     ("monitor", ", [0.0, 0.0]", "", "K971", 8, "`points` of `Stop` has 2 points; a polygon needs at least 3"),

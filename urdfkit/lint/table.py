@@ -215,7 +215,7 @@ RELATED_FILES: tuple[Row, ...] = (
     (_LAUNCH, "packaging.spawn_argument_misspelt", "SpawnArgumentMisspelt"),
     (f"{_LAUNCH} {_YAML}", "packaging.bridge_misspelt", "BridgeMisspelt"),
     (f"{_LAUNCH} {_YAML}", "packaging.topic_misspelt", "TopicMisspelt"),
-    (_LAUNCH, "packaging.topic_unconnected", "TopicUnconnected"),
+    (f"{_LAUNCH} {_YAML}", "packaging.topic_unconnected", "TopicUnconnected"),
     (_YAML, "packaging.controller_contradicts_wheels", "ControllerContradictsWheels"),
     (_YAML, "packaging.parameter_value_invalid", "ParameterValueInvalid"),
     ("package.xml", "packaging.manifest_invalid", "ManifestInvalid"),

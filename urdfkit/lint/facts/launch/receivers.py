@@ -25,7 +25,12 @@ _CLASSIC = (
     " worldfile iters minimal_comms seed play ros_network lite log output"
 )
 _NAV2 = "namespace use_sim_time params_file autostart use_composition container_name use_respawn log_level graph"
+_SLAM = "use_sim_time slam_params_file autostart use_lifecycle_manager namespace"
 OUTSIDE = {
+    **dict.fromkeys(
+        (("slam_toolbox", f"{name}_launch.py") for name in ("online_async", "online_sync", "localization", "lifelong")),
+        _SLAM,
+    ),
     ("nav2_bringup", "bringup_launch.py"): f"{_NAV2} use_namespace slam map use_localization keepout_mask speed_mask",
     ("nav2_bringup", "localization_launch.py"): f"{_NAV2} map",
     ("nav2_bringup", "navigation_launch.py"): _NAV2,
@@ -35,7 +40,10 @@ OUTSIDE = {
     ("ros_gz_sim", "ros_gz_sim.launch.py"): _GZ,
     ("ros_ign_gazebo", "ign_gazebo.launch.py"): _GZ,
 }
-"""Launch files from outside → their arguments (gazebo_ros Noetic and Humble, ros_gz Jazzy, Nav2 Humble to Jazzy)."""
+"""Launch files from outside → their arguments.
+
+Sources: gazebo_ros (Noetic and Humble), ros_gz (Jazzy), nav2_bringup and slam_toolbox (Humble to Jazzy).
+"""
 
 _FILES = {
     "gazebo_ros": "empty_world.launch gazebo.launch.py gzserver.launch.py gzclient.launch.py mud_world.launch"

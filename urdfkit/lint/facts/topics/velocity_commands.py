@@ -108,7 +108,7 @@ def unread_commands(model: Model) -> Iterator[tuple[Source, Named, str]]:
     nodes = [node for node in launched_nodes(model) if node.package in _COMMANDS]
     written = [(node, old, new) for node in nodes for old, new in node.remappings if _is_command(node, old)]
     drives = _drive_topics(model) if written else frozenset()
-    every = drives | frozenset(_mux_topics(model))
+    every = velocity_inputs(model) if written else drives
     own = [(node.source.file, name.start) for node, old, new in written for name in (old, new)]
     used = {new.name.strip("/") for _, _, new in written}
     words, seen = Words(model), set[str]()
@@ -132,6 +132,11 @@ def unread_commands(model: Model) -> Iterator[tuple[Source, Named, str]]:
         shown = ", ".join(f"`{name}`" for name in sorted(readers)[:3])
         what = suggestion(near) if near is not None else f"; the nodes of these packages read {shown}"
         yield node.source, new, f"no node reads the velocity commands on `{new.name}`{what}"
+
+
+def velocity_inputs(model: Model) -> frozenset[str]:
+    """Return the topics of velocity commands that drives, bridges and twist_mux read."""
+    return _drive_topics(model) | frozenset(_mux_topics(model))
 
 
 def _is_command(node: LaunchedNode, old: Named) -> bool:

@@ -151,6 +151,8 @@ class LaunchArgumentUnknown(RobotRule):
                 continue
             others = [other for other in names if other not in {one.name for one in passed}]
             near = meant(name.name, others)[0] or first_slip(name.name, others)
+            if near is None and only_misspelt:
+                near = _with_these_words(name.name, others)
             hint = suggestion(near)
             if near is not None or not only_misspelt:
                 yield self._at(file, name, f"{target} has no argument `{name.name}`{hint}", severity)
@@ -158,6 +160,13 @@ class LaunchArgumentUnknown(RobotRule):
     def _at(self, file: LaunchActions, name: Named, message: str, severity: Severity) -> Finding:
         span = file.source.span(name.start, name.start + len(name.name))
         return self.at_span(span, message, severity=severity)
+
+
+def _with_these_words(name: str, others: list[str]) -> str | None:
+    """Return the only argument of a file that has all words of a name, such as ``slam_params_file``, or fewer words."""
+    words, first = set(name.split("_")), name.partition("_")[0]
+    near = [each for each in others if words < set(each.split("_")) or each == first]
+    return near[0] if len(near) == 1 and name.endswith("_file") else None
 
 
 def _leaves_out_files(model: Model) -> bool:

@@ -1,0 +1,50 @@
+"""Velocity commands that collision_monitor reads or publishes under a name that no other node has.
+
+Source: ros-navigation/navigation2 (nav2_collision_monitor: collision_monitor_node.cpp; nav2_bringup:
+navigation_launch.py), Humble to Rolling.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+
+from urdfkit.errors import suggestion
+from urdfkit.lint.facts.control.ros2_controllers import PARAMETERS
+from urdfkit.lint.facts.control.yaml_tree import Node, start_of, yamls
+from urdfkit.lint.facts.navigation.sections import sections
+from urdfkit.lint.facts.topics.velocity_commands import velocity_inputs
+from urdfkit.lint.facts.topics.words import Words
+from urdfkit.lint.fix_builders import nearest
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from urdfkit.description.xml.source import Source
+    from urdfkit.lint.model.model import Model
+
+_COMMON = {
+    "cmd_vel_in_topic": ("cmd_vel_smoothed", "cmd_vel_nav", "cmd_vel_raw", "cmd_vel"),
+    "cmd_vel_out_topic": ("cmd_vel",),
+}
+"""Parameter → topics of the nodes that nav2_bringup starts around the monitor."""
+
+
+def unconnected_monitors(model: Model) -> Iterator[tuple[Source, Node, str]]:
+    """Yield each topic of a collision monitor that no other node has: file, value, message."""
+    words = Words(model)
+    for source in yamls(model):
+        for key, group in sections(source) if "cmd_vel_in_topic" in source.text and PARAMETERS in source.text else ():
+            if key.text.strip("/").rpartition("/")[2] != "collision_monitor":
+                continue
+            for parameter, common in _COMMON.items():
+                value = group.find(parameter)
+                topic = value.text.strip("/") if value is not None else ""
+                if value is None or topic in common or not re.fullmatch(r"\w+", topic):
+                    continue
+                is_input, near = parameter == "cmd_vel_in_topic", nearest(topic, common, cutoff=0.75)
+                # Otherwise a node of another package can have the topic.
+                others = "velocity_smoother" in source.text if is_input else velocity_inputs(model)
+                if (others or near is not None) and not words.names(topic, [(source.file, start_of(source, value))]):
+                    verb = "publishes" if is_input else "reads"
+                    message = f"no node {verb} the velocity commands on `{value.text}`{suggestion(near)}"
+                    yield source, value, message
