@@ -91,8 +91,10 @@ def packages_used(source: Source) -> Iterator[tuple[str, int, int]]:
             for binding in bindings(tree, node):
                 part = resolved(package, binding)
                 name = reader.text(part) if part is not None else None
-                if name is not None:
-                    yield name, *place(source, node if part is package or part is None else part)
+                if name is not None and part is not None:
+                    start, end = place(source, node)
+                    inner = place(source, part)  # at a call of a function or in a list, or in the node itself
+                    yield name, *((start, end) if part is package and start <= inner[0] < end else inner)
         elif name is not None:
             yield name, *place(source, node)
 

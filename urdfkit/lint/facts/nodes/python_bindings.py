@@ -1,4 +1,7 @@
-"""Values that functions and loops of a Python launch file pass to the calls inside them."""
+"""Values that functions and loops of a Python launch file pass to the calls inside them.
+
+Functions that consist of assignments and a ``return`` are written out in the tree already (`python_inlining`).
+"""
 
 from __future__ import annotations
 
