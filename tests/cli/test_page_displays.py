@@ -156,6 +156,10 @@ def test_topics_are_drawn_with_their_options_and_saved_as_a_layout(shown, visits
     assert not page.get_by_label("Colour of /scan").is_visible()
     page.get_by_label("Field that colours /cloud").select_option("i")
     until(lambda: shown.tick() or page.evaluate(VERTEX_COLOURS, "/cloud") == [[0, 0, 1], [1, 0, 0]])
+    assert not page.get_by_label("Colour of /cloud").is_visible()
+    page.get_by_label("Field that colours /cloud").select_option("one colour")
+    until(lambda: shown.tick() or page.evaluate(VERTEX_COLOURS, "/cloud") == [])
+    assert page.get_by_label("Colour of /cloud").is_visible()
     page.get_by_label("Decay of /scan [s]").fill("60")
     page.get_by_label("Decay of /scan [s]").press("Enter")
     until(lambda: shown.tick() or shown.topics() or len(page.evaluate(DRAWN, "/scan")) > 2)  # older points stay
@@ -210,6 +214,27 @@ FURTHER = {
     "geometry_msgs/msg/WrenchStamped": ({"wrench": {"force": XYZ}}, ARROW),
 }
 """Type → fields and the geometries of its drawing."""
+
+
+def test_a_cloud_is_coloured_by_its_height_in_the_world(shown, visits, until) -> None:
+    page = visits.open(shown.server.url, ready=False)
+    shown.simulation.transform("base", "eye", turn={"y": 0.5**0.5, "w": 0.5**0.5})
+    names = [{"name": name, "offset": 4 * k, "datatype": 7, "count": 1} for k, name in enumerate("xyz")]
+    # x of the frame points down: the point with the largest x is the lowest, and z is the same for all.
+    data = list(np.array([[0.0, 0, 1], [1, 0, 1], [2, 0, 1]], dtype="<f4").tobytes())
+    values = {"fields": names, "data": data, "point_step": 12, "width": 3, "height": 1}
+    send = partial(shown.simulation.publish, "/cloud", "sensor_msgs/msg/PointCloud2", "eye", **values)
+    send()
+    until(lambda: shown.tick() or page.locator("#open-displays").is_visible())
+    panel(page, "displays")
+    until(lambda: shown.tick() or page.locator("[data-display='/cloud']").is_visible())
+    page.locator("[data-display='/cloud'] input[type=checkbox]").check()
+    colors = [[1, 0, 0], [0, 1, 0], [0, 0, 1]]  # red is high, blue is low
+    until(lambda: shown.tick() or page.evaluate(VERTEX_COLOURS, "/cloud") == colors)
+    page.get_by_label("Field that colours /cloud").select_option("x")
+    until(lambda: shown.tick() or page.evaluate(VERTEX_COLOURS, "/cloud") == colors[::-1])
+    page.get_by_label("Field that colours /cloud").select_option("height")
+    until(lambda: shown.tick() or page.evaluate(VERTEX_COLOURS, "/cloud") == colors)
 
 
 def test_further_types_of_messages_are_drawn(shown, visits, until) -> None:

@@ -151,7 +151,7 @@ def scan(message: Any, field: str) -> list[Item]:
 
 
 def cloud(message: Any, field: str) -> list[Item]:
-    """Return the points of a PointCloud2, coloured by a field; by ``rgb`` or z without one."""
+    """Return the points of a PointCloud2 with the values of a field, or by default the colours of ``rgb``."""
     offsets = {each.name: (each.offset, NUMBERS.get(each.datatype)) for each in message.fields}
     if not message.point_step or any(axis not in offsets for axis in "xyz"):
         return []
@@ -171,8 +171,7 @@ def cloud(message: Any, field: str) -> list[Item]:
     if packed is not None and field in ("", packed):
         start = offsets[packed][0]
         return [_points(xyz[finite], None, names, rows[finite][:, [start + 2, start + 1, start]])]
-    values = column(field) if field in names else xyz[:, 2]
-    return [_points(xyz[finite], values[finite], names)]
+    return [_points(xyz[finite], column(field)[finite] if field in names else None, names)]
 
 
 def _points(xyz: Array, values: Array | None, fields: list[str], colors: Any = None) -> Item:
@@ -248,9 +247,9 @@ OWN_SIZE = (grid_cells, point, range_cone)
 
 
 def options(kind: str) -> list[str]:
-    """Return the options that change the drawing of a type, of color, size and field; maps and markers have none."""
+    """Return the options that change the drawing of a type, of color, size, field and height; some types have none."""
     if kind in CLOUDS:
-        return ["color", "size", "field"]
+        return ["color", "size", "field", *(["height"] if CLOUDS[kind] is cloud else [])]
     if kind not in KINDS or KINDS[kind] is occupancy_grid:
         return []
     return ["color"] if KINDS[kind] in OWN_SIZE else ["color", "size"]

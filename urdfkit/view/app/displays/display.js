@@ -1,7 +1,7 @@
 // The display of one topic in the 3-D view, with its options: colour, size, the field that colours points, and decay.
 /* global MeshCat */
 
-import { build, decode, dispose } from "./drawing.js";
+import { build, decode, dispose, HEIGHT, ONE_COLOUR } from "./drawing.js";
 import { h } from "../page/dom.js";
 import { numberField } from "../page/number_field.js";
 
@@ -43,16 +43,26 @@ export class Display {
     const size = h("input", { type: "range", min: 0.2, max: 5, step: 0.1, value: this.options.size, "aria-label": `Size of ${this.topic}` });
     size.addEventListener("input", () => this.#set({ size: size.valueAsNumber }));
     if (!this.controls.includes("field")) return this.controls.map((name) => ({ color, size })[name]);
-    color.hidden = this.options.field !== "";
-    this.field = h("select", { "aria-label": `Field that colours ${this.topic}` }, h("option", { value: "" }, "one colour"));
-    if (this.options.field) this.field.append(h("option", { value: this.options.field, selected: true }, this.options.field));
+    // Without a choice, a cloud has the colours of its points, else those of their height, and a scan has one colour.
+    const byHeight = this.controls.includes("height");
+    const choices = byHeight ? { "": "colour or height", [HEIGHT]: HEIGHT, [ONE_COLOUR]: ONE_COLOUR } : { "": ONE_COLOUR };
+    const oneColour = byHeight ? ONE_COLOUR : "";
+    this.field = h("select", { "aria-label": `Field that colours ${this.topic}` }, ...Object.entries(choices).map(([value, words]) => h("option", { value }, words)));
+    this.#offer([this.options.field]);
+    this.field.value = this.options.field;
+    color.hidden = this.options.field !== oneColour;
     this.field.addEventListener("change", () => {
-      color.hidden = this.field.value !== "";
+      color.hidden = this.field.value !== oneColour;
       this.#set({ field: this.field.value });
     });
     const decay = numberField({ min: 0, max: 60, step: 1, unit: "s", value: this.options.decay, "aria-label": `Decay of ${this.topic} [s]`, title: "Points are kept for this time" });
     decay.addEventListener("change", () => this.#set({ decay: decay.valueAsNumber }));
     return [color, size, this.field, h("label.inline", {}, "decay ", decay, h("span.unit", {}, "s"))];
+  }
+
+  #offer(fields) {
+    const present = new Set([...this.field.options].map(({ value }) => value));
+    this.field.append(...fields.filter((name) => !present.has(name)).map((name) => h("option", { value: name }, name)));
   }
 
   #set(options) {
@@ -118,17 +128,16 @@ export class Display {
     const { decay } = this.options;
     while (this.drawn.length && (decay <= 0 || this.drawn.length >= MOST || this.drawn[0].time < time - decay || this.drawn.at(-1).time >= time)) this.#drop();
     const root = new THREE.Group();
-    const options = { ...this.options, changed: () => this.page.viewport.dirty(), mesh: (name) => this.page.scene.mesh(name) };
-    const groups = content.map(({ pose, items }) => place(build(items, options), pose));
+    const byHeight = this.controls.includes("height");
+    const options = { ...this.options, byHeight, changed: () => this.page.viewport.dirty(), mesh: (name) => this.page.scene.mesh(name) };
+    const groups = content.map(({ pose, items }) => place(build(items, { ...options, pose }), pose));
     for (const group of groups) root.add(group);
     root.traverse((object) => (object.userData.display = this.topic));
     this.page.viewport.viewer.scene.add(root);
     this.drawn.push({ time, root, groups, content });
     if (content.length ? content[0].items[0]?.controls : this.handles.firstChild) this.page.emit("handles", this);
     const fields = content[0]?.items[0]?.fields;
-    if (fields && this.field && this.field.options.length <= 2) {
-      for (const name of fields) if (![...this.field.options].some(({ value }) => value === name)) this.field.append(h("option", { value: name }, name));
-    }
+    if (fields && this.field) this.#offer(fields);
     this.page.viewport.dirty();
   }
 

@@ -12,7 +12,11 @@ const WIDTH = 0.03; // m of a line, as in RViz
 const ABOVE = 0.003; // m above its plane, so that a map does not flicker with the ground
 const METRES = { N: 0.02, "N·m": 0.2, "m/s": 1, "rad/s": 0.5, "m/s²": 0.1, "rad/s²": 0.1 }; // length of an arrow per unit
 
-/** The objects of the items in one frame. @param options {color, size, changed} */
+/** Choices of the field of a cloud that are no fields: its height in the world [m], or the colour of the display. */
+export const HEIGHT = "height";
+export const ONE_COLOUR = "one colour";
+
+/** The objects of the items in one frame. @param options {color, size, changed, pose}; pose of the frame in the world */
 export function build(items, options) {
   const group = new THREE.Group();
   const arrows = items.filter((item) => item.arrow);
@@ -171,13 +175,29 @@ function points(item, options) {
   const geometry = new THREE.BufferGeometry();
   const position = floats(item.points);
   geometry.setAttribute("position", new THREE.BufferAttribute(position, 3));
-  const coloured = item.colors || (item.values && options.field !== "");
-  if (item.colors) geometry.setAttribute("color", new THREE.BufferAttribute(bytes(item.colors), 3, true));
-  else if (coloured) geometry.setAttribute("color", new THREE.BufferAttribute(scale(floats(item.values), item.range), 3));
-  const look = coloured ? { vertexColors: true } : { color: options.color };
+  const colors = pointColors(item, position, options);
+  if (colors) geometry.setAttribute("color", colors);
+  const look = colors ? { vertexColors: true } : { color: options.color };
   const made = new THREE.Points(geometry, inFront(new THREE.PointsMaterial({ ...look, size: 3 * options.size, sizeAttenuation: false })));
   made.frustumCulled = false;
   return made;
+}
+
+// The colours of a field or of the message, else the height in the world; null: one colour.
+function pointColors(item, position, { field, pose, byHeight }) {
+  if (field === (byHeight ? ONE_COLOUR : "")) return null;
+  const isHeight = field === HEIGHT && !item.fields.includes(HEIGHT);
+  if (item.colors && !isHeight) return new THREE.BufferAttribute(bytes(item.colors), 3, true);
+  if (item.values && !isHeight) return new THREE.BufferAttribute(scale(floats(item.values), item.range), 3);
+  const up = new THREE.Vector3(0, 0, 1).applyQuaternion(turn(pose).invert());
+  const heights = new Float32Array(position.length / 3);
+  let [low, high] = [Infinity, -Infinity];
+  for (let i = 0; i < heights.length; i += 1) {
+    heights[i] = up.x * position[3 * i] + up.y * position[3 * i + 1] + up.z * position[3 * i + 2] + pose[2];
+    low = Math.min(low, heights[i]);
+    high = Math.max(high, heights[i]);
+  }
+  return new THREE.BufferAttribute(scale(heights, [low, high]), 3);
 }
 
 // From blue to red, as RViz colours intensities.
