@@ -594,6 +594,40 @@ def test_parameters_are_changed_while_it_runs(page, keep, until) -> None:
     until(lambda: page.get_by_label("gravity along z").input_value() == "-9.81")
 
 
+@pytest.mark.slow
+def test_gains_of_a_controller_are_changed_undone_and_kept_by_the_simulation(serve, visits, until) -> None:
+    url = serve("sim", "teleop", "rrbot").url
+    page = visits.open(url, viewport=SIZE)
+    page.locator("#open-physics").click()
+    gains = page.locator(".gains fieldset").first
+    path = gains.get_attribute("data-of")
+    field = {name: page.get_by_label(f"{name} of {path}", exact=True) for name in ("p", "i", "d", "clamp")}
+    before = {name: float(each.input_value()) for name, each in field.items()}
+
+    def reported() -> dict[str, float]:
+        """Return the gains in a page that is opened now, which come from the simulation."""
+        another = visits.open(url, viewport=SIZE)
+        another.locator("#open-physics").click()
+        another.locator(f".gains fieldset[data-of='{path}']").wait_for()
+        found = {name: float(another.get_by_label(f"{name} of {path}", exact=True).input_value()) for name in field}
+        another.context.close()
+        return found
+
+    changed = {**before, "p": before["p"] + 7.5, "d": before["d"] + 0.25}
+    for name in ("p", "d"):
+        field[name].fill(str(changed[name]))
+        field[name].press("Enter")
+    until(lambda: page.locator("#undo").is_enabled())
+    until(lambda: reported() == changed)
+    field["p"].fill("-1")
+    field["p"].press("Enter")
+    assert float(field["p"].input_value()) == changed["p"]  # gains are not negative
+    for expected in ({**before, "p": changed["p"]}, before):
+        page.locator("#undo").click()
+        until(lambda expected=expected: {name: float(each.input_value()) for name, each in field.items()} == expected)
+    assert reported() == before
+
+
 SLOW = 200
 """Time between two keys of a person who types slowly [ms]; the page gets several messages meanwhile."""
 
