@@ -632,6 +632,21 @@ SLOW = 200
 """Time between two keys of a person who types slowly [ms]; the page gets several messages meanwhile."""
 
 
+def test_the_column_scrolls_only_to_a_panel_that_does_not_fit_and_back(page, until) -> None:
+    scrolled, top = "document.getElementById('panel').scrollTop", "document.getElementById('panel').offsetTop"
+    for name in ("drive", "joints"):
+        page.evaluate("(name) => urdfkit.page.panels.open(name)", name)
+    drawn(page)
+    assert page.locator("#panel-joints").bounding_box()["y"] > 200  # below Drive, which stays open
+    assert page.evaluate(scrolled) == 0
+    page.locator("#open-world").click()
+    until(lambda: page.locator("#panel-world").bounding_box()["y"] == pytest.approx(page.evaluate(top), abs=1))
+    assert page.evaluate(scrolled) > 100
+    page.get_by_role("button", name="Close World").click()
+    until(lambda: page.evaluate(scrolled) == 0)  # nothing of Drive is cut off
+    assert page.locator("#panel-drive").bounding_box()["y"] == pytest.approx(page.evaluate(top), abs=1)
+
+
 def test_a_text_that_is_typed_survives_messages(page, until) -> None:
     put_down(page)
     order(page, "spawn", model="crate", pose=[2, 2, 0], name="first")

@@ -135,10 +135,14 @@ export class Panels {
     if (opened.place === "side" || opened.place === "left") this.#scrollTo(opened.section);
   }
 
-  // Scroll a panel to the top of the column; content that arrives later may move it, so repeat this for a while.
+  // Scroll a panel that does not fit to the top of the column; content that arrives later may move it, so repeat this for a while.
   #scrollTo(section) {
     const host = section.parentElement;
-    const show = () => (host.scrollTop += section.getBoundingClientRect().top - host.getBoundingClientRect().top);
+    this.scrolled = { section, from: host.scrollTop };
+    const show = () => {
+      const [inner, outer] = [section, host].map((element) => element.getBoundingClientRect());
+      if (inner.top < outer.top || inner.bottom > outer.bottom) host.scrollTop += inner.top - outer.top;
+    };
     show();
     this.watching?.disconnect();
     const watching = (this.watching = new ResizeObserver(show));
@@ -182,6 +186,11 @@ export class Panels {
 
   #show(panel, shown) {
     panel.section.hidden = !shown;
+    if (!shown && this.scrolled?.section === panel.section) {
+      this.watching.disconnect();
+      panel.section.parentElement.scrollTop = this.scrolled.from; // the panels above it are where they were
+      this.scrolled = null;
+    }
     panel.button.setAttribute("aria-expanded", shown);
   }
 
