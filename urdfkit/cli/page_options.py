@@ -14,6 +14,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from urdfkit.app.page import note
+from urdfkit.description.packages.similar_names import near_path
 from urdfkit.errors import UsageError
 
 if TYPE_CHECKING:
@@ -58,7 +59,8 @@ def read_layout(arguments: argparse.Namespace) -> dict[str, Any] | None:
             )
         layout = json.loads(path.read_text("utf-8"))
     except OSError as error:
-        raise UsageError(f"--layout {path}: {error.strerror}") from error
+        near = near_path(path) if isinstance(error, FileNotFoundError) else ""
+        raise UsageError(f"--layout {path}: {error.strerror}{near}") from error
     except (ValueError, RecursionError) as error:
         raise UsageError(f"--layout {path}: not JSON: {error}") from error
     if not isinstance(layout, dict) or layout.get("version") != 1:

@@ -15,6 +15,14 @@ if TYPE_CHECKING:
 IMAGES = (".png", ".jpg", ".jpeg", ".webp")
 MOST_PIXELS = 2**25
 SIZES = {"image": (1200, 900), "video": (480, 360)}
+CAMERA, MOTION, SECONDS = "corner", "turn", 6.0
+"""Defaults of the options."""
+NEEDS = {
+    **dict.fromkeys(("size", "camera", "joint"), ("image", "video")),
+    "transparent": ("image",),
+    **dict.fromkeys(("motion", "seconds"), ("video",)),
+}
+"""Option → options that use it."""
 
 
 def add_picture_options(parser: argparse.ArgumentParser) -> None:
@@ -27,7 +35,7 @@ def add_picture_options(parser: argparse.ArgumentParser) -> None:
     )  # fmt: skip
     group.add_argument("--size", metavar="W,H", help="width and height in pixels (default 1200,900; video 480,360)")
     group.add_argument(
-        "--camera", metavar="VIEW", default="corner", help="corner (default), front, back, left, right, top, or "
+        "--camera", metavar="VIEW", help="corner (default), front, back, left, right, top, or "
         "AZIMUTH,ELEVATION[,ZOOM] in degrees",
     )  # fmt: skip
     group.add_argument(
@@ -36,11 +44,26 @@ def add_picture_options(parser: argparse.ArgumentParser) -> None:
     group.add_argument("--transparent", action="store_true", help="transparent background, with shadows, for --image")
     group.add_argument(
         "--motion",
-        default="turn",
         metavar="MOTION",
         help="turn (default): around the robot; joints: one after the other",
     )
-    group.add_argument("--seconds", type=float, default=6.0, metavar="T", help="length of the video (default 6)")
+    group.add_argument("--seconds", type=float, metavar="T", help="length of the video (default 6)")
+
+
+def set_picture_defaults(arguments: argparse.Namespace) -> None:
+    """Replace unset options by their defaults.
+
+    Raises:
+        UsageError: an option has no effect.
+    """
+    for option, needed in NEEDS.items():
+        value = getattr(arguments, option)
+        is_unset = value is None or value is False or value == []
+        if not is_unset and all(getattr(arguments, each) is None for each in needed):
+            raise UsageError(f"--{option} is an option of {' and '.join(f'--{each} FILE' for each in needed)}")
+    for option, default in (("camera", CAMERA), ("motion", MOTION), ("seconds", SECONDS)):
+        if getattr(arguments, option) is None:
+            setattr(arguments, option, default)
 
 
 def check_picture_options(arguments: argparse.Namespace) -> None:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 from urdfkit.app.page import Page, note, require_page, until_interrupted
 from urdfkit.cli.page_options import add_page_options, announce, read_layout
 from urdfkit.cli.parser import add_model
-from urdfkit.cli.picture_options import add_picture_options, check_picture_options, write_pictures
+from urdfkit.cli.picture_options import add_picture_options, check_picture_options, set_picture_defaults, write_pictures
 from urdfkit.cli.robot_arguments.file_name_case import warn_of_file_names
 from urdfkit.cli.robot_arguments.launch_arguments import add_launch_arguments, with_launch_arguments
 from urdfkit.cli.robot_arguments.macro_option import add_macro, with_macro
@@ -53,6 +53,7 @@ def run(arguments: argparse.Namespace) -> int:
         raise UsageError("--fixed-frame is an option of --live ros1, ros2 or rosbridge://HOST:PORT")
     if arguments.live is not None and arguments.html is not None:
         raise UsageError("--html writes a page without a server, so it cannot be combined with --live")
+    set_picture_defaults(arguments)
     is_picture = arguments.image is not None or arguments.video is not None
     if is_picture and arguments.live is not None:
         raise UsageError("--image and --video show a robot of a file, so they cannot be combined with --live")

@@ -101,11 +101,21 @@ def test_a_joint_moves_to_both_limits_and_back() -> None:
         (["--video", "a.gif", "--motion", "jump"], "unknown motion `jump`"),
         (["--video", "a.gif", "--seconds", "0"], "between 0.1 and 60 s"),
         (["--image", "missing/a.png"], "no folder"),
+        (["--image", "a.png", "--seconds", "3"], "--seconds is an option of --video FILE"),
+        (["--image", "a.png", "--motion", "joints"], "--motion is an option of --video FILE"),
+        (["--video", "a.gif", "--transparent"], "--transparent is an option of --image FILE"),
+        (["--seconds", "0"], "--seconds is an option of --video FILE"),
+        (["--camera", "top"], "--camera is an option of --image FILE and --video FILE"),
+        (["--joint", "j=1"], "--joint is an option of --image FILE and --video FILE"),
+        (["--size", "9,9", "--html", "a.html"], "--size is an option of --image FILE and --video FILE"),
+        (["--layout", "nolayout.json"], "nolayout.json: No such file or directory; did you mean `layout.json`?"),
+        (["--layout", "a.txt"], "a.txt: No such file or directory"),
         (["--image", "a.png", "--live", "ros1"], "cannot be combined with --live"),
     ],
 )
 def test_errors(robot: Path, tmp_path: Path, monkeypatch, capsys, words: list[str], message: str) -> None:
     monkeypatch.chdir(tmp_path)
+    Path("layout.json").write_text("{}")
     assert view(robot, *words) == 2
     (line,) = capsys.readouterr().err.strip().splitlines()
     assert message in line
