@@ -83,13 +83,32 @@ MACRO = '<xacro:macro name="part" params="{}">{}</xacro:macro>'
 BALL = '<link name="${name}"><visual><geometry><sphere radius="${width}"/></geometry></visual></link>'
 TOOL = '<link name="${p}tool"/><link name="${p}arm"/>' + JOINT.format("${p}joint", "${p}arm", "tool", "")
 A = LINK.format("a", 1, i=0.002)
+B = A.replace('"a"', '"b_link"')
+ARM = '<link name="${p}arm"/><link name="${p}hand"/>' + JOINT.format("${p}wrist", "${p}arm", "${p}hand", "")
+ARMS = '<link name="base"/>' + MACRO.format("p", ARM) + '<xacro:part p="left_"/>' * 2
+ARMS += JOINT.format("left", "base", "left_arm", "") + JOINT.format("right", "base", "right_arm", "")
 ROBOTS = {
+    "T204": '<link name="base"/>'
+    + A
+    + B
+    + JOINT.format("a_joint", "base", "a", "")
+    + JOINT.format("b_joint", "a", "a", ""),
+    "T205": A + B + '<link name="c"/>' + JOINT.format("d", "a", "b_link", "") + JOINT.format("e", "c", "b_link", ""),
+    "T206": ARMS + '<link name="tool"/>' + JOINT.format("grip", "right_hand", "tool", ""),
     "X104": MACRO.format("name wdth", BALL) + '<xacro:part name="a" width="1"/>',
     "T202": MACRO.format("p", TOOL) + '<xacro:part p="left_"/>',
     "J408": A + '<link name="optical_frame"/>' + JOINT.format("eye", "a", "optical_frame", 'rpy="-90 0 -90"'),
     "I514": LINK.format("a", 9000, i=0.002),
 }
-EFFECTS = {"X104": "X107", "T202": "N304", "J408": "S905", "I514": "I508"}
+EFFECTS = {
+    "T204": "T203",
+    "T205": "T203",
+    "T206": "T201",
+    "X104": "X107",
+    "T202": "N304",
+    "J408": "S905",
+    "I514": "I508",
+}
 
 
 @pytest.mark.parametrize("cause", ROBOTS)
@@ -99,3 +118,44 @@ def test_a_mistake_of_a_robot_has_one_finding(tmp_path: Path, monkeypatch: pytes
     assert {cause, effect} & {each.code for each in lint(path)} == {cause}
     monkeypatch.setattr("urdfkit.lint.engine.consequences._CODES", frozenset())
     assert {cause, effect} <= {each.code for each in lint(path)}
+
+
+def test_a_macro_without_its_block_may_define_any_of_its_links(tmp_path: Path) -> None:
+    part = MACRO.format("*origin", '<link name="hand"/>') + '<xacro:part/>\n<link name="c"/>'
+    text = A + part + JOINT.format("d", "hand", "c", "") + JOINT.format("e", "foot", "a", "")
+    (tmp_path / "arm.xacro").write_text(f'<robot name="arm" xmlns:xacro="http://www.ros.org/wiki/xacro">{text}</robot>')
+    found = [each.message for each in lint(tmp_path) if each.code in ("X107", "T201")]
+    assert found == ["macro `part` needs more blocks inside its call", "undefined parent link `foot` of joint `e`"]
+
+
+def test_a_macro_call_that_repeats_another_is_one_finding(tmp_path: Path) -> None:
+    (tmp_path / "arm.xacro").write_text(f'<robot name="arm" xmlns:xacro="http://www.ros.org/wiki/xacro">{ARMS}</robot>')
+    found = [each.text for each in lint(tmp_path) if each.code in ("T201", "T206", "T207")]
+    message = "the call of macro `part` repeats 2 links of another call, such as `left_arm`"
+    assert found == [f"{message}; pass another name or prefix"]
+
+
+def test_a_joint_of_the_other_hand_in_a_group_is_one_finding(tmp_path: Path) -> None:
+    joint = '<joint name="{0}" type="prismatic"><parent link="a"/><child link="{0}_tip"/><axis xyz="1 0 0"/>'
+    joint += '<limit lower="0" upper="1" effort="1" velocity="1"/></joint><link name="{0}_tip"/>'
+    fingers = "".join(joint.format(f"{side}_finger") for side in ("left", "right"))
+    (tmp_path / "arm.urdf").write_text(f'<robot name="arm">{A}{fingers}</robot>')
+    group = '<group name="right"><joint name="left_finger"/></group>'
+    state = '<group_state name="{}" group="right"><joint name="right_finger" value="0.5"/></group_state>'
+    text = f'<robot name="arm">{group}{state.format("open")}{state.format("closed")}</robot>'
+    (tmp_path / "arm.srdf").write_text(text)
+    (tmp_path / "package.xml").write_text('<package format="3"><name>arm</name><version>1.0.0</version></package>')
+    found = [each.message for each in lint(tmp_path / "arm.urdf") if each.code == "M107"]
+    assert found == ["group `right` contains joint `left_finger`, but its states have values for `right_finger`"]
+
+
+def test_a_mesh_shows_a_cylinder_with_radius_and_length_swapped() -> None:
+    from urdfkit.description.urdf.robot import Box, Cylinder, Pose
+    from urdfkit.lint.rules.geometry.collision_unlike_visual import _defect
+
+    box, pose = ((Box((0.9, 0.3, 0.9)), Pose()),), Pose(rpy=(1.5707963267948966, 0.0, 0.0))
+    swapped, right = _defect(box, ((Cylinder(0.3, 0.45), pose),)), _defect(box, ((Cylinder(0.45, 0.3), pose),))
+    assert (swapped, right) == (
+        ("has radius and length of the visual shape in the other order", "swap radius and length", "geometry"),
+        None,
+    )

@@ -23,20 +23,26 @@ _CONSEQUENCES: tuple[tuple[Pattern, Relation, Pattern], ...] = (
     (("K962", ""), "line", ("K965", "")),
     (("K962", ""), "line", ("K971", "")),
     (("K963", ""), "line", ("K956", "controller type")),
+    (("K967", ""), "line", ("K956", "controller type")),
     (("K971", ""), "line", ("K974", "")),
     (("K977", ""), "line", ("K980", "")),
     (("T202", ""), "line", ("N304", "")),
+    (("X113", ""), "line", ("K956", "")),
     (("X119", ""), "line", ("I506", "")),
+    (("Z807", ""), "line", ("K956", "")),
     (("Z807", ""), "line", ("Z802", "")),
     (("C701", ""), "name", ("J418", "")),
     (("C701", ""), "name", ("K963", "")),
+    (("C707", "fixed"), "name", ("J418", "")),
     (("G604", ""), "name", ("G620", "")),
     (("G615", ""), "name", ("G620", "")),
     (("G617", ""), "name", ("G620", "")),
     (("G619", ""), "name", ("K970", "")),
     (("G620", ""), "name", ("I519", "")),
+    (("G620", ""), "name", ("S908", "")),
     (("G620", ""), "name", ("S911", "")),
     (("I503", ""), "name", ("I507", "")),
+    (("I514", ""), "name", ("I507", "")),
     (("I514", ""), "name", ("I508", "")),
     (("J405", ""), "name", ("S910", "")),
     (("J414", ""), "name", ("J413", "")),
@@ -45,7 +51,11 @@ _CONSEQUENCES: tuple[tuple[Pattern, Relation, Pattern], ...] = (
     (("J421", ""), "name", ("S909", "")),
     (("J422", ""), "name", ("J423", "")),
     (("J423", ""), "name", ("S910", "")),
+    (("K963", ""), "name", ("K971", "incomplete")),
     (("K973", "name"), "name", ("K956", "")),
+    (("K975", ""), "name", ("K962", "")),
+    (("K975", ""), "name", ("M112", "")),
+    (("K983", "transform"), "name", ("L124", "")),
     (("L103", ""), "name", ("K968", "option")),
     (("L104", ""), "name", ("L113", "")),
     (("L104", "name"), "line", ("K980", "")),
@@ -54,6 +64,11 @@ _CONSEQUENCES: tuple[tuple[Pattern, Relation, Pattern], ...] = (
     (("S907", ""), "name", ("S909", "")),
     (("S909", ""), "name", ("S910", "")),
     (("S910", ""), "name", ("J424", "")),
+    (("S908", ""), "name", ("S911", "")),
+    (("T204", ""), "name", ("T203", "")),
+    (("T205", ""), "name", ("T203", "")),
+    (("T206", ""), "name", ("C701", "")),
+    (("T206", ""), "name", ("T201", "")),
     (("X104", ""), "name", ("X107", "")),
     (("T206", ""), "call", ("T207", "")),
     (("C707", "undefined"), "robot", ("K965", "joint")),
@@ -63,6 +78,8 @@ _CONSEQUENCES: tuple[tuple[Pattern, Relation, Pattern], ...] = (
     (("K973", "find_package"), "robot", ("K972", "build type")),
     (("K973", "setup.py"), "robot", ("K973", "missing")),
     (("M102", "disable_collisions"), "robot", ("M110", "")),
+    (("T201", ""), "robot", ("M102", "reason")),
+    (("T201", ""), "robot", ("M105", "")),
     (("T204", ""), "robot", ("M102", "reason")),
     (("T204", ""), "robot", ("M105", "")),
     (("T204", ""), "robot", ("M110", "")),
@@ -76,8 +93,8 @@ The relation is what both have in common: the line, the link, the joint or one o
 only the robot.
 """
 
-_WITH_FIX = ("E009", "I507")
-"""Codes of consequences that are kept if they have a fix, which corrects the cause too."""
+_WITH_FIX = (("E014", "E009"), ("I503", "I507"))
+"""Codes of causes and of consequences that are kept if they have a fix, which corrects the cause too."""
 
 _CODES = frozenset(code for _, _, (code, _) in _CONSEQUENCES)
 
@@ -94,7 +111,7 @@ def without_consequences(findings: list[Finding]) -> list[Finding]:
         causes = list(_matching(findings, code, kind))
         shared = {common for cause in causes for common in _common(cause, relation)}
         for effect in _matching(findings, other, other_kind):
-            if id(effect) in dropped or (effect.fix is not None and other in _WITH_FIX):
+            if id(effect) in dropped or (effect.fix is not None and (code, other) in _WITH_FIX):
                 continue
             if not shared.isdisjoint(_common(effect, relation)) and not any(effect is cause for cause in causes):
                 dropped.add(id(effect))

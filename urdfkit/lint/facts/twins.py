@@ -32,6 +32,8 @@ _ENDS: dict[str, tuple[str, ...]] = {
 
 _WORD = re.compile(r"left|front|(?<![a-z])(?:f[lr]|[rb]l|l[fbh]|rf|l)(?![a-z])", re.IGNORECASE)
 
+_RIGHT = re.compile(r"right|(?<![a-z])(?:[frb]r|r[fbh]|r)(?![a-z])", re.IGNORECASE)
+
 _ALIKE = 0.05
 """Largest relative difference of the sizes of equal shapes."""
 
@@ -64,6 +66,17 @@ def twins(model: Model) -> Iterator[Twins]:
                     yield Twins(joint, other, are_sides)
 
 
+def mirrored(name: str) -> tuple[str, ...]:
+    """Return the names of the counterparts of a name on the other side of the robot.
+
+    Examples:
+        >>> mirrored("left_wrist_joint")
+        ('right_wrist_joint',)
+    """
+    left: dict[str, tuple[str, ...]] = {other: (word,) for word, others in _SIDES.items() for other in others}
+    return (*_counterparts(name, _SIDES), *_counterparts(name, left, _RIGHT))
+
+
 def links_of(pair: Twins, model: Model) -> tuple[Link, Link] | None:
     """Return the child links of twins; None if one is undefined."""
     links = model.robot.link_by_name
@@ -94,9 +107,9 @@ def _size(link: Link, model: Model) -> Vector | None:
     return x, y, z
 
 
-def _counterparts(name: str, words: dict[str, tuple[str, ...]]) -> Iterator[str]:
+def _counterparts(name: str, words: dict[str, tuple[str, ...]], pattern: re.Pattern[str] = _WORD) -> Iterator[str]:
     """Yield the names that differ from a name in one word only."""
-    for match in _WORD.finditer(name):
+    for match in pattern.finditer(name):
         word = match.group()
         for other in words.get(word.lower(), ()):
             spelt = other.upper() if word.isupper() else other.capitalize() if word[0].isupper() else other

@@ -115,6 +115,9 @@ class MaskedNames:
             self.unreadable = f"package `{fault.name}`, which was not found"
         elif kind == "too-many":
             self.unreadable = "the part that was not expanded"
+        elif kind == "macro-arguments" and tag is not None and not fault.details:  # of its blocks
+            for called, values in self._called(tag, fault.name or "", {}):
+                self._read([called], values)
         elif kind == "undefined-macro" and fault.defined_at is None:
             if tag is not None:
                 for called, values in self._called(tag, fault.name or "", {}):

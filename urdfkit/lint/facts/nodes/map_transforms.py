@@ -48,8 +48,12 @@ class TransformSource:
     place: tuple[int, int]
 
 
-def published_together(model: Model) -> Iterator[tuple[Source, tuple[int, int], str]]:
-    """Yield the later action of each two that start publishers of the transform under the same arguments."""
+def published_together(model: Model) -> Iterator[tuple[Source, tuple[int, int], tuple[str, str], str]]:
+    """Yield the later action of each two that start publishers of the transform under the same arguments.
+
+    Yields:
+        The launch file, the start and end of the later action, the names of both publishers, and the message.
+    """
     filters = _map_filters(model)
     for name, source in model.related_files.items():
         if not name.endswith(LAUNCH):
@@ -68,7 +72,8 @@ def published_together(model: Model) -> Iterator[tuple[Source, tuple[int, int], 
                 when = " and ".join(f"`{each}` is {str(value).lower()}" for each, value in conditions.items())
                 labels = f"`{first.label}` and `{second.label}`"
                 message = f"{labels} both publish the transform from the map to the odometry"
-                yield source, second.place, f"{message} if {when}" if when else message
+                both = first.label, second.label
+                yield source, second.place, both, f"{message} if {when}" if when else message
 
 
 def _publishers(

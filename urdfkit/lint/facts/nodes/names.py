@@ -36,6 +36,9 @@ _DEFAULTS = {
 
 _RELEASED_NAMES = NODES | {*_DEFAULTS.values()}
 
+_RENAMED = {"recoveries_server": "behavior_server"}
+"""Former name of a server of Nav2 → its name (migration guide of Nav2, Galactic to Humble)."""
+
 _UNMANAGED = ("map_saver_server", "lifecycle_manager", "costmap_filter_info_server")
 """Programs of Nav2 that often start without a lifecycle manager of their own file."""
 
@@ -160,11 +163,13 @@ def _unmanaged(model: Model, nodes: list[LaunchedNode], started: set[str]) -> De
         listed = lists[source.file]
         names_listed = {name for name, _ in listed}
         own = {node.program if not node.has_name else name_of_node(node) for node in nodes if node.source is source}
+        unlisted: list[tuple[str, Span]] = []
         if source.file.endswith(".py"):
             others = [other for other in managers if other is not source]
             elsewhere = {name for other in others for name, _ in lists[other.file]}
             if not any(_lists_more(other) for other in others):
-                yield from _unlisted(source, names_listed, elsewhere, nodes)
+                unlisted = list(_unlisted(source, names_listed, elsewhere, nodes))
+        unknown: list[tuple[str, Span]] = []
         for name, span in listed:
             near = next((each for each in sorted(started - names_listed) if _is_meant(each, name)), None)
             if name not in started | _RELEASED_NAMES and near is not None:
@@ -176,10 +181,21 @@ def _unmanaged(model: Model, nodes: list[LaunchedNode], started: set[str]) -> De
                 and not _lists_more(source)
                 and "IncludeLaunchDescription" not in source.text
             ):
-                yield source, span, f"no launch file of these packages starts the node `{name}`"
+                unknown.append((name, span))
+        meant = {_RENAMED.get(name) for name, _ in unknown}
+        for name, span in unknown:
+            hint = f"; did you mean `{_RENAMED[name]}`?" if name in _RENAMED else ""
+            yield source, span, f"no launch file of these packages starts the node `{name}`{hint}"
+        for name, span in unlisted:
+            if name in meant:
+                continue
+            message = f"no lifecycle manager of this file lists the node `{name}`, so that it is never activated"
+            yield source, span, message
 
 
-def _unlisted(source: Source, listed: set[str], elsewhere: set[str], nodes: list[LaunchedNode]) -> Defects:
+def _unlisted(
+    source: Source, listed: set[str], elsewhere: set[str], nodes: list[LaunchedNode]
+) -> Iterator[tuple[str, Span]]:
     """Yield the servers of Nav2 that no list of their launch file names, although another server is listed."""
     own = [node for node in nodes if node.source is source]
     servers = [(node, node.program if not node.has_name else name_of_node(node)) for node in own if _is_server(node)]
@@ -188,8 +204,7 @@ def _unlisted(source: Source, listed: set[str], elsewhere: set[str], nodes: list
     for node, name in servers:
         is_misspelt = any(_is_meant(name, other) for other in listed)
         if name and name not in listed | elsewhere and not is_misspelt and node.place is not None:
-            message = f"no lifecycle manager of this file lists the node `{name}`, so that it is never activated"
-            yield source, source.span(*node.place), message
+            yield name, source.span(*node.place)
 
 
 def _is_server(node: LaunchedNode) -> bool:

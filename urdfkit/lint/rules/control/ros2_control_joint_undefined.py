@@ -71,7 +71,7 @@ class Ros2ControlJointUndefined(RobotRule):
                     command = element.find("command_interface")
                     if command is not None and joints[name].type == "fixed":
                         message = f"<ros2_control> `{block.name}` commands the fixed joint `{name}`"
-                        yield self.at(model, command, message, joint=name, severity="warning")
+                        yield self.at(model, command, message, joint=name, severity="warning", kind="fixed")
                     elif joints[name].type in UNDRIVEN and runs_ros2_control(model.robot):
                         message = f"<ros2_control> `{block.name}` names the {joints[name].type} joint `{name}`"
                         yield self.at(model, element, message, attribute="name", joint=name, severity="note")

@@ -21,6 +21,9 @@ _DISTANCE = 0.4
 _SMALLEST = 0.005
 """Smallest size that is compared [m]."""
 
+_ROUND = 0.03
+"""Largest relative difference of two sizes of a mesh that is a disc."""
+
 Corners = tuple[Vector, Vector]
 
 
@@ -119,6 +122,11 @@ def _defect(visuals: Shapes, collisions: Shapes) -> tuple[str, str, str] | None:
     if not is_single:
         return None
     (visual, _), (collision, _) = visuals[0], collisions[0]
+    if isinstance(visual, Box) and isinstance(collision, Cylinder):  # A mesh is the box around it.
+        low, middle, high = sorted(sizes[0])
+        is_disc = middle > (1.0 - _ROUND) * high and high > _UNLIKE * low
+        if is_disc and _agree((middle / 2.0, low), (collision.length, collision.radius), _ROUND):
+            return "has radius and length of the visual shape in the other order", "swap radius and length", "geometry"
     if type(visual) is not type(collision):
         return None
     lengths = _lengths(visual), _lengths(collision)
@@ -131,8 +139,8 @@ def _defect(visuals: Shapes, collisions: Shapes) -> tuple[str, str, str] | None:
     return None
 
 
-def _agree(first: tuple[float, ...], second: tuple[float, ...]) -> bool:
-    return all(abs(a - b) <= 1e-3 * max(a, b) for a, b in zip(first, second, strict=True))
+def _agree(first: tuple[float, ...], second: tuple[float, ...], tolerance: float = 1e-3) -> bool:
+    return all(abs(a - b) <= tolerance * max(a, b) for a, b in zip(first, second, strict=True))
 
 
 def _lengths(shape: Geometry) -> tuple[float, ...]:

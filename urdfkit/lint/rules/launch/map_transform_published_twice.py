@@ -44,6 +44,6 @@ class MapTransformPublishedTwice(RobotRule):
         """Yield a finding for each pair of publishers."""
         from urdfkit.lint.facts.nodes.map_transforms import published_together
 
-        for source, place, message in published_together(model):
+        for source, place, names, message in published_together(model):
             span = source.span(*place)
-            yield self.at_span(span, message, help="check the conditions of both")
+            yield self.at_span(span, message, help="check the conditions of both", names=names)

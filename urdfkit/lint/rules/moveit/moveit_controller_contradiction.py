@@ -63,4 +63,4 @@ class MoveitControllerContradiction(RobotRule):
                         yield self.at_span(span_of(source, entry.name), message)
                 elif entry.kind == "controller":
                     for node, message in contradictions(entry, started.get(name, []), model):
-                        yield self.at_span(span_of(source, node), message)
+                        yield self.at_span(span_of(source, node), message, names=(node.text,))

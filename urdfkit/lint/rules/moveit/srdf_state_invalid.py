@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 
 from urdfkit.description.xml.element import Element
 from urdfkit.lint.finding import Severity
@@ -68,9 +69,13 @@ class SrdfStateInvalid(RobotRule):
         for root in semantics_of(model):
             severity = severity_for(root, model)
             passive = {element.get("name") for element in root.find_all("passive_joint")}
+            wrong = dict(self._exchanged(root, model))
+            for element, message in wrong.values():
+                yield self.at(model, element, message, attribute="name", joint=element.get("name"), severity=severity)
             for state in root.find_all("group_state"):
                 group, values = state.get("group") or "", state.find_all("joint")
-                members = (joints_of(group, root, robot) if fits(root, robot) else None) or set()
+                is_compared = group not in wrong and fits(root, robot)
+                members = (joints_of(group, root, robot) if is_compared else None) or set()
                 for value in values:
                     yield from self._value(value, model, severity_for(root, model, "error"))
                 foreign = [
@@ -80,8 +85,9 @@ class SrdfStateInvalid(RobotRule):
                     message = f"{len(foreign)} joints of state `{state.get('name')}` are not in group `{group}`"
                     yield self.at(model, state, message, severity=severity)
                 for value in foreign if len(foreign) <= _MAX_FOREIGN else ():
-                    message = f"joint `{value.get('name')}` is not in group `{group}`"
-                    yield self.at(model, value, message, attribute="name", joint=value.get("name"), severity=severity)
+                    message = cause = f"joint `{value.get('name')}` is not in group `{group}`"
+                    name = value.get("name")
+                    yield self.at(model, value, message, attribute="name", joint=name, severity=severity, cause=cause)
                 valued = {value.get("name") for value in values}
                 missing = [
                     joint.name
@@ -95,6 +101,23 @@ class SrdfStateInvalid(RobotRule):
                     names = ", ".join(f"`{name}`" for name in missing[:4]) + (" …" if len(missing) > 4 else "")
                     message = f"state `{state.get('name')}` has no value for {names} of group `{group}`"
                     yield self.at(model, state, message, joint=missing[0], severity=severity)
+
+    def _exchanged(self, root: Element, model: Model) -> Iterator[tuple[str, tuple[Element, str]]]:
+        """Yield the groups with a joint for whose counterpart on the other side all their states have a value."""
+        from urdfkit.lint.facts.twins import mirrored
+
+        for group in root.find_all("group"):
+            name = group.get("name") or ""
+            states = [state for state in root.find_all("group_state") if state.get("group") == name]
+            valued = [{value.get("name") for value in state.find_all("joint")} for state in states]
+            listed = {each.get("name") for each in group.find_all("joint")}
+            for element in group.find_all("joint"):
+                joint = element.get("name") or ""
+                for other in mirrored(joint):
+                    is_other = other in model.robot.joint_by_name and other not in listed
+                    if is_other and valued and all(joint not in each and other in each for each in valued):
+                        message = f"group `{name}` contains joint `{joint}`, but its states have values for `{other}`"
+                        yield name, (element, message)
 
     def _value(self, value: Element, model: Model, severity: Severity | None) -> Findings:
         name, text = value.get("name") or "", value.get("value")

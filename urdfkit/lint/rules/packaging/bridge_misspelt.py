@@ -192,7 +192,13 @@ def _topic_defects(bridges: list[tuple[Source, Bridged]], model: Model) -> Itera
             free = sorted({name for name, _ in kinds if (source.file, name) not in bridged_topics})
             pattern = rf"topic>\s*/?{re.escape(topic)}\s*<"
             texts = [each.text for each in model.expanded.sources.values()]
-            if free and not any(re.search(pattern, text) for text in texts) and not words.match(pattern):
+            is_convertible = _type_defect(bridge) is None
+            if (
+                free
+                and is_convertible
+                and not any(re.search(pattern, text) for text in texts)
+                and not words.match(pattern)
+            ):
                 near = free[0] if len(free) == 1 else None
                 what = suggestion_of(near) if near is not None else f"; its sensors publish {_listed(free)}"
                 yield source, bridge.topic, f"the robot has no Gazebo topic `{bridge.topic.name}`{what}"

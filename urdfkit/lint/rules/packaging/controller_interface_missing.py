@@ -48,6 +48,7 @@ class ControllerInterfaceMissing(RobotRule):
     def check(self, model: Model) -> Findings:
         """Yield a finding at the type of each controller whose joint lacks the required interface."""
         from urdfkit.lint.facts.control.controller_joints import joints_of, typed
+        from urdfkit.lint.facts.control.controller_settings import settings
         from urdfkit.lint.facts.control.hardware_interfaces import has_gazebo_ros_control, is_misspelt
 
         if model.robot.ros2_control:
@@ -79,6 +80,8 @@ class ControllerInterfaceMissing(RobotRule):
                     continue
                 if any(is_misspelt(name) for name in provided[missing[0]]):
                     continue
+                line = source.span(controller_type.start, controller_type.start).line
+                kinds = [(one.name, one.group.find("type")) for one in settings(source)]
                 others = ", ".join(f"`{name}`" for name in sorted(provided[missing[0]]))
                 yield self.at_span(
                     source.span(controller_type.start, controller_type.start + len(controller_type.name)),
@@ -86,4 +89,5 @@ class ControllerInterfaceMissing(RobotRule):
                     f"whose transmission provides {others}",
                     joint=missing[0],
                     help="change the controller type or the <hardwareInterface>",
+                    names=tuple(name for name, kind in kinds if kind is not None and kind.line == line),
                 )

@@ -150,7 +150,7 @@ class ControllerSettingsMisspelt(RobotRule):
             if suggestion not in INTERFACES or not offered(model):
                 message = f"{description}; did you mean `{suggestion}`?"
                 severity: Severity = "error" if suggestion in INTERFACES else self.severity
-                yield self.at_span(span_of(source, node), message, severity=severity)
+                yield self.at_span(span_of(source, node), message, severity=severity, names=(node.text,))
 
         for key, suggestion, controller in misspelt(source):
             message = f"unknown parameter `{key.text}` of controller `{controller.name}`; did you mean `{suggestion}`?"

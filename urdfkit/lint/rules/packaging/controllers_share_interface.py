@@ -62,6 +62,7 @@ class ControllersShareInterface(RobotRule):
         """Yield a finding for each interface that an earlier controller claims."""
         from urdfkit.lint.facts.control.spawned_together import shared_interfaces
         from urdfkit.lint.facts.control.yaml_tree import span_of
+        from urdfkit.lint.facts.twins import mirrored
 
         seen = set()
         for source, claim, other in shared_interfaces(model):
@@ -69,4 +70,4 @@ class ControllersShareInterface(RobotRule):
             if (source.file, span.line, span.column) not in seen:
                 seen.add((source.file, span.line, span.column))
                 message = f"`{other}` commands `{claim.interface}` of joint `{claim.joint}` too, and is spawned before"
-                yield self.at_span(span, message)
+                yield self.at_span(span, message, names=mirrored(claim.joint))

@@ -49,7 +49,9 @@ class FilterInconsistent(RobotRule):
     def check(self, model: Model) -> Findings:
         """Yield a finding for each contradiction."""
         from urdfkit.lint.facts.control.yaml_tree import span_of
-        from urdfkit.lint.facts.navigation.filters import filter_defects
+        from urdfkit.lint.facts.navigation.filters import filter_defects, filters
 
         for source, node, message in filter_defects(model):
-            yield self.at_span(span_of(source, node), message)
+            names = tuple(each.name for each in filters(model) if each.group.find("world_frame") is node)
+            kind = "transform" if names else ""
+            yield self.at_span(span_of(source, node), message, names=names, kind=kind)

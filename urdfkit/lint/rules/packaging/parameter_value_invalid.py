@@ -113,7 +113,9 @@ class ParameterValueInvalid(RobotRule):
                     yield self.at_span(span_of(source, place), message)
             if is_of_controllers:
                 incomplete = () if source.file in unread else incomplete_controllers(source, is_typed_at_start)
-                for place, message in (*incomplete, *contradictions(source, model.robot), *unmet_needs(source, model)):
+                for place, message in incomplete:
+                    yield self.at_span(span_of(source, place), message, names=(place.text,), kind="incomplete")
+                for place, message in (*contradictions(source, model.robot), *unmet_needs(source, model)):
                     yield self.at_span(span_of(source, place), message)
 
 

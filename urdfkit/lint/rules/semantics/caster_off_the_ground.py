@@ -145,7 +145,8 @@ class CasterOffTheGround(RobotRule):
             elif gap < -_MAX_DEPTH * radius:
                 message = f"link `{link.name}` extends {-gap:.3g} m below the drive wheels and lifts them"
                 help = f"raise the link or its shapes by {-gap:.3g} m"
-                yield self.at(model, element, message, attribute="name", link=link.name, help=help)
+                wheels = tuple(wheel.joint.child or "" for wheel in (*drive.left, *drive.right))
+                yield self.at(model, element, message, attribute="name", link=link.name, help=help, names=wheels)
             elif joint is not None and is_caster and len(drive.left) == 1 and gap < 2.0 * radius:
                 supports.append((gap / max(distance, 1e-3), gap, joint))
         for tilt, gap, joint in sorted(supports, key=lambda support: support[0])[:1]:

@@ -1,6 +1,10 @@
 """T206 duplicate-link."""
 
 from urdfkit.description.urdf.queries import repeated
+from urdfkit.description.urdf.robot import Link
+from urdfkit.description.xml.source import Expansion
+from urdfkit.lint.facts.twins import mirrored
+from urdfkit.lint.finding import Finding
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
 
@@ -38,8 +42,20 @@ class DuplicateLink(RobotRule):
     name = "duplicate-link"
 
     def check(self, model: Model) -> Findings:
-        """Yield a finding for each link with the name of an earlier one."""
-        for link, first in repeated(model.robot.links):
+        """Yield a finding for each link with the name of an earlier one; one for a macro call that repeats another."""
+        calls: dict[Expansion, list[Link]] = {}
+        pairs = list(repeated(model.robot.links))
+        for link, first in pairs:
+            here, there = link.element.origin, first.element.origin
+            if here.position == there.position and here.expansions and here.expansions != there.expansions:
+                calls.setdefault(here.expansions[-1], []).append(link)
+        for call, links in calls.items():
+            if len(links) > 1:
+                yield self._of_call(model, call, links)
+        single = [
+            (link, first) for link, first in pairs if not any(link in each for each in calls.values() if each[1:])
+        ]
+        for link, first in single:
             yield self.at(
                 model,
                 link.element,
@@ -48,3 +64,18 @@ class DuplicateLink(RobotRule):
                 link=link.name,
                 help=f"rename or remove it; the first definition is at {model.shown(first.element.origin.position)}",
             )
+
+    def _of_call(self, model: Model, call: Expansion, links: list[Link]) -> Finding:
+        joints = (one for one in model.robot.joints if call in one.element.origin.expansions)
+        made = [*(link.name for link in links), *(joint.name for joint in joints)]
+        message = (
+            f"the call of macro `{call.macro}` repeats {len(links)} links of another call, such as `{links[0].name}`"
+        )
+        return self.at_span(
+            model.span(call.position),
+            message,
+            link=links[0].name,
+            help="pass another name or prefix",
+            chains=tuple(link.element.origin.expansions for link in links),
+            names=tuple(name for one in made for name in (one, *mirrored(one))),
+        )

@@ -52,6 +52,7 @@ class MultipleParents(RobotRule):
                 loop = loop_closed_by(model.robot, joint)
                 closes = f"; `{joint.name}` closes the loop {' → '.join([*loop, loop[0]])}" if loop else ""
                 child = joint.element.find("child") or joint.element
+                roots = {_root(model, each.parent) for each in (joint, first)} - {None}
                 yield self.at(
                     model,
                     child,
@@ -59,5 +60,18 @@ class MultipleParents(RobotRule):
                     attribute="link",
                     link=name,
                     joint=joint.name,
+                    names=tuple(sorted(str(root) for root in roots)) if len(roots) == 2 else (),
                     help=f"give `{joint.name}` a separate child link, or remove one of the joints",
                 )
+
+
+def _root(model: Model, name: str | None) -> str | None:
+    """Return the topmost link above a link; None if links form a loop."""
+    seen: set[str | None] = set()
+    while name not in seen:
+        seen.add(name)
+        above = model.robot.parents_of.get(name or "", ())
+        if not above:
+            return name
+        name = above[0].parent
+    return None

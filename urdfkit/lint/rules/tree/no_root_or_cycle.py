@@ -1,5 +1,7 @@
 """T204 no-root-or-cycle."""
 
+import re
+
 from urdfkit.description.urdf.queries import cycles, is_loop
 from urdfkit.lint.rule import Findings, Model, RobotRule
 
@@ -49,11 +51,14 @@ class NoRootOrCycle(RobotRule):
             message = f"the joints form a loop: {' → '.join([*links, links[0]])}"
             if len(loop) == 1:
                 message = f"joint `{last.name}` connects link `{links[0]}` with itself"
+            stem = re.sub(r"_?joint$", "", last.name)
+            rootless = [link.name for link in robot.roots() if re.sub(r"_?link$", "", link.name) == stem != ""]
             yield self.at(
                 model,
                 last.element,
                 message,
                 attribute="name",
                 joint=last.name,
+                names=tuple(rootless) if len(loop) == 1 else (),
                 help="remove one of the joints: each link has at most one parent" if len(loop) > 1 else None,
             )

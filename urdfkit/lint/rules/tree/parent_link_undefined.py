@@ -56,6 +56,7 @@ class ParentLinkUndefined(RobotRule):
                 f"undefined parent link `{name}` of joint `{joint.name}`{hint}",
                 attribute="link",
                 joint=joint.name,
+                names=(name,),
                 fix=new_value(model, element, "link", suggestion, "unsafe", f"Replace with `{suggestion}`")
                 if suggestion
                 else None,
