@@ -768,6 +768,16 @@ def test_plots_below_the_view_have_their_legend_beside_them(page) -> None:
     page.evaluate("urdfkit.page.panels.places.put(urdfkit.page.panels.all.get('plots'), 'side', true)")
 
 
+def test_plots_of_a_phone_have_the_width_of_the_screen(served, visits) -> None:
+    page = visits.open(served.url, viewport={"width": 390, "height": 844})
+    page.evaluate("urdfkit.plots.add('/simpleton/odom', 'twist.twist.linear.x')")
+    page.evaluate("urdfkit.page.panels.places.put(urdfkit.page.panels.all.get('plots'), 'below', true)")
+    page.evaluate("urdfkit.page.panels.open('plots')")
+    plot, legend = (page.locator(f"#panel-plots .{name}").bounding_box() for name in ("plot", "legend"))
+    assert plot["width"] > 340
+    assert legend["y"] >= plot["y"] + plot["height"]
+
+
 def test_symbols_of_many_centres_of_mass_are_smaller(page) -> None:
     count, size = page.evaluate(
         "(() => { const { com } = urdfkit.markers.made;"

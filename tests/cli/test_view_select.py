@@ -130,3 +130,27 @@ def test_marks_names_wires_and_opacity(page, keep, until) -> None:
     page.get_by_label("Opacity").fill("0.4")
     assert page.evaluate(f"[{material}.wireframe, {material}.opacity, {material}.transparent]") == [False, 0.4, True]
     keep(page, "opacity")
+
+
+BADGES = """(tones) => {
+  const { labels, viewport } = urdfkit.page, { camera } = viewport.viewer;
+  for (const [i, tone] of tones.entries()) {
+    const badge = Object.assign(document.createElement("button"), { className: "badge", innerHTML: "<span>1</span>" });
+    Object.assign(badge.dataset, { tone, count: 1, words: tone });
+    const at = new MeshCat.THREE.Vector3(0, 0, 0).project(camera);
+    at.x += (2 * 20 * i) / viewport.pane.clientWidth; // 20 px beside the one before
+    const point = at.unproject(camera);
+    labels.add(badge, () => point);
+  }
+  labels.place();
+  const shown = [...document.querySelectorAll(".badge:not([data-covered])")];
+  return shown.map(({ title, innerText, firstChild }) => [title, innerText, firstChild.dataset.tone]);
+}"""
+
+
+def test_badges_that_overlap_are_one_with_the_worst_tone(lab_page) -> None:
+    lab_page.evaluate("for (const each of [...urdfkit.page.labels.kept.keys()]) urdfkit.page.labels.remove(each)")
+    shown = lab_page.evaluate(BADGES, ["note", "error", "warning"])
+    assert len(shown) == 2  # 40 px apart, with the middle one in one of them
+    assert sorted(int(count) for _, count, _ in shown) == [1, 2]
+    assert {tone for words, _, tone in shown if "error" in words} == {"error"}

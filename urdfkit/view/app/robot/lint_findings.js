@@ -50,9 +50,8 @@ export function findings(page) {
     for (const finding of known) for (const link of finding.links) links.set(link, [...(links.get(link) ?? []), finding]);
     badges = [...links].filter(([link]) => page.scene.byLink.has(link)).map(([link, found]) => {
       const words = `${found.length} finding${found.length > 1 ? "s" : ""} on ${link}`;
-      const badge = h("button.badge", { type: "button", title: words, "aria-label": words }, h("span", {}, String(found.length)));
-      badge.dataset.tone = worst(found);
-      Object.assign(badge.dataset, { link, count: found.length, words });
+      const badge = h("button.badge", { type: "button", title: words, "aria-label": words }, h("span", { "data-tone": worst(found) }, String(found.length)));
+      Object.assign(badge.dataset, { link, count: found.length, words, tone: worst(found) });
       badge.addEventListener("click", () => about(link));
       return page.labels.add(badge, () => middle(page, link));
     });

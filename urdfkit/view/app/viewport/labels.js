@@ -4,7 +4,7 @@
 import { h } from "../page/dom.js";
 
 const THREE = MeshCat.THREE;
-const PILE = 14; // px between badges that are shown as one
+const TONES = ["error", "warning", "note"]; // of badges, the worst first
 
 export class Labels {
   constructor(page) {
@@ -79,11 +79,12 @@ export class Labels {
     }
   }
 
-  // Of badges that pile up only the nearest is shown, with the sum of their counts.
+  // Of badges that overlap only the nearest is shown, with the sum of their counts and the worst tone.
   #merge(badges) {
     const shown = [];
     for (const badge of badges.sort((a, b) => a.away - b.away)) {
-      const first = shown.find((other) => Math.hypot(badge.x - other.x, badge.y - other.y) < PILE);
+      badge.element.size ??= badge.element.offsetWidth; // larger for fingers
+      const first = shown.find((other) => Math.hypot(badge.x - other.x, badge.y - other.y) < other.element.size);
       badge.element.toggleAttribute("data-covered", Boolean(first));
       if (first) first.merged.push(badge.element);
       else shown.push({ ...badge, merged: [badge.element] });
@@ -95,6 +96,7 @@ export class Labels {
       element.title = words;
       element.setAttribute("aria-label", words);
       element.firstChild.textContent = count;
+      element.firstChild.dataset.tone = TONES.find((tone) => merged.some(({ dataset }) => dataset.tone === tone));
     }
   }
 
