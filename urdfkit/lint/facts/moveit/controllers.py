@@ -73,7 +73,8 @@ def meant_controller(
     """
     joints = entry.settings.find("joints")
     wanted = set(joints.texts()) if joints is not None else set()
-    if not wanted or any(one.kind not in TYPES for each in controllers.values() for one in each):
+    every = [one for each in controllers.values() for one in each]
+    if not wanted or any(one.kind not in TYPES and wanted & _joints(one) for one in every):
         return None
     kind = entry.settings.find("type")
     classes = _ACTIONS.get(kind.text, ()) if kind is not None else ()

@@ -13,6 +13,7 @@ from urdfkit.description.xml.numbers import number
 from urdfkit.errors import suggestion
 from urdfkit.lint.facts.control.controller_joints import Named
 from urdfkit.lint.facts.control.launched_nodes import launches, started
+from urdfkit.lint.facts.moveit.srdf import semantics_of
 from urdfkit.lint.facts.ros_packages import is_slip
 from urdfkit.lint.fix_builders import nearest
 
@@ -109,6 +110,13 @@ def _frames(parent: Named | None, child: Named | None, model: Model) -> Iterator
     names = [word.name.strip("/") if word is not None else "" for word in (parent, child)]
     if parent is not None and names[0] and names[0] == names[1]:
         yield parent, f"frame `{names[0]}` is its own parent"
+        return
+    if child is not None and any(
+        (names[0], names[1]) == (joint.get("child_link"), joint.get("parent_frame"))
+        for root in semantics_of(model)
+        for joint in root.find_all("virtual_joint")
+    ):
+        yield child, f"the virtual joint of the SRDF puts `{names[0]}` below `{names[1]}`; exchange the frames"
         return
     if parent is not None and names[0] and not _is_defined(parent, names[0], model):
         near = _meant(names[0], links)

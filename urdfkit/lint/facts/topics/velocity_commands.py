@@ -1,8 +1,8 @@
 """Remappings of common nodes: names that the node does not have, and velocity commands that no node reads.
 
 Sources: teleop_twist_joy, teleop_twist_keyboard, joy, twist_mux, robot_state_publisher, joint_state_publisher,
-robot_localization (navsat_transform.cpp, ros_filter.cpp), nav2_velocity_smoother and diff_drive_controller (README and
-source files), Noetic to Rolling.
+robot_localization (navsat_transform.cpp, ros_filter.cpp), nav2_velocity_smoother, nmea_navsat_driver (driver.py),
+diff_drive_controller and steering_controllers_library (README and source files), Noetic to Rolling.
 """
 
 from __future__ import annotations
@@ -28,6 +28,7 @@ _NAMES = {
     "joint_state_publisher_gui": "joint_states robot_description",
     "joy": "joy joy/set_feedback diagnostics",
     "nav2_velocity_smoother": "cmd_vel cmd_vel_smoothed odom",
+    "nmea_navsat_driver": "fix vel heading time_reference nmea_sentence extend_fix",
     **dict.fromkeys(
         ("robot_localization/ekf_node", "robot_localization/ukf_node"),
         "odometry/filtered accel/filtered set_pose cmd_vel enable toggle set_state reset diagnostics",
@@ -159,14 +160,17 @@ def _mux_topics(model: Model, kinds: tuple[str, ...] = ("topics",)) -> Iterator[
 def _drives(model: Model) -> dict[str, str]:
     """Return the names of the drive controllers of ROS 2 → their type."""
     found = {each.name: each.kind.text for source in yamls(model) for each in declared(source)}
-    return {name: kind for name, kind in found.items() if "diff_drive" in kind}
+    return {name: kind for name, kind in found.items() if "diff_drive" in kind or "_steering_controller/" in kind}
 
 
 def _drive_topics(model: Model) -> frozenset[str]:
     """Return the topics of velocity commands that controllers, plugins and bridges read."""
     found = set[str]()
-    for name in _drives(model):
+    for name, kind in _drives(model).items():
         is_unstamped = any(re.search(r"use_stamped_vel\s*:\s*false", source.text, re.I) for source in yamls(model))
+        if "_steering_controller/" in kind:
+            found |= {f"{name}/reference_unstamped"} | ({f"{name}/reference"} if not is_unstamped else set())
+            continue
         found.add(f"{name}/cmd_vel_unstamped" if is_unstamped else f"{name}/cmd_vel")
     for text, _, parameter, _ in references(model, ("topic",)):
         if parameter.meaning == "command_topic":

@@ -84,6 +84,11 @@ class LaunchArgumentUnknown(RobotRule):
         yield from self._unknown(
             file, call.passed, names, target, not is_strict, "error" if is_strict else self.severity
         )
+        for name in (each for each in call.passed if call.package == "ros_gz_sim" and each.name.startswith("ign_")):
+            meant = f"gz_{name.name.removeprefix('ign_')}"  # gz_sim.launch.py.in of ros_gz declares both
+            message = f"argument `{name.name}` of {target} is deprecated; write `{meant}`"
+            if meant in names and name.name in names:
+                yield self._at(file, name, message, "note")
         if "gz_args" in names and not call.passes_all and not re.search(r"(?:gz|ign)_args", file.source.text):
             for name in (each for each in call.passed if "world" in each.name):
                 message = f"{target} has no argument `{name.name}`; write the world in `gz_args`"

@@ -128,7 +128,9 @@ class LaunchNameMisspelt(RobotRule):
                 yield self._at(source, word[0], word.start(), plugin)
         for word in re.finditer(r"\$\((?:arg|var)\s+robot_description\)(_\w+)", text):
             name = f"robot_description{word[1]}"
-            near = _nearest(name, _OF_MOVEIT) or (f"{name}s" if f"{name}s" in _OF_MOVEIT else None)
+            near = _nearest(name, _OF_MOVEIT) or next(
+                (each for each in (f"{name}s", name[:-1]) if each in _OF_MOVEIT), None
+            )
             if near is not None:
                 yield self._at(source, word[1], word.start(1), near.removeprefix("robot_description"))
 

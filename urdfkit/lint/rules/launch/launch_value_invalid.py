@@ -17,11 +17,18 @@ _XACRO = r"\s*(?:\$\(find xacro\)/)?xacro(?:\.py)?\s"
 _FILE = r"\s*'?\$\(find [^()]*\)/[^\s']*\.(?:urdf|srdf|xacro|yaml|xml)'?\s*"
 
 
+_AROUND = (
+    r"^\s*(?:\$\((?:arg|var) [^()]*\)\s*(?:[!=<>]=|[<>]|\b(?:and|or)\b)|not\s+\$\((?:arg|var) |[\w'\"]+\s*[!=]=\s*\$\()"
+)
+"""Matches a condition that compares an argument outside of ``$(eval …)``; both versions of ROS read it as a text."""
+
+
 class LaunchValueInvalid(RobotRule):
     """An attribute of a launch file in XML has a value that the launch cannot use.
 
     ## What it does
-    Checks conditions and other truth values without substitutions, the ``output`` of nodes, the defaults of arguments
+    Checks conditions and other truth values without substitutions, conditions with an operator outside of
+    ``$(eval …)``, the ``output`` of nodes, the defaults of arguments
     that are conditions, the command of ``<rosparam>``, the parameters of amcl, gmapping and other
     nodes of ROS 1, and whether the description is a file without xacro (``textfile``), a command (``command``) or a
     value (``value``).
@@ -70,6 +77,10 @@ class LaunchValueInvalid(RobotRule):
             for attribute, message in (*found, *_conditions(tags)):
                 span = source.span(attribute.value_start, attribute.value_end)
                 yield self.at_span(span, message)
+            for attribute in _untyped(tags) if version == 2 else ():
+                message = "the launch reads the output of the command as YAML, and stops at text that is no YAML"
+                span = source.span(attribute.value_start, attribute.value_end)
+                yield self.at_span(span, message, severity="warning", help='add `type="str"`')
             for word, message in launch_parameter_defects(source):
                 span = source.span(word.start, word.start + len(word.name))
                 yield self.at_span(span, message, severity="warning")
@@ -85,15 +96,20 @@ _SYNONYMS = {"string": "str", "double": "float", "integer": "int", "boolean": "b
 
 
 def _invalid(tag: Tag, version: int, model: Model, defaults: dict[str, str]) -> Iterator[tuple[Attribute, str]]:
+    import re
+
     from urdfkit.errors import did_you_mean, nearest, suggestion
     from urdfkit.lint.facts.launch.xml_elements import OUTPUTS, is_output
 
     attributes = tag.attributes
     for name in (*_WHEN, *_BOOLEANS[version]):
         attribute = attributes.get(name)
+        is_condition = name in _WHEN
+        if attribute is not None and is_condition and re.search(_AROUND, attribute.value):
+            what = "`$(eval …)`" if version == 1 else '`"$(eval …)"`'
+            yield attribute, f"condition `{attribute.value}` is not evaluated, because text is around it; write {what}"
         if attribute is None or "$(" in attribute.value:
             continue
-        is_condition = name in _WHEN
         words = _TRUTH if is_condition or version == 2 else ("true", "false")
         if attribute.value.strip().lower() not in words:
             what = "condition" if is_condition else f"`{name}`"
@@ -109,6 +125,14 @@ def _invalid(tag: Tag, version: int, model: Model, defaults: dict[str, str]) -> 
     if type is not None and "$(" not in type.value and type.value not in _TYPES[version]:
         near = _SYNONYMS.get(type.value) or nearest(type.value, _TYPES[version])
         yield type, f"unknown type `{type.value}` of a parameter{suggestion(near if near in _TYPES[version] else None)}"
+
+
+def _untyped(tags: list[Tag]) -> Iterator[Attribute]:
+    """Yield the values of descriptions from a command that are read as YAML (launch_ros, parameter_descriptions.py)."""
+    for tag in tags:
+        value = tag.attributes.get("value") if tag.name == "param" and "type" not in tag.attributes else None
+        if value is not None and value.value.strip().startswith("$(command ") and _is_description(tag.attributes):
+            yield value
 
 
 def _conditions(tags: list[Tag]) -> Iterator[tuple[Attribute, str]]:

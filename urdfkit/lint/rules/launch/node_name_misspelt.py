@@ -10,7 +10,7 @@ class NodeNameMisspelt(RobotRule):
     Compares the names of nodes in launch files of ROS 2 with the sections of the parameter files that these nodes load,
     and with the ``node_names`` of lifecycle managers. The rule reports names that differ by a letter, and a file whose
     only section belongs to a node of another name. Files with ``/**`` are left out, because their parameters apply to
-    each node.
+    each node. In ROS 1, the rule reports nodelets whose manager has another name.
 
     ## Why is this bad?
     The node starts without its parameters and without an error. A lifecycle manager waits for a node that never
@@ -58,6 +58,10 @@ class NodeNameMisspelt(RobotRule):
     def check(self, model: Model) -> Findings:
         """Yield a finding for each name without its counterpart."""
         from urdfkit.lint.facts.nodes.names import misnamed
+        from urdfkit.lint.facts.nodes.nodelets import unmanaged_nodelets
 
         for _, span, message in misnamed(model):
             yield self.at_span(span, message)
+        for source, manager, message in unmanaged_nodelets(model):
+            start = manager.start + len(manager.name) - len(manager.name.rpartition("/")[2])
+            yield self.at_span(source.span(start, manager.start + len(manager.name)), message)

@@ -8,8 +8,8 @@ class TopicUnconnected(RobotRule):
 
     ## What it does
     Checks the remappings of ``teleop_twist_joy``, ``teleop_twist_keyboard``, ``joy``, ``twist_mux``,
-    ``robot_localization``, ``nav2_velocity_smoother``, ``robot_state_publisher`` and ``joint_state_publisher`` for
-    topics that the node does not have. Also reports the
+    ``robot_localization``, ``nav2_velocity_smoother``, ``nmea_navsat_driver``, ``robot_state_publisher`` and
+    ``joint_state_publisher`` for topics that the node does not have. Also reports the
     velocity commands of these nodes and of Nav2 on a topic that no other file of the packages names, if a
     ``twist_mux``, a drive controller, a plugin or a bridge of the packages reads velocity commands.
 

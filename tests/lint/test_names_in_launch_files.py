@@ -1,0 +1,72 @@
+"""Names in launch files that no other part of the packages has."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from urdfkit.lint import lint
+
+ROBOT = '<robot name="arm"><link name="base_link"/></robot>'
+GROUP = '<group name="arm"><link name="base_link"/></group>'
+VIRTUAL = '<virtual_joint name="v" type="fixed" parent_frame="world" child_link="base_link"/>'
+SRDF = f'<robot name="arm">{GROUP}{VIRTUAL}</robot>'
+NODELET = '<node pkg="nodelet" type="nodelet" name="points" args="load depth_image_proc/point_cloud_xyzrgb {}"/>'
+MANAGER = '<node pkg="nodelet" type="nodelet" name="manager" args="manager"/>'
+STATIC = '<node pkg="tf2_ros" type="static_transform_publisher" name="w" args="0 0 0 0 0 0 {}"/>'
+DRIVER = '<node pkg="nmea_navsat_driver" exec="nmea_serial_driver"><remap from="{}" to="{}"/></node>'
+MUX = '<node pkg="twist_mux" exec="twist_mux"><remap from="cmd_vel_out" to="/drive/{}"/></node>'
+COMMAND = '<node pkg="robot_state_publisher" exec="robot_state_publisher"><param name="robot_description" {}/></node>'
+TEXT = "value=\"$(command 'xacro $(find-pkg-share arm)/arm.urdf')\""
+CONDITION = '<arg name="gui" default="true"/><node if="{}" pkg="rviz" type="rviz" name="rviz"/>'
+INCLUDE = '<include file="$(find-pkg-share ros_gz_sim)/launch/gz_sim.launch.py"><arg name="{}" value="-r"/></include>'
+YAML_TEXT = 'the launch reads the output of the command as YAML, and stops at text that is no YAML; add `type="str"`'
+CONDITION_TEXT = "condition `$(arg gui)!=false` is not evaluated, because text is around it; write `$(eval …)`"
+CASES = [
+    (1, NODELET.format("{}") + MANAGER, "cameras", "manager", "no launch file starts the nodelet manager `cameras`"),
+    (1, STATIC, "base_link world", "world base_link", "the virtual joint of the SRDF puts `base_link` below `world`"),
+    (
+        1,
+        '<!-- moveit --><param name="$(arg robot_description){}" value="a"/>',
+        "_semantics",
+        "_semantic",
+        "`_semantic`",
+    ),
+    (1, CONDITION, "$(arg gui)!=false", "$(eval arg('gui'))", CONDITION_TEXT),
+    (1, CONDITION, "not $(arg gui)", "$(arg gui)", "because text is around it; write `$(eval …)`"),
+    (2, DRIVER.format("{}", "gps/fix"), "fixx", "fix", "`nmea_navsat_driver` has no topic `fixx`; did you mean `fix`?"),
+    (2, MUX, "cmd_vel_unstamped", "reference_unstamped", "did you mean `drive/reference_unstamped`?"),
+    (2, COMMAND, TEXT, f'{TEXT} type="str"', YAML_TEXT),
+    (2, INCLUDE, "ign_args", "gz_args", "argument `ign_args` of gz_sim.launch.py is deprecated; write `gz_args`"),
+]
+CONTROLLERS = """controller_manager:
+  ros__parameters:
+    drive:
+      type: ackermann_steering_controller/AckermannSteeringController
+drive:
+  ros__parameters:
+    use_stamped_vel: false
+twist_mux:
+  ros__parameters:
+    topics:
+      joy: {topic: joy_vel, timeout: 0.5, priority: 10}
+"""
+
+
+@pytest.mark.parametrize(("version", "text", "wrong", "right", "words"), CASES)
+def test_a_wrong_name_is_reported(tmp_path: Path, version: int, text: str, wrong: str, right: str, words: str) -> None:
+    build = "catkin" if version == 1 else "ament_cmake"
+    manifest = f"<name>arm</name><version>1.0.0</version><buildtool_depend>{build}</buildtool_depend>"
+    (tmp_path / "package.xml").write_text(f'<package format="3">{manifest}</package>')
+    (tmp_path / "arm.urdf").write_text(ROBOT)
+    (tmp_path / "launch").mkdir()
+    (tmp_path / "config").mkdir()
+    if version == 1:
+        (tmp_path / "config/arm.srdf").write_text(SRDF)
+    else:
+        (tmp_path / "config/drive.yaml").write_text(CONTROLLERS)
+    for name, count in ((wrong, 1), (right, 0)):
+        path = tmp_path / "launch" / ("arm.launch" if version == 1 else "arm.launch.xml")
+        path.write_text(f"<launch>{text.replace('{}', name)}</launch>")
+        assert sum(words in each.text for each in lint(tmp_path)) == count
