@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from urdfkit.sim.engine.island_solver.augmented_lagrangian import HEAP
+from urdfkit.sim.engine.island_solver.augmented_lagrangian import HEAP, MORE_ROUNDS
 from urdfkit.sim.engine.island_solver.block_matrix import MOST_TREES
 from urdfkit.sim.engine.island_solver.velocity_blocks import hold
 from urdfkit.sim.engine.kernel_cache import load_compiled, world_digest
@@ -176,6 +176,15 @@ def test_what_slides_obeys_coulomb(solve, name, mu):
     assert solve(a.floats, a.integers, 0, len(x)) != 0
     assert (a["state"] == SLIDES).any() or mu > 0.1
     assert violation(a, J, np.array(a["x"])) < 1e-9
+
+
+@pytest.mark.parametrize("seed", range(1, 6))
+def test_bodies_that_all_strike_and_slide_obey_coulomb(solve, seed):
+    # Nothing is known from the last step, and friction is as strong as the normal force.
+    rng = np.random.default_rng(seed)
+    a, J, x, _ = problem(rng, *pile(rng, 6), points=2, mu=1.0)
+    assert -MORE_ROUNDS <= solve(a.floats, a.integers, 0, len(x)) < 0
+    assert violation(a, J, np.array(a["x"])) < 1e-8
 
 
 def test_an_island_of_too_many_trees_is_left_alone(solve):

@@ -50,6 +50,17 @@ def list_after(w: KernelWorld, k: int, n: int) -> int:
     return found
 
 
+@inlined
+def place_rows(w: KernelWorld, rows: int) -> None:
+    """Write where the dofs of a row's trees start in the order of the blocks, and how many these are."""
+    for k in range(rows):
+        a, b = w.row_a[k], w.row_b[k]
+        w.at_a[k], w.of_a[k] = w.block_first[w.tree_block[a]], w.tree_dof[a + 1] - w.tree_dof[a]
+        w.at_b[k] = w.of_b[k] = 0
+        if b >= 0:
+            w.at_b[k], w.of_b[k] = w.block_first[w.tree_block[b]], w.tree_dof[b + 1] - w.tree_dof[b]
+
+
 @compiled
 def arrange(w: KernelWorld, root: int, rows: int) -> int:
     """Order the trees of an island for elimination; return how many dofs they have, 0 if there are too many.
@@ -110,12 +121,7 @@ def arrange(w: KernelWorld, root: int, rows: int) -> int:
     w.block_first[count] = first
     if first * first > w.sizes[MATRIX]:
         return 0
-    for k in range(rows):
-        a, b = w.row_a[k], w.row_b[k]
-        w.at_a[k], w.of_a[k] = w.block_first[w.tree_block[a]], w.tree_dof[a + 1] - w.tree_dof[a]
-        w.at_b[k] = w.of_b[k] = 0
-        if b >= 0:
-            w.at_b[k], w.of_b[k] = w.block_first[w.tree_block[b]], w.tree_dof[b + 1] - w.tree_dof[b]
+    place_rows(w, rows)
     return first
 
 
@@ -227,6 +233,12 @@ def substitute(w: KernelWorld, n: int, x: Any) -> None:
     while block_first[k] < n:
         first, beyond = block_first[k], block_first[k + 1]
         sixes = beyond - first == 6
+        moves = False
+        for d in range(first, beyond):
+            moves = moves or x[d] != 0.0
+        if not moves:
+            k += 1
+            continue
         if sixes:
             a, c, e, f, g, h = forward_six(K, n, first, x)
             x[first], x[first + 1], x[first + 2] = a, c, e

@@ -8,7 +8,8 @@ for each pair of trees that touch. It is factored in the order in which the fewe
 `active_set` tries what rows do, from what they did in the last step; in heaps only at rest, since elsewhere they change
 in too many places. If that fails, a tree alone is tried once more with tiny penetrations and gaps left as they are:
 they contradict rows that hold, of friction too, as at a robot that is jammed. If that fails as well,
-`augmented_lagrangian` gets there from anywhere.
+`augmented_blocks` solves the law with a penalty, except in heaps; if that fails, too, `augmented_lagrangian` gets there
+from anywhere.
 """
 
 import math
@@ -17,6 +18,7 @@ from urdfkit.sim.engine.compilation import compiled, inlined
 from urdfkit.sim.engine.dynamics.mass_matrix import solve_forward
 from urdfkit.sim.engine.island_solver.active_set import try_states
 from urdfkit.sim.engine.island_solver.active_set_revision import first_hold
+from urdfkit.sim.engine.island_solver.augmented_blocks import solve_augmented
 from urdfkit.sim.engine.island_solver.augmented_lagrangian import HEAP, go_round
 from urdfkit.sim.engine.island_solver.block_matrix import arrange
 from urdfkit.sim.engine.island_solver.coulomb_direction import STIFFNESS, compute_row_stiffness, stiffen
@@ -29,6 +31,10 @@ CALM = 1e-5
 """Velocity [m/s or rad/s] of loaded rows up to which a heap is at rest, and what its rows do is guessed."""
 LEAST = 2e-5
 """Velocity [m/s or rad/s] up to which penetrations and gaps are left where nothing else will do: 20 nm in 1 ms."""
+
+FAST = 0.1
+"""Velocity [m/s or rad/s] of a row without impulses from which on the law is solved with a penalty: slower slips settle
+in few convex problems."""
 
 
 @inlined
@@ -129,6 +135,8 @@ def hold(w: KernelWorld, root: int, rows: int) -> int:
         again = try_states(w, root, rows, n, tiny, most)
         done = 1 + again if again > 0 else 0
         take_up(w, rows)
+    if done == 0 and rows <= HEAP and largest > FAST:
+        done = -solve_augmented(w, root, rows, n, tiny)
     if done == 0:
         # At the velocities of the last step, that is, at rest where it was.
         tree = root
