@@ -768,6 +768,26 @@ def test_plots_below_the_view_have_their_legend_beside_them(page) -> None:
     page.evaluate("urdfkit.page.panels.places.put(urdfkit.page.panels.all.get('plots'), 'side', true)")
 
 
+def test_a_pinned_panel_that_was_closed_stays_closed(served, visits, until) -> None:
+    page = visits.open(served.url, viewport=SIZE)
+    sensors = page.locator("#panel-sensors")
+    until(sensors.is_visible)
+    page.get_by_role("button", name="Close Sensors").click()
+    until(lambda: page.evaluate('Object.values(localStorage).some((text) => text.includes(\'"open":["drive"]\'))'))
+    page.reload()
+    page.wait_for_selector("body[data-ready=true][data-running=true]")
+    until(page.locator("#open-sensors").is_visible)
+    assert not sensors.is_visible()
+
+
+def test_a_message_covers_neither_the_readout_nor_the_pad(served, visits) -> None:
+    page = visits.open(served.url, viewport=SIZE)
+    page.evaluate("urdfkit.page.toast('a long message '.repeat(20), 'warning')")
+    toast, *others = (page.locator(f"#{name}").bounding_box() for name in ("toast", "readout", "pad"))
+    for other in others:
+        assert toast["y"] + toast["height"] <= other["y"]
+
+
 def test_plots_of_a_phone_have_the_width_of_the_screen(served, visits) -> None:
     page = visits.open(served.url, viewport={"width": 390, "height": 844})
     page.evaluate("urdfkit.plots.add('/simpleton/odom', 'twist.twist.linear.x')")

@@ -60,6 +60,7 @@ export class Panels {
     this.wanted = [];
     this.changed = () => {}; // called when panels were opened, closed or pinned
     this.chosen = false; // whether the user has opened or closed a panel
+    this.arranged = false; // whether a layout has, so that pinned panels without content at first stay closed
     this.places = new PanelPlaces(this);
     this.narrow = matchMedia("(max-width: 760px)");
   }
@@ -115,7 +116,7 @@ export class Panels {
     panel.available = is;
     this.#offer(panel);
     if (came && this.wanted.includes(id) && this.#offered(panel) && !this.narrow.matches) this.#show(panel, true);
-    if (came && panel.pinned && this.#offered(panel) && !this.narrow.matches) this.#show(panel, true);
+    if (came && panel.pinned && !this.arranged && this.#offered(panel) && !this.narrow.matches) this.#show(panel, true);
     this.#settle();
   }
 
@@ -155,7 +156,7 @@ export class Panels {
 
   /** Open exactly these panels, as far as they are available. @param layout {open, pinned}, lists of names */
   arrange({ open, pinned, ...places }) {
-    this.chosen = true;
+    this.chosen = this.arranged = true;
     this.places.restore(places);
     for (const panel of this.all.values()) {
       panel.pinned = pinned.includes(panel.id);
