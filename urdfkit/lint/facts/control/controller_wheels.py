@@ -1,4 +1,4 @@
-"""Wheels of the ``diff_drive_controller`` in YAML."""
+"""Wheels of the ``diff_drive_controller`` and of steering controllers in YAML."""
 
 from __future__ import annotations
 
@@ -21,6 +21,25 @@ def diff_drives(model: Model) -> Iterator[tuple[Source, ControllerSettings]]:
             for controller in settings(source):
                 if controller.kind == "diff_drive_controller/DiffDriveController":
                     yield source, controller
+
+
+def steering_wheels(model: Model) -> Iterator[tuple[Source, ControllerSettings, str, list[Wheel]]]:
+    """Yield the steering controllers with the parameter of the radius of the driven wheels, and these wheels.
+
+    Source: steering_controllers_library (steering_controllers_library.yaml) of Humble to Rolling.
+    """
+    for source in yamls(model):
+        for controller in settings(source) if "_steering_controller" in source.text else ():
+            if "_steering_controller/" not in controller.kind:
+                continue
+            front = controller.group.find("front_steering")
+            driven = "front" if front is not None and front.text.lower() == "false" else "rear"
+            for side in ("traction_joints", f"{driven}_wheels"):
+                listed = controller.group.find(f"{side}_names")
+                joints = [model.robot.joint_by_name.get(text) for text in listed.texts()] if listed is not None else []
+                wheels = [wheel for joint in joints if joint is not None and (wheel := wheel_of(model, joint, None))]
+                if wheels and len(wheels) == len(joints):
+                    yield source, controller, f"{side.replace('joints', 'wheels')}_radius", wheels
 
 
 def wheels_of(controller: ControllerSettings, model: Model, side: str) -> list[tuple[Node, Wheel]]:

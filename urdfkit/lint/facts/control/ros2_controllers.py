@@ -129,6 +129,9 @@ def wanted(controller: DeclaredController) -> Iterator[Wanted]:
     elif re.fullmatch(r"(ackermann|bicycle|tricycle)_steering_controller/\w+", kind):
         yield from all_of(joints("traction_joints_names"), "velocity", True)
         yield from all_of(joints("steering_joints_names"), "position", True)
+        drive, steering = ("front", "rear") if _truth(settings, "front_steering") is False else ("rear", "front")
+        yield from all_of(joints(f"{drive}_wheels_names"), "velocity", True)  # until Jazzy
+        yield from all_of(joints(f"{steering}_wheels_names"), "position", True)
 
 
 def _truth(settings: Node, name: str) -> bool | None:

@@ -91,6 +91,8 @@ def _pipeline(node: Node) -> Defects:
     ]
     is_old = any(name.startswith("default_planner_request_adapters/") for name in names)
     is_new = any(name.startswith(("default_planning_request", "default_planning_response")) for name in names)
+    if is_old and is_new:
+        yield from _of_both_releases([each for each in (adapters, responses) if each is not None])
     if is_old == is_new or "$" in "".join(names):
         return
     wrong, right = ("planning_plugins", "planning_plugin") if is_old else ("planning_plugin", "planning_plugins")
@@ -108,6 +110,17 @@ def _pipeline(node: Node) -> Defects:
                 "has no time parameterization; add `AddTimeOptimalParameterization`, or trajectories have no times"
             )
             yield key, f"`{name}` {message}"
+
+
+def _of_both_releases(lists: list[Node]) -> Defects:
+    """Yield the adapters of the releases of which a pipeline has fewer adapters."""
+    written = [item for value in lists for item in value.items if item.text.startswith("default_plann")]
+    old = [item for item in written if item.text.startswith("default_planner_request_adapters/")]
+    is_old_rare = 2 * len(old) < len(written)
+    release = "before Jazzy" if is_old_rare else "since Jazzy"
+    for item in written:
+        if (item in old) == is_old_rare and 2 * len(old) != len(written):
+            yield item, f"`{item.text}` is an adapter of releases {release}, unlike the other adapters"
 
 
 _SENSOR_TOPICS = {"PointCloudOctomapUpdater": "point_cloud_topic", "DepthImageOctomapUpdater": "image_topic"}

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from urdfkit.description.xml.source import Source
 from urdfkit.lint.facts.control.yaml_tree import Node, documents, walk, yamls
 from urdfkit.lint.facts.gazebo.plugins import references
+from urdfkit.lint.facts.navigation.sections import sections
 from urdfkit.lint.facts.topics.words import Words
 from urdfkit.lint.model.model import Model
 
@@ -31,6 +32,16 @@ def equal_frames(source: Source) -> Iterator[tuple[Node, str]]:
             first, second = (node.find(name) for name in names)
             if first is not None and second is not None and first.text and first.text == second.text:
                 yield second, f"`{names[0]}` and `{names[1]}` are both `{first.text}`"
+
+
+def frames_with_slash(source: Source) -> Iterator[tuple[Node, str]]:
+    """Yield the frames of nodes of Nav2 that start with a slash, which tf2 refuses (tf2 of ROS 2, buffer_core.cpp)."""
+    for _, group in sections(source) if "frame: " in source.text else ():
+        for node in walk(group):
+            for name in ("global_frame", "robot_base_frame"):
+                value = node.find(name)
+                if value is not None and value.text.startswith("/"):
+                    yield value, f"`{name}` is `{value.text}`; tf2 refuses frames with a slash at the start"
 
 
 def lone_frames(model: Model) -> Iterator[tuple[Source, Node, str]]:

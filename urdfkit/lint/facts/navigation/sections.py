@@ -24,6 +24,17 @@ def sections(source: Source) -> Iterator[tuple[Node, Node]]:
             waiting += [(entry, depth + 1) for entry in value.entries]
 
 
+def costmaps_not_nested(source: Source) -> Iterator[tuple[Node, str]]:
+    """Yield the sections of costmaps that lack the level of the namespace, with the message.
+
+    Source: nav2_costmap_2d (costmap_2d_ros.cpp), Humble to Rolling: the node and its namespace have the same name.
+    """
+    for root in documents(source)[0] if PARAMETERS in source.text else ():
+        for key, value in root.entries:
+            if key.text in COSTMAPS and value.find(PARAMETERS) is not None and value.find(key.text) is None:
+                yield key, f"the node is `/{key.text}/{key.text}`; write `{key.text}:` twice, one level below the other"
+
+
 def costmaps_of_ros1(source: Source) -> Iterator[Node]:
     """Yield the groups of parameters of costmap_2d in a YAML file of ROS 1."""
     if "footprint" not in source.text and "frame" not in source.text:

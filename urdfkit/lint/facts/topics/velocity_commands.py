@@ -15,7 +15,7 @@ from urdfkit.errors import suggestion
 from urdfkit.lint.facts.control.controller_joints import Named, controllers
 from urdfkit.lint.facts.control.ros2_controllers import declared
 from urdfkit.lint.facts.control.ros_gz_bridges import bridged_topics
-from urdfkit.lint.facts.control.yaml_tree import documents, walk, yamls
+from urdfkit.lint.facts.control.yaml_tree import Node, documents, start_of, walk, yamls
 from urdfkit.lint.facts.gazebo.plugins import plugins, references
 from urdfkit.lint.facts.launch.ros_version import reads_ros1
 from urdfkit.lint.facts.nodes.started import LaunchedNode, launched_nodes, parameter_files
@@ -133,6 +133,25 @@ def unread_commands(model: Model) -> Iterator[tuple[Source, Named, str]]:
         shown = ", ".join(f"`{name}`" for name in sorted(readers)[:3])
         what = suggestion(near) if near is not None else f"; the nodes of these packages read {shown}"
         yield node.source, new, f"no node reads the velocity commands on `{new.name}`{what}"
+
+
+def unfed_mux_topics(model: Model) -> Iterator[tuple[Source, Node, str]]:
+    """Yield the topics of a twist_mux that nearly match a topic of velocity commands: file, value and message."""
+    published = set[str]()
+    for node in (each for each in launched_nodes(model) if each.package in _COMMANDS and each.package != "twist_mux"):
+        moved = {old.name.removeprefix("~").strip("/"): new.name.strip("/") for old, new in node.remappings}
+        published.add(moved.get(_COMMANDS[node.package], _COMMANDS[node.package]))
+    words = Words(model)
+    for source in yamls(model) if published else ():
+        entries = [each for root in documents(source)[0] for node in walk(root) for each in node.entries]
+        for group in (value for key, value in entries if key.text == "topics" and "priority" in source.text):
+            for topic in (value.find("topic") for _, value in group.entries if value.find("priority") is not None):
+                name = topic.text.strip("/") if topic is not None else ""
+                near = nearest(name, sorted(published), cutoff=0.85) if name and name not in published else None
+                if topic is None or near is None or near in set(_mux_topics(model)):
+                    continue
+                if not words.names(name, [(source.file, start_of(source, topic))]):
+                    yield source, topic, f"no node publishes velocity commands on `{topic.text}`{suggestion(near)}"
 
 
 def velocity_inputs(model: Model) -> frozenset[str]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from urdfkit.description.urdf.robot import Cylinder, Sphere
 from urdfkit.description.xml.source import Source
 from urdfkit.lint.facts.control.controller_settings import ControllerSettings
 from urdfkit.lint.facts.control.yaml_tree import Node
@@ -71,11 +72,26 @@ class ControllerContradictsWheels(RobotRule):
             return
         from urdfkit.lint.facts.control.controller_wheels import diff_drives, has_other_wheels
 
-        findings: list[Finding] = []
+        findings: list[Finding] = list(self._of_steering(model))
         for source, controller in diff_drives(model):
             findings += self._contradictions(source, controller, model)
         if findings and not has_other_wheels(model):
             yield from findings
+
+    def _of_steering(self, model: Model) -> Findings:
+        """Yield a finding for the radius of driven wheels of a steering controller that differs from the robot's."""
+        from urdfkit.lint.facts.control.controller_wheels import steering_wheels
+
+        for source, controller, name, wheels in steering_wheels(model):
+            links = [model.robot.link_by_name.get(wheel.joint.child or "") for wheel in wheels]
+            shapes = [shape.geometry for link in links if link is not None for shape in link.collisions]
+            radii = [shape.radius for shape in shapes if isinstance(shape, (Cylinder, Sphere)) and shape.radius > 0.0]
+            for parameter, value in _positive_number(controller, name):
+                if radii and not any(abs(value - radius) <= TOLERANCE * radius for radius in radii):
+                    message = f"`{name}` is {value:g} m, but the radius of the wheels is {radii[0]:.6g} m"
+                    names = tuple(str(wheel.joint.child) for wheel in wheels)
+                    joint, help = wheels[0].joint.name, f"write {radii[0]:.6g}"
+                    yield self._at(source, parameter, message, joint, help, names=names)
 
     def _contradictions(self, source: Source, controller: ControllerSettings, model: Model) -> Findings:
         from urdfkit.lint.facts.control.controller_wheels import wheels_of

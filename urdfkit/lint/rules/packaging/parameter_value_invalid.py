@@ -86,9 +86,11 @@ class ParameterValueInvalid(RobotRule):
         from urdfkit.lint.facts.moveit.settings import moveit_yamls
         from urdfkit.lint.facts.navigation.collision_monitors import monitor_defects, mux_defects
         from urdfkit.lint.facts.navigation.defects import navigation_defects
+        from urdfkit.lint.facts.navigation.frames import frames_with_slash
         from urdfkit.lint.facts.navigation.maps import map_defects
         from urdfkit.lint.facts.navigation.nav2_plugins import nav2_defects
         from urdfkit.lint.facts.navigation.odometry_transforms import published_twice
+        from urdfkit.lint.facts.navigation.sections import costmaps_not_nested
         from urdfkit.lint.facts.parameters.node_parameters import node_defects
         from urdfkit.lint.facts.parameters.ranges import out_of_order
 
@@ -101,8 +103,10 @@ class ParameterValueInvalid(RobotRule):
             is_of_controllers, seen = bool(controllers(source)), set[tuple[int, int]]()
             ordered = () if is_of_controllers else out_of_order(source)
             found = (*navigation_defects(source, names), *map_defects(source), *ordered, *nav2_defects(source))
-            found += (*monitor_defects(source), *mux_defects(source))
+            found += (*monitor_defects(source), *mux_defects(source), *frames_with_slash(source))
             for place, message in (*found, *_new(node_defects(source), found)):
+                yield self.at_span(span_of(source, place), message)
+            for place, message in costmaps_not_nested(source):
                 yield self.at_span(span_of(source, place), message)
             for node in (node for root in documents(source)[0] for node in walk(root)):
                 if (node.line, node.column) in seen:  # an alias
@@ -139,6 +143,12 @@ def _in_any(node: Node, is_of_moveit: bool) -> Iterator[tuple[Node, str]]:
         is_limit = is_of_moveit and re.fullmatch(r"has_\w+_limits", key.text)  # moveit-setting-invalid reports these
         if value.is_plain and re.fullmatch(_MISSPELT, value.text) and not is_limit:
             yield value, f"`{value.text}` is a text; did you mean `{'true' if value.text[0] in 'tT' else 'false'}`?"
+        joints = node.find("joints") if key.text == "positions" and value.kind == "list" else None
+        is_flat = (
+            joints is not None and joints.kind == "list" and value.items and all(each.text for each in value.items)
+        )
+        if joints is not None and is_flat and len(joints.items) != len(value.items):
+            yield key, f"`positions` has {len(value.items)} values, but `joints` has {len(joints.items)} names"
         if re.fullmatch(_SENSOR_CONFIG, key.text) and value.kind == "list" and len(value.items) != 15:
             yield key, f"`{key.text}` has {len(value.items)} values; robot_localization requires 15"
 

@@ -43,10 +43,14 @@ class TopicUnconnected(RobotRule):
         """Yield a finding for each remapping without an effect, and for each topic that no node reads."""
         from urdfkit.lint.facts.control.yaml_tree import span_of
         from urdfkit.lint.facts.topics.monitored_commands import unconnected_monitors
-        from urdfkit.lint.facts.topics.velocity_commands import misnamed_remappings, unread_commands
+        from urdfkit.lint.facts.topics.velocity_commands import (
+            misnamed_remappings,
+            unfed_mux_topics,
+            unread_commands,
+        )
 
         for source, name, message in (*misnamed_remappings(model), *unread_commands(model)):
             span = source.span(name.start, name.start + len(name.name))
             yield self.at_span(span, message)
-        for source, value, message in unconnected_monitors(model):
+        for source, value, message in (*unconnected_monitors(model), *unfed_mux_topics(model)):
             yield self.at_span(span_of(source, value), message)
