@@ -796,6 +796,11 @@ def test_plots_of_a_phone_have_the_width_of_the_screen(served, visits) -> None:
     plot, legend = (page.locator(f"#panel-plots .{name}").bounding_box() for name in ("plot", "legend"))
     assert plot["width"] > 340
     assert legend["y"] >= plot["y"] + plot["height"]
+    page.set_viewport_size({"width": 844, "height": 390})  # on its side
+    page.evaluate("urdfkit.page.panels.open('plots')")
+    sized(page)
+    pad, pane = (page.locator(f"#{name}").bounding_box() for name in ("pad", "pane"))
+    assert pad["y"] > pane["y"] + 30  # below the read-out
 
 
 def test_symbols_of_many_centres_of_mass_are_smaller(page) -> None:
