@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 
@@ -81,6 +83,35 @@ def test_shadows_lie_where_something_stands_between(casts: bool) -> None:
     dark = picture.rgb.max(axis=-1) == 0
     assert dark[floor & inside].all() == casts
     assert not dark[floor & outside].any()
+
+
+def test_the_picture_does_not_depend_on_the_rays_that_share_a_packet() -> None:
+    """Shadow rays of far points are cast in packets of their own; here in any order of the pixels."""
+    lights = (
+        Light("sun", "directional", direction=(0.2, 1.0, -1.0), diffuse=(0.6, 0.6, 0.6, 1.0), specular=(1, 1, 1, 1)),
+        Light("lamp", "point", Pose((1.0, 0.0, 4.0)), diffuse=(0.5, 0.3, 0.3, 1.0)),
+    )
+    shiny = {"gloss": (0.5, 0.5, 0.5, 20.0)}
+    near, far = (
+        visual(Sphere(0.3), "near", (0.3, 0.0, 3.5), **shiny),
+        visual(Box((1, 1, 1)), "far", (0, 0, 0.5), **shiny),
+    )
+    renderer, lens = rendering(FLOOR, near, far, lighting=lit(*lights, ambient=(0.1, 0.1, 0.1))), Lens(40, 30, 1.0)
+    picture = renderer.take(lens, pose_matrix(DOWN))
+    other = np.random.default_rng(5).permutation(40 * 30)
+    shuffled = SimpleNamespace(
+        width=40,
+        height=30,
+        focal_length=lens.focal_length,
+        directions=np.ascontiguousarray(lens.directions[other]),
+        order=lens.order[other],
+    )
+    assert np.array_equal(renderer.take(shuffled, pose_matrix(DOWN)).rgb, picture.rgb)
+    threaded = RayRenderer(renderer.table, lit(*lights, ambient=(0.1, 0.1, 0.1)), threads=3).take(
+        Lens(200, 150, 1.0), pose_matrix(DOWN)
+    )
+    assert np.array_equal(threaded.rgb, renderer.take(Lens(200, 150, 1.0), pose_matrix(DOWN)).rgb)
+    assert len(np.unique(picture.rgb.reshape(-1, 3), axis=0)) > 100
 
 
 def test_lamps_fade_and_spots_have_an_edge() -> None:

@@ -23,6 +23,8 @@ NEEDS = {
     **dict.fromkeys(("motion", "seconds"), ("video",)),
 }
 """Option → options that use it."""
+MANY_TRIANGLES = 20_000
+"""Number of triangles from which on a picture takes seconds and is announced."""
 
 
 def add_picture_options(parser: argparse.ArgumentParser) -> None:
@@ -143,6 +145,8 @@ def write_pictures(arguments: argparse.Namespace, shown: ShownRobot) -> None:
     if arguments.image is not None:
         size, file = _size(arguments.size, "image"), Path(arguments.image)
         studio = Studio(shown.scene, poses)
+        if studio.triangle_count > MANY_TRIANGLES and not arguments.quiet:
+            note(f"rendering {size[0]} × {size[1]} pixels of {studio.triangle_count:,} triangles …")
         camera = camera_of(studio, [poses], size, direction)
         pixels = studio.picture(poses, camera, *size, is_transparent=arguments.transparent)
         write_bytes(file, _image(pixels, file))

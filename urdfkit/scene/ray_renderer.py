@@ -1,5 +1,6 @@
 """RayRenderer: images of a scene with colour, depth and shape of each pixel, by ray casting."""
 
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 
 import numpy as np
@@ -10,13 +11,16 @@ from urdfkit.scene.camera_model import Lens, spread
 from urdfkit.scene.lights import Lighting
 from urdfkit.scene.rays.kernels import outliner, tracer
 from urdfkit.scene.rays.ray_casting import SCRATCH
-from urdfkit.scene.rays.ray_packet import FAR
+from urdfkit.scene.rays.ray_packet import FAR, WIDTH
 from urdfkit.scene.rays.ray_scene import RayTable
 from urdfkit.scene.rays.shading.materials import occluders_of, paint_of
 from urdfkit.scene.rays.shading.shading_buffers import BUFFER_SIZE
 
 ALIKE = 8
 """Largest difference between the channels of neighbouring pixels that is not an edge [of 255]."""
+
+PART = 256 * WIDTH
+"""Number of rays that a thread traces at once."""
 
 MOST_RAYS = 4_000_000
 """Maximum number of rays that are cast at once for edge pixels."""
@@ -43,13 +47,14 @@ class RayRenderer:
     Args:
         table: the shapes; the caller places them.
         lighting: the lights.
+        threads: number of threads that share the rays of an image; the image does not depend on it.
 
     Attributes:
         paint: materials of the shapes, see `paint_of`.
     """
 
-    def __init__(self, table: RayTable, lighting: Lighting) -> None:
-        self.table = table
+    def __init__(self, table: RayTable, lighting: Lighting, *, threads: int = 1) -> None:
+        self.table, self._threads = table, threads
         self._lights, self._air = lighting.lights, lighting.air
         self.paint, self._occluders = paint_of(table), occluders_of(table)
 
@@ -110,9 +115,22 @@ class RayRenderer:
         placed, count = np.asarray(frame, dtype=float), len(directions)
         rgb, depths = np.empty((count, 3), dtype=np.uint8), np.empty(count)
         hits = np.empty(count, dtype=np.int64)
-        tracer()(
-            self.table.kernel_scene, self._occluders, self.paint, self._lights, self._air,
-            np.concatenate([placed[:3, :3].ravel(), placed[:3, 3], [1.0 / lens.focal_length]]), directions, order,
-            float(near), float(min(far, FAR)), np.empty(SCRATCH), np.empty(BUFFER_SIZE), rgb, depths, hits,
-        )  # fmt: skip
+        kernel = tracer()
+        camera = np.concatenate([placed[:3, :3].ravel(), placed[:3, 3], [1.0 / lens.focal_length]])
+
+        def trace(first: int) -> None:
+            part = slice(first, first + size)
+            kernel(
+                self.table.kernel_scene, self._occluders, self.paint, self._lights, self._air, camera, directions[part],
+                order[part], float(near), float(min(far, FAR)), np.empty(SCRATCH), np.empty(BUFFER_SIZE), rgb, depths,
+                hits,
+            )  # fmt: skip
+
+        if self._threads == 1:
+            size = count
+            trace(0)
+        else:
+            size = PART
+            with ThreadPoolExecutor(self._threads) as pool:
+                list(pool.map(trace, range(0, count, size)))
         return rgb, depths, hits

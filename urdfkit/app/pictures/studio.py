@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from dataclasses import replace
 from math import pi, sqrt
 from typing import Any
@@ -70,6 +71,9 @@ class Studio:
         scene: the shapes.
         poses: poses of the bodies while the floor is laid under them, x y z [m] and quaternion x y z w.
         directions: of the lights, `PICTURE` or `FILM`.
+
+    Attributes:
+        triangle_count: number of triangles of all meshes.
     """
 
     def __init__(self, scene: Scene, poses: ArrayLike, directions: tuple[int, int] = PICTURE) -> None:
@@ -94,7 +98,8 @@ class Studio:
         )
         lit = [shape if shape.gloss[3] else replace(shape, gloss=SHEEN) for shape in self._shapes]
         table = RayTable(Scene(self._bodies, (*self._shapes, plane)), (*lit, plane))
-        self._renderer = RayRenderer(table, lighting)
+        self._renderer = RayRenderer(table, lighting, threads=os.cpu_count() or 1)
+        self.triangle_count = table.triangle_count
         attributes = self._renderer.paint[3]
         attributes[attributes[:, GLOSS + 3] == 0.0, GLOSS:] = SHEEN
 

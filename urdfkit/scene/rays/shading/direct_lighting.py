@@ -14,7 +14,9 @@ from urdfkit.scene.rays.shading.shading_buffers import (
     NORMAL,
     SHAPE,
     SPECULAR,
+    TRAVELLED,
     VIEW,
+    WAITING,
 )
 
 LIGHT = 21
@@ -25,39 +27,83 @@ colour (3)."""
 DIRECTIONAL, POINT, SPOT = 0, 1, 2
 """Kinds of lights."""
 
+NEIGHBOURING = 0.02
+"""Largest difference between the distances of hit points whose shadow rays share a packet, of the distance."""
+
+CASTING = -1.0
+"""Marks the rays of the current packet of shadow rays."""
+
 
 @compiled
 def add_light(work: Any, scene: Any, lights: Any, light: int, buffers: Any) -> None:
     """Add one light to the hit points that it reaches."""
-    wanted = -1
+    lit = 0
     for k in range(WIDTH):
         gain = 0.0
         if buffers[SHAPE + k] >= 0:
             gain = aim_at_light(work, lights, light, buffers, k)
         buffers[GAIN + k] = gain
-        if gain > 0.0:
-            wanted = k
-    if wanted < 0:
+        lit += 1 if gain > 0.0 else 0
+    if lit == 0:
         return
     if lights[light, 11] != 0.0:
-        for k in range(WIDTH):
-            if buffers[GAIN + k] <= 0.0:  # an inactive ray: a copy of an active one with length zero
-                work[REACH + k] = 0.0
-                for c in range(3):
-                    source, row = AT + c * WIDTH + wanted, c * WIDTH + k
-                    work[OX + row] = buffers[source]
-                    work[DX + row] = work[DX + c * WIDTH + wanted]
-            work[HIT + k], work[PART + k] = -1.0, -1.0
-        traverse(work, scene, 0.0)
-        for k in range(WIDTH):
-            if work[HIT + k] >= 0.0:
-                buffers[GAIN + k] = 0.0
+        cast_shadows(work, scene, lights, light, buffers, lit)
     for c in range(3):
         for k in range(WIDTH):
             buffers[LIGHT_SUM + c * WIDTH + k] += buffers[GAIN + k] * lights[light, 4 + c]
     for k in range(WIDTH):
         if buffers[EXPONENT + k] > 0.0 and buffers[GAIN + k] > 0.0:
             add_highlight(work, lights, light, buffers, k)
+
+
+@compiled
+def cast_shadows(work: Any, scene: Any, lights: Any, light: int, buffers: Any, lit: int) -> None:
+    """Cast the rays that are aimed at a light; set the gain of the blocked ones to zero.
+
+    Hit points at an outline are far apart. Rays from them would enter most of the scene together, so each packet has
+    the rays of one surface only.
+
+    Args:
+        work: the packet, with the aimed rays.
+        scene: see `camera_picture.trace`.
+        lights: see there.
+        light: index of the light.
+        buffers: see there; the gain of rays without light is zero.
+        lit: number of rays with light.
+    """
+    for k in range(WIDTH):
+        buffers[WAITING + k] = buffers[GAIN + k]
+    leader, waiting, packets = 0, lit, 0
+    while waiting > 0:
+        while buffers[WAITING + leader] <= 0.0:
+            leader += 1
+        shape, depth = buffers[SHAPE + leader], buffers[TRAVELLED + leader]
+        for k in range(WIDTH):
+            is_near = abs(buffers[TRAVELLED + k] - depth) <= NEIGHBOURING * depth
+            if is_near and buffers[WAITING + k] > 0.0 and buffers[SHAPE + k] == shape:
+                buffers[WAITING + k] = CASTING
+                waiting -= 1
+                if packets > 0:  # an earlier packet of this light had another ray in its place
+                    aim_at_light(work, lights, light, buffers, k)
+        for k in range(WIDTH):
+            if buffers[WAITING + k] != CASTING:  # an inactive ray: a copy of an active one with length zero
+                work[REACH + k] = 0.0
+                for c in range(3):
+                    row = c * WIDTH
+                    work[OX + row + k] = work[OX + row + leader]
+                    work[DX + row + k] = work[DX + row + leader]
+            work[HIT + k], work[PART + k] = -1.0, -1.0
+        traverse(work, scene, 0.0)
+        for k in range(WIDTH):
+            if buffers[WAITING + k] == CASTING:
+                buffers[WAITING + k] = 0.0
+                if work[HIT + k] >= 0.0:
+                    buffers[GAIN + k] = 0.0
+        packets += 1
+    if packets > 1:  # highlights need the rays of all packets
+        for k in range(WIDTH):
+            if buffers[GAIN + k] > 0.0:
+                aim_at_light(work, lights, light, buffers, k)
 
 
 @compiled

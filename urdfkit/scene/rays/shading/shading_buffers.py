@@ -10,6 +10,8 @@ SHAPE, GAIN, ALPHA, TRANSMITTED, TRAVELLED, DEPTH, FIRST = (row * WIDTH for row 
 distance and shape of the first hit."""
 SPECULAR, EXPONENT, HIGHLIGHT = (row * WIDTH for row in (25, 28, 29))
 """Specular colour and exponent of the surface (zero: matt), and the reflected highlight."""
-TEXTURE_COLOR = 32 * WIDTH
+WAITING = 32 * WIDTH
+"""Whether the ray waits for its packet of shadow rays (positive), is in the current one, or is done (zero)."""
+TEXTURE_COLOR = 33 * WIDTH
 BUFFER_SIZE = TEXTURE_COLOR + 4
 """Size of the buffers; the last four numbers are a colour from a texture."""
