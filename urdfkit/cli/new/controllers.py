@@ -274,11 +274,12 @@ def _included(path: Path, text: str, title: str) -> list[Alteration]:
 
 
 def _dependency(path: Path, package: str, generation: str) -> list[Alteration]:
-    """Return the change to package.xml that adds the dependency on the controllers' package."""
+    """Return the change to package.xml that adds the dependency on the controllers' package; in ROS 1, the plugin's."""
     from urdfkit.scaffold.additions.package_manifest import package_of, with_dependency
 
     own = package_of(path)
-    if own is None or generation == "classic":
+    if own is None:
         return []
-    needed = with_dependency(own, package, alone=True)
+    is_ros1 = generation == "classic"
+    needed = with_dependency(own, "gazebo_ros_control" if is_ros1 else package, alone=not is_ros1)
     return [needed] if needed is not None else []

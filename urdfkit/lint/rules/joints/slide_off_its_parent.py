@@ -1,6 +1,6 @@
 """J424 slide-off-its-parent."""
 
-from math import inf, sqrt
+from math import hypot, inf
 
 from urdfkit.description.urdf.geometry import rotate, rotation_of, unit
 from urdfkit.description.urdf.robot import Joint, Pose, Vector
@@ -103,7 +103,7 @@ def _gap(joint: Joint, axis: Vector, positions: tuple[float, ...], parent: Exten
         x, y, z = (a + position * b for a, b in zip(joint.origin.xyz, direction, strict=True))
         low, high = _around(Frame().moved(Pose((x, y, z), joint.origin.rpy)), child)
         sides = zip(parent.low, parent.high, low, high, strict=True)
-        largest = max(largest, sqrt(sum(max(a - d, c - b, 0.0) ** 2 for a, b, c, d in sides)))
+        largest = max(largest, hypot(*(max(a - d, c - b, 0.0) for a, b, c, d in sides)))
     return largest
 
 
