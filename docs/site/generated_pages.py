@@ -43,9 +43,11 @@ _PROSE: dict[str, str] = {}
 
 
 def on_files(files: Files, *, config: MkDocsConfig) -> Files:
-    """Add the generated pages."""
+    """Add the generated pages, and the script of the copy buttons."""
     for name, text in pages().items():
         files.append(File.generated(config, name, content=text))
+    script = (Path(__file__).parent / "copy_commands.js").read_text("utf-8")
+    files.append(File.generated(config, "javascripts/copy_commands.js", content=script))
     return files
 
 

@@ -10,10 +10,12 @@ import sys
 from pathlib import Path
 
 import pytest
+import yaml
 
 import urdfkit
 from urdfkit.cli import COMMANDS
 from urdfkit.errors import UsageError
+from urdfkit.lint.catalogue import page as rule_page
 from urdfkit.lint.catalogue import rules
 from urdfkit.lint.engine import settings
 
@@ -50,9 +52,52 @@ def test_the_strict_build_has_every_page(tmp_path: Path) -> None:
         assert page.count('class="highlight"') >= sum(cell["cell_type"] == "code" for cell in cells)
         assert (tmp_path / f"notebooks/{notebook.stem}.ipynb").is_file()
         assert f"notebooks/{notebook.stem}.html" in (tmp_path / "guides/notebook.html").read_text("utf-8")
+    index = json.loads((tmp_path / "search/search_index.json").read_text("utf-8"))
+    assert index["config"]["separator"] == search_separator()
+    titles = {entry["title"] for entry in index["docs"]}
+    assert {rule_page(rule).partition("\n")[0].removeprefix("# ") for rule in rules()} <= titles
+    assert (tmp_path / "javascripts/copy_commands.js").is_file()
+    assert "javascripts/copy_commands.js" in (tmp_path / "index.html").read_text("utf-8")
     assert "The same seed and the same calls give bit-identical results." in (
         reference / "api/Simulator.html"
     ).read_text("utf-8")
+
+
+def search_separator() -> str:
+    """Return the regular expression that divides the texts and the queries of the site's search into tokens."""
+    settings = yaml.load((ROOT / "docs/site/mkdocs.yml").read_text("utf-8"), yaml.BaseLoader)
+    return str(next(plugin["search"] for plugin in settings["plugins"] if "search" in plugin)["separator"])
+
+
+def test_the_search_finds_rules_and_methods_by_name() -> None:
+    def tokens(text: str) -> list[str]:
+        return [token for token in re.split(search_separator(), text) if token]
+
+    for rule in rules():
+        assert rule.code in tokens(rule_page(rule).partition("\n")[0])
+    assert tokens("urdfkit.Simulator.run(seconds)") == ["urdfkit", "Simulator", "run", "seconds"]
+    assert tokens('"package://robot/mesh.stl"') == ["package", "robot", "mesh", "stl"]
+    assert tokens("use_sim_time: 0.25") == ["use", "sim", "time", "0.25"]
+
+
+CONSOLE = """# a comment
+$ urdfkit lint robot.urdf
+robot.urdf:3:5: error: $ is no prompt here
+$ urdfkit sim run robot.urdf \\
+    --for 5 \\
+> --quiet
+> output
+"""
+
+
+@pytest.mark.node
+def test_the_copy_button_of_a_console_block_copies_its_commands() -> None:
+    program = "const {commandsOf} = require(process.argv[1]); const texts = JSON.parse(process.argv[2]);"
+    program += "console.log(JSON.stringify(texts.map(commandsOf)))"
+    script, texts = str(ROOT / "docs/site/copy_commands.js"), json.dumps([CONSOLE, "only output\n"])
+    done = subprocess.run(["node", "-e", program, script, texts], capture_output=True, text=True, check=True)
+    commands = "urdfkit lint robot.urdf\nurdfkit sim run robot.urdf \\\n    --for 5 \\\n--quiet"
+    assert json.loads(done.stdout) == [commands, ""]
 
 
 def test_the_page_of_settings_lists_each_and_its_example_is_valid(tmp_path: Path) -> None:
