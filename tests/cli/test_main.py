@@ -8,6 +8,7 @@ import pytest
 
 import urdfkit
 from urdfkit.cli import COMMANDS, main
+from urdfkit.cli.unknown_command import OTHER_NAMES
 
 
 def test_version(capsys: pytest.CaptureFixture[str]) -> None:
@@ -46,11 +47,16 @@ def test_a_typo_gets_the_nearest_command(capsys: pytest.CaptureFixture[str]) -> 
 
 @pytest.mark.parametrize(
     ("word", "meant"),
-    [("simulate", "sim"), ("teleop", "sim teleop"), ("telop", "sim teleop"), ("check", "lint"), ("Lint", "lint")],
+    [("simulate", "sim"), ("teleop", "sim teleop"), ("telop", "sim teleop"), ("check", "lint"), ("Lint", "lint")]
+    + [(word, "format") for word in ("formt", "fromat", "frmat", "formatt", "foramt", "fmt")],
 )
 def test_a_word_that_is_no_command_names_the_nearest_command(word, meant, capsys):
     assert main([word, "simpleton"]) == 2
     assert capsys.readouterr().err == f"urdfkit: unknown command `{word}`; did you mean `urdfkit {meant}`?\n"
+
+
+def test_other_names_of_commands_hide_no_command() -> None:
+    assert not OTHER_NAMES.keys() & COMMANDS.keys()
 
 
 def test_a_word_similar_to_no_command_refers_to_the_help(capsys):
