@@ -16,7 +16,7 @@ function commandsOf(text) {
 }
 
 if (typeof document !== "undefined") {
-  // Before the theme's own listener, whose target is the body; new pages and late buttons need no further setup.
+  // In the capturing phase, before the handler of the theme; buttons that the theme adds later need no further setup.
   document.addEventListener("click", (event) => {
     const button = event.target.closest(".language-console [data-clipboard-target]");
     const code = button && document.querySelector(button.dataset.clipboardTarget);
