@@ -79,7 +79,7 @@ def test_the_search_finds_rules_and_methods_by_name() -> None:
         assert rule.code in tokens(rule_page(rule).partition("\n")[0])
     assert tokens("urdfkit.Simulator.run(seconds)") == ["urdfkit", "Simulator", "run", "seconds"]
     assert tokens('"package://robot/mesh.stl"') == ["package", "robot", "mesh", "stl"]
-    assert tokens("use_sim_time: 0.25") == ["use", "sim", "time", "0.25"]
+    assert tokens("use_sim_time: 0.25") == ["use_sim_time", "0.25"]
 
 
 CONSOLE = """# a comment
