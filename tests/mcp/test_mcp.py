@@ -98,6 +98,36 @@ def test_an_unknown_argument_is_refused_with_the_nearest(folder: Path) -> None:
 
 
 @pytest.mark.slow
+def test_a_wrong_call_is_refused_in_one_line_that_names_the_argument(folder: Path) -> None:
+    tip = {"robot": "seven_dof_arm", "tip": "grasping_frame"}
+
+    async def work(client: Client) -> None:
+        for tool, arguments, message in (
+            ("sim_run", {"robot": "simpleton"}, "sim_run: missing argument `seconds`, a number"),
+            ("sim_run", {"robot": "simpleton", "seconds": "ten"}, 'sim_run: `seconds` is "ten", not a number'),
+            ("sim_run", {"robot": "simpleton", "seconds": 1e9}, "seconds is 1e+09; use more than 0 and at most 600"),
+            ("ik", {**tip, "xyz": [1, 2]}, "ik: `xyz` is [1, 2], not 3 numbers"),
+            ("ik", {"tip": "a", "xyz": "q"}, 'ik: missing argument `robot`, a string; `xyz` is "q", not 3 numbers'),
+            ("ik", {**tip, "xyz": [1, 2, 3], "rpy": 1}, "ik: `rpy` is 1, not 3 numbers"),
+            ("fix", {"path": "bad.urdf", "write": "perhaps"}, 'fix: `write` is "perhaps", not true or false'),
+            ("picture", {"robot": "r", "width": "1.5"}, 'picture: `width` is "1.5", not an integer'),
+            (
+                "picture",
+                {"robot": "r", "joints": {"a": "b"}},
+                'picture: `joints` is {"a": "b"}, not an object of numbers',
+            ),
+            ("lint", {"arguments": [1]}, "lint: `arguments` is [1], not an object of strings"),
+            ("lint", {"path": "../x"}, f"`../x` is outside of the folder {folder}; the server reads no other folder"),
+            ("lnit", {}, "unknown tool `lnit`; did you mean `lint`?"),
+        ):
+            refused = await client.call_tool(tool, arguments)
+            assert refused.is_error
+            assert refused.content[0].text == message
+
+    session(folder, work)
+
+
+@pytest.mark.slow
 def test_an_assistant_writes_fixes_where_the_server_permits_it(folder: Path) -> None:
     async def work(client: Client) -> None:
         arguments = {"path": "bad.urdf", "unsafe": True, "write": True}

@@ -13,8 +13,10 @@ import anyio.to_thread
 from mcp.server.mcpserver import Image, MCPServer
 from mcp.server.mcpserver.exceptions import ToolError
 from mcp.types import Tool, ToolAnnotations
+from pydantic import ValidationError
 
 from urdfkit import __version__
+from urdfkit.cli.mcp.argument_errors import unknown_argument, wrong_arguments
 from urdfkit.errors import UrdfkitError, did_you_mean
 
 if TYPE_CHECKING:
@@ -39,7 +41,7 @@ async def _in_thread(call: Callable[[], Any]) -> Any:
 
 
 class _StrictServer(MCPServer):
-    """Server whose tools refuse unknown arguments, which the package mcp ignores."""
+    """Server whose tools refuse unknown arguments, which the package mcp ignores, with messages of one line."""
 
     async def list_tools(self) -> list[Tool]:
         """Return the tools; their schemas allow no other arguments."""
@@ -54,13 +56,20 @@ class _StrictServer(MCPServer):
         Raises:
             ToolError: the tool lacks an argument, or fails.
         """
-        for tool in await self.list_tools():
-            valid = tool.input_schema.get("properties", {})
-            for word in arguments if tool.name == name else ():
-                if word not in valid:
-                    hint = did_you_mean(word, valid) or f"; arguments: {', '.join(valid)}"
-                    raise ToolError(f"`{name}` has no argument `{word}`{hint}")
-        return await super().call_tool(name, arguments, context)
+        tools = {tool.name: tool for tool in await self.list_tools()}
+        if name not in tools:
+            raise ToolError(f"unknown tool `{name}`{did_you_mean(name, tools)}")
+        if (message := unknown_argument(tools[name], arguments)) is not None:
+            raise ToolError(message)
+        try:
+            return await super().call_tool(name, arguments, context)
+        except ToolError as error:  # its text has the prefix `Error executing tool`, and its cause has not
+            if isinstance(error.__cause__, ValidationError):
+                names = [str(each["loc"][0]) for each in error.__cause__.errors()]
+                raise ToolError(wrong_arguments(tools[name], arguments, names)) from None
+            if isinstance(error.__cause__, ToolError):
+                raise error.__cause__ from None
+            raise
 
 
 def server_for(calls: ToolCalls, *, allow_fixes: bool) -> MCPServer:
