@@ -17,7 +17,20 @@ _SPDX = {
 }
 """Licence as packages name it → its SPDX identifier, where that is certain; `BSD License` has two or three clauses."""
 
-_VAGUE = r"any-OSI|OSI Approved|unknown|Copyright\b.*|"
+BY_LICENCE_FILE = {
+    "apsw": "Zlib OR any-OSI",
+    "cmeel-qhull": "Qhull",
+    "cyclonedds": "EPL-2.0 OR BSD-3-Clause",
+    **dict.fromkeys(("locket", "numba"), "BSD-2-Clause"),
+    **dict.fromkeys(
+        ("colorama", "contourpy", "cycler", "ipython-pygments-lexers", "jinja2", "kiwisolver"), "BSD-3-Clause"
+    ),
+    **dict.fromkeys(("lz4", "mpmath", "partd", "prompt-toolkit", "pycollada", "scipy", "sympy"), "BSD-3-Clause"),
+    **dict.fromkeys(("traitlets", "xacro", "zict"), "BSD-3-Clause"),
+}
+"""Distribution whose metadata name no SPDX identifier → that of its licence file, which its wheel contains."""
+
+_VAGUE = r"any-OSI|OSI Approved|unknown|BSD(?: License)?|Copyright\b.*|"
 """Matches texts that name no licence."""
 
 
@@ -33,7 +46,7 @@ def required(name: str = "urdfkit") -> list[Distribution]:
     pending = [(name, True)]
     while pending:
         each, with_extras = pending.pop()
-        key = re.sub(r"[-_.]+", "-", each).lower()
+        key = _normalized(each)
         if key in found:
             continue
         try:
@@ -47,6 +60,10 @@ def required(name: str = "urdfkit") -> list[Distribution]:
     own = found.pop(name, None)
     rest = sorted(found.values(), key=lambda each: each.metadata["Name"].lower())
     return [own, *rest] if own is not None else rest
+
+
+def _normalized(name: str) -> str:
+    return re.sub(r"[-_.]+", "-", name).lower()
 
 
 def _is_for_tests(requirement: str) -> bool:
@@ -79,5 +96,7 @@ def _licence_of_metadata(package: Distribution) -> str:
 
 
 def spdx_expression(package: Distribution) -> str:
-    """Return the licence of a distribution as an SPDX expression; empty without one."""
-    return str(package.metadata["License-Expression"]) if "License-Expression" in package.metadata else ""
+    """Return the licence of a distribution as an SPDX expression; empty if neither metadata nor its file are known."""
+    if "License-Expression" in package.metadata:
+        return str(package.metadata["License-Expression"])
+    return BY_LICENCE_FILE.get(_normalized(package.metadata["Name"]), "")
