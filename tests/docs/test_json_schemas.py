@@ -63,6 +63,8 @@ COMMANDS_OF: dict[str, list[tuple[str, ...]]] = {
     "licenses": [("licenses",)],
     "topic-list": [("topic", "list")],
     "topic-info": [("topic", "info", "/simpleton/odom")],
+    "topic-hz": [("topic", "hz", "/simpleton/odom", "--once"), ("topic", "hz", "/clock", "--once", "--wall-time")],
+    "topic-bw": [("topic", "bw", "/simpleton/odom", "--once")],
     "service-list": [("service", "list"), ("service", "list", "--types")],
     "action-list": [("action", "list")],
 }
@@ -70,8 +72,6 @@ COMMANDS_OF: dict[str, list[tuple[str, ...]]] = {
 PLAIN = {
     "topic find",
     "topic type",
-    "topic hz",
-    "topic bw",
     "topic echo",
     "service find",
     "service type",
