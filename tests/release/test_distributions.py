@@ -69,6 +69,12 @@ def test_upper_bounds_have_a_reason() -> None:
     assert all(reason in page for reason in reasons.values())
 
 
+def test_the_page_of_the_installation_states_the_purpose_of_each_core_dependency() -> None:
+    (core,) = re.findall(r"^dependencies = \[(.*)\]$", (ROOT / "pyproject.toml").read_text(), re.MULTILINE)
+    rows = re.findall(r"^\| (\w+)[^|]* \| [^|\d]+", (ROOT / "docs/install.md").read_text(), re.MULTILINE)
+    assert {name.lower() for name in re.findall(r'"([\w-]+)', core)} <= {row.lower() for row in rows}
+
+
 def test_licences_of_the_table_agree_with_the_licence_files() -> None:
     for name, expression in BY_LICENCE_FILE.items():
         try:
