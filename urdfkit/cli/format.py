@@ -90,6 +90,7 @@ def _files(words: list[str], *, quiet: bool) -> Iterator[Path]:
     Raises:
         ResourceError: a path does not exist.
     """
+    from urdfkit.description.xml.reader import shown_path
     from urdfkit.lint.fixes.generated_files import reason_if_generated
     from urdfkit.lint.project.description_files import walk
 
@@ -107,7 +108,9 @@ def _files(words: list[str], *, quiet: bool) -> Iterator[Path]:
                 if not reason:
                     yield file
                 elif not quiet:
-                    print(f"urdfkit: {file} is skipped: {reason}; name the file to format it", file=sys.stderr)
+                    print(
+                        f"urdfkit: {shown_path(file)} is skipped: {reason}; name the file to format it", file=sys.stderr
+                    )
 
 
 def _change(path: Path, arguments: argparse.Namespace) -> FileChange | None:
