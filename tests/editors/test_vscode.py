@@ -13,17 +13,28 @@ import pytest
 FOLDER = Path(__file__).parents[2] / "editors" / "vscode"
 
 
-@pytest.mark.node
-@pytest.mark.slow
-def test_the_extension() -> None:
-    pytest.importorskip("meshcat")
-    command = "\n".join([sys.executable, "-m", "urdfkit"])
-    environment = {**os.environ, "URDFKIT_COMMAND": command}
+def extension_tests(*command: str) -> str:
+    """Return the output of the tests of the extension, which run a command in place of ``urdfkit``."""
+    environment = {**os.environ, "URDFKIT_COMMAND": "\n".join(command)}
     done = subprocess.run(
         ["node", "--test", "test"], cwd=FOLDER, env=environment, capture_output=True, text=True, check=False
     )
     assert done.returncode == 0, done.stdout + done.stderr
-    assert "# pass 5" in done.stdout
+    return done.stdout
+
+
+@pytest.mark.node
+@pytest.mark.slow
+def test_the_extension() -> None:
+    pytest.importorskip("meshcat")
+    assert "# pass 5" in extension_tests(sys.executable, "-m", "urdfkit")
+
+
+@pytest.mark.node
+def test_the_extension_without_urdfkit_skips_the_preview() -> None:
+    shown = extension_tests("no-such-program")
+    assert "# pass 4" in shown
+    assert "# SKIP cannot run `no-such-program --version`; install urdfkit, or set URDFKIT_COMMAND" in shown
 
 
 def test_the_files_of_the_manifest_exist() -> None:
