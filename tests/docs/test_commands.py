@@ -10,6 +10,7 @@ from pathlib import Path
 import pytest
 
 from tests.docs import course
+from urdfkit.cli import COMMANDS
 
 ROOT = Path(__file__).parents[2]
 PAGES = [
@@ -50,6 +51,11 @@ def shown_commands(page: Path) -> list[tuple[str, str]]:
     return [
         (line or span, output) for line, output, span in found if line or (len(span.split()) > 2 and "…" not in span)
     ]
+
+
+def test_the_table_of_the_readme_has_every_command() -> None:
+    rows = re.findall(r"^\| `urdfkit ([a-z]+)", (ROOT / "README.md").read_text("utf-8"), re.MULTILINE)
+    assert set(rows) == set(COMMANDS)
 
 
 @pytest.fixture
