@@ -46,15 +46,11 @@ def test_a_page_with_changes_explains_their_signs(page: Path) -> None:
     assert not diff or re.search(r"lines?\s+with\s+`-`", before)
 
 
-TIMED = [
-    *sorted((ROOT / "docs/tutorials").glob("*.md")),
-    ROOT / "docs/guides/from_cad.md",
-    ROOT / "docs/guides/own_plugins.md",
-]
+TIMED = [page for folder in ("tutorials", "guides") for page in sorted((ROOT / "docs" / folder).glob("*.md"))]
 
 
 @pytest.mark.parametrize("page", TIMED, ids=lambda page: page.name)
-def test_a_tutorial_states_how_long_it_takes(page: Path) -> None:
+def test_a_tutorial_or_guide_states_how_long_it_takes(page: Path) -> None:
     text = page.read_text("utf-8")
     stated = re.search(r"^Time: about (\d+) minutes(?: if you copy the files, (\d+) if you type them)?[.,]", text, re.M)
     assert stated
