@@ -12,7 +12,8 @@ TESTS = ROOT / "tests/cli"
 def rows() -> list[tuple[str, str]]:
     """Return feature and tests of each row whose cell of urdfkit is not "no"; "same" repeats the tests above."""
     found, tests = [], ""
-    for line in (ROOT / "docs/page.md").read_text(encoding="utf-8").splitlines():
+    features = (ROOT / "docs/page.md").read_text(encoding="utf-8").partition("\n## Scenes, compared\n")[0]
+    for line in features.splitlines():
         cells = [cell.strip() for cell in line.strip("|").split("|")]
         if not line.startswith("| ") or line.startswith("| |"):
             continue
