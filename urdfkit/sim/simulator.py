@@ -45,7 +45,6 @@ class Simulator:
     """Simulation of a robot in a world; simulated time advances only in calls of `run` and `step`.
 
     Its `world` spawns, removes, places, pushes and saves entities.
-
     The same seed and the same calls give bit-identical results. A simulator uses the thread of its caller; several
     simulators may run in several threads.
 
