@@ -36,7 +36,7 @@ class LaunchArgumentDuplicate(RobotRule):
 
     def check(self, model: Model) -> Findings:
         """Yield a finding for each declaration after the first one."""
-        from urdfkit.lint.facts.launch.repeated_arguments import repeated_arguments
+        from urdfkit.lint.facts.launch.repetitions import repeated_arguments
 
         for one in repeated_arguments(model):
             effect = "roslaunch stops" if one.is_ros1 else "its default has no effect"

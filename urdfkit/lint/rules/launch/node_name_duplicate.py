@@ -39,8 +39,8 @@ class NodeNameDuplicate(RobotRule):
 
     def check(self, model: Model) -> Findings:
         """Yield a finding for each node whose name another node has."""
-        from urdfkit.lint.facts.launch.named_nodes import duplicates
         from urdfkit.lint.facts.launch.python_names import python_files
+        from urdfkit.lint.facts.launch.repetitions import repeated_nodes
         from urdfkit.lint.facts.launch.ros_version import reads_ros1
         from urdfkit.lint.model.tags import Document
 
@@ -59,7 +59,7 @@ class NodeNameDuplicate(RobotRule):
                     span = source.span(written.value_start, written.value_end)
                     yield self.at_span(span, message, severity=severity)
         for source, tree in python_files(model):
-            for name, span, line in duplicates(source, tree):
+            for name, span, line in repeated_nodes(source, tree):
                 message = f"the node in line {line} has the name `{name}` too"
                 yield self.at_span(span, message, severity="warning")
 
