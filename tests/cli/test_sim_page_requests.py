@@ -354,8 +354,9 @@ def test_what_comes_and_goes_for_an_hour_leaves_nothing_behind() -> None:
             for model in ("coke_can", "chair", "crate"):
                 ride.simulator.world.remove(model)
                 ride.tick()
-            server._loop.call_soon(server._loop.stop)
-            server._loop.run_forever()  # what was posted is done
+            loop = server._thread.loop
+            loop.call_soon(loop.stop)
+            loop.run_forever()  # what was posted is done
             kept = sum(len(frame) for frame in server.hub.snapshot())
             sizes.append((len(server.hub._scene), len(server.geometries), kept // 64))
         assert len(set(sizes[1:])) == 1

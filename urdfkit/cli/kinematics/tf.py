@@ -9,6 +9,7 @@ import subprocess
 import sys
 from dataclasses import asdict
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from urdfkit.cli.parser import add_package_path
 from urdfkit.cli.robot_arguments.joint_positions import joint_positions, warn_of_limits
@@ -16,7 +17,9 @@ from urdfkit.cli.robot_arguments.macro_option import add_macro, with_macro
 from urdfkit.cli.robot_arguments.robot_loading import add_strict, load_robot, print_repairs, repairs_as_json
 from urdfkit.cli.robot_arguments.unused_arguments import note_unused
 from urdfkit.errors import MissingDependencyError, ResourceError, UsageError, did_you_mean, shortened
-from urdfkit.kinematics.tf import Transform, TransformTree
+
+if TYPE_CHECKING:
+    from urdfkit.kinematics.tf import Transform, TransformTree
 
 _DRAWINGS = (".svg", ".dot", ".pdf")
 

@@ -128,7 +128,7 @@ class _Inliner(ast.NodeTransformer):
 
     def _replaced(self, node: ast.expr, values: Mapping[str, ast.expr]) -> ast.expr:
         """Return a copy of an expression with values for names, and with the calls in it written out."""
-        replaced: ast.expr = self.visit(_Names(values).visit(copy.deepcopy(node)))
+        replaced: ast.expr = self.visit(_Substitution(values).visit(copy.deepcopy(node)))
         return replaced
 
     def _may_copy(self, node: ast.AST, times: int = 1) -> bool:
@@ -138,7 +138,7 @@ class _Inliner(ast.NodeTransformer):
         return self._calls <= _MOST_CALLS and self._nodes <= _MOST_NODES
 
 
-class _Names(ast.NodeTransformer):
+class _Substitution(ast.NodeTransformer):
     def __init__(self, values: Mapping[str, ast.expr]) -> None:
         self._values = values
 

@@ -1,5 +1,6 @@
 """Validation of arguments from callers of the library: numbers, vectors and entity names."""
 
+from collections.abc import Sequence
 from math import isfinite
 from typing import Any, TypeVar
 
@@ -27,10 +28,10 @@ def number(value: Any, what: str, unit: str) -> float:
 
 
 def vector(values: Any, length: int, what: str, unit: str) -> tuple[float, ...]:
-    """Return `length` numbers, none larger than `LARGEST`.
+    """Return `length` finite numbers.
 
     Raises:
-        SimulationError: `values` has another length or contains something else, or a number is too large.
+        SimulationError: `values` has another length or contains something else.
     """
     try:
         found = tuple(float(value) for value in values)
@@ -38,10 +39,18 @@ def vector(values: Any, length: int, what: str, unit: str) -> tuple[float, ...]:
         found = ()
     if len(found) != length or not all(map(isfinite, found)):
         raise SimulationError(f"{what} is {values!r}; it must be {COUNTS[length]} finite numbers [{unit}]")
-    largest = max(found, key=abs)
+    return found
+
+
+def check_size(values: Sequence[float], what: str, unit: str) -> None:
+    """Refuse numbers whose products overflow.
+
+    Raises:
+        SimulationError: a number is larger than `LARGEST`.
+    """
+    largest = max(values, key=abs)
     if abs(largest) > LARGEST:
         raise SimulationError(f"{what} contains {largest:g}; at most {LARGEST:g} can be simulated [{unit}]")
-    return found
 
 
 def three(values: Any, what: str, unit: str) -> tuple[float, ...]:

@@ -9,7 +9,7 @@ from urdfkit.description.urdf.geometry import rpy_of_quaternion
 from urdfkit.description.urdf.robot import Pose
 from urdfkit.errors import SimulationError
 from urdfkit.scene.pose_matrices import pose_matrix
-from urdfkit.sim.state.arguments import vector
+from urdfkit.sim.state.arguments import check_size
 
 
 def seven(pose: Pose) -> tuple[float, ...]:
@@ -45,7 +45,7 @@ def pose_of(pose: Pose | Sequence[float]) -> Pose:
             f"a pose is x y z, x y z yaw, x y z roll pitch yaw or x y z and a quaternion x y z w, not {pose!r}"
         )
     x, y, z, *rest = numbers
-    vector((x, y, z), 3, "the position", "m")
+    check_size((x, y, z), "the position", "m")
     if len(rest) == 4:
         if not any(rest):
             raise SimulationError("the quaternion of a pose is zero")

@@ -10,7 +10,7 @@ from urdfkit.description.urdf.geometry import IDENTITY, compose, inverse
 from urdfkit.description.urdf.robot import Pose
 from urdfkit.errors import SimulationError
 from urdfkit.linear_algebra import matmul
-from urdfkit.sim.state.arguments import vector
+from urdfkit.sim.state.arguments import check_size, vector
 from urdfkit.sim.state.poses import pose_from, seven
 from urdfkit.sim.world.world_builder import WorldBuilder
 from urdfkit.sim.world.world_entity import WorldEntity
@@ -60,7 +60,9 @@ def move(builder: WorldBuilder, name: str, pose: Pose, twist: Sequence[float] = 
     Raises:
         SimulationError: unknown name, or a robot with a fixed base is moved.
     """
-    speed = np.array(vector(twist, 6, "the velocity", "m/s, rad/s"))
+    twist = vector(twist, 6, "the velocity", "m/s, rad/s")
+    check_size(twist, "the velocity", "m/s, rad/s")
+    speed = np.array(twist)
     if name not in builder.entities and name in builder.body_names:
         move_body(builder, name, pose, twist)
         return

@@ -3,6 +3,7 @@
 
 import { inFront } from "../appearance/in_front.js";
 import { COLOURS } from "../handles/gizmo.js";
+import { textSprite } from "./marker_text.js";
 import { ribbons } from "./ribbons.js";
 
 const THREE = MeshCat.THREE;
@@ -63,7 +64,7 @@ const MAKE = {
   points: points,
   dots: ({ dots, ...item }, options) => placed(new THREE.Points(vertices(dots, item.colors), material(THREE.PointsMaterial, item, options, { size: item.size, sizeAttenuation: true })), item.pose),
   shape: shape,
-  text: text,
+  text: (item, options) => textSprite(item, colour(item, options)),
   mesh: mesh,
   controls: controls,
   triangles: ({ triangles, ...item }, options) => {
@@ -278,24 +279,4 @@ function handle({ mode, turn: q }, size) {
   else if (mode >= 4 && mode <= 6) add(new THREE.TorusGeometry(mode === 5 ? 0.5 : 0.36, 0.025, 8, 48).rotateY(Math.PI / 2));
   else if (mode >= 7) add(new THREE.SphereGeometry(0.14, 20, 14));
   return group;
-}
-
-function text(item, options) {
-  const canvas = document.createElement("canvas");
-  const pen = canvas.getContext("2d");
-  const font = "600 48px system-ui, sans-serif";
-  pen.font = font;
-  canvas.width = Math.ceil(pen.measureText(item.text).width) + 8;
-  canvas.height = 60;
-  const color = colour(item, options);
-  const isBright = 0.3 * color.r + 0.6 * color.g + 0.1 * color.b > 0.5;
-  // An outline keeps white text legible on a light ground and black text on a dark ground.
-  Object.assign(pen, { font, fillStyle: `#${color.getHexString()}`, strokeStyle: isBright ? "#1b212b" : "#ffffff", lineWidth: 6, lineJoin: "round" });
-  pen.strokeText(item.text, 4, 46);
-  pen.fillText(item.text, 4, 46);
-  const sprite = new THREE.Sprite(new THREE.SpriteMaterial({ map: new THREE.CanvasTexture(canvas), transparent: true, depthTest: false }));
-  sprite.scale.set((item.size * canvas.width) / 48, (item.size * canvas.height) / 48, 1);
-  sprite.position.set(...item.pose.slice(0, 3));
-  sprite.renderOrder = 30;
-  return sprite;
 }

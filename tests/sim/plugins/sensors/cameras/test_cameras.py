@@ -262,7 +262,7 @@ def test_a_texture_that_is_not_there_is_named_once(post, tmp_path, content, why:
             camera().replace("</format>", "</format><anti_aliasing>1.5</anti_aliasing>"),
             "<anti_aliasing> is 1.5; it must",
         ),
-        (camera(form="R8G8B9"), "unsupported image format `R8G8B9`; did you mean `R8G8B8`?"),
+        (camera(form="R8G8B9"), "unknown pixel format `R8G8B9`"),
         (camera(width=0), "<width> is 0; it must be a whole number, one or greater"),
         (camera(width=99999, height=99999), "a picture of 99999 × 99999 pixels cannot be rendered"),
         (camera(fov=3.5), "<horizontal_fov> is 3.5 rad; it must be between 0 and π"),
