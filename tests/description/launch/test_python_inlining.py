@@ -4,7 +4,9 @@ import ast
 
 import pytest
 
+from urdfkit.description.launch.python_constants import launch_reader, parsed
 from urdfkit.description.launch.python_inlining import inlined
+from urdfkit.description.xml.source import Source
 
 INCLUDE = """
 def include(package, name="robot.launch.py", **arguments):
@@ -64,3 +66,10 @@ def test_functions_that_call_each_other_or_grow_without_bound_end() -> None:
     double = "\n".join(f"def f{i + 1}(n):\n    return f{i}(n), f{i}(n), f{i}(n), f{i}(n), f{i}(n)" for i in range(40))
     tree = inlined(ast.parse(f"def f0(n):\n    return N(n)\n{double}\na = f40([1, 2])"))
     assert sum(1 for _ in ast.walk(tree)) < 100_000
+
+
+def test_a_file_with_a_very_long_expression_is_still_read() -> None:
+    text = "share = '/opt'\nlong = " + " + ".join(["x"] * 2000)
+    tree = parsed(Source("a.launch.py", text))
+    assert tree is not None
+    assert launch_reader(tree).assigned.keys() == {"share", "long"}

@@ -32,7 +32,11 @@ def _tree(text: str) -> ast.Module | None:
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         try:
-            return inlined(ast.parse(text))
+            tree = ast.parse(text)
+            try:
+                return inlined(tree)
+            except RecursionError:  # an expression of thousands of terms
+                return ast.parse(text)
         except (SyntaxError, ValueError, RecursionError, MemoryError):
             return None
 

@@ -65,18 +65,22 @@ def _is_simple(function: ast.FunctionDef) -> bool:
     *before, last = function.body
     if before and isinstance(before[0], ast.Expr) and isinstance(before[0].value, ast.Constant):
         before = before[1:]
-    assigned = [each.targets[0].id for each in before if _is_plain(each)]  # type: ignore[attr-defined]
+    assigned = [_assigned_name(each) for each in before]
     return (
         isinstance(last, ast.Return)
         and last.value is not None
-        and len(assigned) == len(before) == len(set(assigned))
+        and None not in assigned
+        and len(assigned) == len(set(assigned))
         and not (function.decorator_list or function.args.vararg or function.args.posonlyargs)
         and not any(isinstance(node, (ast.Lambda, ast.NamedExpr, ast.Await, ast.Yield)) for node in ast.walk(function))
     )
 
 
-def _is_plain(node: ast.stmt) -> bool:
-    return isinstance(node, ast.Assign) and len(node.targets) == 1 and isinstance(node.targets[0], ast.Name)
+def _assigned_name(node: ast.stmt) -> str | None:
+    """Return the name that a statement assigns; None for other statements."""
+    if isinstance(node, ast.Assign) and len(node.targets) == 1 and isinstance(node.targets[0], ast.Name):
+        return node.targets[0].id
+    return None
 
 
 class _Inliner(ast.NodeTransformer):
@@ -99,11 +103,12 @@ class _Inliner(ast.NodeTransformer):
             return node
         self.replaced.add(function.name)
         self._depth += 1
-        *before, last = function.body
-        for each in before:
-            if isinstance(each, ast.Assign) and isinstance(each.targets[0], ast.Name):
-                values[each.targets[0].id] = self._replaced(each.value, values)
-        result = self._replaced(last.value, values)  # type: ignore[attr-defined]
+        result: ast.expr = node
+        for each in function.body:
+            if isinstance(each, ast.Assign) and (name := _assigned_name(each)) is not None:
+                values[name] = self._replaced(each.value, values)
+            elif isinstance(each, ast.Return) and each.value is not None:
+                result = self._replaced(each.value, values)
         self._depth -= 1
         return result
 
