@@ -151,8 +151,10 @@ def misspelling_of(name: str, others: Iterable[str], version: int = 0) -> str | 
 
 def is_slip(name: str, other: str) -> bool:
     """Return whether two names differ by one letter, by a separator, or by the order of letters in one place."""
-    if name.replace("-", "_") == other.replace("-", "_") or name.replace("_", "") == other.replace("_", ""):
+    if name.replace("_", "") == other.replace("_", "") or name.replace("-", "_") == other.replace("-", "_"):
         return True
+    if abs(len(name) - len(other)) > 1:
+        return False
     start = next((at for at, (a, b) in enumerate(zip(name, other, strict=False)) if a != b), min(len(name), len(other)))
     left, right = name[start:], other[start:]
     while left and right and left[-1] == right[-1]:

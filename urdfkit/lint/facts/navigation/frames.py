@@ -28,7 +28,7 @@ _PAIRS = (
 def equal_frames(source: Source) -> Iterator[tuple[Node, str]]:
     """Yield the second of two frames of a node in a YAML file that must differ and are equal, with the message."""
     for node in (node for root in documents(source)[0] for node in walk(root) if "frame" in source.text):
-        for names in _PAIRS:
+        for names in _PAIRS if node.entries else ():
             first, second = (node.find(name) for name in names)
             if first is not None and second is not None and first.text and first.text == second.text:
                 yield second, f"`{names[0]}` and `{names[1]}` are both `{first.text}`"

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from functools import lru_cache
 
 from urdfkit.description.xml.source import Source
 from urdfkit.errors import nearest
@@ -19,15 +20,18 @@ _WITH_COLONS = (
 )
 """Packages whose plugins have `::` in their names in each release; others had `/` up to Iron."""
 
+_VALID = DOUBLES | INTEGERS | OTHERS | SWITCHES
 
-def misspelt_navigation(source: Source) -> Iterator[tuple[Node, str, str]]:
-    """Yield the misspelt nodes, plugins and parameters of Nav2: YAML node, kind, suggested name."""
+
+@lru_cache(maxsize=400)
+def misspelt_navigation(source: Source) -> tuple[tuple[Node, str, str], ...]:
+    """Return the misspelt nodes, plugins, topics and parameters of Nav2 or move_base: YAML node, kind, right name."""
+    return tuple(_misspelt_in_ros2(source) if PARAMETERS in source.text else _misspelt_in_ros1(source))
+
+
+def _misspelt_in_ros2(source: Source) -> Iterator[tuple[Node, str, str]]:
     from urdfkit.lint.facts.ros_packages import is_slip
 
-    if PARAMETERS not in source.text:
-        yield from _misspelt_in_ros1(source)
-        return
-    valid = DOUBLES | INTEGERS | OTHERS | SWITCHES
     named = [(key, group, key.text.strip("/").rpartition("/")[2]) for key, group in sections(source)]
     written = {name for _, _, name in named}
     for outer, value in (entry for root in documents(source)[0] for entry in root.entries):
@@ -56,11 +60,19 @@ def misspelt_navigation(source: Source) -> Iterator[tuple[Node, str, str]]:
                     near = next((each for each in _TOPICS if is_slip(topic, each)), None)
                     if near is not None:
                         yield value, "topic", value.text.removesuffix(topic) + near
-                if value.kind == "group" or parameter.text in valid or len(parameter.text) < 6:
+                if value.kind == "group" or parameter.text in _VALID or len(parameter.text) < 6:
                     continue
-                near = next((each for each in sorted(valid - names) if is_slip(parameter.text, each)), None)
+                near = next((each for each in _nearest_parameters(parameter.text) if each not in names), None)
                 if near is not None and len(near) >= 6:
                     yield parameter, "parameter", near
+
+
+@lru_cache(maxsize=4000)
+def _nearest_parameters(name: str) -> tuple[str, ...]:
+    """Return the parameters of Nav2 that a name differs from by a slip, sorted."""
+    from urdfkit.lint.facts.ros_packages import is_slip
+
+    return tuple(each for each in sorted(_VALID) if is_slip(name, each))
 
 
 def _misspelt_in_ros1(source: Source) -> Iterator[tuple[Node, str, str]]:
