@@ -11,7 +11,7 @@ from urdfkit.cli.page_options import add_page_options, announce, read_layout
 from urdfkit.cli.parser import add_model
 from urdfkit.cli.picture_options import add_picture_options, check_picture_options, set_picture_defaults, write_pictures
 from urdfkit.cli.robot_arguments.file_name_case import warn_of_file_names
-from urdfkit.cli.robot_arguments.launch_arguments import add_launch_arguments, with_launch_arguments
+from urdfkit.cli.robot_arguments.launch_arguments_option import add_launch_arguments, with_launch_arguments
 from urdfkit.cli.robot_arguments.macro_option import add_macro, with_macro
 from urdfkit.cli.robot_arguments.required_arguments import listing_required_arguments
 from urdfkit.cli.robot_arguments.robot_loading import add_strict, shown_repairs

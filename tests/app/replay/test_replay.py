@@ -18,8 +18,8 @@ from urdfkit.app.page import Page as ServedPage
 from urdfkit.app.replay.observed_session import ObservedDisplays
 from urdfkit.app.replay.recorded_frames import RecordedFrames
 from urdfkit.app.replay.recorded_robot import RecordedRobot
+from urdfkit.app.replay.recorded_values import PoseTimeline, Timeline
 from urdfkit.app.replay.replaying import replaying
-from urdfkit.app.replay.timeline import PoseTimeline, Timeline
 from urdfkit.bridges.bag_file import BagFile
 from urdfkit.bridges.recorder import Recorder
 from urdfkit.cli import main

@@ -21,8 +21,8 @@ CONNECTED = 5.0
 def live_actions(topics: LiveTopics, bus: Bus) -> Actions:
     """Return the actions of a graph, for the thread that updates the topics."""
     if topics.node.ros == "rosbridge":
+        from urdfkit.bridges.rosbridge.outgoing_goals import ServerActions
         from urdfkit.bridges.rosbridge.rosbridge_node import RosbridgeNode
-        from urdfkit.bridges.rosbridge.server_actions import ServerActions
 
         assert isinstance(topics.node, RosbridgeNode)
         return ServerActions(topics.node, topics.calls.add)

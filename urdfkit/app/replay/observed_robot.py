@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from urdfkit.app.replay.recorded_frames import RecordedFrames
-from urdfkit.app.replay.timeline import PoseTimeline, Timeline
+from urdfkit.app.replay.recorded_values import PoseTimeline, Timeline
 from urdfkit.kinematics import Kinematics
 from urdfkit.scene.pose_matrices import pose_matrices
 from urdfkit.sim.state.quaternion import from_matrix

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from urdfkit.app.replay.timeline import PoseTimeline
+from urdfkit.app.replay.recorded_values import PoseTimeline
 from urdfkit.scene.pose_matrices import pose_matrices
 
 Array = NDArray[np.float64]

@@ -12,7 +12,7 @@ from typing import Any
 from urdfkit.bridges.graph import Graph
 from urdfkit.bridges.json_messages import from_json, to_json
 from urdfkit.bridges.published_message import PublishedMessage
-from urdfkit.bridges.rosbridge.client_goals import ClientGoals
+from urdfkit.bridges.rosbridge.incoming_goals import ClientGoals
 from urdfkit.bridges.rosbridge.rosapi import Rosapi
 from urdfkit.bridges.rosbridge.subscription import encoder
 from urdfkit.bridges.websocket.send_queue import MAX_MESSAGES, SendQueue, SubscriptionQueue

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from urdfkit.cli.parser import add_model
-from urdfkit.cli.robot_arguments.launch_arguments import add_launch_arguments, with_launch_arguments
+from urdfkit.cli.robot_arguments.launch_arguments_option import add_launch_arguments, with_launch_arguments
 from urdfkit.cli.robot_arguments.macro_option import add_macro, with_macro
 from urdfkit.cli.robot_arguments.robot_loading import load_robot
 from urdfkit.cli.robot_arguments.unused_arguments import note_unused

@@ -7,7 +7,7 @@ from urdfkit.app.page import Page, note, require_page, until_interrupted
 from urdfkit.cli.page_options import add_page_options, announce, opens_browser, read_layout
 from urdfkit.cli.parser import add_model
 from urdfkit.cli.robot_arguments.file_name_case import warn_of_file_names
-from urdfkit.cli.robot_arguments.launch_arguments import add_launch_arguments, with_launch_arguments
+from urdfkit.cli.robot_arguments.launch_arguments_option import add_launch_arguments, with_launch_arguments
 from urdfkit.cli.robot_arguments.macro_option import add_macro, with_macro
 from urdfkit.cli.robot_arguments.robot_loading import load_robot
 from urdfkit.cli.robot_arguments.unused_arguments import note_unused

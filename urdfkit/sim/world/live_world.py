@@ -22,9 +22,9 @@ from urdfkit.sim.state.arguments import ByName
 from urdfkit.sim.state.poses import pose_of, seven
 from urdfkit.sim.world import entity_poses
 from urdfkit.sim.world.body import RigidBody
+from urdfkit.sim.world.current_description import current_description
 from urdfkit.sim.world.entity_poses import AT_REST
 from urdfkit.sim.world.external_forces import ZERO, ExternalForces, target_of
-from urdfkit.sim.world.saved_world import current_description
 from urdfkit.sim.world.scheduler import Scheduler
 from urdfkit.sim.world.simulated_robot import SimulatedRobot
 from urdfkit.sim.world.spawn_requests import SpawnRequest, spawn_request
