@@ -330,7 +330,7 @@ def with_effect(defect: str, effect: str) -> str:
 
     Args:
         defect: message of an error, such as ``no joint `elbw`; did you mean `elbow`?``.
-        effect: the consequence, such as ``the controller is left out``.
+        effect: the consequence, such as ``the controller is ignored``.
     """
     before, separator, suggested = defect.partition("; did you mean ")
     return f"{before}; {effect}{separator}{suggested}"

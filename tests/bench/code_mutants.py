@@ -14,7 +14,7 @@ Then try mutants::
 
 It draws expressions at random on the covered lines, changes one comparison, operator, constant, boolean or returned
 value in another copy, and runs the tests that cover the line there, those of the module's own test file first. Modules
-with compiled kernels are left out: a change would compile them again. Only tests that pass without a change are used,
+with compiled kernels are ignored: a change would compile them again. Only tests that pass without a change are used,
 and the tests that noticed a mutant run once more without one at the end. Prints each mutant that no test notices, and
 the share noticed by package. Exits with status 1 below 90 %. Needs Linux.
 """

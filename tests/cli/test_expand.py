@@ -113,7 +113,7 @@ def test_the_program_prints_everything_before_it_leaves(model: Path) -> None:
             '<link name="${(lambda: 1)}"/>',  # the xacro package prints the address in memory
             1,
             [
-                "robot.urdf.xacro: differs from the output of xacro 2.1.1 in line 14, column 42",
+                "robot.urdf.xacro: differs from the output of xacro 2.1.1 on line 14, column 42",
                 '  xacro:     <link name="&lt;function &lt;lambda&gt; at 0x',
                 '  urdfkit:   <link name="&lt;function &lt;lambda&gt;&gt;"/>',
             ],

@@ -97,6 +97,6 @@ def test_a_negative_mass_and_a_sensor_of_no_link_are_named(model: Path, capsys: 
     model.write_text(text)
     assert main(["info", str(model)]) == 0
     out = capsys.readouterr().out
-    assert "kg of `upper`, which `sim` refuses" in out
+    assert "kg of `upper`, which `sim` rejects" in out
     assert "estimated masses" not in out
     assert "eye (camera) on `uper`, which does not exist, 30 Hz" in out

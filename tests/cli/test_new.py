@@ -342,7 +342,7 @@ def test_options_come_before_the_file(place):
         ("name = ", r"--from a\.toml: Invalid"),
         ('name = "ox"\nmass = -2\n', r"a\.toml: --mass -2 kg is out of range"),
         ('nmae = "x"\n', r"a\.toml: no question `nmae`; did you mean `name`"),
-        ("mass = true\n", r"a\.toml: `mass` must be a text, a number or a list of texts"),
+        ("mass = true\n", r"a\.toml: `mass` must be a string, a number or a list of strings"),
         ('template = "world"\n', r"is a recipe for `urdfkit new world`, not for `urdfkit new robot`"),
         ("mass = 3\n", "name of the robot is missing; pass NAME"),
     ],

@@ -52,7 +52,7 @@ def test_errors_are_one_line_with_their_place(run: Callable[..., Any], tmp_path:
     wrong, suggestion = f"{path}:3:10: no joint `joint_1` in robot `rrbot`", "; did you mean `joint1`?"
     code, _, err = run("--for", 0.01, "--controllers", path)
     assert code == 0
-    assert re.search(f"{re.escape(wrong)}; controller .* is left out{re.escape(suggestion)}", err)
+    assert re.search(f"{re.escape(wrong)}; controller .* is ignored{re.escape(suggestion)}", err)
     code, _, err = run("--for", 1, "--controllers", path, "--strict")
     assert code == 2
     assert wrong + suggestion in err

@@ -242,12 +242,12 @@ def test_unknown_plugins_of_models_are_reported_once(tmp_path: Path, capsys: Cap
     assert main(["sim", "run", "simpleton", "--for", "0.1", "--world", str(path)]) == 0
     lines = capsys.readouterr().err.splitlines()
     for filename, reported in (
-        ("doorr", "w.sdf:2:1: unknown plugin `libgazebo_ros_doorr.so` in model `door` is left out"),
+        ("doorr", "w.sdf:2:1: unknown plugin `libgazebo_ros_doorr.so` in model `door` is ignored"),
         (
             "diff_drve",
-            "`libgazebo_ros_diff_drve.so` in model `door` is left out; did you mean `gazebo_ros_diff_drive`?",
+            "`libgazebo_ros_diff_drve.so` in model `door` is ignored; did you mean `gazebo_ros_diff_drive`?",
         ),
-        ("my_stuff", "w.sdf:4:1: unknown plugin `libmy_stuff.so` in model `door` is left out"),
+        ("my_stuff", "w.sdf:4:1: unknown plugin `libmy_stuff.so` in model `door` is ignored"),
     ):
         (line,) = [line for line in lines if filename in line]
         assert line.endswith(reported)
@@ -261,7 +261,7 @@ def test_unknown_plugins_of_a_world_are_noted_and_the_rest_runs(tmp_path: Path, 
     )
     assert main(["sim", "run", "simpleton", "--for", "0.1", "--world", str(path)]) == 0
     out, err = capsys.readouterr()
-    assert "w.sdf:2:1: unknown plugin `gz-sim-phisics-system` in the world is left out" in err
+    assert "w.sdf:2:1: unknown plugin `gz-sim-phisics-system` in the world is ignored" in err
     assert "did you mean" in err
     assert "in world w: 0.1 s" in out
 

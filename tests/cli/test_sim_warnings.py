@@ -35,7 +35,7 @@ def test_a_missing_package_is_one_warning(
 
 
 def test_warnings_that_differ_in_names_only_share_a_line() -> None:
-    alike = [f"r.urdf:{n}:1: mesh part{n}.dae is a Git LFS pointer; shape `s{n}` is left out" for n in range(1, 8)]
+    alike = [f"r.urdf:{n}:1: mesh part{n}.dae is a Git LFS pointer; shape `s{n}` is ignored" for n in range(1, 8)]
     others = ["r.urdf:9:1: unknown plugin `a`", "r.urdf:10:1: unknown plugin `b`", "no plugin", "note: slip of 1e-5"]
     found = grouped([others[0], *alike, *others[1:]])
     assert found == [

@@ -128,7 +128,7 @@ def test_links_whose_meshes_are_missing_disable_nothing(tmp_path, capsys):
     out, err = capsys.readouterr()
     (pair,) = json.loads(out)["pairs"]
     assert (pair["links"], pair["reason"]) == (["base", "fore"], "Never")
-    assert f"{path}:3:43: link `upper`: a collision shape is left out: no file " in err
+    assert f"{path}:3:43: link `upper`: a collision shape is ignored: no file " in err
     path.write_text(CHAIN.format(box=BOX, mesh=BOX + GONE))
     assert main(["srdf", str(path), "--samples", "200", "--json"]) == 0
     reasons = {tuple(each["links"]): each["reason"] for each in json.loads(capsys.readouterr().out)["pairs"]}

@@ -89,7 +89,7 @@ def test_echo_prints_messages_as_rostopic_does(topic) -> None:
     assert len(one["pose"]["covariance"]) == 36
     assert "  covariance: [" in first
     times = [each["header"]["stamp"]["sec"] + each["header"]["stamp"]["nanosec"] * 1e-9 for each in (one, two)]
-    assert times[1] - times[0] == pytest.approx(0.01)  # none in between is left out
+    assert times[1] - times[0] == pytest.approx(0.01)  # none in between is ignored
     message = json.loads(topic("echo", "simpleton/odom", "--once", "--json"))
     assert message["child_frame_id"] == "base_footprint"
     assert topic("echo", ODOM, "--once", "--field", "header.frame_id") == "odom\n---\n"

@@ -108,7 +108,7 @@ def test_marks_names_wires_and_opacity(page, keep, until) -> None:
         count, overlapping = page.evaluate(lying)
         assert count >= 1
         assert not overlapping
-    assert count < 7  # from far away the names of what is behind are left out …
+    assert count < 7  # from far away the names of what is behind are ignored …
     keep(page, "names-far")
     page.evaluate("urdfkit.page.select({ link: 'hand' })")
     until(

@@ -42,17 +42,17 @@ CASES = {
     "two parents": (
         links("a", "b", "c") + joint("k", "a", "b") + joint("m", "a", "c") + "\n" + joint("j", "b", "c"),
         "T205",
-        "joint `j` is left out",
+        "joint `j` is ignored",
     ),
     "joint of a link with itself": (
         links("a", "b") + joint("k", "a", "b") + "\n" + joint("j", "b", "b"),
         "T204",
-        "joint `j` connects link `b` with itself; the joint is left out",
+        "joint `j` connects link `b` with itself; the joint is ignored",
     ),
     "link behind a joint without a parent": (
         links("a", "b") + "\n" + joint("j", "a", "b").replace('<parent link="a"/>', "<parent/>"),
         "E014",
-        "the joint is left out; `b` is fixed to the origin of `a`",
+        "the joint is ignored; `b` is fixed to the origin of `a`",
     ),
     "misspelt child": (
         links("a", "tip ") + "\n" + joint("j", "a", "tip"),
@@ -62,14 +62,14 @@ CASES = {
     "loop": (
         links("a", "b", "c") + joint("k", "b", "c") + "\n" + joint("j", "c", "b"),
         "T204",
-        "joint `j` is left out",
+        "joint `j` is ignored",
     ),
     "loop of everything": (
         links("a", "b") + joint("k", "a", "b") + "\n" + joint("j", "b", "a"),
         "T204",
-        "joint `j` is left out",
+        "joint `j` is ignored",
     ),
-    "two links of a name": (links("a", "b") + joint("j", "a", "b") + "\n" + links("b"), "T206", "this one is left out"),
+    "two links of a name": (links("a", "b") + joint("j", "a", "b") + "\n" + links("b"), "T206", "this one is ignored"),
     "two joints of a name": (
         links("a", "b", "c") + joint("j", "a", "b") + "\n" + joint("j", "a", "c"),
         "T207",
@@ -105,7 +105,7 @@ CASES = {
     "no parent": (
         links("a", "b", "c") + joint("k", "a", "c") + "\n" + joint("j", "a", "b").replace('<parent link="a"/>', ""),
         "E014",
-        "the joint is left out",
+        "the joint is ignored",
     ),
     "no name": (links("a", "b") + joint("j", "a", "b") + "\n<link/>", "E014", "it is called `unnamed_link`"),
 }

@@ -33,7 +33,7 @@ DEFECT += '    <child link="arm"/>\n  </joint>\n  <link name="arm"/>\n</robot>\n
 
 @pytest.fixture
 def repository(tmp_path: Path) -> Path:
-    """Return a folder with a description that has an undefined link in line 4, and a program `urdfkit`."""
+    """Return a folder with a description that has an undefined link on line 4, and a program `urdfkit`."""
     program = tmp_path / "bin" / "urdfkit"
     program.parent.mkdir()
     program.write_text(f'#!/bin/sh\nexec "{sys.executable}" -m urdfkit "$@"\n')

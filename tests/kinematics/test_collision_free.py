@@ -93,7 +93,7 @@ def test_a_target_whose_solutions_all_collide(robot_of: Callable[[str], Robot]) 
 def test_collisions_are_those_of_the_closed_form(robot_of: Callable[[str], Robot]) -> None:
     chain = Chain(robot_of(ONE_POST), "base", "hand")
     check = ConfigurationCheck(chain.robot, chain.joint_names)
-    # Neighbours are left out; base and post do not move, nor do base and the ball of the upper arm meet.
+    # Neighbours are ignored; base and post do not move, nor do base and the ball of the upper arm meet.
     assert check.pairs == [("base", "fore"), ("upper", "post"), ("fore", "post")]
     seen = {(): 0, (("upper", "post"),): 0, (("fore", "post"),): 0}
     for a, b in random_configurations(chain, 2000):

@@ -42,11 +42,11 @@ def computed(expression: str) -> str:
 
 HOSTILE = {
     "power.xacro": (computed("9**9**9"), "X126 `${9**9**9}` is too large: it creates an integer of more than 10,000"),
-    "text.xacro": (computed("'x' * 3 * 10**9"), "a text of more than 100,000 characters"),
+    "text.xacro": (computed("'x' * 3 * 10**9"), "a string of more than 100,000 characters"),
     "list.xacro": (computed("[0] * 10**10"), "lists of more than 100,000 elements in all"),
     "range.xacro": (computed("list(range(10**9))"), "lists of more than 100,000 elements in all"),
     "loops.xacro": (computed("[i for i in range(9999) for j in range(9999)]"), "exceed 1,000,000 steps"),
-    "format.xacro": (computed("'%099999999d' % 1"), "a text of more than 100,000 characters"),
+    "format.xacro": (computed("'%099999999d' % 1"), "a string of more than 100,000 characters"),
     "factorial.xacro": (computed("factorial(10**7)"), "it calls factorial() with more than 1,000"),
     "sum.xacro": (computed("python.sum(python.range(10**12))"), "lists of more than 100,000 elements in all"),
     "deep.xacro": (computed("1+" * 4000 + "1"), "nested"),
@@ -60,7 +60,7 @@ HOSTILE = {
     ),
     "laughs.xacro": (
         f"<robot {XACRO} name='r'><xacro:property name='p0' value='lol'/>{LAUGHS}<a b='${{p12}}'/></robot>",
-        "a text of more than 100,000 characters",
+        "a string of more than 100,000 characters",
     ),
     "tags.urdf": (f"<robot name='r'>{'<a/>' * 300_000}</robot>", "tags.urdf:1:400013: E001 the file has 300002 tags"),
     "a bomb of entities.urdf": (f"<!DOCTYPE r [{ENTITIES}]><robot name='r'>&a9;</robot>", "declares the entity `a0`"),

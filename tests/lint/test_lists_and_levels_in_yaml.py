@@ -39,7 +39,7 @@ CASES = [
         NESTED.replace("{{", "{").replace("}}", "}"),
         "/map",
         "map",
-        "`global_frame` is `/map`; tf2 refuses frames with a slash at the start",
+        "`global_frame` is `/map`; tf2 rejects frames with a leading slash",
     ),
     (
         DRIVE.replace("{}", "wheel").replace("0.45", "{}"),

@@ -268,7 +268,7 @@ CASES: dict[str, tuple[str, str | None, Mapping[str, Content], list[str]]] = {
         [
             (
                 "r.urdf:3: note: mesh `package://$(arg p)/m.stl` contains an expression; a simulation with urdfkit"
-                " leaves it out"
+                " ignores it"
             )
         ],
     ),
@@ -317,7 +317,7 @@ CASES: dict[str, tuple[str, str | None, Mapping[str, Content], list[str]]] = {
         ),
         [
             (
-                'config/kinematics.yaml:3: warning: `position_only_ik` of group `arm` is "true", a text in quotes;'
+                'config/kinematics.yaml:3: warning: `position_only_ik` of group `arm` is "true", a quoted string;'
                 " write true or false"
             )
         ],

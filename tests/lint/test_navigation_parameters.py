@@ -276,7 +276,14 @@ BAD = [
         "unknown parameter `typ` of controller `wheels`; did you mean `type`?",
     ),
     ("behaviors", '      plugin: "nav2_behaviors::Spin"\n', "      yes: true\n", "K971", 4, "lists, has no `plugin`"),
-    ("behaviors", "nav2_amcl::DifferentialMotionModel", "differential", "K971", 9, "is of Galactic and before; write"),
+    (
+        "behaviors",
+        "nav2_amcl::DifferentialMotionModel",
+        "differential",
+        "K971",
+        9,
+        "is from Galactic or earlier; write",
+    ),
     ("behaviors", "use_astar", "use_atar", "L104", 16, "did you mean `use_astar`?"),
     ("behaviors", "0.0]]", "0.0]", "K971", 21, "`footprint` has 4 `[` and 3 `]`"),
     ("behaviors", ", [-0.3, 0.0]", "", "K971", 21, "`footprint` has 2 points; a polygon needs at least 3"),
@@ -299,7 +306,7 @@ BAD = [
     ),
     ("slam", "0.05", "0.0", "K971", 5, "`resolution` is 0; it must be positive"),
     ("slam", "true", "maybe", "K971", 6, "`use_scan_matching` is `maybe`, which is neither true nor false"),
-    ("slam", "true", '"true"', "K971", 6, '`use_scan_matching` is "true", a text in quotes; write true'),
+    ("slam", "true", '"true"', "K971", 6, '`use_scan_matching` is "true", a quoted string; write true'),
     ("slam", "scans: 1", "scans: -1", "K971", 7, "`throttle_scans` is -1; it must be positive"),
     (
         "navigation",
@@ -356,7 +363,7 @@ BAD = [
         "[[0.3, 0.2], [0.3, -0.2], [-0.3, 0.0]]",
         "K971",
         21,
-        "`footprint` is a list of lists, which ROS 2 refuses",
+        "`footprint` is a list of lists, which ROS 2 rejects",
     ),
 ]
 

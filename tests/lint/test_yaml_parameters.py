@@ -170,7 +170,7 @@ def change(folder: Path, file: str, old: str, new: str) -> list[str]:
 @pytest.mark.parametrize(
     ("file", "old", "new", "expected"),
     [
-        ("arm", "update_rate: 100", 'update_rate: "100"', '3: `update_rate` is "100", a text in quotes'),
+        ("arm", "update_rate: 100", 'update_rate: "100"', '3: `update_rate` is "100", a quoted string'),
         (
             "arm",
             "    joint: grip",
@@ -228,10 +228,10 @@ def change(folder: Path, file: str, old: str, new: str) -> list[str]:
             "arm",
             "goal: true",
             'goal: "true"',
-            '16: `allow_partial_joints_goal` is "true", a text in quotes; write true',
+            '16: `allow_partial_joints_goal` is "true", a quoted string; write true',
         ),
         ("arm", "goal: true", "goal: 1", "16: `allow_partial_joints_goal` is 1; write true"),
-        ("arm", "[shoulder, elbow]", "shoulder, elbow", "13: `joints` is a text; write a list"),
+        ("arm", "[shoulder, elbow]", "shoulder, elbow", "13: `joints` is a string; write a list"),
         ("arm", "    joints: [shoulder, elbow]\n", "", "11: controller `arm_controller` has no `joints`"),
         ("arm", "    state_interfaces: [position]\n", "", "11: controller `arm_controller` has no `state_interfaces`"),
         ("arm", "    joint: grip\n", "", "20: controller `grip_controller` has no `joint`"),
@@ -267,12 +267,12 @@ def change(folder: Path, file: str, old: str, new: str) -> list[str]:
             "max_velocity: 25.0",
             "10: `max_velocity` of joint `elbow` is 25 rad/s, but its",
         ),
-        ("moveit", "-2.5", '"-2.5"', '7: `min_position` of joint `elbow` is "-2.5", a text in quotes'),
+        ("moveit", "-2.5", '"-2.5"', '7: `min_position` of joint `elbow` is "-2.5", a quoted string'),
         (
             "moveit",
             "limits: true",
             'limits: "true"',
-            '6: `has_position_limits` is "true", a text in quotes; write true',
+            '6: `has_position_limits` is "true", a quoted string; write true',
         ),
         (
             "moveit",
@@ -310,7 +310,7 @@ def change(folder: Path, file: str, old: str, new: str) -> list[str]:
             "moveit",
             "joints: [grip]",
             "joints: grip",
-            "24: `joints` of controller `grip_controller` is a text; write a list",
+            "24: `joints` of controller `grip_controller` is a string; write a list",
         ),
         (
             "moveit",
@@ -384,9 +384,9 @@ def test_a_correct_file_of_ros2_is_silent(ros2, file, old, new):
             "7: `effort_controllers/JointPositionController` reads `joint`, not `joints`",
         ),
         ("    publish_rate: 50", "  publish_rate: 50", "4: `publish_rate` is next to the controllers, not in one"),
-        ("  elbow: 1.0", '  elbow: "1.0"', '13: `elbow` in `velocity_ff` is "1.0", a text in quotes'),
+        ("  elbow: 1.0", '  elbow: "1.0"', '13: `elbow` in `velocity_ff` is "1.0", a quoted string'),
         ("  elbow: 1.0", "  elbwo: 1.0", "13: unknown name `elbwo` in `velocity_ff` of controller `arm_controller`"),
-        ("p: 20.0", 'p: "20.0"', '9: gain `p` is "20.0", a text in quotes'),
+        ("p: 20.0", 'p: "20.0"', '9: gain `p` is "20.0", a quoted string'),
         (
             "      elbow: 1.0\n",
             "      elbow: 1.0\n      constraints: {}\n",

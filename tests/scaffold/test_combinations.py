@@ -26,7 +26,7 @@ def groups_of(row):
 
 
 def covering(options, never):
-    """Yield rows, few of them, until every group of values has been in one; rows with one of `never` are left out.
+    """Yield rows, few of them, until every group of values has been in one; rows with one of `never` are ignored.
 
     Greedy: each row begins with a group that is still missing and takes, option by option, the value that brings most.
     """

@@ -124,7 +124,7 @@ def _compare(path: str, arguments: dict[str, str], packages: Packages) -> int:
     if difference is None:
         print(f"{path}: equal to the output of {stock} ({text.count(chr(10))} lines)")
         return 0
-    print(f"{path}: differs from the output of {stock} in line {difference.line}, column {difference.column}")
+    print(f"{path}: differs from the output of {stock} on line {difference.line}, column {difference.column}")
     for name, line in (("xacro", difference.first), ("urdfkit", difference.second)):
         print(f"  {name + ':':8} {'(no further line)' if line is None else line}")
     return 1

@@ -194,7 +194,7 @@ def _negative_masses(robot: Robot) -> str:
         for link in robot.links
         if link.inertial is not None and (link.inertial.mass or 0.0) < 0.0
     ]
-    return f" with {', '.join(found)}, which `sim` refuses" if found else ""
+    return f" with {', '.join(found)}, which `sim` rejects" if found else ""
 
 
 def _table(facts: dict[str, Any], robot: Robot) -> str:

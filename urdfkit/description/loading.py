@@ -109,7 +109,7 @@ def load_repaired(
 
     Returns:
         A robot that is one valid tree, with the `repairs` that it needed; see `repaired_structure` and
-            `repaired_values`. Includes and macros that do not exist are left out (`without_unknown_values`).
+            `repaired_values`. Includes and macros that do not exist are ignored (`without_unknown_values`).
 
     Raises:
         UsageError: see `load`.
@@ -170,7 +170,7 @@ def _load(
         if readable is None:
             raise
         robot = _load(model, check, readable, repairs=True)
-        repair = Repair("structure", "E001", f"{error.message}; it is left out", error.position)
+        repair = Repair("structure", "E001", f"{error.message}; it is ignored", error.position)
         return replace(robot, repairs=(repair, *robot.repairs))
     try:
         robot = _parsed(expanded, model.arguments)

@@ -46,7 +46,7 @@ class _Structure:
         self._detached: dict[str, int] = {}
         """Link without a parent because of a defect that has been reported → index of the defect."""
         self._left_out = {defect.element: i for i, defect in enumerate(defects) if defect.effect == LEFT_OUT}
-        """Element without which a joint is left out → index of its defect."""
+        """Element without which a joint is ignored → index of its defect."""
         self._childless: int | None = None
         """Index of the defect of a joint without child, which may be any link without parent."""
 
@@ -74,7 +74,7 @@ class _Structure:
         for link, other in repeated(self.robot.links):
             at = other.element.origin.position
             message = f"two links are called `{link.name}`; the first is at {at}"
-            self._add(message, "this one is left out", "T206", link.element, link=link.name)
+            self._add(message, "this one is ignored", "T206", link.element, link=link.name)
         for joint, original in repeated(self.robot.joints):
             message = f"two joints are called `{joint.name}`; the first is at {original.element.origin.position}"
             self._add(message, "this one is renamed", "T207", joint.element, joint=joint.name)
@@ -142,7 +142,7 @@ class _Structure:
                 is_repeated = joint.element.get("name") == other.element.get("name")
                 child = joint.element.find("child") or joint.element
                 code, element = ("T207", joint.element) if is_repeated else ("T205", child)
-                effect = f"joint `{joint.name}` is left out"
+                effect = f"joint `{joint.name}` is ignored"
                 self._add(message, effect, code, element, link=joint.child, joint=joint.name)
         self.links += [Link(name, None, (), (), element) for name, element in undefined.items()]
         if self.defects:
@@ -173,7 +173,7 @@ class _Structure:
             cut.add(last.name)
             names = [joint.parent or "" for joint in loop]
             message = f"the joints form a loop: {' → '.join([*names, names[0]])}"
-            effect = f"joint `{last.name}` is left out"
+            effect = f"joint `{last.name}` is ignored"
             self._add(message, effect, "T204", last.element, joint=last.name)
             self._detached.setdefault(last.child or "", len(self.defects) - 1)
         self.joints = [joint for joint in self.joints if joint.name not in cut]

@@ -13,7 +13,7 @@ from urdfkit.errors import ModelError, with_effect
 from urdfkit.position import Position
 from urdfkit.record import field, record
 
-LEFT_OUT = "the joint is left out"
+LEFT_OUT = "the joint is ignored"
 """Effect of the repair of a joint without a parent or a child."""
 
 _HARMLESS = frozenset({"unknown-value", "missing", "zero", "version"})

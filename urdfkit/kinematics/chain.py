@@ -214,7 +214,7 @@ class Chain:
             restarts: see `solve`.
             seed: see `solve`.
             most: maximum number of solutions, before whole turns.
-            collision_free: see `solve`; solutions with collisions are left out.
+            collision_free: see `solve`; solutions with collisions are ignored.
 
         Returns:
             The solutions; the nearest configuration alone if the target cannot be reached.

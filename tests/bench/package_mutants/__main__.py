@@ -7,7 +7,7 @@ mistake, old or new. It is found *at the line* in the first two cases, at a macr
 a definition was renamed or removed, at a line that uses the name. A dependency or an installed folder that is missing
 has no line: there any line of the file counts. Every other finding is counted as such: the workspaces have none.
 
-A mutant is left out if a reader of its file sees no difference: the parsed YAML, the canonical XML, the syntax tree of
+A mutant is ignored if a reader of its file sees no difference: the parsed YAML, the canonical XML, the syntax tree of
 Python or the commands of CMake are equal, or, for the model, the expanded robot is. `--write FILE` writes the table and
 the misses to a file.
 """

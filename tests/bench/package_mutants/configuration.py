@@ -184,7 +184,7 @@ def tab(ws: Workspace, lot: random.Random) -> Mutants:
 
 @_YAML
 def space_after_colon_missing(ws: Workspace, lot: random.Random) -> Mutants:
-    """The line is a text, not a key with a value."""
+    """The line is a string, not a key with a value."""
     for file, found in _pairs(ws):
         if found[4] and not found[4].startswith(("[", "{", '"')):
             text = ws.files[file]
@@ -251,7 +251,7 @@ def text_for_a_list(ws: Workspace, lot: random.Random) -> Mutants:
 
 @_YAML
 def text_for_a_truth(ws: Workspace, lot: random.Random) -> Mutants:
-    """A quoted or misspelt truth value is a text."""
+    """A quoted or misspelt truth value is a string."""
     for file, found in _pairs(ws):
         if found[4] in ("true", "false"):
             yield _value(

@@ -309,7 +309,7 @@ def setup_names(ws: Workspace, lot: random.Random) -> Mutants:
 
 
 def _referenced(ws: Workspace) -> Iterator[tuple[str, str]]:
-    """Yield the files that another file names, and their names; names that two files share are left out."""
+    """Yield the files that another file names, and their names; names that two files share are ignored."""
     names = [file.rpartition("/")[2] for file in ws.files]
     for file in ws.files:
         name = file.rpartition("/")[2]

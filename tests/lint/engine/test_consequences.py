@@ -1,4 +1,4 @@
-"""Findings that vanish with the cause of another one are left out."""
+"""Findings that vanish with the cause of another one are ignored."""
 
 from __future__ import annotations
 

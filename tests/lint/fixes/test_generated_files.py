@@ -28,7 +28,7 @@ def test_a_file_that_its_head_marks_as_generated_is_left_alone(write, comment):
     fixed = fix([Entry(path)], Options(), within=[path.parent])
     assert fixed.changes == ()
     (note,) = fixed.notes
-    assert "r.urdf was not fixed: a comment in line 2 marks it as generated; fix its source, or use" in note
+    assert "r.urdf was not fixed: a comment on line 2 marks it as generated; fix its source, or use" in note
     assert len(fix([Entry(path)], Options(), within=[path.parent], generated=True).changes) == 1
 
 

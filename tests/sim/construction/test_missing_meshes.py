@@ -1,4 +1,4 @@
-"""A mesh in <collision> that is missing or broken: its shape is left out by name, and the rest runs."""
+"""A mesh in <collision> that is missing or broken: its shape is ignored by name, and the rest runs."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ def test_the_shape_is_left_out_by_name_and_the_rest_stands_on_the_ground(
     (note,) = [each for each in notes if mesh in each]
     assert reported in note
     assert note.startswith(f"{file}:1:")
-    assert note.endswith("shape `base/collision/hull` is left out: it has no contacts")
+    assert note.endswith("shape `base/collision/hull` is ignored: it has no contacts")
 
 
 def test_a_visual_mesh_is_a_repair_at_the_line_of_its_file_name(tmp_path: Path) -> None:
@@ -42,7 +42,7 @@ def test_a_visual_mesh_is_a_repair_at_the_line_of_its_file_name(tmp_path: Path) 
     simulator = Simulator(written(tmp_path, BOX + mesh), note=lambda _: None)
     (repair,) = simulator.repairs
     assert (repair.kind, repair.code, repair.link) == ("mesh", "G601", "base")
-    assert repair.message == "no file gone.stl; shape `base/visual/hull` is left out: it is invisible"
+    assert repair.message == "no file gone.stl; shape `base/visual/hull` is ignored: it is invisible"
     assert repair.position is not None
     assert repair.position.line == 2
 
@@ -120,7 +120,7 @@ def test_so_is_one_of_a_worlds_models(tmp_path: Path, mesh: str, reported: str, 
     (note,) = [each for each in notes if mesh in each]
     assert note.startswith(f"{world}:1:")
     assert reported in note
-    assert note.endswith("collision `hull` is left out: it has no contacts")
+    assert note.endswith("collision `hull` is ignored: it has no contacts")
 
 
 def test_a_static_model_may_have_nothing_left_and_a_free_one_may_not(tmp_path: Path) -> None:

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 
 class TopicFile(NamedTuple):
-    """``TOPIC=FILE``: what to save where; the topic is empty where it is left out."""
+    """``TOPIC=FILE``: what to save where; the topic is empty if it is omitted."""
 
     topic: str
     file: Path

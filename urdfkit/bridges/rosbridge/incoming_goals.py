@@ -31,7 +31,7 @@ class ClientGoals:
         """Send a goal; its feedback and its result are sent to the client."""
         name, number, wants_feedback = message.get("action"), str(message.get("id")), bool(message.get("feedback"))
         if not isinstance(name, str):
-            raise UsageError("`send_action_goal` needs `action`, a text")
+            raise UsageError("`send_action_goal` needs `action`, a string")
 
         def reply(op: str, values: str, **more: Any) -> None:
             head = json.dumps({"op": op, "id": message.get("id"), "action": name, **more})

@@ -167,7 +167,7 @@ class RosbridgePeer:
 def _text(message: dict[str, Any], name: str) -> str:
     value = message.get(name)
     if not isinstance(value, str) or not value:
-        raise UsageError(f"`{message.get('op')}` needs `{name}`, a text")
+        raise UsageError(f"`{message.get('op')}` needs `{name}`, a string")
     return absolute(value) if name in ("topic", "service") else value
 
 

@@ -122,7 +122,7 @@ def _named(types: dict[str, str], type: str) -> list[str]:
 def _text(arguments: Arguments, name: str) -> str:
     value = arguments.get(name)
     if not isinstance(value, str):
-        raise UsageError(f"the argument `{name}` is missing; it is a text")
+        raise UsageError(f"the argument `{name}` is missing; it is a string")
     return value
 
 

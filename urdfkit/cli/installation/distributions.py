@@ -37,7 +37,7 @@ _VAGUE = r"any-OSI|OSI Approved|unknown|BSD(?: License)?|Copyright\b.*|"
 def required(name: str = "urdfkit") -> list[Distribution]:
     """Return the installed distributions that a distribution requires with any of its extras, and itself first.
 
-    Requirements that are not installed, such as those of an extra that is not used, are left out.
+    Requirements that are not installed, such as those of an extra that is not used, are ignored.
 
     Args:
         name: the distribution; an empty list if it is not installed, as in a checkout on ``PYTHONPATH``.

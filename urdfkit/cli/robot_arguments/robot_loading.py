@@ -1,4 +1,4 @@
-"""The option `--strict`, and loading of the robot of a command: repaired by default, refused with `--strict`."""
+"""The option `--strict`, and loading of the robot of a command: repaired by default, rejected with `--strict`."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ def add_strict(parser: argparse.ArgumentParser, example: str) -> None:
     parser.add_argument(
         "--strict",
         action="store_true",
-        help=f"refuse robots whose repair is a warning, such as {example} (default: repair and warn)",
+        help=f"reject robots that need a repair with a warning, such as {example} (default: repair and warn)",
     )
 
 

@@ -107,7 +107,7 @@ class Settings:
         return _TRUTHS[found.value.lower()]
 
     def texts(self, path: str) -> tuple[Settings, ...]:
-        """Return the entries of a list of texts; a single text is a list of one, a missing parameter an empty list.
+        """Return the entries of a list of strings; a single string is a list of one, a missing parameter an empty list.
 
         Raises:
             DescriptionError: the parameter or an entry of it is a group.

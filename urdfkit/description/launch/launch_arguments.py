@@ -50,7 +50,7 @@ class Choice:
 def passed_to(description: Path, packages: Packages) -> list[Passed]:
     """Return the arguments that launch files of the package, and of packages that depend on it, pass to a description.
 
-    A launch file is left out if another one includes it and passes arguments to the description too.
+    A launch file is ignored if another one includes it and passes arguments to the description too.
 
     Args:
         description: the file that xacro expands.

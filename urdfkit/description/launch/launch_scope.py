@@ -123,7 +123,7 @@ class LaunchScope:
             self.expansion(files[0] if files else UNKNOWN, {name: value for name, _, value in pairs})
 
     def expansion(self, file: str, arguments: Mapping[str, str]) -> None:
-        """Record the expansion of a file with arguments; computed arguments are left out."""
+        """Record the expansion of a file with arguments; computed arguments are ignored."""
         if (description := self._file(file)) is not None:
             values = {name: self.constant(value) for name, value in arguments.items() if UNKNOWN not in name}
             written = {name: value for name, value in values.items() if value is not None}

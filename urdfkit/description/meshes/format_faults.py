@@ -157,7 +157,7 @@ def reading_fault(suffix: str, content: bytes) -> str:
         try:
             ParserCreate().Parse(content, True)
         except ExpatError as error:
-            return f"its XML is invalid in line {error.lineno}, column {error.offset + 1}"
+            return f"its XML is invalid on line {error.lineno}, column {error.offset + 1}"
     if suffix in (".gltf", ".glb"):
         import json
 
@@ -165,7 +165,7 @@ def reading_fault(suffix: str, content: bytes) -> str:
         try:
             json.loads(content[_GLB_HEADER : _GLB_HEADER + size] if suffix == ".glb" else content)
         except json.JSONDecodeError as error:
-            return f"its JSON is invalid in line {error.lineno}, column {error.colno}"
+            return f"its JSON is invalid on line {error.lineno}, column {error.colno}"
         except (ValueError, RecursionError):
             return "its JSON is invalid"
     return f"it is not a valid {TITLES[suffix].split(maxsplit=1)[1]}: export it again"

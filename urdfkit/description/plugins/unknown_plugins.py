@@ -21,7 +21,7 @@ def unknown(plugin: Plugin, sensor: str | None = None, others: Iterable[str] = (
         sensor: name of the ``<sensor>`` that contains the plugin; None for other plugins.
         others: stems of supported libraries that are not in the tables.
     """
-    left_out = "" if sensor is None else f"; sensor `{sensor or 'sensor'}` is left out"
+    left_out = "" if sensor is None else f"; sensor `{sensor or 'sensor'}` is ignored"
     if plugin.filename is None or not plugin.filename.strip():
         which = f" `{plugin.name}`" if plugin.name else ""
         return f"plugin{which} has no filename and is ignored{left_out}"
@@ -42,7 +42,7 @@ def unsupported(sensor: SensorTag, *, simulated: bool) -> str:
         simulated: whether its plugin, or a sensor of its type without plugins, is simulated.
     """
     kind = (sensor.type or "").strip()
-    left_out = f"sensor `{sensor.name or 'sensor'}` is left out"
+    left_out = f"sensor `{sensor.name or 'sensor'}` is ignored"
     if not kind:
         return f"a sensor has no type; {left_out}"
     if kind in SENSOR_TYPES and simulated:

@@ -120,7 +120,7 @@ def parse_with(parser: Any, source: Source, open_tags: Callable[[], list[tuple[s
         raise XmlError("the file is empty", position=Position(source.file, 1, 1))
     if (tags := source.text.count("<")) > MAX_TAGS:
         message = (
-            f"the file has {tags} tags and comments: more than {MAX_TAGS} are refused, those from here on; "
+            f"the file has {tags} tags and comments: more than {MAX_TAGS} are rejected, those from here on; "
             "no option raises the limit: split the file"
         )
         raise XmlError(message, position=source.position(_start_of(source.text, MAX_TAGS)))
@@ -223,7 +223,7 @@ def refuse_entity(source: Source, parser: Any, name: str) -> NoReturn:
         XmlError: always.
     """
     raise XmlError(
-        f"declares the entity `{name}`: entity declarations are refused, as they can grow without bound or read files",
+        f"declares the entity `{name}`: entity declarations are rejected, as they can grow without bound or read files",
         position=_here(source, parser),
     )
 
@@ -236,6 +236,6 @@ def check_doctype(source: Source, parser: Any, system: str | None, public: str |
     """
     if system or public:
         raise XmlError(
-            f"the document type names `{system or public}`: external entities are refused",
+            f"the document type names `{system or public}`: external entities are rejected",
             position=_here(source, parser),
         )

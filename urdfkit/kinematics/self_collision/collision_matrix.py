@@ -98,7 +98,7 @@ def collision_matrix(
         robot: a loaded robot, a file, a package folder or the name of a bundled robot; see `urdfkit.load`.
         samples: random configurations within the limits of the joints.
         seed: of the random numbers; the same seed gives the same matrix.
-        note: called with a message for a mesh that cannot be read; its shape is left out.
+        note: called with a message for a mesh that cannot be read; its shape is ignored.
         progress: called with the number of finished pairs and of all pairs.
 
     Raises:

@@ -44,7 +44,7 @@ def shapes_by_link(robot: Robot, note: Callable[[str], None] | None = None) -> d
 
     Args:
         robot: the robot.
-        note: called with a message for a mesh that cannot be read; its shape is left out.
+        note: called with a message for a mesh that cannot be read; its shape is ignored.
 
     Raises:
         ResourceError: a mesh cannot be read, and `note` is None.
@@ -105,7 +105,7 @@ def _shapes(robot: Robot, link: Link, loader: MeshLoader, note: Callable[[str], 
             position = mesh.origin.position
             if note is None:
                 raise ResourceError(error.message, position=position, kind=error.kind) from error
-            note(f"{position}: link `{link.name}`: a collision shape is left out: {error.message}")
+            note(f"{position}: link `{link.name}`: a collision shape is ignored: {error.message}")
             continue
         if shape is not None:
             shapes.append(shape)

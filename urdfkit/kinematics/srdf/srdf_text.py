@@ -61,7 +61,7 @@ def missing_links(old: str, robot: Robot, file: str) -> list[str]:
     """Return the links that an SRDF names and the robot does not have, in the order of the SRDF.
 
     Args:
-        old: text of the SRDF; values with a ``$`` of xacro are left out.
+        old: text of the SRDF; values with a ``$`` of xacro are ignored.
         robot: the robot.
         file: name of the SRDF, for messages.
 

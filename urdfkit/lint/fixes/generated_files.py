@@ -29,7 +29,7 @@ def reason_if_generated(path: Path, text: str, others: Mapping[Path, str] | None
     mark = next((at for at in re.finditer(pattern, text[:_HEAD]) if re.search(_MARK, at[1])), None)
     if mark is not None:
         line = text.count("\n", 0, mark.start()) + 1
-        return f"a comment in line {line} marks it as generated"
+        return f"a comment on line {line} marks it as generated"
     neighbours = _neighbours(path)
     if _MIN_NEIGHBOURS <= len(neighbours) <= _MAX_NEIGHBOURS:
         structure = _structure(text)  # empty unless the file is XML

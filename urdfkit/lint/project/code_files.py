@@ -13,12 +13,12 @@ MAX_BYTES = 500_000
 def code_texts(folder: Path, endings: tuple[str, ...], without: tuple[str, ...] = ()) -> Iterator[tuple[Path, str]]:
     """Yield the files in a folder that end so and can be read, with their texts, in the order of their names.
 
-    Hidden folders, symbolic links and files larger than `MAX_BYTES` are left out.
+    Hidden folders, symbolic links and files larger than `MAX_BYTES` are ignored.
 
     Args:
         folder: a package.
         endings: endings of the names of files.
-        without: endings of the names of files that are left out.
+        without: endings of the names of files that are ignored.
     """
     for place, folders, files in os.walk(folder):
         folders[:] = sorted(name for name in folders if not name.startswith("."))

@@ -205,4 +205,4 @@ def _text(question: Question, value: object) -> str:
         return str(value)
     if isinstance(value, bool) and question.kind == "flag":
         return "yes" if value else "no"
-    raise UsageError(f"`{question.name}` must be a text, a number or a list of texts")
+    raise UsageError(f"`{question.name}` must be a string, a number or a list of strings")

@@ -22,7 +22,7 @@ NAME = "template.toml"
 
 _TEXT, _TEXTS, _TABLE, _FLAG, _NUMBERS, _TABLES = (
     "a text",
-    "a list of texts",
+    "a list of strings",
     "a table",
     "true or false",
     "two numbers",

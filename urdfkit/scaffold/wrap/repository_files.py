@@ -58,7 +58,7 @@ def render_repository_files(
         origin: description of the robot's origin for the README.
         values: answers to ros, maintainer, email, license and picture, and the placeholders year and into.
         repository: whether to write files outside the packages.
-        without: names of existing files and folders at the top of the output, which are left out.
+        without: names of existing files and folders at the top of the output, which are ignored.
 
     Raises:
         ResourceError: a file cannot be written.

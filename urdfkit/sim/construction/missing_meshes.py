@@ -35,7 +35,7 @@ def report_omitted_shapes(robot: Robot, scene: Scene, repairs: Repairs) -> None:
     for each in scene.problems:
         if each.role == "collision":
             raise each.error
-        message = with_effect(each.error.message, f"shape `{each.name}` is left out: it is invisible")
+        message = with_effect(each.error.message, f"shape `{each.name}` is ignored: it is invisible")
         found.append(Repair("mesh", each.code, message, each.error.position, each.body, severity=severity))
     repairs.add(*found)
 
@@ -76,7 +76,7 @@ def _without(model: WorldModel, meshes: MeshLoader, note: Callable[[str], None])
         try:
             meshes.load(Path(shape.file), shape.geometry.scale)
         except ResourceError as error:
-            omitted = f"{error}; collision `{shape.name}` is left out: it has no contacts"
+            omitted = f"{error}; collision `{shape.name}` is ignored: it has no contacts"
             message = f"visual `{shape.name}` is invisible: {error}" if visual else omitted
             note(f"{shape.position or model.name}: {message}")
             return False

@@ -131,7 +131,7 @@ def install(robot: Robot, setup: Setup, *, seed: int) -> Installed:
     specs = [match(plugin) for plugin, _, _ in _plugins(robot)] if robot.ros2_control else []
     if not any(
         spec is not None and spec.kind == "ros2_control" for spec in specs
-    ):  # its own repair reports a plugin that is left out
+    ):  # its own repair reports a plugin that is ignored
         if run := mock_blocks(robot):
             decision = _configure(mock_control(robot), setup)
             if isinstance(decision, Simulated):
@@ -194,7 +194,7 @@ def _choose(plugin: Plugin, setup: Setup, classes: tuple[type[Drive | Sensor | C
 
 
 def _configure(made: Drive | Sensor | Controller | JointStates, setup: Setup) -> Decision:
-    """Configure a plugin; a plugin with a wrong parameter is left out.
+    """Configure a plugin; a plugin with a wrong parameter is ignored.
 
     Raises:
         UrdfkitError: a parameter of a drive or controller is wrong, and robots that need a repair are refused.
@@ -210,7 +210,7 @@ def _configure(made: Drive | Sensor | Controller | JointStates, setup: Setup) ->
             raise
         name = setup.sensor.name if setup.sensor is not None else made.plugin.name
         label = f"sensor `{name}`" if name else "the sensor"
-        message = with_effect(error.message, f"{label} is left out")
+        message = with_effect(error.message, f"{label} is ignored")
         return LeftOut(message, error.position or made.plugin.element.origin.position, error.code)
     return Simulated(made)
 
@@ -225,12 +225,12 @@ def _report(part: LeftOut, kind: RepairKind, setup: Setup) -> None:
 
 
 def _leave_out(plugin: Plugin, error: UrdfkitError, setup: Setup) -> Needless:
-    """Record that a plugin with a wrong parameter is left out.
+    """Record that a plugin with a wrong parameter is ignored.
 
     Raises:
         UrdfkitError: the error, if robots that need a repair are refused.
     """
-    effect = f"plugin `{plugin.name or plugin.filename}` is left out"
+    effect = f"plugin `{plugin.name or plugin.filename}` is ignored"
     code = "K971" if isinstance(error, DescriptionError) else None
     setup.repairs.leave_out(error, effect, "plugin", code, position=plugin.element.origin.position)
     return Needless()

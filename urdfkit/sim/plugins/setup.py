@@ -40,7 +40,7 @@ class Setup:
         distro: ROS distribution whose behaviour the plugin follows.
         parameter_files: parameter files of controllers, instead of the files that the robot's packages load.
         namespace: namespace of the built-in topics: empty for the first robot, ``/NAME`` for others.
-        repairs: collects the parts of the robot that are left out.
+        repairs: collects the parts of the robot that are ignored.
     """
 
     bus: Bus

@@ -64,7 +64,7 @@ def read_gains(settings: Settings, path: str, note: Callable[[str], None]) -> Ga
                 position=(where or group).position,
             )
     if gains.i and not gains.integrates:
-        note(f"{group.place.file}: `i` has no effect without `i_clamp`, which is 0 when left out")
+        note(f"{group.place.file}: `i` has no effect without `i_clamp`, which defaults to 0")
     return gains
 
 

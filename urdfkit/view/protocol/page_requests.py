@@ -131,7 +131,7 @@ def text(most: int = MAX_NAME) -> Check:
             or len(value) > most
             or any(ord(each) < 32 and each not in "\n\t" for each in value)
         ):
-            raise ProtocolError(f"{_shown(value)} is not a text of at most {most} characters")
+            raise ProtocolError(f"{_shown(value)} is not a string of at most {most} characters")
         return str(value)
 
     return read

@@ -214,7 +214,7 @@ def _sequence(value: Any) -> int:
 
 def _name(value: Any) -> str:
     if not isinstance(value, str) or len(value) > MAX_NAME:
-        raise ProtocolError(f"a name must be a text of at most {MAX_NAME} characters")
+        raise ProtocolError(f"a name must be a string of at most {MAX_NAME} characters")
     return value
 
 

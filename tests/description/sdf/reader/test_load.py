@@ -444,11 +444,11 @@ def test_state_scales_shapes(tmp_path: Path) -> None:
         ),
         (
             '<plugin name="p" filename="libgazebo_ros_factroy.so"/>',
-            "in the world is left out; did you mean `gazebo_ros_f",
+            "in the world is ignored; did you mean `gazebo_ros_f",
         ),
         (
             '<model name="m"><link name="l"/><plugin name="p" filename="libgazebo_ros_diff_driver.so"/></model>',
-            "`libgazebo_ros_diff_driver.so` in model `m` is left out; did you mean `gazebo_ros_diff_drive`?",
+            "`libgazebo_ros_diff_driver.so` in model `m` is ignored; did you mean `gazebo_ros_diff_drive`?",
         ),
         ('<actor name="a"/>', "actors are not simulated"),
         ('<population name="p"/>', "populations are not simulated"),
@@ -580,7 +580,7 @@ def test_a_collision_whose_mesh_is_not_there_is_noted_with_its_place_and_names_n
     <uri>nowhere.stl</uri></mesh></geometry></collision></link></model>"""
     world = world_of(tmp_path, text)
     (note,) = world.notes
-    assert note == (f"{tmp_path}/test.world:4:5: no file nowhere.stl; collision `hull` is left out: it has no contacts")
+    assert note == (f"{tmp_path}/test.world:4:5: no file nowhere.stl; collision `hull` is ignored: it has no contacts")
     (shape,) = world.models[0].links[0].collisions
     assert isinstance(shape.geometry, Mesh)
     assert shape.file == ""
@@ -607,7 +607,7 @@ def test_files_that_include_each_other(tmp_path: Path) -> None:
     [
         ("<sdf><world", r"bad\.sdf:1:"),
         ('<!DOCTYPE sdf [<!ENTITY a "b">]><sdf version="1.6"/>', "declares the entity `a`"),
-        ('<!DOCTYPE sdf SYSTEM "/etc/passwd"><sdf version="1.6"/>', "external entities are refused"),
+        ('<!DOCTYPE sdf SYSTEM "/etc/passwd"><sdf version="1.6"/>', "external entities are rejected"),
     ],
 )
 def test_hostile_and_broken_files(tmp_path: Path, text: str, reported: str) -> None:

@@ -66,7 +66,7 @@ def difference(path: str | Path, arguments: Mapping[str, str], packages: Package
     ours = by_urdfkit(path, arguments, packages)
     if (stock.text is None) != (ours.text is None):
         if stock.error.startswith("AttributeError: ") and stock.error.endswith("'replace'"):
-            return "", stock  # <xacro:attribute> with a value that is not a text: stock xacro cannot print it
+            return "", stock  # <xacro:attribute> with a value that is not a string: stock xacro cannot print it
         missing = stock.error.rpartition("No such file or directory: ")[2].strip("'")
         if packages.relocate(missing) is not None:
             return "", stock  # a file that only its installation puts in place

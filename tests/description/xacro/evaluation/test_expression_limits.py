@@ -72,7 +72,7 @@ def test_what_grows_is_refused(write: Write, expression: str) -> None:
     [
         ("9**9**9", "`${9**9**9}` is too large: it creates an integer of more than 10,000 bits"),
         ("[0] * 10**10", "it creates lists of more than 100,000 elements in all"),
-        ("'x' * 10**10", "it creates a text of more than 100,000 characters"),
+        ("'x' * 10**10", "it creates a string of more than 100,000 characters"),
         ("1+" * 9000 + "1", "it has 18,001 characters; at most 10,000 are evaluated"),
         ("[0 for i in range(9999) for j in range(9999)]", "exceed 1,000,000 steps"),
     ],
@@ -130,7 +130,7 @@ def test_a_command_is_bounded_too(write: Write) -> None:
 def test_properties_that_laugh_are_stopped(write: Write) -> None:
     lines = "".join(f'<xacro:property name="p{i + 1}" value="{f"${{p{i}}}" * 10}"/>' for i in range(12))
     path = write("m.xacro", f'HEAD<xacro:property name="p0" value="lol"/>{lines}<link name="${{p12}}"/></robot>')
-    with pytest.raises(XacroError, match="it creates a text of more than 100,000 characters"):
+    with pytest.raises(XacroError, match="it creates a string of more than 100,000 characters"):
         expand(path)
     assert [fault.kind for fault in expand_leniently(path).faults] == ["too-large"]
 

@@ -74,7 +74,7 @@ HOSTILE = {
     ),
     "patterns": ('<xacro:include filename="/*/*/*/*/*/*/none*.xacro"/>' * 20, "cannot include .* 1,000,000 steps"),
     "device": ('<xacro:include filename="/dev/zero"/>', "cannot include `/dev/zero`: /dev/zero is not a regular file"),
-    "text": ("${'x' * 99999}" * 9, "is too large: it creates a text of more than 100,000 characters"),
+    "text": ("${'x' * 99999}" * 9, "is too large: it creates a string of more than 100,000 characters"),
     "chain": (
         '<xacro:property name="p0" value="1"/>'
         + "".join(f'<xacro:property name="p{i + 1}" value="${{p{i} + 1}}"/>' for i in range(3000))

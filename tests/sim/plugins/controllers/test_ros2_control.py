@@ -290,7 +290,7 @@ def test_a_controller_with_a_wrong_parameter_is_left_out(
     (repair,) = simulator.repairs
     assert (repair.kind, repair.code) == ("controller", code)
     assert contains(repair.message, message)
-    assert "; controller `arm_controller` is left out; did you mean" in repair.message
+    assert "; controller `arm_controller` is ignored; did you mean" in repair.message
     assert "arm.yaml:" in str(repair)
 
 
@@ -311,7 +311,7 @@ def test_hardware_of_the_real_robot_is_left_out(make: Make, monkeypatch: pytest.
     assert (hardware.kind, hardware.code) == ("hardware", "C709")
     assert hardware.message == "hardware `arm_driver/ArmHardware` is not the simulator's; its joints are not controlled"
     assert any(
-        "its hardware `arm_driver/ArmHardware` is left out; controller `arm_controller`" in each for each in notes
+        "its hardware `arm_driver/ArmHardware` is ignored; controller `arm_controller`" in each for each in notes
     )
     monkeypatch.setattr(ros2_control, "simulation_hint", lambda robot: "; pass sim_mode:=true")
     with pytest.raises(SimulationError, match="`arm_driver/ArmHardware` is not the simulator's; pass sim_mode:=true"):

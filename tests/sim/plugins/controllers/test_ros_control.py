@@ -85,7 +85,7 @@ def test_integral_without_clamp_does_nothing_and_is_noted(make: Make) -> None:
     simulator.run(5.0)
     assert abs(positions(simulator)[0] - 1.0) > 0.05
     assert [note.rpartition("/")[2] for note in notes if "i_clamp" in note] == [
-        "arm.yaml: `i` has no effect without `i_clamp`, which is 0 when left out"
+        "arm.yaml: `i` has no effect without `i_clamp`, which defaults to 0"
     ]
 
 
@@ -618,7 +618,7 @@ def test_a_transmission_that_gazebo_does_not_simulate_is_left_out_and_lint_repor
     simulator = Simulator(path, note=lambda _: None)
     (repair,) = simulator.repairs
     assert problem in repair.message
-    assert repair.message.endswith("transmission `odd` is left out")
+    assert repair.message.endswith("transmission `odd` is ignored")
     assert repair.position is not None
     found = {(finding.line, finding.code) for finding in lint(path)}
     assert {(repair.position.line, "C702"), (repair.position.line, "C703")} & found

@@ -176,6 +176,6 @@ def test_a_pose_that_cannot_be_told_is_left_out_by_name(tmp_path: Path, brick, p
     written = f'<plugin name="p" filename="libgazebo_ros_p3d.so">{plugin}</plugin>'
     robot = brick("", more=written).robot
     Simulator(robot, world="void", note=notes.append)
-    (note,) = [each for each in notes if "left out" in each]
+    (note,) = [each for each in notes if "is ignored" in each]
     assert contains(note, reported)
-    assert "; sensor `p` is left out" in note
+    assert "; sensor `p` is ignored" in note

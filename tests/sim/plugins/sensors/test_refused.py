@@ -93,15 +93,15 @@ WRONG = [
     ),
     (
         BLOCK.format(sensor(LASER, inside=scan(noise='<noise type="gausian"/>'))),
-        "sensor `lidar` is left out; did you mean `gaussian`?",
+        "sensor `lidar` is ignored; did you mean `gaussian`?",
     ),
     (
         BLOCK.format(sensor(LASER.replace("ros_laser", "ros_block_laser"))),
-        "topic `/scan` has type sensor_msgs/msg/LaserScan, not sensor_msgs/msg/PointCloud; sensor `lidar` is left out",
+        "topic `/scan` has type sensor_msgs/msg/LaserScan, not sensor_msgs/msg/PointCloud; sensor `lidar` is ignored",
     ),
     (
         BLOCK.format(sensor(LASER.replace("ros_laser", "ros_lazer"))),
-        "no plugin `libgazebo_ros_lazer.so`; sensor `lidar` is left out; did you mean `libgazebo_ros_laser.so`?",
+        "no plugin `libgazebo_ros_lazer.so`; sensor `lidar` is ignored; did you mean `libgazebo_ros_laser.so`?",
     ),
 ]
 
@@ -134,7 +134,7 @@ def test_the_command_says_it_in_one_line_and_goes_on(robot, capsys: Any) -> None
     assert main(["sim", "run", str(file), "--world", "void", "--for", "0.01"]) == 0
     reported = capsys.readouterr().err.splitlines()
     assert [line for line in reported if "raay" in line] == [
-        f"urdfkit: warning: {file}:4:46: unknown sensor type `raay`; sensor `lidar` is left out; did you mean `ray`?"
+        f"urdfkit: warning: {file}:4:46: unknown sensor type `raay`; sensor `lidar` is ignored; did you mean `ray`?"
     ]
 
 
@@ -186,7 +186,7 @@ def test_what_is_ignored_is_reported_once_and_the_sensor_works(robot, blocks: st
     simulator = Simulator(load(robot(blocks)), world="void", note=notes.append)
     (note,) = notes
     assert contains(note, reported)
-    assert "left out" not in note
+    assert "is ignored" not in note
     assert re.search(r"/post\.urdf:[4-9]:\d+: ", note)
     assert heard(simulator, "/scan")
 

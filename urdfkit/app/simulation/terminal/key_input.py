@@ -61,7 +61,7 @@ class KeyInput:
 def split_keys(text: str) -> tuple[list[str], str]:
     """Return the keys of a terminal's input, and the begin of an escape sequence at its end.
 
-    Escape sequences other than those of arrow keys are left out.
+    Escape sequences other than those of arrow keys are ignored.
     """
     keys = []
     i = 0

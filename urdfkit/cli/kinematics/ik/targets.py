@@ -158,7 +158,7 @@ def _other_file(start: bytes, suffix: str) -> str:
     line = next(iter(start.decode("utf-8", "replace").split("\n")), "").strip()
     found = f"; it starts with `{line}`" if line and line.isprintable() and "\ufffd" not in line else ""
     made = "numpy.save" if suffix == ".npy" else "numpy.savez"
-    return f"not an array written by {made}{found}; rename a text of comma-separated numbers to .csv"
+    return f"not an array written by {made}{found}; rename a file of comma-separated numbers to .csv"
 
 
 def _array_named_targets(place: str, loaded: object) -> Array:

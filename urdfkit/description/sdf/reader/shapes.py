@@ -163,7 +163,7 @@ def _mesh(context: Context, shape: Element, element: Element) -> tuple[WorldGeom
         file = find_file(context, uri)
     except ResourceError as error:
         if shape.tag == "collision":
-            what = f"{error.message}; collision `{shape.get('name')}` is left out: it has no contacts"
+            what = f"{error.message}; collision `{shape.get('name')}` is ignored: it has no contacts"
             context.note(uri, what)
             return Mesh(uri.text, scale), ""
         context.note(uri, f"visual `{shape.get('name')}` is not shown: {error.message}")

@@ -58,7 +58,7 @@ def note_unknown_plugins(context: Context, world: World) -> tuple[Position, ...]
         near = nearest(name, NEEDLESS)
         hint = f"; did you mean `{near}`?" if near else ""
         context.note(
-            plugin.element, f"unknown plugin `{plugin.filename or plugin.name or ''}` in {owner} is left out{hint}"
+            plugin.element, f"unknown plugin `{plugin.filename or plugin.name or ''}` in {owner} is ignored{hint}"
         )
     return tuple(found)
 

@@ -75,7 +75,7 @@ class Commands:
                 if words[0] in commands:
                     resolved = resolved.replace(f"$({content})", str(self.value(content)))
                     if len(resolved) > MAX_CHARACTERS:
-                        raise excess("a text", MAX_CHARACTERS, "characters")
+                        raise excess("a string", MAX_CHARACTERS, "characters")
             text = resolved
         return text
 

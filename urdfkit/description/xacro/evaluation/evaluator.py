@@ -193,7 +193,7 @@ class Evaluator(Reuse):
             if not name or not isinstance(name, str):
                 self.at = (node, None)
                 raise self.placed(
-                    Failure("other", "xacro:element: empty name" if not name else "the name is not a text")
+                    Failure("other", "xacro:element: empty name" if not name else "the name is not a string")
                 )
             del node.attributes["xacro:name"]
             node.tag = node.name = name
@@ -343,7 +343,9 @@ class Evaluator(Reuse):
         value = self.text(node.attributes["value"], scope)
         self.at = (node, None)
         if not name or not isinstance(name, str):
-            raise self.placed(Failure("other", "xacro:attribute: empty name" if not name else "the name is not a text"))
+            raise self.placed(
+                Failure("other", "xacro:attribute: empty name" if not name else "the name is not a string")
+            )
         if node.parent is not None:
             node.parent.attributes[name] = value
         node.remove()

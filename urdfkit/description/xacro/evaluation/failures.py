@@ -132,7 +132,7 @@ def circular_property(cycle: tuple[str, ...]) -> Failure:
 
 
 def cycle(names: list[str]) -> tuple[str, ...]:
-    """Return the last cycle of a stack of names, first name repeated; the names above it are left out."""
+    """Return the last cycle of a stack of names, first name repeated; the names above it are ignored."""
     for end in range(len(names), 1, -1):
         last = names[end - 1]
         for start in range(end - 2, -1, -1):

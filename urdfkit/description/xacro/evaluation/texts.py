@@ -110,7 +110,7 @@ class Texts:
             found.append(str(part))
             length += len(found[-1])
             if length > MAX_CHARACTERS:
-                raise self._too_large(excess("a text", MAX_CHARACTERS, "characters"), PLAIN, text)
+                raise self._too_large(excess("a string", MAX_CHARACTERS, "characters"), PLAIN, text)
         return "".join(found)
 
     def resolve(self, scope: Scope, name: str) -> Any:

@@ -68,8 +68,8 @@ def _unknown(root: Element, expanded: Expanded) -> Iterator[tuple[Element, Eleme
 def _repair(fault: Fault, tag: str) -> Repair:
     if fault.kind == "undefined-macro":
         meant = fault.details.get("meant")
-        effect = f"it is read as `{meant}`" if meant else "the call is left out"
+        effect = f"it is read as `{meant}`" if meant else "the call is ignored"
     else:
-        effect = "the include is left out" if tag == "xacro:include" else "what uses it is left out"
+        effect = "the include is ignored" if tag == "xacro:include" else "everything that uses it is ignored"
     message = with_effect(fault.message, effect)
     return Repair("xacro", _CODES[fault.kind], message, fault.position, attribute=fault.attribute)

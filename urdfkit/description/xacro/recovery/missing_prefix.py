@@ -103,7 +103,7 @@ def names_above(node: Tag) -> Iterator[str]:
 
 
 def tags_below(node: Tag) -> Iterator[Tag]:
-    """Yield the elements below one, in document order; elements that are added meanwhile are left out."""
+    """Yield the elements below one, in document order; elements that are added meanwhile are ignored."""
     pending = list(node.tags())[::-1]
     while pending:
         tag = pending.pop()

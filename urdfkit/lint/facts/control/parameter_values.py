@@ -90,13 +90,13 @@ def value_defects(node: Node, is_ros2: bool) -> Defects:
     for name, value in values.items():
         yield from _of_number(name, value, is_ros2)
         if name in _TRUTHS and value.kind == "text" and value.text.lower() in ("true", "false") and not value.is_plain:
-            yield value, f'`{name}` is "{value.text}", a text in quotes; write {value.text.lower()}'
+            yield value, f'`{name}` is "{value.text}", a quoted string; write {value.text.lower()}'
         elif name in _TRUTHS and value.kind == "text" and value.is_plain and value.text in ("0", "1"):
             yield value, f"`{name}` is {value.text}; write {'true' if value.text == '1' else 'false'}"
         if name in _LISTS and value.kind == "text" and value.text:
             kind = values["type"].text if "type" in values else ""
             is_single = name == "joints" and re.search(r"/Joint(Position|Velocity|Effort)Controller$", kind)
-            yield value, f"`{kind}` reads `joint`, not `joints`" if is_single else f"`{name}` is a text; write a list"
+            yield value, f"`{kind}` reads `joint`, not `joints`" if is_single else f"`{name}` is a string; write a list"
         for inner in value.entries if name == "velocity_ff" else ():
             if problem := not_a_number(inner[1]):
                 yield inner[1], f"`{inner[0].text}` in `velocity_ff` is {problem}"

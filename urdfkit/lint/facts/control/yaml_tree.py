@@ -91,7 +91,7 @@ def not_a_number(node: Node) -> str:
         if is_number or "$" in node.text or not node.text:
             return ""
         return f"`{node.text}`, which is not a number"
-    return "" if node.is_plain else f'"{node.text}", a text in quotes'
+    return "" if node.is_plain else f'"{node.text}", a quoted string'
 
 
 def number_of(node: Node | None) -> float | None:

@@ -82,12 +82,12 @@ def _of_call(call: ast.Call, kind: str, reader: LaunchReader) -> Defects:
 
 def _handler(target: ast.expr | None, reactions: ast.expr | None, word: str, reader: LaunchReader) -> Defects:
     if target is not None and (_is_text(target) or isinstance(_value(target, reader), (ast.List, ast.Tuple))):
-        what = "text" if _is_text(target) else "list"
+        what = "string" if _is_text(target) else "list"
         yield target, f"`target_action` is a {what}; write one action"
     listed = [] if reactions is None else _items(reactions, reader) or [reactions]
     for item in listed:
         if _is_text(item):
-            yield item, f"`{word}` has a text; write the variable of an action without quotes"
+            yield item, f"`{word}` has a string; write the variable of an action without quotes"
         elif isinstance(item, ast.Name) and isinstance(target, ast.Name) and item.id == target.id:
             yield target, f"`{target.id}` waits for its own end, so it never starts"
 
@@ -108,11 +108,11 @@ def _node(words: dict[str, ast.expr], kind: str, reader: LaunchReader) -> Defect
     for item in _items(words["arguments"], reader) if "arguments" in words else ():
         number = item.operand if isinstance(item, ast.UnaryOp) else item
         if isinstance(number, ast.Constant) and isinstance(number.value, (int, float)):
-            yield item, "an item of `arguments` is not a text; write it in quotes"
+            yield item, "an item of `arguments` is not a string; write it in quotes"
     remappings = words.get("remappings")
     pairs = _items(remappings, reader) if remappings is not None else []
     if remappings is not None and (pairs and all(_is_text(each) for each in pairs)):
-        yield remappings, 'an item of `remappings` is a text; write pairs, [("from", "to")]'
+        yield remappings, 'an item of `remappings` is a string; write pairs, [("from", "to")]'
 
 
 def _compared(node: ast.Compare | ast.If | ast.IfExp, reader: LaunchReader) -> Defects:

@@ -39,7 +39,7 @@ class StartedNode:
 
 
 def started_nodes(model: Model) -> Iterator[StartedNode]:
-    """Yield the nodes of launch files in XML and Python; files that set parameters for all nodes are left out."""
+    """Yield the nodes of launch files in XML and Python; files that set parameters for all nodes are ignored."""
     for source, tree in python_files(model):
         if "SetParameter" not in source.text:
             yield from _in_python(source, tree)

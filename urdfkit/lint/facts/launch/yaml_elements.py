@@ -57,7 +57,7 @@ def _actions(item: Node) -> Defects:
         if near is not None:
             yield key, f"unknown action `{key.text}`; did you mean `{near}`?"
         elif other is not None:
-            yield key, f"`{key.text}` is no action in ROS 2" + (f"; use `{other}`" if other else "")
+            yield key, f"`{key.text}` is not an action in ROS 2" + (f"; use `{other}`" if other else "")
 
 
 def _action(key: Node, name: str, value: Node) -> Defects:

@@ -58,7 +58,7 @@ def contradictions(
     is_complete = names <= model.robot.joint_by_name.keys()  # a joint that no robot has is reported where it is listed
     for node in joints.items if joints is not None and names and is_complete else ():
         if node.text in model.robot.joint_by_name and node.text not in names:
-            yield node, f"controller `{entry.name.text}` does not control joint `{node.text}` and refuses trajectories"
+            yield node, f"controller `{entry.name.text}` does not control joint `{node.text}` and rejects trajectories"
 
 
 def meant_controller(

@@ -78,7 +78,7 @@ def planning_defects(source: Source, groups: Collection[str]) -> Defects:
                 if is_of_group and groups and key.text not in groups:
                     yield key, f"group `{key.text}` does not exist in the SRDF{_hint(key.text, groups)}"
                 if configs is not None and configs.kind == "text" and configs.text:
-                    yield configs, f"`planner_configs` of group `{key.text}` is a text; write a list"
+                    yield configs, f"`planner_configs` of group `{key.text}` is a string; write a list"
                 if is_of_group:
                     yield from _planners(key, value, top.find("planner_configs"))
 
@@ -254,7 +254,7 @@ def limit_defects(entry: MoveitEntry, joint: Joint | None) -> Defects:
         side, _, quantity = key.text.partition("_")
         if side not in ("min", "max"):
             if key.text.startswith("has_") and node.text.lower() in ("true", "false") and not node.is_plain:
-                yield node, f'`{key.text}` is "{node.text}", a text in quotes; write true or false'
+                yield node, f'`{key.text}` is "{node.text}", a quoted string; write true or false'
             continue
         if problem := not_a_number(node):
             yield node, f"`{key.text}` of joint `{entry.name.text}` is {problem}"
@@ -330,7 +330,7 @@ def controller_defects(entry: MoveitEntry) -> Defects:
     name, seen = entry.name.text, set[str]()
     joints, action, default = (entry.settings.find(key) for key in ("joints", "action_ns", "default"))
     if joints is not None and joints.kind == "text" and joints.text:
-        yield joints, f"`joints` of controller `{name}` is a text; write a list"
+        yield joints, f"`joints` of controller `{name}` is a string; write a list"
     for node in joints.items if joints is not None else ():
         if node.text and node.text in seen:
             yield node, f"`{node.text}` occurs twice in `joints` of controller `{name}`"
@@ -339,4 +339,4 @@ def controller_defects(entry: MoveitEntry) -> Defects:
     if action is not None and near is not None and action.text not in _ACTIONS:
         yield action, f"unknown action `{action.text}` of controller `{name}`; did you mean `{near}`?"
     if default is not None and default.kind == "text" and not default.is_plain:
-        yield default, f'`default` of controller `{name}` is "{default.text}", a text in quotes; write true or false'
+        yield default, f'`default` of controller `{name}` is "{default.text}", a quoted string; write true or false'

@@ -77,7 +77,7 @@ def navigation_defects(source: Source, controllers: frozenset[str]) -> Defects:
             since_humble = any(each in source.text for each in ("behavior_server", "nav2_behaviors", "nav2_amcl::"))
             if model_type is not None and since_humble and model_type.text in MOTION_MODELS:
                 right = MOTION_MODELS[model_type.text]
-                yield model_type, f"`robot_model_type` `{model_type.text}` is of Galactic and before; write `{right}`"
+                yield model_type, f"`robot_model_type` `{model_type.text}` is from Galactic or earlier; write `{right}`"
         if name in NODES:
             for node in walk(group):
                 yield from _plugins(node)
@@ -105,7 +105,7 @@ def _switches(node: Node) -> Defects:
         if key.text not in SWITCHES or value.kind != "text" or not value.text or "$" in value.text:
             continue
         if not value.is_plain and value.text.lower() in ("true", "false"):
-            yield value, f'`{key.text}` is "{value.text}", a text in quotes; write {value.text.lower()}'
+            yield value, f'`{key.text}` is "{value.text}", a quoted string; write {value.text.lower()}'
         elif not re.fullmatch(_TRUTH, value.text, re.IGNORECASE) and not re.fullmatch(_SLIP_OF_TRUTH, value.text):
             yield value, f"`{key.text}` is `{value.text}`, which is neither true nor false"
 

@@ -41,7 +41,7 @@ def frames_with_slash(source: Source) -> Iterator[tuple[Node, str]]:
             for name in ("global_frame", "robot_base_frame"):
                 value = node.find(name)
                 if value is not None and value.text.startswith("/"):
-                    yield value, f"`{name}` is `{value.text}`; tf2 refuses frames with a slash at the start"
+                    yield value, f"`{name}` is `{value.text}`; tf2 rejects frames with a leading slash"
 
 
 def lone_frames(model: Model) -> Iterator[tuple[Source, Node, str]]:

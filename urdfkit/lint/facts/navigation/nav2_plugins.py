@@ -49,12 +49,15 @@ def _of_galactic(source: Source, key: Node, name: str, group: Node, has_behavior
     """Yield the plugins and the node of Galactic in a file of Humble or later."""
     if name == "recoveries_server":
         if "nav2_behaviors" in source.text and not has_behaviors:
-            yield key, "node `recoveries_server` is of Galactic and before; its name since Humble is `behavior_server`"
+            yield (
+                key,
+                "node `recoveries_server` is from Galactic or earlier; its name since Humble is `behavior_server`",
+            )
         return
     for plugin in (value for node in walk(group) if (value := node.find("plugin")) is not None):
         package, _, kind = plugin.text.replace("::", "/").partition("/")
         if package == "nav2_recoveries" and kind in _RECOVERIES and re.search(_SINCE_HUMBLE, source.text):
-            yield plugin, f"plugin `{plugin.text}` is of Galactic and before; write `nav2_behaviors::{kind}`"
+            yield plugin, f"plugin `{plugin.text}` is from Galactic or earlier; write `nav2_behaviors::{kind}`"
 
 
 def _wrong_key(group: Node) -> Defects:
@@ -117,7 +120,7 @@ def _swapped_frames(group: Node) -> Defects:
     """Yield the frame of the odometry that is called ``map`` while that of the map is called ``odom``."""
     odom, world = ([value for key, value in group.entries if key.text in _FRAMES[name]] for name in ("odom", "map"))
     if odom and world and odom[0].text == "map" and world[0].text == "odom":
-        yield odom[0], "the frame of the odometry is `map` and that of the map is `odom`; exchange them"
+        yield odom[0], "the odometry frame is `map` and the map frame is `odom`; swap them"
 
 
 def _between_nodes(groups: dict[str, Node]) -> Defects:

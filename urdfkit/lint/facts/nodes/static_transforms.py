@@ -116,7 +116,7 @@ def _frames(parent: Named | None, child: Named | None, model: Model) -> Iterator
         for root in semantics_of(model)
         for joint in root.find_all("virtual_joint")
     ):
-        yield child, f"the virtual joint of the SRDF puts `{names[0]}` below `{names[1]}`; exchange the frames"
+        yield child, f"the virtual joint of the SRDF puts `{names[0]}` below `{names[1]}`; swap the frames"
         return
     if parent is not None and names[0] and not _is_defined(parent, names[0], model):
         near = _meant(names[0], links)

@@ -89,7 +89,7 @@ def launch_parameter_defects(source: Source) -> Defects:
                     yield written[low][1], f"`{low}` is {least:g}, more than `{high}`, {most:g}"
         odom, world = ([written[name][1] for name in names if name in written] for names in _FRAMES)
         if odom and world and (odom[0].name, world[0].name) == ("map", "odom"):
-            yield odom[0], "the frame of the odometry is `map` and that of the map is `odom`; exchange them"
+            yield odom[0], "the odometry frame is `map` and the map frame is `odom`; swap them"
 
 
 def _number(text: str) -> float | None:

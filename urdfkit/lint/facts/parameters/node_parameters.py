@@ -107,7 +107,7 @@ _KINDS = {
     "double": "a number",
     "int": "an integer",
     "list": "a list",
-    "text": "a text",
+    "text": "a string",
 }
 
 
@@ -115,7 +115,7 @@ def _scalar(name: str, value: Node, kind: str) -> str:
     text, is_number = value.text, re.fullmatch(rf"{_INTEGER}|{_DOUBLE}|[-+]?\.(?i:inf|nan)", value.text) is not None
     if kind == "text":
         is_other = value.is_plain and (is_number or re.fullmatch(r"(?i:true|false)", text))
-        return f"`{name}` is {text}, which is no text" if is_other else ""
+        return f"`{name}` is {text}, which is not a string" if is_other else ""
     if kind == "bool":
         is_truth = re.fullmatch(_TRUTH, text) is not None
         if is_truth and value.is_plain:
@@ -127,7 +127,7 @@ def _scalar(name: str, value: Node, kind: str) -> str:
         )
     if not is_number:
         return f"`{name}` is `{text}`, which is not a number"
-    return "" if value.is_plain else f'`{name}` is "{text}", a text in quotes'
+    return "" if value.is_plain else f'`{name}` is "{text}", a quoted string'
 
 
 def _listed(names: list[str]) -> str:
@@ -167,8 +167,8 @@ def _nested_lists(source: Source) -> Defects:
                 # The parser accepts groups of lists by chance.
                 groups = [item for item in value.items if len(item.entries) > 1 and item.entries[0][1].kind == "text"]
                 if len(lists) > 1:
-                    message = f"`{key.text}` is a list of lists, which ROS 2 refuses; a node that reads points reads a"
+                    message = f"`{key.text}` is a list of lists, which ROS 2 rejects; a node that reads points reads a"
                     yield value, f'{message} text, "[[x, y], ...]"'
                 elif groups:
-                    message = f"`{key.text}` is a list of groups, which ROS 2 refuses; list names, and write"
+                    message = f"`{key.text}` is a list of groups, which ROS 2 rejects; list names, and write"
                     yield value, f"{message} a group for each name"

@@ -73,7 +73,7 @@ def misnamed_remappings(model: Model) -> Iterator[tuple[Source, Named, str]]:
     for node in launched_nodes(model):
         for old, new in node.remappings:
             if new.name.startswith("~/") and re.fullmatch(rf"/?{re.escape(new.name[2:])}", old.name):
-                yield node.source, old, f"the names of this remapping are exchanged; write `{new.name}` first"
+                yield node.source, old, f"the names of this remapping are swapped; write `{new.name}` first"
             elif (
                 ("$" in old.name or old.name.strip("/") in inputs)
                 and new.name in _OF_ROS1.get(node.package, ())
@@ -82,7 +82,7 @@ def misnamed_remappings(model: Model) -> Iterator[tuple[Source, Named, str]]:
                 yield (
                     node.source,
                     old,
-                    f"`{node.program}` has the topic `{new.name}`, not `{old.name}`; exchange the names",
+                    f"`{node.program}` has the topic `{new.name}`, not `{old.name}`; swap the names",
                 )
         label = node.program if f"{node.package}/{node.program}" in _NAMES else node.package
         names = (_NAMES.get(f"{node.package}/{label}") or _NAMES.get(node.package, "")).split()

@@ -25,7 +25,7 @@ class HardwareInterfaceUnknown(RobotRule):
 
     ## Why is this bad?
     Loading fails with "No suitable hardware interface", and controllers for the joint do not start. `urdfkit sim`
-    leaves the transmission out.
+    ignores the transmission.
 
     ## Example
     ```xml

@@ -12,7 +12,7 @@ class Ros2ControlMimic(RobotRule):
     Compares the parameter with the joints and with ``<mimic>`` of the same joint.
 
     ## Why is this bad?
-    The hardware moves the joint after another joint than ``robot_state_publisher`` does, or the description is refused.
+    The hardware and ``robot_state_publisher`` couple the joint to different joints, or the description is rejected.
 
     ## Example
     ```xml

@@ -15,7 +15,7 @@ class Ros2ControlTypeUnknown(RobotRule):
     without ``type``.
 
     ## Why is this bad?
-    The resource manager skips a block of unknown type, so no controller finds its interfaces. It refuses a robot with a
+    The resource manager skips a block of unknown type, so no controller finds its interfaces. It rejects a robot with a
     block without a type.
 
     ## Example

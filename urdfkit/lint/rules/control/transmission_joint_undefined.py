@@ -17,7 +17,7 @@ class TransmissionJointUndefined(RobotRule):
 
     ## Why is this bad?
     The transmission is skipped with a log message, and controllers for the joint do not start. A simulation with
-    urdfkit leaves the transmission out.
+    urdfkit ignores the transmission.
 
     ## Example
     ```xml

@@ -13,7 +13,7 @@ class RpyAndQuatXyzw(RobotRule):
     ``quat_xyzw``, which E021 reports.
 
     ## Why is this bad?
-    urdfdom refuses the robot. urdfkit refuses it if the rotations differ, because one of them is wrong.
+    urdfdom rejects the robot. urdfkit rejects it if the rotations differ, because one of them is wrong.
 
     ## Example
     ```xml

@@ -80,7 +80,7 @@ class UnboundNamespacePrefix(SourceRule):
                 yield self.at(
                     model,
                     document.source.position(root.start),
-                    f"unbound prefix `{prefix}:`, first used in line {first.line}",
+                    f"unbound prefix `{prefix}:`, first used on line {first.line}",
                     help=f"add {binding} to the root element of this file",
                     fix=Fix("safe", f"Bind the prefix `{prefix}:`", edits) if edits else None,
                     severity=None if prefix == "xacro" or is_expanded else "warning",

@@ -43,7 +43,7 @@ class UrdfVersionTooLow(RobotRule):
     ```
 
     ## Fix safety
-    Unsafe: the fix declares the version. ROS releases before Lyrical refuse a robot of version 1.1 or later, and its
+    Unsafe: the fix declares the version. ROS releases before Lyrical reject a robot of version 1.1 or later, and its
     attributes have an effect from then on.
     """
 

@@ -16,7 +16,7 @@ class UrdfVersionUnsupported(RobotRule):
     finding is a note.
 
     ## Why is this bad?
-    urdfdom 3 and 4, the readers of Humble and Jazzy, refuse the robot: "only version 1.0 is currently supported".
+    urdfdom 3 and 4, the readers of Humble and Jazzy, reject the robot: "only version 1.0 is currently supported".
     Older readers ignore ``quat_xyzw`` and drop capsules.
 
     ## Example

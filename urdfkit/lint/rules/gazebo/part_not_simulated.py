@@ -5,13 +5,13 @@ from urdfkit.lint.rule import Findings, Model, RobotRule
 
 
 class PartNotSimulated(RobotRule):
-    """A simulation with urdfkit leaves out a part of the robot.
+    """A simulation with urdfkit ignores a part of the robot.
 
     ## What it does
     With ``--target urdfkit``, checks for plugins, sensors and controllers of types that urdfkit does not simulate.
 
     ## Why is this bad?
-    The simulation runs, but without the part, and with ``--strict`` it refuses the robot. In Gazebo, or on the real
+    The simulation runs, but without the part, and ``--strict`` rejects the robot. In Gazebo, or on the real
     robot, the part may work, so it is reported only for urdfkit.
 
     ## Example
@@ -41,7 +41,7 @@ class PartNotSimulated(RobotRule):
     only_for = ("urdfkit",)
 
     def check(self, model: Model) -> Findings:
-        """Yield a finding for each part that a simulation leaves out."""
+        """Yield a finding for each part that a simulation ignores."""
         yield from self._plugins(model)
         yield from self._sensors(model)
         yield from self._controllers(model)

@@ -15,7 +15,7 @@ class PluginFileMissing(RobotRule):
 
     ## What it does
     Checks that the file in ``<parameters>`` of gz_ros2_control and gazebo_ros2_control exists. Files outside of known
-    packages, and files that the build may generate, are a note: a simulation with urdfkit leaves the plugin out.
+    packages, and files that the build may generate, are a note: a simulation with urdfkit ignores the plugin.
 
     ## Why is this bad?
     The controller manager starts without controllers, or crashes the simulator.

@@ -21,7 +21,7 @@ class PluginValueUnknown(RobotRule):
 
     ## Why is this bad?
     The plugin ignores the value, keeps the default, or publishes nothing ("Invalid <output_type>"). A simulation
-    with urdfkit leaves the plugin out.
+    with urdfkit ignores the plugin.
 
     ## Example
     ```xml

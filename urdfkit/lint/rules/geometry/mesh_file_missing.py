@@ -18,7 +18,7 @@ class MeshFileMissing(RobotRule):
     ## What it does
     Resolves the ``filename`` of every mesh (``package://``, ``model://``, ``file://`` and paths) and checks that the
     file exists. The comparison is case-sensitive, and the message suggests the nearest name. Files of other machines
-    and names with expressions are a note, because a simulation with urdfkit leaves such meshes out.
+    and names with expressions are a note, because a simulation with urdfkit ignores such meshes.
 
     ## Why is this bad?
     check_urdf does not check mesh files. Viewers show nothing, and simulators stop. A name in the wrong case works only
@@ -58,7 +58,7 @@ class MeshFileMissing(RobotRule):
                 continue
             if "$" in mesh.uri or is_remote(mesh.uri):
                 fault = "is not a file of this machine" if is_remote(mesh.uri) else "contains an expression"
-                message = f"mesh `{mesh.uri.strip()}` {fault}; a simulation with urdfkit leaves it out"
+                message = f"mesh `{mesh.uri.strip()}` {fault}; a simulation with urdfkit ignores it"
                 yield self.at(model, element, message, attribute="filename", link=link.name, severity="note")
                 continue
             if mesh.uri not in failures:

@@ -14,9 +14,9 @@ class AxisNotAlongWheel(RobotRule):
     """The axis of a wheel joint is not the axis of the wheel.
 
     ## What it does
-    Compares the axis of each continuous joint with the symmetry axis of its child link, if all shapes of that link are
-    discs (cylinders wider than long), or discs and meshes if ``wheel`` is in its name. Deviations of up to 10 degrees,
-    such as the camber of a wheel, are accepted.
+    Compares the axis of each continuous joint with the symmetry axis of its child link. The rule checks a link if all
+    its shapes are discs (cylinders wider than long); if its name contains ``wheel``, it may also have meshes.
+    Deviations of up to 10 degrees, such as the camber of a wheel, are accepted.
 
     ## Why is this bad?
     The wheel tumbles instead of rolling, and the robot does not drive.

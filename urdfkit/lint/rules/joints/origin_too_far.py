@@ -41,12 +41,15 @@ class OriginTooFar(RobotRule):
     """A joint is far from its parent link, compared with the size of all links.
 
     ## What it does
-    Checks for joints that are at least 10 m from the frame of their parent link, and 20 times as far as the largest
-    link extends. If the sizes of all shapes are known, also reports joints whose child link, with all that is attached
-    to it, is farther from the rest of the robot than most of the robot is long, and than the largest link, or four
-    times the two links of the joint, extends. A moving joint outside of the box around its parent link is reported if
-    all other moving joints are in or at theirs.
-    Joints of a root link without shapes are not checked, because they place the robot in the world.
+    Reports joints that are at least 10 m, and at least 20 times the extent of the largest link, from the frame of their
+    parent link.
+
+    If the sizes of all shapes are known, also reports a joint whose child link, with everything attached to it, is
+    separated from the rest of the robot by a gap that is longer than most of the robot, and longer than the largest
+    link or than four times the two links of the joint, whichever is smaller.
+
+    A moving joint outside the bounding box of its parent link is reported if all other moving joints are in or at the
+    boxes of theirs. Joints of a root link without shapes are not checked, because they place the robot in the world.
 
     ## Why is this bad?
     The child link floats far from the robot. The usual cause is a wrong decimal point, or an offset in millimetres,

@@ -21,9 +21,10 @@ class LaunchActionUnused(RobotRule):
     """A launch file in Python creates an action that it does not add to the launch description.
 
     ## What it does
-    Checks variables of launch files in Python that hold a node, an argument, an include or another action. An action
-    that is only the target of an event handler is not started either. Names that a comment mentions are left out, since
-    the action is disabled on purpose, as are attributes of classes, which the code can collect.
+    Checks the variables of Python launch files that hold a node, an argument, an include or another action. An action
+    that is only the target of an event handler is not started either. A name that a comment mentions is not checked,
+    because its action is probably disabled on purpose. Attributes of classes are not checked, because the code can
+    collect them.
 
     ## Why is this bad?
     The node is not started, or the argument is not declared. There is no error message.

@@ -40,5 +40,5 @@ class LaunchArgumentDuplicate(RobotRule):
 
         for one in repeated_arguments(model):
             effect = "roslaunch stops" if one.is_ros1 else "its default has no effect"
-            message = f"launch argument `{one.name}` is declared in line {one.first} already; {effect}"
+            message = f"launch argument `{one.name}` is already declared on line {one.first}; {effect}"
             yield self.at_span(one.span, message, severity="error" if one.is_ros1 else self.severity)

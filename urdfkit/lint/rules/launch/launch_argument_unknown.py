@@ -38,7 +38,7 @@ class LaunchArgumentUnknown(RobotRule):
     ```
 
     ## Fix safety
-    Unsafe: the fix writes the nearest name in place of a misspelt one; another name may be meant.
+    Unsafe: the fix replaces a misspelt name with the nearest known name, which may not be the intended one.
 
     ## References
     In the package of this example, cart.urdf.xacro has ``<xacro:arg name="length" default="1"/>``.

@@ -36,7 +36,7 @@ class LaunchElementInvalid(RobotRule):
     ```
 
     ## Fix safety
-    Unsafe: the fix writes the nearest name in place of a misspelt one; another name may be meant.
+    Unsafe: the fix replaces a misspelt name with the nearest known name, which may not be the intended one.
 
     ## References
     https://wiki.ros.org/roslaunch/XML, and
@@ -145,7 +145,7 @@ def _unknown(name: str, above: str, version: int) -> str | None:
         return f"unknown element <{name}> in <{above}>; did you mean <{near}>?"
     if is_open and name in OTHER_ELEMENTS[version]:
         other = OTHER_ELEMENTS[version][name]
-        return f"<{name}> is no action in ROS {version}" + (f"; use <{other}>" if other else "")
+        return f"<{name}> is not an action in ROS {version}" + (f"; use <{other}>" if other else "")
     if is_open and version == 2:
         return None
     return f"unknown element <{name}> in <{above}>"

@@ -12,7 +12,7 @@ class LaunchIncludeCycle(RobotRule):
     """A launch file includes itself.
 
     ## What it does
-    Follows the includes of launch files in these packages, without those under a condition. Each cycle is reported
+    Follows the includes of launch files in these packages, except includes with a condition. Each cycle is reported
     once.
 
     ## Why is this bad?

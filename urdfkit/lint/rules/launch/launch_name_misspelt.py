@@ -34,12 +34,17 @@ class LaunchNameMisspelt(RobotRule):
     """A launch file or YAML file misspells ``use_sim_time``, ``robot_description`` or another common name.
 
     ## What it does
-    Compares quoted words in launch files with ``use_sim_time``, ``robot_description``, ``joint_states``,
-    ``controller_manager`` and the plugins of MoveIt, keys in YAML files with the first two, and the topics that
-    remappings of common nodes replace with the topics of these nodes. Also compares the parameters of common nodes,
-    such as ``teleop_twist_joy_node``, ``slam_toolbox`` and ``parameter_bridge``, with those of these nodes, the
-    namespaces of costmaps with ``local_costmap`` and ``global_costmap``, and worlds without a path with those of
-    Gazebo. Words that differ by more than one letter, or that the file declares as a launch argument, are accepted.
+    Checks the spelling of these names:
+
+    - quoted words in launch files that resemble ``use_sim_time``, ``robot_description``, ``joint_states``,
+      ``controller_manager`` or a plugin of MoveIt
+    - keys in YAML files that resemble ``use_sim_time`` or ``robot_description``
+    - topics that the remappings of common nodes replace, and parameters of common nodes such as
+      ``teleop_twist_joy_node``, ``slam_toolbox`` and ``parameter_bridge``
+    - namespaces of costmaps, which must be ``local_costmap`` or ``global_costmap``
+    - worlds without a path, which must be worlds of Gazebo
+
+    Words that differ by more than one letter, or that the file declares as a launch argument, are accepted.
 
     ## Why is this bad?
     The node does not use the simulated time, or waits for a description that is never published.
@@ -59,7 +64,7 @@ class LaunchNameMisspelt(RobotRule):
     ```
 
     ## Fix safety
-    Unsafe: the fix writes the nearest name in place of a misspelt one; another name may be meant.
+    Unsafe: the fix replaces a misspelt name with the nearest known name, which may not be the intended one.
     """
 
     code = "L104"

@@ -27,11 +27,15 @@ class LaunchValueInvalid(RobotRule):
     """An attribute of a launch file in XML has a value that the launch cannot use.
 
     ## What it does
-    Checks conditions and other truth values without substitutions, conditions with an operator outside of
-    ``$(eval …)``, the ``output`` of nodes, the defaults of arguments
-    that are conditions, the command of ``<rosparam>``, the parameters of amcl, gmapping and other
-    nodes of ROS 1, and whether the description is a file without xacro (``textfile``), a command (``command``) or a
-    value (``value``).
+    Checks the XML launch files of ROS for:
+
+    - conditions and other truth values without substitutions that are not booleans, and defaults of arguments that
+      serve as conditions
+    - conditions with an operator outside ``$(eval …)``
+    - unknown values of ``output``, and ``<rosparam>`` commands that overwrite a file
+    - invalid parameters of amcl, gmapping and other ROS 1 nodes
+    - a robot description in the wrong attribute: ``textfile`` for a file without xacro, ``command`` for a command,
+      ``value`` for a value
 
     ## Why is this bad?
     The launch stops with "invalid bool value" or a similar error, or the nodes read a wrong description. A dump
@@ -52,7 +56,7 @@ class LaunchValueInvalid(RobotRule):
     ```
 
     ## Fix safety
-    Unsafe: the fix writes the nearest name in place of a misspelt one; another name may be meant.
+    Unsafe: the fix replaces a misspelt name with the nearest known name, which may not be the intended one.
     """
 
     code = "L110"

@@ -10,9 +10,9 @@ class NodeNameDuplicate(RobotRule):
     """A launch file in XML or Python starts two nodes with the same name in the same namespace.
 
     ## What it does
-    Compares the names of all nodes in a launch file. Names with substitutions are left out, and so are two nodes that
-    both have conditions. In Python, files that push namespaces or react to events are left out, and so are nodes in
-    branches, loops, groups and different functions.
+    Compares the names of all nodes in a launch file. Names with substitutions are not checked. Two nodes that both have
+    a condition are not compared. In Python, files that push namespaces or react to events are not checked, and nodes in
+    branches, loops, groups or different functions are not compared.
 
     ## Why is this bad?
     roslaunch stops with "multiple nodes named". In ROS 2, both nodes run, and parameters and services reach either one.
@@ -54,13 +54,13 @@ class NodeNameDuplicate(RobotRule):
                 if other is not tag and not (_has_condition(other) and _has_condition(tag)):
                     written = tag.attributes["name"]
                     line = source.position(other.start).line
-                    message = f"the node in line {line} has the name `{written.value}` too"
+                    message = f"the node on line {line} also has the name `{written.value}`"
                     severity = self.severity if reads_ros1(source) else "warning"
                     span = source.span(written.value_start, written.value_end)
                     yield self.at_span(span, message, severity=severity)
         for source, tree in python_files(model):
             for name, span, line in repeated_nodes(source, tree):
-                message = f"the node in line {line} has the name `{name}` too"
+                message = f"the node on line {line} also has the name `{name}`"
                 yield self.at_span(span, message, severity="warning")
 
 

@@ -7,10 +7,10 @@ class NodeNameMisspelt(RobotRule):
     """The name of a node differs between a launch file and its parameters.
 
     ## What it does
-    Compares the names of nodes in launch files of ROS 2 with the sections of the parameter files that these nodes load,
-    and with the ``node_names`` of lifecycle managers. The rule reports names that differ by a letter, and a file whose
-    only section belongs to a node of another name. Files with ``/**`` are left out, because their parameters apply to
-    each node. In ROS 1, the rule reports nodelets whose manager has another name.
+    Compares the names of nodes in ROS 2 launch files with the sections of the parameter files that these nodes load,
+    and with the ``node_names`` of lifecycle managers. The rule reports names that differ by one letter, and files whose
+    only section belongs to another node. Files with ``/**`` are not checked, because their parameters apply to every
+    node. In ROS 1, the rule reports nodelets whose manager has another name.
 
     ## Why is this bad?
     The node starts without its parameters and without an error. A lifecycle manager waits for a node that never
@@ -47,7 +47,7 @@ class NodeNameMisspelt(RobotRule):
     ```
 
     ## Fix safety
-    Unsafe: the fix writes the nearest name in place of a misspelt one; another name may be meant.
+    Unsafe: the fix replaces a misspelt name with the nearest known name, which may not be the intended one.
     """
 
     code = "L117"

@@ -58,6 +58,6 @@ class ParametersLoadedTwice(RobotRule):
             if first != tag.start:
                 space = f"namespace `{at['ns']}`" if "ns" in at else "this namespace"
                 line = source.span(first, first).line
-                message = f"{at['file'].rpartition('/')[2]} is loaded into {space} in line {line} already"
+                message = f"{at['file'].rpartition('/')[2]} is already loaded into {space} on line {line}"
                 span = source.span(tag.start, tag.end)
                 yield self.at_span(span, message, help="write another namespace")

@@ -15,10 +15,13 @@ class PythonLaunchApiMisused(RobotRule):
 
     ## What it does
     Compares imports from ``launch``, ``launch_ros``, ``ament_index_python`` and ``moveit_configs_utils`` with the names
-    of all releases from Foxy to Rolling, and the keywords of common actions with those from Galactic to Rolling. The
-    rule reports misspelt names, names of another module, attributes of XML launch files such as ``pkg``, keywords of
-    Foxy such as ``node_executable``, lists without brackets, unknown values of ``output``, ``items`` without a call,
-    and calls of functions of the file that lack an argument. Imports in ``try`` are left out.
+    of all releases from Foxy to Rolling, and the keywords of common actions with those from Galactic to Rolling.
+    Imports inside ``try`` are not checked. The rule reports:
+
+    - misspelt names, and names that another module defines
+    - attributes of XML launch files such as ``pkg``, and keywords of Foxy such as ``node_executable``
+    - lists without brackets, unknown values of ``output``, and ``items`` without a call
+    - calls of the file's own functions that lack an argument
 
     ## Why is this bad?
     The launch file stops with an ImportError or a TypeError before it starts a node.
@@ -44,7 +47,7 @@ class PythonLaunchApiMisused(RobotRule):
     ```
 
     ## Fix safety
-    Unsafe: the fix writes the nearest name in place of a misspelt one; another name may be meant.
+    Unsafe: the fix replaces a misspelt name with the nearest known name, which may not be the intended one.
     """
 
     code = "L106"
@@ -111,7 +114,7 @@ class PythonLaunchApiMisused(RobotRule):
                 yield self._at(source, (end - 1, end), "`launch_arguments` is a dictionary; write `.items()` after it")
             if word.arg == "launch_arguments":
                 for value in _not_text(word.value):
-                    message = "a value of `launch_arguments` is not a text; write it in quotes"
+                    message = "a value of `launch_arguments` is not a string; write it in quotes"
                     yield self._at(source, place(source, value), message)
             elif word.arg == "condition" and (other := _no_condition(word.value, reader)):
                 message = f"`condition` is a {other}; write `IfCondition(...)` around it"

@@ -15,7 +15,7 @@ class PythonLaunchNameUndefined(RobotRule):
 
     ## What it does
     Compares the names that a launch file uses with the names that it imports or defines anywhere, and with the built-in
-    names of Python. Files with ``from ... import *`` are left out. The function ``generate_launch_description`` must
+    names of Python. Files with ``from ... import *`` are not checked. The function ``generate_launch_description`` must
     have this name and must return a value.
 
     ## Why is this bad?
@@ -37,7 +37,7 @@ class PythonLaunchNameUndefined(RobotRule):
     ```
 
     ## Fix safety
-    Unsafe: the fix writes the nearest name in place of a misspelt one; another name may be meant.
+    Unsafe: the fix replaces a misspelt name with the nearest known name, which may not be the intended one.
     """
 
     code = "L105"

@@ -9,10 +9,10 @@ class SimulationTimeInconsistent(RobotRule):
     """A node uses another clock than the nodes around it.
 
     ## What it does
-    Checks launch files of ROS 2. Reports filters, localization, navigation servers and ``robot_state_publisher``
-    without ``use_sim_time`` if another node of the same package in the file has it. In files that always start
-    Gazebo, reports included launch files and such nodes whose ``use_sim_time`` is false. Parameter files are read,
-    and files that set the parameter for all nodes are left out.
+    Checks ROS 2 launch files. Reports filters, localization, navigation servers and ``robot_state_publisher`` without
+    ``use_sim_time`` if another node of the same package in the file has it. In files that always start Gazebo, reports
+    included launch files and such nodes whose ``use_sim_time`` is false. The rule also reads parameter files. Files
+    that set the parameter for all nodes are not checked.
 
     ## Why is this bad?
     The node compares the times of the simulation with the time of the computer. It waits for transforms, or drops each

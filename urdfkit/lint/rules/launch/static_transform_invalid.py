@@ -7,9 +7,12 @@ class StaticTransformInvalid(RobotRule):
     """A launch file starts ``static_transform_publisher`` with wrong arguments.
 
     ## What it does
-    Checks the arguments of ``static_transform_publisher`` of tf and tf2_ros: their number and order, unknown and
-    missing options, angles in degrees, quaternions that are not normalized, a frame that is its own parent, misspelt
-    parent frames, and children that a joint of the robot already places.
+    Checks the arguments of ``static_transform_publisher`` (tf and tf2_ros) for:
+
+    - a wrong number or order of arguments, and unknown or missing options
+    - angles in degrees, and quaternions that are not normalized
+    - a frame that is its own parent, a misspelt parent frame, and a child frame that a joint of the robot already
+      places
 
     ## Why is this bad?
     The node exits, or the transform is missing or wrong. With two parents, a frame jumps between two places.
@@ -29,7 +32,7 @@ class StaticTransformInvalid(RobotRule):
     ```
 
     ## Fix safety
-    Unsafe: the fix writes the nearest name in place of a misspelt one; another name may be meant.
+    Unsafe: the fix replaces a misspelt name with the nearest known name, which may not be the intended one.
     """
 
     code = "L118"

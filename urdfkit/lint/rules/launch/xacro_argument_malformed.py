@@ -7,7 +7,7 @@ class XacroArgumentMalformed(RobotRule):
     """A launch file passes an argument to xacro with ``=`` instead of ``:=``.
 
     ## What it does
-    Checks the words ``name=value`` of xacro commands in launch files. Options, such as ``--xacro-ns``, are left out.
+    Checks the words ``name=value`` of xacro commands in launch files. Options, such as ``--xacro-ns``, are not checked.
 
     ## Why is this bad?
     xacro takes the word for a second input file and stops: "expected exactly one input file as argument".
@@ -37,6 +37,6 @@ class XacroArgumentMalformed(RobotRule):
         for file in launch_files(model):
             for word in (word for call in file.xacro for word in call.without_colon):
                 end = word.start + len(word.name)
-                message = f"`{word.name}=` is no argument of xacro; write `{word.name}:=`"
+                message = f"`{word.name}=` is not an argument of xacro; write `{word.name}:=`"
                 span = file.source.span(word.start, end + 1)
                 yield self.at_span(span, message)

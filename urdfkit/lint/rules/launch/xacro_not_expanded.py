@@ -9,7 +9,8 @@ class XacroNotExpanded(RobotRule):
     """A launch file in Python loads a xacro file without expanding it.
 
     ## What it does
-    Checks ``open`` and ``cat`` for files with the suffix ``.xacro``. Launch files that import ``xacro`` are left out.
+    Checks ``open`` and ``cat`` for files with the suffix ``.xacro``. Launch files that import ``xacro`` are not
+    checked.
 
     ## Why is this bad?
     ``robot_description`` contains macros and expressions instead of links, and every program that reads it fails.

@@ -13,11 +13,14 @@ class MoveitConfigurationMissing(RobotRule):
     """A launch file or ``.setup_assistant`` names a MoveIt package, robot or description that does not exist.
 
     ## What it does
-    Checks ``MoveItConfigsBuilder`` in launch files: its package, which is ``<robot>_moveit_config`` without
-    ``package_name``, must not be a misspelling of a package of the workspace, nor its robot of a robot of these
-    packages. Checks its methods: misspelt ones, their keywords, files that do not exist in the package, and planning
-    pipelines without a file. Checks the paths of the URDF and of the SRDF in the ``.setup_assistant`` of that package,
-    if the packages are in the workspace.
+    Checks ``MoveItConfigsBuilder`` in launch files for:
+
+    - a package (by default ``<robot>_moveit_config``) that misspells a package of the workspace
+    - a robot that misspells a robot of these packages
+    - misspelt methods and keywords, files that do not exist in the package, and planning pipelines without a file
+
+    Also checks the paths of the URDF and of the SRDF in the ``.setup_assistant`` of that package, if the packages are
+    in the workspace.
 
     ## Why is this bad?
     The launch stops: "package not found" or "No such file or directory".
@@ -45,7 +48,7 @@ class MoveitConfigurationMissing(RobotRule):
     ```
 
     ## Fix safety
-    Unsafe: the fix writes the nearest name in place of a misspelt one; another name may be meant.
+    Unsafe: the fix replaces a misspelt name with the nearest known name, which may not be the intended one.
     """
 
     code = "M111"

@@ -11,7 +11,7 @@ class MoveitControllerContradiction(RobotRule):
     files of these packages. Reports a name that no controller has if exactly one other has its joints.
 
     ## Why is this bad?
-    MoveIt waits for an action that the controller does not offer, or the controller refuses the trajectory: "Joints on
+    MoveIt waits for an action that the controller does not offer, or the controller rejects the trajectory: "Joints on
     incoming trajectory don't match the controller joints".
 
     ## Example

@@ -15,10 +15,13 @@ class MoveitNameUndefined(RobotRule):
     """MoveIt's settings in YAML name a group, joint or controller that does not exist.
 
     ## What it does
-    Checks YAML files in packages with an SRDF of the robot: groups with a kinematics solver against the groups of the
-    SRDF, the joints in ``joint_limits`` and of controllers against the robot, ``controller_names`` against the sections
-    of the controllers, and misspelt controllers, or in ROS 1 controllers without their namespace, against the
-    controllers in the YAML files of these packages.
+    Checks YAML files in packages with an SRDF of the robot for:
+
+    - groups with a kinematics solver that the SRDF does not define
+    - joints in ``joint_limits`` and in controllers that the robot does not have
+    - names in ``controller_names`` without a section
+    - controllers that no YAML file of these packages defines: misspelt names, and in ROS 1 names without their
+      namespace
 
     ## Why is this bad?
     MoveIt ignores settings of unknown groups and joints: "No kinematics plugins defined". It refuses to execute a
@@ -37,7 +40,7 @@ class MoveitNameUndefined(RobotRule):
     ```
 
     ## Fix safety
-    Unsafe: the fix writes the nearest name in place of a misspelt one; another name may be meant.
+    Unsafe: the fix replaces a misspelt name with the nearest known name, which may not be the intended one.
     """
 
     code = "M108"

@@ -16,12 +16,15 @@ class MoveitSettingInvalid(RobotRule):
     """A solver, planner, joint limit or controller of MoveIt has a misspelt name or an impossible value.
 
     ## What it does
-    Checks YAML files in packages with an SRDF of the robot for misspelt parameters, solvers, planners, plugins, actions
-    and controller types, for limits that are negative or zero while ``has_…_limits`` is true, or far beyond those of
-    the robot, for ``has_…_limits`` without a limit or that is not a boolean, for values of the wrong type, for solver
-    timeouts that are not positive, for default scaling factors beyond 1, for Cartesian limits that are missing or of
-    the wrong sign, for groups and controllers without a required parameter, and for joints of a group that no
-    controller moves.
+    Checks the YAML files of packages with an SRDF of the robot for:
+
+    - misspelt parameters, solvers, planners, plugins, actions and controller types
+    - values of the wrong type, and groups and controllers without a required parameter
+    - limits that are negative, zero while ``has_…_limits`` is true, or far beyond those of the robot
+    - ``has_…_limits`` that is not a boolean, or is true without a limit
+    - solver timeouts that are not positive, and default scaling factors above 1
+    - Cartesian limits that are missing or have the wrong sign
+    - joints of a group that no controller moves
 
     ## Why is this bad?
     MoveIt ignores misspelt parameters. With a limit of zero, time parameterisation of trajectories fails. A trajectory
@@ -45,7 +48,7 @@ class MoveitSettingInvalid(RobotRule):
     ```
 
     ## Fix safety
-    Unsafe: the fix writes the nearest name in place of a misspelt one; another name may be meant.
+    Unsafe: the fix replaces a misspelt name with the nearest known name, which may not be the intended one.
     """
 
     code = "M109"
@@ -120,7 +123,7 @@ def _group(entry: MoveitEntry) -> Iterator[tuple[Node, str]]:
         yield solver, f"unknown kinematics solver `{solver.text}`; did you mean `{near}`?"
     only_position = entry.settings.find("position_only_ik")
     if only_position is not None and only_position.kind == "text" and not only_position.is_plain:
-        text = f'"{only_position.text}", a text in quotes'
+        text = f'"{only_position.text}", a quoted string'
         yield only_position, f"`position_only_ik` of group `{entry.name.text}` is {text}; write true or false"
     for name in ("kinematics_solver_timeout", "kinematics_solver_search_resolution"):
         node = entry.settings.find(name)

@@ -11,10 +11,15 @@ class SrdfGroupInconsistent(RobotRule):
     """A chain, subgroup, end effector or virtual joint of an SRDF contradicts the tree of the robot.
 
     ## What it does
-    Checks that the tip of a chain is below its base, that groups do not contain themselves, that parent link and parent
-    group of an end effector are not its own group, that the parent link is in the parent group and carries the end
-    effector, that no other joint follows a passive joint and no controller moves it, and that a virtual joint ends at
-    the root link, begins outside of the robot, and is not fixed to ``odom`` or ``map`` if the robot drives.
+    Checks that
+
+    - the tip of a chain is below its base, and a group does not contain itself
+    - the parent link of an end effector carries the end effector, is in the parent group, and is not in the end
+      effector's own group
+    - the parent group of an end effector is not its own group
+    - no other joint mimics a passive joint, and no controller moves it
+    - a virtual joint ends at the root link, begins at a frame outside the robot, and is not fixed to ``odom`` or
+      ``map`` if the robot drives
 
     ## Why is this bad?
     The group lacks its joints, and planning fails; MoveIt skips a virtual joint whose child is not the root link.

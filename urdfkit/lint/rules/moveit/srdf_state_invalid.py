@@ -27,7 +27,7 @@ class SrdfStateInvalid(RobotRule):
     active joints of its group. A value that MoveIt cannot use is an error.
 
     ## Why is this bad?
-    MoveIt refuses a goal beyond the limits, and ignores values for joints of other groups.
+    MoveIt rejects a goal beyond the limits, and ignores values for joints of other groups.
 
     ## Example
     ```xml

@@ -27,9 +27,11 @@ class BridgeMisspelt(RobotRule):
     """A bridge between Gazebo and ROS uses an unknown type or topic.
 
     ## What it does
-    Checks the configuration of ros_gz_bridge in YAML and in the arguments of launch files for misspelt message types,
-    keys, directions and topics of the robot, for pairs of types that cannot be converted, and for command topics and
-    sensor topics that are bridged in the wrong direction.
+    Checks the configuration of ros_gz_bridge, in YAML and in the arguments of launch files, for:
+
+    - misspelt message types, keys, directions and topics of the robot
+    - pairs of types that cannot be converted
+    - topics of commands and sensors that are bridged in the wrong direction
 
     ## Why is this bad?
     The bridge logs "No template specialization for the pair", or waits silently for a topic that does not exist.
@@ -53,7 +55,7 @@ class BridgeMisspelt(RobotRule):
     ```
 
     ## Fix safety
-    Unsafe: the fix writes the nearest name in place of a misspelt one; another name may be meant.
+    Unsafe: the fix replaces a misspelt name with the nearest known name, which may not be the intended one.
     """
 
     code = "K969"

@@ -34,11 +34,13 @@ class BuildFileInconsistent(RobotRule):
     """CMakeLists.txt or setup.py contradicts the package, or lacks the folders that launch files use.
 
     ## What it does
-    Checks the syntax, the name of the project, misspelt commands, variables and packages, the call of
-    ``ament_package()`` or ``catkin_package()``, files and folders that ``install`` and tests name but that do not
-    exist, and folders and scripts that launch files use but that are not installed, or not to the share folder of the
-    package, and the order of calls. In setup.py it checks name and version, ``packages``, ``data_files`` and the
-    modules of console scripts, in setup.cfg their folder.
+    In CMakeLists.txt, checks the syntax, the project name, the order of calls, the call of ``ament_package()`` or
+    ``catkin_package()``, and the spelling of commands, variables and packages. Reports files and folders that do not
+    exist but that ``install`` or a test names, and folders and scripts that launch files use but that are not installed
+    to the right place.
+
+    In setup.py, checks name, version, ``packages``, ``data_files`` and the modules of console scripts; in setup.cfg,
+    the folder of the scripts.
 
     ## Why is this bad?
     The build fails, or the installed package lacks files: "file 'cart.launch.py' was not found in the share directory".
@@ -62,7 +64,7 @@ class BuildFileInconsistent(RobotRule):
     ```
 
     ## Fix safety
-    Unsafe: the fix writes the nearest name in place of a misspelt one; another name may be meant.
+    Unsafe: the fix replaces a misspelt name with the nearest known name, which may not be the intended one.
     """
 
     code = "K973"

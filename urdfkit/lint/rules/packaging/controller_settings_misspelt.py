@@ -22,7 +22,7 @@ class ControllerSettingsMisspelt(RobotRule):
     sections, misspelt or missing ``ros__parameters`` keys (with two underscores), misspelt parameters and
     interfaces, and tabs. Misspelt types, interfaces and ``ros__parameters``, and tabs, are errors. Types that a package
     of the workspace exports are accepted. With ``--target urdfkit``, a type of another package is reported if a Gazebo
-    plugin of the robot loads the controller, because a simulation leaves it out. Unknown parameters of such a
+    plugin of the robot loads the controller, because a simulation ignores it. Unknown parameters of such a
     controller are notes.
 
     ## Why is this bad?
@@ -52,7 +52,7 @@ class ControllerSettingsMisspelt(RobotRule):
     ```
 
     ## Fix safety
-    Unsafe: the fix writes the nearest name in place of a misspelt one; another name may be meant.
+    Unsafe: the fix replaces a misspelt name with the nearest known name, which may not be the intended one.
     """
 
     code = "K962"
@@ -136,7 +136,7 @@ class ControllerSettingsMisspelt(RobotRule):
                     message = f"unknown controller type `{kind.text}`; did you mean `{matches[0]}`?"
                     yield self.at_span(span_of(source, kind), message, severity="error")
         for key in sections_without_parameters(source):
-            message = f"section `{key.text}` has no `{_PARAMETERS}`; ROS 2 refuses the file"
+            message = f"section `{key.text}` has no `{_PARAMETERS}`; ROS 2 rejects the file"
             help = f"write `{_PARAMETERS}:` in the line below and indent the parameters"
             yield self.at_span(span_of(source, key), message, severity="error", help=help)
 

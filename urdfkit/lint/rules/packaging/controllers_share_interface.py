@@ -7,8 +7,8 @@ class ControllersShareInterface(RobotRule):
     """A launch file spawns two controllers that command the same interface of a joint.
 
     ## What it does
-    Compares the command interfaces of the controllers of ros2_controllers that a launch file spawns without a
-    condition, in ROS 1 the joints of its controllers. Controllers that are spawned inactive are left out.
+    Compares the command interfaces of the ros2_controllers that a launch file spawns without a condition; in ROS 1,
+    compares the joints of the controllers. Controllers that are spawned inactive are not checked.
 
     ## Why is this bad?
     The controller manager activates only the first of them: "Resource conflict for controller", and the spawner of the

@@ -7,11 +7,16 @@ class FilterInconsistent(RobotRule):
     """Frames or inputs of a filter of robot_localization contradict each other or the robot.
 
     ## What it does
-    Checks the parameters of ``ekf_node`` and ``ukf_node`` in YAML: two filters that publish the same transform or have
-    different base frames, a base frame that is a child of another link, inputs with the same topic, values that the
-    messages of an input do not have, an absolute position from odometry that drifts next to another absolute position,
-    and filters in the map frame without an absolute position. Also reports that no node publishes the transform from
-    the odometry frame if it is disabled in all filters and drive controllers.
+    Checks the parameters of ``ekf_node`` and ``ukf_node`` in YAML for:
+
+    - two filters that publish the same transform or have different base frames
+    - a base frame that is a child of another link
+    - two inputs with the same topic, and values that the messages of an input do not contain
+    - an absolute position from drifting odometry next to another absolute position
+    - a filter in the map frame without an absolute position
+
+    Also reports that no node publishes the transform from the odometry frame, if all filters and drive controllers
+    disable it.
 
     ## Why is this bad?
     The estimated pose jumps between two sources or drifts without bound, or a link has two parents in the TF tree, or

@@ -25,9 +25,9 @@ class FragmentNotIncluded(RobotRule):
     """A xacro fragment of the package is included nowhere.
 
     ## What it does
-    Checks the xacro files without a robot name in folders from which the robot includes at least two other files. A
-    fragment is reported if no file of the package and of its neighbours names it. Names such as ``old`` or ``test`` are
-    left out.
+    Checks the xacro files without a robot name, in folders from which the robot includes at least two other files. A
+    fragment is reported if no file of the package or of its neighbours names it. Files with names such as ``old`` or
+    ``test`` are not checked.
 
     ## Why is this bad?
     The robot lacks the links, sensors or plugins in the fragment. Often an ``<xacro:include>`` was removed.

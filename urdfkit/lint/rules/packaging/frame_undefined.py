@@ -29,13 +29,15 @@ class FrameUndefined(RobotRule):
     """A parameter in YAML names a link that the robot does not have.
 
     ## What it does
-    Checks ``base_frame_id``, ``base_frame``, ``robot_base_frame`` and ``base_link_frame``, and for arms ``base_link``,
-    ``root_link``, ``tip_link`` and ``ee_link``, and ``frame_id`` and ``sensor_frame`` with a name that differs by a
-    letter, in the YAML files of the robot's package and of neighbouring packages that depend on it, and the base frames
-    in parameters of launch files. The rule reports misspelt link names, unless another description in these packages
-    defines a link of that name. It also reports other names that no other file in these packages mentions: frames of
-    drive controllers and broadcasters, the ``sensor_frame`` of a sensor of the robot, and base frames next to a map or
-    odometry frame if another parameter has a link as base frame.
+    Checks the YAML files of the robot's package and of neighbouring packages that depend on it: ``base_frame_id``,
+    ``base_frame``, ``robot_base_frame`` and ``base_link_frame``; for arms ``base_link``, ``root_link``, ``tip_link``
+    and ``ee_link``; and ``frame_id`` and ``sensor_frame`` if the name differs from a link by one letter. Also checks
+    the base frames among the parameters of launch files.
+
+    The rule reports misspelt link names, unless another description in these packages defines a link of that name. It
+    also reports other names that no other file in these packages mentions: frames of drive controllers and
+    broadcasters, the ``sensor_frame`` of a sensor of the robot, and base frames next to a map or odometry frame if
+    another parameter names a link as base frame.
 
     ## Why is this bad?
     The controller publishes a frame that is not part of the TF tree, or navigation waits for a frame that never
@@ -56,7 +58,7 @@ class FrameUndefined(RobotRule):
     ```
 
     ## Fix safety
-    Unsafe: the fix writes the nearest name in place of a misspelt one; another name may be meant.
+    Unsafe: the fix replaces a misspelt name with the nearest known name, which may not be the intended one.
     """
 
     code = "K961"

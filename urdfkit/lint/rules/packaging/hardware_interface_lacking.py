@@ -55,7 +55,7 @@ class HardwareInterfaceLacking(RobotRule):
     ```
 
     ## Fix safety
-    Unsafe: the fix writes the nearest name in place of a misspelt one; another name may be meant.
+    Unsafe: the fix replaces a misspelt name with the nearest known name, which may not be the intended one.
 
     ## References
     In the robot of this example, the hardware has the command interface ``position`` for ``elbow``.

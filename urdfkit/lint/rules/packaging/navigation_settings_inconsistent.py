@@ -7,11 +7,15 @@ class NavigationSettingsInconsistent(RobotRule):
     """Parameters of costmaps or planners contradict each other.
 
     ## What it does
-    Checks the parameters of Nav2 and move_base in YAML: layers of a costmap in the wrong order, a local costmap that
-    does not roll with the robot, a global frame that moves with the robot or is not that of the static map, an
-    inflation radius below the inscribed radius of the footprint, footprints whose sides cross or that do not contain
-    the origin, sections of planners that are not loaded, parameters of other planners, unknown planners and layers,
-    plugin names of different releases in one file, and topics of costmaps that a server cannot read.
+    Checks the parameters of Nav2 and move_base in YAML for:
+
+    - costmap layers in the wrong order, and costmap topics that a server cannot read
+    - a local costmap that does not move with the robot
+    - a global frame that moves with the robot, or differs from that of the static map
+    - an inflation radius below the inscribed radius of the footprint
+    - footprints whose sides cross or that do not contain the origin
+    - unknown planners and layers, sections of planners that are not loaded, and parameters of other planners
+    - plugin names of different releases in one file
 
     ## Why is this bad?
     The robot drives into obstacles that are not inflated, leaves its local costmap, or uses the default parameters of

@@ -38,16 +38,22 @@ class PackageXmlDependency(RobotRule):
     """A package is used without a dependency in package.xml.
 
     ## What it does
-    Compares the packages that the files of the robot's package use, by ``$(find …)`` and ``package://…``, with the
-    dependencies in package.xml. Also compares the packages that launch files start, include or import, and ``xacro``
-    where they call it, with the dependencies of their own package, and the packages of controllers in YAML with
-    the dependencies of all packages of the robot, if one of these is about controllers. The packages of plugins of
-    Nav2, of MoveIt and of the Gazebo plugin that runs controllers are compared if packages depend on others of their
-    kind, or start Gazebo. A dependency for builds or tests does not count for launch files.
-    Metapackages, such as ``navigation2``, stand for the packages that they depend on. Names that misspell a dependency,
-    a package of the workspace or a common package by one letter are errors at each place. Each other package is
-    reported once; test folders are not checked, nor the optional launch files that the MoveIt Setup Assistant writes,
-    or dependencies that package.xml has in a comment.
+    Compares these packages with the dependencies in package.xml:
+
+    - packages that the files of the robot's package use in ``$(find …)`` and ``package://…``
+    - packages that launch files start, include or import, and ``xacro`` if they call it, with the dependencies of their
+      own package
+    - packages of the controllers in YAML, with the dependencies of all packages of the robot, if one of these packages
+      is about controllers
+    - packages of the plugins of Nav2, of MoveIt and of the Gazebo plugin that runs controllers, if the package starts
+      Gazebo or depends on other packages of this kind
+
+    A build or test dependency is not sufficient for launch files. A metapackage, such as ``navigation2``, stands for
+    the packages that it depends on. A name that misspells a dependency, a package of the workspace or a common package
+    by one letter is an error at each place. Every other package is reported once.
+
+    Test folders, optional launch files of the MoveIt Setup Assistant, and dependencies that are commented out in
+    package.xml are not checked.
 
     ## Why is this bad?
     The package works only where the dependency happens to be installed: rosdep and the ROS build farm do not install
@@ -70,7 +76,7 @@ class PackageXmlDependency(RobotRule):
     ```
 
     ## Fix safety
-    Unsafe: the fix writes the nearest name in place of a misspelt one; another name may be meant.
+    Unsafe: the fix replaces a misspelt name with the nearest known name, which may not be the intended one.
 
     ## References
     In the package of this example, package.xml has ``<exec_depend>mybot_description</exec_depend>``.

@@ -13,7 +13,7 @@ class ParameterTypeWrong(RobotRule):
 
     ## Why is this bad?
     rclcpp does not convert integers: the controller is not configured, "parameter 'constraints.goal_time' has invalid
-    type". rcl refuses a file that has a list with both types: "Sequence should be of same type".
+    type". rcl rejects a file that has a list with both types: "Sequence should be of same type".
 
     ## Example
     ```yaml

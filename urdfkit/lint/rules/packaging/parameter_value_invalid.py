@@ -18,8 +18,8 @@ class ParameterValueInvalid(RobotRule):
     ## What it does
     Checks YAML files of the robot's package and of packages that depend on it: keys that occur twice in a group,
     minima above their maxima, misspelt ``true`` and ``false``, sensor configurations of robot_localization without 15
-    values and its world frame, in Nav2 plugins that are listed without a section, and limits that its nodes refuse,
-    types and former names of the parameters of well-known nodes, lists of lists, which ROS 2 refuses, and in maps a
+    values and its world frame, in Nav2 plugins that are listed without a section, and limits that its nodes reject,
+    types and former names of the parameters of well-known nodes, lists of lists, which ROS 2 rejects, and in maps a
     missing image, an unknown mode and impossible numbers. In the parameters of controllers it also checks rates, wheel
     sizes, limits and tolerances that are negative, zero or not a number, numbers and truth values in quotes, names that
     are not in a list, minima above maxima, joints that are listed twice or lack gains, controllers without a type or a
@@ -47,7 +47,7 @@ class ParameterValueInvalid(RobotRule):
     ```
 
     ## Fix safety
-    Unsafe: the fix writes the nearest name in place of a misspelt one; another name may be meant.
+    Unsafe: the fix replaces a misspelt name with the nearest known name, which may not be the intended one.
     """
 
     code = "K971"
@@ -139,10 +139,10 @@ def _in_any(node: Node, is_of_moveit: bool) -> Iterator[tuple[Node, str]]:
         before = first.setdefault(key.text, key)
         # rcl merges the parameters of a ROS 2 node that is named twice.
         if before is not key and key.text != "<<" and not _has_parameters(value):
-            yield key, f"duplicate key `{key.text}`; the first is in line {before.line}; only the last value applies"
+            yield key, f"duplicate key `{key.text}`; the first is on line {before.line}; only the last value applies"
         is_limit = is_of_moveit and re.fullmatch(r"has_\w+_limits", key.text)  # moveit-setting-invalid reports these
         if value.is_plain and re.fullmatch(_MISSPELT, value.text) and not is_limit:
-            yield value, f"`{value.text}` is a text; did you mean `{'true' if value.text[0] in 'tT' else 'false'}`?"
+            yield value, f"`{value.text}` is a string; did you mean `{'true' if value.text[0] in 'tT' else 'false'}`?"
         joints = node.find("joints") if key.text == "positions" and value.kind == "list" else None
         is_flat = (
             joints is not None and joints.kind == "list" and value.items and all(each.text for each in value.items)

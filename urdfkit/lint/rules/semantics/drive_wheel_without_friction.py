@@ -12,8 +12,8 @@ class DriveWheelWithoutFriction(RobotRule):
     """A wheel that drives the robot has no friction in Gazebo.
 
     ## What it does
-    Checks ``mu1`` and ``mu`` of the wheels of differential and skid-steer drives, without ``fdir1``. Casters are left
-    out. The only wheel without coefficients is reported too.
+    Checks ``mu1`` and ``mu`` of the wheels of differential and skid-steer drives without ``fdir1``. Also reports a
+    wheel without coefficients if all other drive wheels have them. Casters are not checked.
 
     ## Why is this bad?
     The wheel spins and the robot stays where it is.

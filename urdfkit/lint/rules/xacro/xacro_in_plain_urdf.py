@@ -60,7 +60,7 @@ class XacroInPlainUrdf(SourceRule):
                 yield self.at(
                     model,
                     source.position(root.start),
-                    f"file requires xacro because of <{tag.name}> in line {source.position(tag.start).line}",
+                    f"file requires xacro because of <{tag.name}> on line {source.position(tag.start).line}",
                     attribute="xmlns:xacro" if declares_prefix else None,
                     help=f"rename the file to {source.file.rpartition('/')[2]}.xacro",
                 )

@@ -59,7 +59,7 @@ class Repairs:
         *,
         position: Position | None = None,
     ) -> None:
-        """Record that a defective part is left out.
+        """Record that a defective part is ignored.
 
         Args:
             error: the defect.

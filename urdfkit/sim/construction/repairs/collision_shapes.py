@@ -14,7 +14,7 @@ from urdfkit.scene.placeholders import impossible_visuals, shape_problems, unkno
 from urdfkit.sim.construction.repairs.inertia_tensors import repair_at
 from urdfkit.sim.construction.validation import invalid_sizes, sizes_not_positive
 
-_INVISIBLE = "the shape is left out: it is invisible"
+_INVISIBLE = "the shape is ignored: it is invisible"
 _SHOWN = 6
 """Largest number of links in a message."""
 
@@ -40,7 +40,7 @@ def _without_empty(link: Link, problems: Mapping[Element, Problem], repairs: lis
         link = replace(link, visuals=tuple([visual for visual in link.visuals if id(visual) not in left_out]))
     kept = []
     for collision in link.collisions:
-        if unknown := list(unknown_shapes(link, collision, problems, "the shape is left out: it has no contacts")):
+        if unknown := list(unknown_shapes(link, collision, problems, "the shape is ignored: it has no contacts")):
             repairs += unknown
             continue
         faults = list(invalid_sizes(link, collision))
@@ -48,7 +48,7 @@ def _without_empty(link: Link, problems: Mapping[Element, Problem], repairs: lis
             kept.append(collision)
             continue
         message, element = faults[0]
-        message += "; the shape is left out: it has no contacts"
+        message += "; the shape is ignored: it has no contacts"
         attribute = next(sizes_not_positive(collision))[0]
         repairs.append(replace(repair_at(element, "shape", "G611", message, link=link.name), attribute=attribute))
     return link if len(kept) == len(link.collisions) else replace(link, collisions=tuple(kept))
@@ -58,7 +58,7 @@ def with_substitutes(scene: Scene) -> tuple[Scene, list[Repair]]:
     """Return a scene in which visual shapes replace the missing collision shapes, and a repair for each missing shape.
 
     A link whose collision shapes are all missing collides with its visual shapes, meshes as their convex hulls. Where
-    other collision shapes remain, or no visual shape can be read, the missing ones are left out. A missing package is
+    other collision shapes remain, or no visual shape can be read, the missing ones are ignored. A missing package is
     one repair, at its first mesh.
     """
     missing = [problem for problem in scene.problems if problem.role == "collision"]
@@ -78,7 +78,7 @@ def with_substitutes(scene: Scene) -> tuple[Scene, list[Repair]]:
         if replaced.get(body):
             effect = "the link collides with its visual shapes"
         else:
-            effect = f"shape `{problem.name}` is left out: it has no contacts"
+            effect = f"shape `{problem.name}` is ignored: it has no contacts"
         repairs.append(Repair("mesh", problem.code, with_effect(fault, effect), problem.error.position, body))
     for fault, bodies in packages.items():
         first = next(problem.error for problem in scene.problems if problem.error.message == fault)

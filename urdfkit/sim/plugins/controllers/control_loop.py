@@ -162,7 +162,7 @@ class ControlLoop:
         controller = load_ros_controller(name, self.configured[name], self.hardware)
         if controller is None:
             kind, place = self.configured[name].text("type", ""), self.configured[name].group("type").position
-            message = f"controller `{name}`: {kind} is not simulated; the controller is left out"
+            message = f"controller `{name}`: {kind} is not simulated; the controller is ignored"
             code = "Z833" if kind in NOT_SIMULATED else "K962"
             self.hardware.setup.repairs.add(Repair("controller", code, message, place))
             return False
@@ -238,7 +238,7 @@ class ControlLoop:
             self.switch(start=[name])
         except UrdfkitError as error:
             if name not in self.controllers:
-                effect = f"controller `{name}` is left out"
+                effect = f"controller `{name}` is ignored"
                 if error.code == LEFT_OUT:
                     self.hardware.setup.note(f"{error.position}: {error.message}; {effect}")
                 else:

@@ -22,7 +22,7 @@ from urdfkit.sim.state.periodic_steps import NEVER
 from urdfkit.sim.state.robot_state import State
 
 LEFT_OUT = "left-out"
-"""Code of errors about joints whose hardware is left out; a repair reports the hardware."""
+"""Code of errors about joints whose hardware is ignored; a repair reports the hardware."""
 
 
 @dataclass
@@ -70,7 +70,7 @@ class Hardware:
         robot = self.setup.kinematics.robot
         code = "K965" if self.ros == 2 else "K963"
         if joint in self.left_out:
-            message, code = f"joint `{joint}` is not controlled: its {self.left_out[joint]} is left out", LEFT_OUT
+            message, code = f"joint `{joint}` is not controlled: its {self.left_out[joint]} is ignored", LEFT_OUT
         elif joint in joints:
             others = " or ".join(kind for name, kind in self.outputs if name == joint)
             message = f"joint `{joint}` takes {others}, not {interface}; check its {self.source}"

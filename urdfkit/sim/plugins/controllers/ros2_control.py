@@ -139,7 +139,7 @@ class Ros2Control(ControlLoopPlugin):
                     f"unknown command interface `{kind}` of joint `{joint}` (available: {', '.join(INTERFACES)})",
                     position=interface.origin.position,
                 )
-                setup.repairs.leave_out(error, "the interface is left out", "hardware", "C710")
+                setup.repairs.leave_out(error, "the interface is ignored", "hardware", "C710")
                 self.left_out[joint] = f"interface `{kind}`"
             elif joint in setup.kinematics.mimic_names:
                 setup.note(f"{interface.origin.position}: joint `{joint}` mimics another joint and accepts no commands")

@@ -48,7 +48,7 @@ class GazeboRosControl(ControlLoopPlugin):
             try:
                 output = _output(transmission, of_hardware, setup, period)
             except SimulationError as error:
-                effect = f"transmission `{transmission.name}` is left out"
+                effect = f"transmission `{transmission.name}` is ignored"
                 setup.repairs.leave_out(error, effect, "hardware", position=transmission.element.origin.position)
                 hardware.left_out.update(dict.fromkeys(_names(transmission), f"transmission `{transmission.name}`"))
             else:
@@ -123,7 +123,7 @@ def _output(transmission: Transmission, settings: Settings, setup: Setup, period
                 position=joint.element.origin.position,
                 code="C702",
             )
-        setup.note(f"{place}: transmission `{name}`: <hardwareInterface> belongs into <joint>, not <actuator>")
+        setup.note(f"{place}: transmission `{name}`: <hardwareInterface> belongs in <joint>, not <actuator>")
     kind = interfaces[0].strip().removeprefix("hardware_interface/")
     place = (joint.element.find("hardwareInterface") or joint.element).origin.position
     if kind not in SIMULATED_INTERFACES:

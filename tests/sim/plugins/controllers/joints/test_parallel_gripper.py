@@ -99,7 +99,7 @@ def test_it_takes_one_position(rig: Callable[..., Rig]) -> None:
 
 def test_interfaces_that_the_simulator_has_not_are_told_of(rig: Callable[..., Rig]) -> None:
     made = rig("joint: elbow, max_effort_interface: elbow/set_gripper_max_effort")
-    assert any("`max_effort_interface` is left out" in note for note in made.notes)
+    assert any("`max_effort_interface` is ignored" in note for note in made.notes)
 
 
 def test_a_joint_is_needed(rig: Callable[..., Rig]) -> None:

@@ -273,9 +273,9 @@ def test_a_texture_that_is_not_there_is_named_once(post, tmp_path, content, why:
 def test_a_camera_that_makes_no_sense_is_left_out_by_name(post, inside: str, reported: str) -> None:
     notes: list[str] = []
     simulator = post(eye(ros1(), inside=inside), room=ROOM, note=notes.append)
-    (note,) = [each for each in notes if "left out" in each]
+    (note,) = [each for each in notes if "is ignored" in each]
     assert contains(note, reported)
-    assert "; sensor `lidar` is left out" in note
+    assert "; sensor `lidar` is ignored" in note
     simulator.run(0.1)
 
 

@@ -85,5 +85,5 @@ def test_only_the_eye_that_is_listened_to_looks(post, monkeypatch) -> None:
 def test_cameras_that_are_neither_left_nor_right_are_refused_by_name(post) -> None:
     notes: list[str] = []
     post(sensor(ros1(), inside=pair("a", "b"), type="multicamera"), room=POST, note=notes.append)
-    (note,) = [each for each in notes if "left out" in each]
+    (note,) = [each for each in notes if "is ignored" in each]
     assert "recognizes cameras by `left` and `right` in their names; this one has `a`, `b`" in note

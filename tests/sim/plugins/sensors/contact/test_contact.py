@@ -197,10 +197,10 @@ def test_another_robots_bumper_hears_its_own_link_and_names_the_first_one(crate,
 def test_what_makes_no_sense_is_left_out_by_name(crate, wrong: str, reported: str) -> None:
     notes: list[str] = []
     crate(wrong, note=notes.append)
-    (note,) = [each for each in notes if "left out" in each]
+    (note,) = [each for each in notes if "is ignored" in each]
     assert contains(note, reported)
     assert "crate.urdf:1:" in note
-    assert "; sensor `s` is left out" in note
+    assert "; sensor `s` is ignored" in note
 
 
 def test_a_models_own_bumper_in_a_world_goes_by_the_names_of_its_file(crate, tmp_path: Path) -> None:

@@ -184,6 +184,6 @@ def test_noise_is_on_all_six(arm) -> None:
 def test_what_makes_no_sense_is_left_out_by_name(arm, plugin: str, sensor: str, joint: str, reported: str) -> None:
     notes: list[str] = []
     arm(plugin, sensor, joint=joint, note=notes.append)
-    (note,) = [each for each in notes if "left out" in each]
+    (note,) = [each for each in notes if "is ignored" in each]
     assert contains(note, reported)
     assert "arm.urdf:" in note

@@ -177,10 +177,10 @@ def test_a_sensor_that_makes_no_sense_is_left_out_by_name_and_the_rest_runs(post
     notes: list[str] = []
     good = sensor(LASER.replace("scan<", "good<"))
     simulator = post(wrong + good, note=notes.append)
-    (note,) = [each for each in notes if "left out" in each]
+    (note,) = [each for each in notes if "is ignored" in each]
     assert contains(note, reported)
     assert "post.urdf:" in note
-    assert "; sensor `lidar` is left out" in note
+    assert "; sensor `lidar` is ignored" in note
     assert heard(simulator, "/good")
 
 

@@ -245,6 +245,6 @@ def test_hectors_sonar_is_the_nearest_of_its_rays(post) -> None:
 def test_what_makes_no_sense_is_left_out_by_name(drone, sensors: str, plugins: str, reported: str) -> None:
     notes: list[str] = []
     drone(sensors, plugins, note=notes.append)
-    (note,) = [each for each in notes if "left out" in each]
+    (note,) = [each for each in notes if "is ignored" in each]
     assert contains(note, reported)
     assert "drone.urdf:1:" in note

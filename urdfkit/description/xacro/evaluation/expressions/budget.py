@@ -90,7 +90,7 @@ class Budget:
                 raise excess("an integer", MAX_BITS, "bits")
         elif kind is str:
             if len(value) > MAX_CHARACTERS:
-                raise excess("a text", MAX_CHARACTERS, "characters")
+                raise excess("a string", MAX_CHARACTERS, "characters")
             self.spend(len(value) >> 3)
         elif isinstance(value, SIZED):
             self.spend(steps_of(value))
@@ -162,7 +162,7 @@ class Budget:
             TooLarge: the text would be far too long.
         """
         if steps > MAX_ELEMENTS:
-            raise excess("a text", MAX_CHARACTERS, "characters")
+            raise excess("a string", MAX_CHARACTERS, "characters")
         self.spend(1 + steps)
 
     def _container_operator(self, operation: Callable[[Any, Any], Any]) -> Callable[[Any, Any], Any]:

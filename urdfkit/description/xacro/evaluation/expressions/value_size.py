@@ -65,7 +65,7 @@ def check_characters(count: int) -> None:
         TooLarge: it is.
     """
     if count > MAX_CHARACTERS:
-        raise excess("a text", MAX_CHARACTERS, "characters")
+        raise excess("a string", MAX_CHARACTERS, "characters")
 
 
 def check_widths(text: str) -> None:

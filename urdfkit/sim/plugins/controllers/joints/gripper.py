@@ -51,7 +51,7 @@ class Gripper(RosController):
                 )
             self._joint_pid = JointPid(output.handle, gains, output.limits)
             if self._usual == 0.0:
-                self.note("`max_effort` is 0 when left out: without a goal the gripper is limp")
+                self.note("`max_effort` defaults to 0: without a goal the gripper exerts no force")
         self._near = abs(read.number("goal_tolerance", 0.01))
         self._still = read.number("stall_velocity_threshold", 0.001)
         self._patience = read.number("stall_timeout", 1.0)

@@ -30,7 +30,7 @@ class ParallelGripper(Gripper):
         for name in ("max_effort_interface", "max_velocity_interface"):
             if self.settings.text(name, ""):
                 self.note(
-                    f"`{name}` is left out: Gazebo's hardware has no such interface, so the controller fails in Gazebo"
+                    f"`{name}` is ignored: Gazebo's hardware has no such interface, so the controller fails in Gazebo"
                 )
 
     def command(self, position: float) -> dict[str, Any]:
