@@ -21,7 +21,7 @@ COMMAND = '<node pkg="robot_state_publisher" exec="robot_state_publisher"><param
 TEXT = "value=\"$(command 'xacro $(find-pkg-share arm)/arm.urdf')\""
 CONDITION = '<arg name="gui" default="true"/><node if="{}" pkg="rviz" type="rviz" name="rviz"/>'
 INCLUDE = '<include file="$(find-pkg-share ros_gz_sim)/launch/gz_sim.launch.py"><arg name="{}" value="-r"/></include>'
-YAML_TEXT = 'the launch reads the output of the command as YAML, and stops at text that is no YAML; add `type="str"`'
+YAML_TEXT = 'the launch reads the output of the command as YAML, and stops at text that is not YAML; add `type="str"`'
 CONDITION_TEXT = "condition `$(arg gui)!=false` is not evaluated, because text is around it; write `$(eval …)`"
 CASES = [
     (1, NODELET.format("{}") + MANAGER, "cameras", "manager", "no launch file starts the nodelet manager `cameras`"),

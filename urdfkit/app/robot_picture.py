@@ -53,7 +53,10 @@ def robot_picture(
     from urdfkit.scene.scene_table import scene_of
 
     if not (width >= 16 and height >= 16 and width * height <= MAX_PIXELS):
-        raise UsageError(f"a picture of {width} × {height} px is out of range: 16 px to {MAX_PIXELS} px in all")
+        raise UsageError(
+            f"a picture of {width} × {height} px is out of range; use sides of at least 16 px and at most {MAX_PIXELS} "
+            "pixels in total"
+        )
     kinematics = Kinematics(robot)
     poses = kinematics.link_poses(kinematics.configuration(dict(joints or {})))
     pose_of = dict(zip(kinematics.link_names, poses, strict=True))

@@ -31,7 +31,7 @@ COMMANDS = {
     "format": "format URDF and xacro files: indentation, white space, line breaks",
     "rule": "print the page of a lint rule, or list all rules",
     "lsp": "run the language server: diagnostics, hover, definitions, completion, fixes",
-    "mcp": "run the server of the Model Context Protocol: lint, fix, ik, sim run, pictures",
+    "mcp": "run a server for the Model Context Protocol (MCP): lint, fix, ik, sim run, pictures",
     "expand": "expand xacro to URDF; needs no ROS",
     "info": "print links, joints, mass, sensors and drives",
     "inertia": "compute masses and inertias from shapes and compare them with the file",

@@ -47,7 +47,7 @@ def add_picture_options(parser: argparse.ArgumentParser) -> None:
     group.add_argument(
         "--motion",
         metavar="MOTION",
-        help="turn (default): around the robot; joints: one after the other",
+        help="turn (default): the camera moves around the robot; joints: the joints move one after the other",
     )
     group.add_argument("--seconds", type=float, metavar="T", help="length of the video (default 6)")
 

@@ -139,7 +139,7 @@ class Simulator:
             self.note(line)
         if (requested := found.physics.max_step_size) not in (dt, Physics().max_step_size):
             self.note(
-                f"world `{found.name}` requests steps of {requested:g} s; they are {dt:g} s, as requested by the caller"
+                f"world `{found.name}` sets a step of {requested:g} s; the requested step of {dt:g} s is used instead"
             )
         self.name = name or self.robot.name or "robot"
         first = SimulatedRobot(

@@ -182,7 +182,7 @@ def test_simulations_with_namespaces_share_a_master_and_others_are_told_of(maste
                 assert publishers["/a/simpleton/odom"] == ["/a/urdfkit"]
                 assert publishers["/b/simpleton/odom"] == ["/b/urdfkit"]
         until(lambda: lines)
-        assert "another node is called /a/urdfkit now" in lines[0]
+        assert "another node has taken the name /a/urdfkit" in lines[0]
     finally:
         for each in bridges:
             each.close()

@@ -81,7 +81,7 @@ def test_where_no_room_is_left_it_is_refused(scout, capsys):
     before = (scout / "urdf/scout.urdf.xacro").read_bytes()
     assert main(["new", "arm", "--into", str(scout), "--reach", "2.4"]) == 2
     reported = capsys.readouterr().err
-    assert "`base_link` has no room next to `arm_foot`" in reported
+    assert "`base_link` has no free space next to `arm_foot`" in reported
     assert "or a place with --xyz" in reported
     assert (scout / "urdf/scout.urdf.xacro").read_bytes() == before
 
@@ -166,5 +166,5 @@ def test_a_cylinder_that_lies(tmp_path):
     assert high == pytest.approx((0.1, reach, reach))
     assert low == pytest.approx((-0.1, -reach, -reach))
     tall = Part((((-1, -1, -9), (1, 1, 0.05)),), CUBE)  # its foot is in the middle of it
-    with pytest.raises(ResourceError, match=r"`a` has no room for a part of 2 × 2 × 9\.1 m"):
+    with pytest.raises(ResourceError, match=r"`a` has no free space for a part of 2 × 2 × 9\.1 m"):
         mount(robot, robot.link_by_name["a"], tall, None)

@@ -28,7 +28,7 @@ def town() -> Simulator:
             lambda s: s.state.velocity("left_wheel_joint"),
             "no joint `left_wheel_joint` in robot `artoo`; did you mean `rear_left_wheel_joint`?",
         ),
-        (lambda s: s.state.effort("camera_joint"), "joint `camera_joint` is fixed: it has no one position"),
+        (lambda s: s.state.effort("camera_joint"), "joint `camera_joint` is fixed: it has no single position"),
         (lambda s: s.world.push("crt"), "no body or link `crt` in the simulation; did you mean `crate`?"),
         (lambda s: s.world.pose("town"), "no model or robot `town` in world `town`; did you mean `town_hall`?"),
     ],

@@ -55,8 +55,8 @@ def execute(
                 outcome = future.result()
             except (KilledWorker, CancelledError):  # cancelled: the scenario was in the killed process
                 raise UrdfkitError(
-                    f"a process of the sweep was killed; where memory is short, use fewer --workers than {workers}, "
-                    "and the same command continues with the runs that are left"
+                    f"a worker process of the sweep was killed, possibly for lack of memory; run the same command with "
+                    f"fewer --workers than {workers}: it continues with the remaining runs"
                 ) from None
             yield outcome
             for following in submit(1):

@@ -75,8 +75,8 @@ class NodeFunctions:
         name = self._node.name
         if "same name" in reason:  # as the master of ROS 1 words it
             self._node.report(
-                f"warning: ros1: another node is called {name} now; peers no longer find the topics of this one: start "
-                "each simulation with a --namespace of its own"
+                f"warning: ros1: another node has taken the name {name}, so other nodes no longer find the topics of "
+                "this simulation; start each simulation with a different --namespace"
             )
         else:
             self._node.report(f"ros1: {name} was requested to shut down ({reason}); it continues")

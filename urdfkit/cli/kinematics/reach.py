@@ -44,7 +44,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     )
     parser.epilog = (
         "the score of a cell is the share of the orientations that TIP reaches at its centre, within 1 mm and 0.1°\n"
-        "exit status: 0 if any pose is reached, with --base-for if all of its poses are, else 1; 2 on failure\n"
+        "exit status: 0 if any pose (with --base-for: every pose) is reached, 1 if not, 2 on failure\n"
         "examples:\n"
         "  urdfkit reach seven_dof_arm grasping_frame -o reach.npz\n"
         "  urdfkit reach seven_dof_arm grasping_frame --down --tool-axis x\n"

@@ -54,8 +54,8 @@ def configure(parser: argparse.ArgumentParser) -> None:
     add(
         "--target",
         metavar="NAME",
-        help="ros1, ros2, gz, classic, mujoco, isaac, drake, moveit or urdfkit, the first four with a release where it "
-        "matters (ros2-jazzy, gz-harmonic), or any: only rules for every target (default: guessed from package.xml)",
+        help="ros1, ros2, gz, classic (each optionally with a release: ros2-jazzy, gz-harmonic), mujoco, isaac, drake, "
+        "moveit, urdfkit, or any: only rules for every target (default: guessed from package.xml)",
     )
     add("--format", choices=FORMATS, default="text", help="text (default), json, sarif, github or junit")
     add("--statistics", action="store_true", help="print the number of findings per rule")
@@ -71,7 +71,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
         help="read only the package, its workspace and the package path, and no environment variables: for "
         "untrusted files",
     )
-    help = "do not lint robots with the xacro arguments that simulation and display launch files pass"
+    help = "do not lint robots again with the xacro arguments that simulation and display launch files pass"
     add("--no-launch-arguments", action="store_true", help=help)
     help = "instantiate this macro of the file; key:=value arguments also set its parameters"
     add("--macro", metavar="NAME", help=help)

@@ -26,7 +26,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--target",
         metavar="NAME",
-        help="consumer of the robot, as for `urdfkit lint` (default: guessed from package.xml)",
+        help="program that reads the robot, as for `urdfkit lint` (default: guessed from package.xml)",
     )
     add_package_path(parser)
     add_time_limit(parser)

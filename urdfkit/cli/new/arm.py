@@ -11,7 +11,7 @@ _SIZES = {"reach": "arm_reach", "mass": "arm_mass", "payload": "payload", "finge
 
 def configure(parser: argparse.ArgumentParser) -> None:
     """Add the arguments."""
-    parser.description = "add an arm of three to seven joints: a macro in a file of its own, one include, one call"
+    parser.description = "add an arm of three to seven joints: a macro in a separate file, one include, one call"
     parser.epilog = (
         "examples:\n"
         "  urdfkit new arm --into scout_description --dof 6 --gripper\n"

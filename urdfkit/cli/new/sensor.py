@@ -20,7 +20,7 @@ _ALIASES = {
 
 def configure(parser: argparse.ArgumentParser) -> None:
     """Add the arguments."""
-    parser.description = "add a sensor: a macro in a file of its own, one include, one call; other lines stay unchanged"
+    parser.description = "add a sensor: a macro in a separate file, one include, one call; other lines stay unchanged"
     parser.epilog = (
         "examples:\n"
         "  urdfkit new sensor lidar --into scout_description\n"

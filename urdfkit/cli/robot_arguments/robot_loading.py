@@ -28,7 +28,7 @@ def add_strict(parser: argparse.ArgumentParser, example: str) -> None:
     parser.add_argument(
         "--strict",
         action="store_true",
-        help=f"reject robots that need a repair with a warning, such as {example} (default: repair and warn)",
+        help=f"reject robots that are repaired with a warning by default, such as robots with {example}",
     )
 
 

@@ -55,7 +55,7 @@ def add_record(parser: argparse.ArgumentParser) -> None:
         "--split",
         type=_split,
         metavar="LIMIT",
-        help="start another file, FILE_1.mcap and so on, after a time or size, e.g. 30s, 5min or 500MB",
+        help="start a new file (FILE_1.mcap, FILE_2.mcap, …) after this duration or size, e.g. 30s, 5min or 500MB",
     )
 
 

@@ -41,7 +41,7 @@ def add_run_options(parser: argparse.ArgumentParser) -> None:
         dest="duration",
         type=option_values.duration,
         metavar="SECONDS",
-        help=f"simulated time (default with --trajectory: its last time and {SETTLE:g} s)",
+        help=f"simulated time (default with --trajectory: its last time plus {SETTLE:g} s)",
     )
     add(
         "--world",

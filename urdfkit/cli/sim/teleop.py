@@ -48,8 +48,8 @@ def configure(parser: argparse.ArgumentParser) -> None:
         action="append",
         default=[],
         choices=("pause", "reset", "change"),
-        help="permit pages to do this while another page drives (repeatable): pause, step and set the speed; reset; "
-        "or change the world and publish (default: none; every page may stop the robots)",
+        help="what other pages may do while a page drives (repeatable): pause (also step and set the speed), reset, or "
+        "change (the world, and publish); default: only stop the robots",
     )
     parser.epilog = (
         "examples:\n  urdfkit sim teleop simpleton\n  urdfkit sim teleop simpleton --port 8080 --no-browser\n"

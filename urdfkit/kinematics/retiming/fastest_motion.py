@@ -35,6 +35,7 @@ WINDOWS = np.geomspace(0.002, 2.0, 60)
 """Windows that are tried, over the duration of toppra's motion."""
 MOST = 10_000_000
 """Samples of a motion at most."""
+NO_MOTION = "no motion along the path stays within the limits; check for waypoints that are very close to each other"
 TOLERANCE = 1e-9
 """Excess of a position over its limit that is rounding [rad] or [m]."""
 
@@ -166,7 +167,7 @@ def _fastest(toppra: Any, path: Any, knots: Array, limits: MotionLimits) -> tupl
     solver = toppra.algorithm.TOPPRA(constraints, path, gridpoints=grid, solver_wrapper="seidel")
     _, speeds, _ = solver.compute_parameterization(0.0, 0.0)
     if speeds is None or not np.all(np.isfinite(speeds)):
-        raise KinematicsError("no motion along the path keeps the limits; are the waypoints very close to each other?")
+        raise KinematicsError(NO_MOTION)
     spans = 2.0 * np.diff(grid) / np.maximum(speeds[:-1] + speeds[1:], 1e-12)
     times = np.concatenate([[0.0], np.cumsum(spans)])
     profile = _Profile(times, grid, speeds, np.append(np.diff(speeds) / spans, 0.0))
@@ -226,7 +227,7 @@ def _straight(path: Any, length: float, limits: MotionLimits) -> tuple[_Progress
     wanted.max_jerk = [float(np.min(limits.jerk / slope))]
     profile = Profile(1)
     if Ruckig(1).calculate(wanted, profile) not in (Result.Working, Result.Finished):
-        raise KinematicsError("no motion along the path keeps the limits; are the waypoints very close to each other?")
+        raise KinematicsError(NO_MOTION)
 
     def progress(time: Array) -> tuple[Array, Array, Array, Array]:
         states = np.array([[part[0] for part in profile.at_time(t)] for t in np.clip(time, 0.0, profile.duration)])

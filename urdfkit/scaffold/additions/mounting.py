@@ -69,7 +69,7 @@ def mount(robot: Robot, link: Link, part: Part, xyz: Vector | None) -> tuple[Vec
         neighbour = overlapped(part, spot(own, part), others) if own else None
         near = f" next to `{neighbour}`" if neighbour is not None else ""
         raise ResourceError(
-            f"`{link.name}` has no room{near} for a part of {_size(part)} m; nothing was changed; "
+            f"`{link.name}` has no free space{near} for a part of {_size(part)} m; nothing was changed; "
             "choose another link with --parent, or a place with --xyz"
         )
     notes = [f"the meshes of `{link.name}` cannot be read: check that the part does not overlap it, and use --xyz"]

@@ -85,7 +85,7 @@ class Engine(Articulation):
         if len({body.name for body in self._free}) < len(self._free):
             names = [body.name for body in self._free]
             twice = next(name for name in names if names.count(name) > 1)
-            raise SimulationError(f"there are two bodies called `{twice}`; give each a name of its own")
+            raise SimulationError(f"there are two bodies called `{twice}`; give each a unique name")
         alone = not (others or bodies or self_collide)
         # Static shapes collide with other trees only, so a single robot on the ground has no pairs.
         self.collision_shapes = [each for each in touching(self._members, bodies) if each.body >= 0 or not alone]

@@ -166,7 +166,7 @@ def allocate(sizes: Sequence[int], *, width: int) -> Arrays:
         needed = 8e-9 * float(float_starts[-1] + integer_starts[-1])
         raise SimulationError(
             f"a world of {counts['t']} robots and bodies with {counts['k']} collision shapes takes {needed:.3g} GB of "
-            "memory, which there is not; leave some out"
+            "memory, which is not available; simulate fewer of them"
         ) from None
     integers[: len(sizes)] = sizes
     integers[WIDTH] = width

@@ -243,7 +243,7 @@ class State:
     def _no_joint(self, joint: str) -> UnknownNameError:
         robot = self._kinematics.robot
         if joint in robot.joint_by_name:
-            return UnknownNameError(f"joint `{joint}` is {robot.joint_by_name[joint].type}: it has no one position")
+            return UnknownNameError(f"joint `{joint}` is {robot.joint_by_name[joint].type}: it has no single position")
         return UnknownNameError(f"no joint `{joint}` in robot `{robot.name}`{did_you_mean(str(joint), self._index)}")
 
     @property

@@ -241,7 +241,7 @@ def test_groups(make: Make) -> None:
     simulator.bus.publish("/arm/g/command", FLOATS, from_fields(FLOATS, {"data": [0.4, -0.6]}))
     simulator.run(12.0)
     assert positions(simulator) == pytest.approx((-0.6, 0.4), abs=1e-3)
-    assert any("2 finite values are wanted" in note for note in notes)
+    assert any("2 finite values are expected" in note for note in notes)
 
 
 def trajectory(points: list[tuple[float, list[float]]], velocities: bool = False) -> Any:

@@ -73,14 +73,15 @@ def configure(parser: argparse.ArgumentParser) -> None:
     add(
         "--prefer",
         choices=("nearest", "first", "manipulability"),
-        help="solution to print: of those of --all the nearest to --from (default) or the most manipulable, or the "
-        "first one found; without this option, --targets compares those of 16 restarts only",
+        help="solution to print: the one nearest to --from (default), the first one found, or the one with the highest "
+        "manipulability; without this option, --targets compares the solutions of only 16 restarts",
     )
-    add("--all", action="store_true", help="print all solutions found, with all whole turns within the limits")
+    add("--all", action="store_true", help="print all solutions found, including those that differ by whole turns")
     add(
         "--collision-free",
         action="store_true",
-        help="only solutions in which no links collide, except neighbours and links that collide at rest",
+        help="return only solutions without collisions between links; adjacent links, and links that "
+        "collide with all joints at zero, are not checked",
     )
     add("--restarts", type=int, default=200, metavar="N", help="random starts per pose (default: 200)")
     add("--seed", type=int, default=0, metavar="N", help="seed of all random numbers (default: 0)")

@@ -35,7 +35,7 @@ _READ = {"frame", "gravity", "include", "joint", "light", "magnetic_field", "mod
 _PHYSICS_READ = {"max_step_size", "real_time_factor", "real_time_update_rate", "gravity", "magnetic_field"}
 _NOT_SIMULATED = {
     "actor": "actors are not simulated",
-    "population": "populations are not simulated: write out their models",
+    "population": "populations are not simulated; list their models instead",
     "road": "roads are not shown",
 }
 

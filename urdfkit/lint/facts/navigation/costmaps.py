@@ -80,7 +80,7 @@ def costmap_defects(model: Model) -> Defects:
         has_static_layer = any(kind == "StaticLayer" for _, kind in layers)
         is_static = has_static_layer or (static_map is not None and static_map.text not in _FALSE)
         if window is not None and each.name == "local_costmap" and window.text in _FALSE and layers and not is_static:
-            yield source, window, "`rolling_window` of the local costmap is false, so that the robot leaves the costmap"
+            yield source, window, "`rolling_window` of the local costmap is false, so the robot leaves the costmap"
         fixed = group.find("global_frame")
         is_link = fixed is not None and fixed.text.strip("/") in model.robot.link_by_name
         if fixed is not None and is_link and not re.search(r"map|odom|world", fixed.text):

@@ -189,7 +189,7 @@ def _unmanaged(model: Model, nodes: list[LaunchedNode], started: set[str]) -> De
         for name, span in unlisted:
             if name in meant:
                 continue
-            message = f"no lifecycle manager of this file lists the node `{name}`, so that it is never activated"
+            message = f"no lifecycle manager of this file lists the node `{name}`, so it is never activated"
             yield source, span, message
 
 

@@ -82,7 +82,7 @@ class LaunchValueInvalid(RobotRule):
                 span = source.span(attribute.value_start, attribute.value_end)
                 yield self.at_span(span, message)
             for attribute in _untyped(tags) if version == 2 else ():
-                message = "the launch reads the output of the command as YAML, and stops at text that is no YAML"
+                message = "the launch reads the output of the command as YAML, and stops at text that is not YAML"
                 span = source.span(attribute.value_start, attribute.value_end)
                 yield self.at_span(span, message, severity="warning", help='add `type="str"`')
             for word, message in launch_parameter_defects(source):

@@ -64,7 +64,7 @@ def excess(what: str, limit: int, unit: str) -> TooLarge:
 
 def too_many_steps() -> TooLarge:
     """Return the exception for expressions that take too long."""
-    return TooLarge(f"with it, the expressions of this file exceed {MAX_STEPS:,} steps")
+    return TooLarge(f"the expressions of this file exceed {MAX_STEPS:,} steps in total")
 
 
 def check_length(path: str) -> None:

@@ -167,7 +167,7 @@ class PidGroup(RosController):
         if values.shape == self._wanted.shape and is_command(values):
             self._wanted = values
         else:
-            self.note(f"dropped a command: {len(self._wanted)} finite values are wanted")
+            self.note(f"dropped a command: {len(self._wanted)} finite values are expected")
 
     def update(self, state: State, motors: Motors) -> float:
         """Write the commands of the joints."""

@@ -66,7 +66,7 @@ class Tolerances:
         for written, place, pace in ((goal.path_tolerance, path, None), (goal.goal_tolerance, end, stopped)):
             for entry in written:
                 if entry.name not in self.names:
-                    raise ValueError(f"no joint `{entry.name}` here to be off by a tolerance")
+                    raise ValueError(f"unknown joint `{entry.name}` in the tolerances")
                 at = list(self.names).index(entry.name)
                 for value, array in ((entry.position, place), (entry.velocity, pace)):
                     if array is not None and value != 0.0:

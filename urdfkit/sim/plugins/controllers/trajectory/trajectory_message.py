@@ -100,7 +100,7 @@ class TrajectoryReader:
             if start + after > now:  # ros_controllers drops points of the past
                 points.append(Waypoint(start + after, target + turns, *rates))
         if len(points) == 1:
-            raise refuse("it has no point that is not past", OLD_STAMP)
+            raise refuse("all of its points are in the past", OLD_STAMP)
         if self.ends_at_rest and rates[0] is not None and np.abs(rates[0]).max() > ROUNDING:
             raise refuse("it is not at rest at its end (see allow_nonzero_velocity_at_trajectory_end)")
         return Trajectory(points, present if leave > now else None)
