@@ -76,7 +76,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
         help="solution to print: the one nearest to --from (default), the first one found, or the one with the highest "
         "manipulability; without this option, --targets compares the solutions of only 16 restarts",
     )
-    add("--all", action="store_true", help="print all solutions found, including those that differ by whole turns")
+    add("--all", action="store_true", help="print all solutions found, including solutions that differ by whole turns")
     add(
         "--collision-free",
         action="store_true",
