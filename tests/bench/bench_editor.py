@@ -5,13 +5,15 @@ checkout where it exists, else with bundled robots. For each robot:
 
 - A fresh ``urdfkit lsp`` that has been idle for 2.5 s opens the file: wall and CPU time until the findings are
   published.
-- ``urdfkit view`` shows a copy of the file in Chromium; each save changes the name of the robot: wall time from the
-  save until the page has received the robot, and until the page, rendered by the processor, has drawn it.
+- ``urdfkit view`` shows the file in a copy of its package, or of its repository in the corpus, in Chromium; each save
+  changes the name of the robot: wall time from the save until the page has received the robot, and until the page,
+  rendered by the processor, has drawn it.
 """
 
 from __future__ import annotations
 
 import re
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -24,9 +26,10 @@ from tests.bench.bench_lsp import cpu_of, spread
 from tests.cli.conftest import CHROMIUM, FLAGS, READY
 from tests.lsp.conftest import connected
 from tests.processes import running
+from urdfkit.description.packages.related_files import package_of
 
 ROOT = Path(__file__).parents[2]
-CORPUS = ROOT.parent / "shared" / "corpus"
+CORPUS = (ROOT.parent / "shared" / "corpus").resolve()
 NAMES = (
     "husky/husky_description/urdf/husky.urdf.xacro",
     "jackal/jackal_description/urdf/jackal.urdf.xacro",
@@ -77,10 +80,13 @@ def first_finding(robot: Path) -> tuple[float, float]:
 def preview(browser: Browser, robot: Path, folder: Path, saves: int) -> list[tuple[float, float]]:
     """Return the seconds from each save of a copy of a robot until the page has received it, and has drawn it."""
     text = robot.read_text("utf-8")
-    shown = folder / robot.name
-    shown.write_text(text)
+    top = package_of(robot) or robot.parent
+    if robot.is_relative_to(CORPUS):  # the repository, as a robot may include files of other packages
+        top = CORPUS / robot.relative_to(CORPUS).parts[0]
+    shutil.copytree(top, folder / top.name, copy_function=shutil.copyfile, dirs_exist_ok=True)
+    shown = folder / robot.relative_to(top.parent)
     words = [sys.executable, "-m", "urdfkit", "view", str(shown), "--no-browser", "--port", "0"]
-    words += ["--package-path", str(robot.parents[2])]
+    words += ["--package-path", str(folder / top.name)]
     times = []
     with running(words, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True) as process:
         assert process.stdout is not None
