@@ -28,12 +28,13 @@ from urdfkit.sim.plugins.builtin_publishers import Clock
 from urdfkit.sim.plugins.ros_distro import Distro
 from urdfkit.sim.plugins.setup import Setup
 from urdfkit.sim.scene_view import Surroundings
+from urdfkit.sim.snapshots.copying import Copyable
 from urdfkit.sim.snapshots.snapshot import Snapshots
 from urdfkit.sim.state.arguments import number, three
 from urdfkit.sim.state.notes import Notes
 from urdfkit.sim.state.periodic_steps import PeriodicSteps
 from urdfkit.sim.world.gazebo_services import ModelStates, listen
-from urdfkit.sim.world.live_world import LiveWorld, SpawnCall
+from urdfkit.sim.world.live_world import LiveWorld
 from urdfkit.sim.world.scheduler import Scheduler
 from urdfkit.sim.world.simulated_robot import SimulatedRobot
 from urdfkit.sim.world.world_builder import WorldBuilder
@@ -41,7 +42,7 @@ from urdfkit.sim.world.world_builder import WorldBuilder
 LOG = logging.getLogger("urdfkit.sim")
 
 
-class Simulator:
+class Simulator(Copyable):
     """Simulation of a robot in a world; simulated time advances only in calls of `run` and `step`.
 
     Its `world` spawns, removes, places, pushes and saves entities.
@@ -176,17 +177,6 @@ class Simulator:
         note_overlaps(
             builder.engine, self.kinematics.link_names, self.note, models={model.name for model in found.models}
         )
-
-    def __deepcopy__(self, memo: dict[int, Any]) -> Simulator:
-        """Return a simulator in the same state, with its own bus and without subscriptions and scheduled calls."""
-        return _copy({**self._arguments, "scene": self._scene, "note": self.note}, *self._copied())
-
-    def __reduce__(self) -> Any:
-        """Pickle the descriptions and the state, without subscriptions and scheduled calls."""
-        return _copy, (self._arguments, *self._copied())
-
-    def _copied(self) -> tuple[tuple[str, ...], tuple[SpawnCall, ...], bytes, bool]:
-        return self.world.removed, tuple(self.world.spawned.values()), self._snapshots.take(calls=False), self.paused
 
     def __repr__(self) -> str:
         """Return the names of robot and world, and the simulated time."""
@@ -384,17 +374,3 @@ class Simulator:
             for frame, pose in estimate(self.state).items():
                 found.setdefault(frame, pose)
         return found
-
-
-def _copy(
-    arguments: dict[str, Any], removed: tuple[str, ...], spawned: tuple[SpawnCall, ...], snapshot: bytes, paused: bool
-) -> Simulator:
-    """Return a simulator with these arguments, after these changes of its entities, in the state of a snapshot."""
-    simulator = Simulator(**arguments)
-    for name in removed:
-        simulator.world.remove(name)
-    for request, start, fixed_base in spawned:
-        simulator.world.spawn(request, start, fixed_base=fixed_base)
-    simulator.restore(snapshot)
-    simulator.paused = paused
-    return simulator
