@@ -34,7 +34,8 @@ class Chain:
     """Kinematic chain of a robot from a base link to a tip link.
 
     Configurations are arrays of the last axis n, one number per entry of `joint_names`; results keep the other axes, so
-    one configuration (n,) has one pose (4, 4), and N configurations (N, n) have N poses (N, 4, 4).
+    one configuration (n,) has one pose (4, 4), and N configurations (N, n) have N poses (N, 4, 4). Other shapes are a
+    KinematicsError.
 
     Args:
         robot: a loaded robot, a file, a package folder or the name of a bundled robot; see `urdfkit.load`.
@@ -61,9 +62,18 @@ class Chain:
         >>> import numpy as np
         >>> from urdfkit.kinematics import Chain
         >>> arm = Chain("seven_dof_arm", None, "grasping_frame")
-        >>> found = arm.solve(arm.forward(np.full(len(arm.joint_names), 0.1)))
-        >>> bool(found.reached), found.q.shape
-        (True, (7,))
+        >>> q = arm.configuration({"elbow_pitch_joint": 0.5})
+        >>> target = arm.forward(q)
+        >>> found = arm.solve(target)
+        >>> bool(found.reached), bool(np.allclose(arm.forward(found.q), target, atol=2e-3))
+        (True, True)
+        >>> poses, jacobians = arm.forward_and_jacobian([q, found.q])
+        >>> poses.shape, jacobians.shape
+        ((2, 4, 4), (2, 6, 7))
+        >>> bool((jacobians[0] == arm.jacobian(q)).all())
+        True
+        >>> float(arm.manipulability(q).round(3))
+        0.002
     """
 
     def __init__(
@@ -221,6 +231,13 @@ class Chain:
 
         Raises:
             KinematicsError: see `solve`.
+
+        Examples:
+            >>> from urdfkit.kinematics import Chain
+            >>> arm = Chain("rrbot", None, "camera_link")
+            >>> arm.solve_all(arm.forward([0.5, 1.0]), position_only=True).q.round(2)
+            array([[ 0.5 ,  1.  ],
+                   [ 1.61, -1.22]])
         """
         options = SolverOptions(position_only, *tolerance, "all", restarts, seed)
         numbers = np.asarray(target, dtype=np.float64)
@@ -251,6 +268,15 @@ class Chain:
 
         Raises:
             MissingDependencyError: pytorch-kinematics is not installed.
+
+        Examples:
+            >>> import torch
+            >>> from urdfkit.kinematics import Chain
+            >>> arm = Chain("seven_dof_arm", None, "grasping_frame").torch()
+            >>> q = torch.full((7,), 0.3, dtype=torch.float64, requires_grad=True)
+            >>> arm.forward(q)[2, 3].backward()  # height of the tip [m]
+            >>> q.grad.shape
+            torch.Size([7])
         """
         from urdfkit.kinematics.torch_chain import TorchChain
 

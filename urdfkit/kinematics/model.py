@@ -57,9 +57,21 @@ class Kinematics:
     Examples:
         >>> import urdfkit
         >>> arm = urdfkit.Kinematics("seven_dof_arm")
-        >>> poses = arm.link_poses(arm.configuration({"elbow_pitch_joint": 0.5}))
+        >>> arm.limits("elbow_pitch_joint")  # [rad]
+        (-1.595, 1.933)
+        >>> q = arm.configuration({"elbow_pitch_joint": 0.5})
+        >>> float(q[arm.configuration_index("elbow_pitch_joint")]), arm.positions(q)["elbow_pitch_joint"]
+        (0.5, 0.5)
+        >>> poses = arm.link_poses(q)
         >>> poses[arm.link_names.index("grasping_frame")].round(2)  # x y z [m] and quaternion x y z w
         array([ 0.21,  0.  ,  0.79,  0.  , -0.51,  0.  ,  0.86])
+        >>> arm.placements(arm.neutral())[arm.frame("grasping_frame")].translation.round(2)  # upright
+        array([0.  , 0.  , 0.84])
+        >>> v = arm.velocity({"elbow_pitch_joint": 0.1})
+        >>> float(v[arm.velocity_index("elbow_pitch_joint")]), arm.velocities(v)["elbow_pitch_joint"]
+        (0.1, 0.1)
+        >>> float(arm.gravity(q)[arm.velocity_index("elbow_pitch_joint")].round(2))  # [N·m]
+        -1.22
     """
 
     def __init__(self, robot: Robot | str | Path, *, floating_base: bool = False) -> None:
@@ -91,6 +103,14 @@ class Kinematics:
 
         Raises:
             KinematicsError: the robot has more than `LARGE` degrees of freedom.
+
+        Examples:
+            >>> import pinocchio
+            >>> import urdfkit
+            >>> arm = urdfkit.Kinematics("rrbot")
+            >>> pinocchio.crba(arm.model, arm.data, arm.neutral()).round(2)  # mass matrix
+            array([[2.53, 0.86],
+                   [0.86, 0.38]])
         """
         if self.model.nv > LARGE:
             raise KinematicsError(
@@ -116,7 +136,8 @@ class Kinematics:
             check_limits: refuse positions outside the limits, those of mimic joints included.
 
         Raises:
-            KinematicsError: an unknown name, a mimic joint, a position that is no finite number.
+            KinematicsError: an unknown name, a mimic joint, a position that is no finite number, or a `base` of a robot
+                whose root link does not float.
             JointLimitError: `check_limits` is set and a position is outside its limits.
         """
         q: Array = pin.neutral(self.model)
@@ -141,6 +162,11 @@ class Kinematics:
 
         Raises:
             KinematicsError: an unknown name, a mimic joint, a position that is no finite number.
+
+        Examples:
+            >>> import urdfkit
+            >>> urdfkit.Kinematics("gripper.urdf").followed({"right_finger_joint": 0.02})["left_finger_joint"]
+            -0.02
         """
         values = {name: variable.zero for name, variable in self._variables.items()}
         for name, position in positions.items():
@@ -170,7 +196,8 @@ class Kinematics:
             q: configuration that gives the orientation of planar and floating joints; `neutral` when None.
 
         Raises:
-            KinematicsError: an unknown name, a mimic joint, a velocity that is no finite number or none at all.
+            KinematicsError: an unknown name, a mimic joint, a velocity that is no finite number or none at all, or a
+                `base` of a robot whose root link does not float.
         """
         u = np.zeros(len(self.independent))
         column = {int(i): k for k, i in enumerate(self.independent)}
@@ -215,7 +242,14 @@ class Kinematics:
 
     @cached_property
     def independent(self) -> NDArray[np.int64]:
-        """Indices in v of the independent velocities, i.e. all but mimic joints; shape (nv - number of mimics,)."""
+        """Indices in v of the independent velocities, i.e. all but mimic joints; shape (nv - number of mimics,).
+
+        Examples:
+            >>> import urdfkit
+            >>> gripper = urdfkit.Kinematics("gripper.urdf")
+            >>> gripper.model.nv, gripper.independent.tolist()
+            (5, [0, 1, 2, 4])
+        """
         follows = {self.velocity_index(name) for name in self.mimic_names}
         return np.array([i for i in range(self.model.nv) if i not in follows], dtype=np.int64)
 
@@ -224,6 +258,15 @@ class Kinematics:
         """G with v = G·v[independent]; shape (nv, nv - number of mimics), read-only.
 
         With M and h of the full model, Gᵀ·M·G and Gᵀ·h are those of the robot whose mimic joints follow exactly.
+
+        Examples:
+            >>> import urdfkit
+            >>> urdfkit.Kinematics("gripper.urdf").mimic_matrix
+            array([[ 1.,  0.,  0.,  0.],
+                   [ 0.,  1.,  0.,  0.],
+                   [ 0.,  0.,  1.,  0.],
+                   [ 0.,  0.,  0., -1.],
+                   [ 0.,  0.,  0.,  1.]])
         """
         column = {int(i): k for k, i in enumerate(self.independent)}
         G = np.zeros((self.model.nv, len(column)))
@@ -247,7 +290,14 @@ class Kinematics:
         return position_limits(self.robot.joint_by_name[joint])
 
     def limit_errors(self, positions: Mapping[str, float]) -> list[JointLimitError]:
-        """Return an error, not raised, for each position outside its limits (a joint may be at its limit)."""
+        """Return an error, not raised, for each position outside its limits (a joint may be at its limit).
+
+        Examples:
+            >>> import urdfkit
+            >>> for error in urdfkit.Kinematics("seven_dof_arm").limit_errors({"elbow_pitch_joint": 9.0}):
+            ...     print(error)
+            joint `elbow_pitch_joint` at 9 rad is outside its limits [-1.595, 1.933] rad
+        """
         found = []
         for name, value in positions.items():
             if name in self._joint_ids:

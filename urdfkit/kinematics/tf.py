@@ -72,6 +72,10 @@ class TransformTree:
         >>> tree = TransformTree(urdfkit.load("simpleton"))
         >>> tree.placement("left_wheel", "base_footprint", {"left_wheel_joint": 0.3}).translation  # [m]
         array([0.  , 0.21, 0.1 ])
+        >>> tree.transform("base_footprint", "left_wheel", {"left_wheel_joint": 0.3}).rpy  # [rad]
+        [0.0, 0.3, 0.0]
+        >>> [pose.child for pose in tree.transforms(tree.kinematics.neutral()) if pose.translation[2] > 0.1]
+        ['camera', 'camera_link_optical']
     """
 
     def __init__(self, kinematics: Kinematics | Robot) -> None:

@@ -75,8 +75,12 @@ class Finding:
     Examples:
         >>> import urdfkit
         >>> for finding in urdfkit.lint("arm.urdf"):
-        ...     print(finding.file, finding.line, finding.code, finding.severity)
-        arm.urdf 6 I503 error
+        ...     print(finding.file, finding.line, finding.column, finding.code, finding.severity)
+        arm.urdf 6 7 I503 error
+        >>> finding.text.partition(":")[0]
+        'inertia of link `base` is impossible'
+        >>> finding.to_json()["end_column"]
+        69
     """
 
     code: str
@@ -122,12 +126,30 @@ class Finding:
 
     @property
     def meant(self) -> str:
-        """The valid name nearest to a misspelt one; an element as ``<name>``; empty if the finding suggests none."""
+        """The valid name nearest to a misspelt one; an element as ``<name>``; empty if the finding suggests none.
+
+        Examples:
+            >>> from pathlib import Path
+            >>> import urdfkit
+            >>> size = Path("typo.urdf").write_text('<robot name="arm"><link name="base"/><jiont/></robot>')
+            >>> [finding.meant for finding in urdfkit.lint("typo.urdf")]
+            ['joint']
+        """
         return suggested(self.message) or suggested(self.help or "")
 
     @property
     def expansions(self) -> tuple[Expansion, ...]:
-        """Every macro call of every chain, without repetitions."""
+        """Every macro call of every chain, without repetitions.
+
+        Examples:
+            >>> from pathlib import Path
+            >>> import urdfkit
+            >>> macro = '<xacro:macro name="frame"><link name="base" typo="1"/></xacro:macro><xacro:frame/>'
+            >>> head = '<robot name="arm" xmlns:xacro="http://www.ros.org/wiki/xacro">'
+            >>> size = Path("frame.xacro").write_text(f"{head}{macro}</robot>")
+            >>> [[call.macro for call in finding.expansions] for finding in urdfkit.lint("frame.xacro")]
+            [['frame']]
+        """
         return tuple(dict.fromkeys(call for chain in self.chains for call in chain))
 
     def to_json(self) -> dict[str, Any]:

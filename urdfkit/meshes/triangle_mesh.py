@@ -33,10 +33,17 @@ class TriMesh:
     Examples:
         >>> import numpy as np
         >>> from urdfkit.scene import TriMesh
-        >>> mesh = TriMesh(np.float32([[0, 0, 0], [1, 0, 0], [0, 1, 0]]), np.int32([[0, 1, 2]]))
+        >>> corners, white = np.float32([[0, 0, 0], [1, 0, 0], [0, 1, 0]]), np.full((3, 4), 255, np.uint8)
+        >>> mesh = TriMesh(corners, np.int32([[0, 1, 2]]), colors=white, open_vertices=np.array([True, False, False]))
         >>> mesh.bounds
         array([[0., 0., 0.],
                [1., 1., 0.]])
+        >>> mesh.has_own_colors
+        True
+        >>> mesh.with_open_color((1.0, 0.0, 0.0, 1.0)).colors
+        array([[255,   0,   0, 255],
+               [255, 255, 255, 255],
+               [255, 255, 255, 255]], dtype=uint8)
     """
 
     vertices: NDArray[np.float32] = field(repr=False)

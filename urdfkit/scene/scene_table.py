@@ -114,9 +114,15 @@ class Scene:
     Examples:
         >>> import urdfkit
         >>> from urdfkit.scene import scene_of
-        >>> scene = scene_of(urdfkit.load("simpleton"))
-        >>> scene.bodies[:2], len(scene.shapes)
-        (('base_footprint', 'chassis'), 10)
+        >>> kinematics = urdfkit.Kinematics("simpleton")
+        >>> scene = scene_of(kinematics.robot)
+        >>> scene.bodies[:2], len(scene.shapes), len(scene.with_role("collision"))
+        (('base_footprint', 'chassis'), 10, 5)
+        >>> poses = kinematics.link_poses(kinematics.neutral())
+        >>> poses[scene.body_index["chassis"], :3]  # [m]
+        array([0. , 0. , 0.1])
+        >>> scene.to_trimesh(poses, role="collision").extents.round(2)  # [m]
+        array([0.5 , 0.52, 0.26])
     """
 
     bodies: tuple[str, ...]

@@ -89,10 +89,26 @@ class Simulator(Copyable):
     Examples:
         >>> import urdfkit
         >>> simulator = urdfkit.Simulator("simpleton")
-        >>> simulator.command(linear=(0.5, 0.0, 0.0))
+        >>> simulator.repairs, simulator.command_topics, simulator.command_period
+        ((), ('/simpleton/cmd_vel',), 0.01)
+        >>> received = []
+        >>> odometry = simulator.subscribe("/simpleton/odom", "nav_msgs/msg/Odometry", received.append)
+        >>> simulator.set_clock_rate(100.0)
+        >>> simulator.at(1.0, lambda: simulator.command(linear=(0.5, 0.0, 0.0)))
+        >>> simulator.every(1.0, lambda: print(simulator.t))
         >>> simulator.run(2.0)
-        >>> simulator.t
+        0.0
+        1.0
+        >>> simulator.t, len(received)
+        (2.0, 200)
+        >>> before = simulator.snapshot()
+        >>> simulator.step(500)
         2.0
+        >>> simulator.restore(before)
+        >>> x, y, z = simulator.odometry()["odom"][0]
+        >>> round(x, 2), simulator.link_poses().shape
+        (0.46, (7, 7))
+        >>> simulator.reset()
     """
 
     def __init__(
@@ -357,6 +373,14 @@ class Simulator(Copyable):
         Raises:
             UnknownNameError: the topic has no subscribers.
             UsageError: the topic or the message has another type, or no such field.
+
+        Examples:
+            >>> import urdfkit
+            >>> simulator = urdfkit.Simulator("simpleton")
+            >>> simulator.publish("/simpleton/cmd_vel", "geometry_msgs/msg/Twist", {"angular": {"z": 1.0}})
+            >>> simulator.run(1.0)
+            >>> round(simulator.state.base_twist[5], 2)  # [rad/s]
+            1.0
         """
         subscribed = [each.name for each in self.bus.topics if each.subscribers]
         if (name := absolute(topic)) not in subscribed:

@@ -102,6 +102,10 @@ class World(Written):
         >>> world = load_world("house")
         >>> world.name, world.gravity
         ('house', (0.0, 0.0, -9.81))
+        >>> world.model_by_name["sofa"].pose
+        Pose(xyz=(-3.2, -3.3, 0.0), rpy=(0.0, 0.0, 0.0))
+        >>> world.ground
+        Ground(name='ground_plane', height=0.0, mu=100.0)
     """
 
     name: str
@@ -130,7 +134,16 @@ class World(Written):
 
     @cached_property
     def plugins(self) -> tuple[Plugin, ...]:
-        """Plugins of the world itself."""
+        """Plugins of the world itself.
+
+        Examples:
+            >>> from pathlib import Path
+            >>> from urdfkit.description.sdf import load_world
+            >>> plugin = '<plugin filename="gz-sim-imu-system" name="gz::sim::systems::Imu"/>'
+            >>> size = Path("imu.sdf").write_text(f'<sdf version="1.9"><world name="imu">{plugin}</world></sdf>')
+            >>> [plugin.name for plugin in load_world("imu.sdf").plugins]
+            ['gz::sim::systems::Imu']
+        """
         return plugins_of(self.kept)
 
     @cached_property

@@ -297,6 +297,18 @@ class Robot:
         >>> robot = urdfkit.load("simpleton")
         >>> [joint.name for joint in robot.joints if joint.type == "continuous"]
         ['left_wheel_joint', 'right_wheel_joint']
+        >>> [link.name for link in robot.roots()], list(robot.root_by_name)
+        (['base_footprint'], ['base_footprint'])
+        >>> robot.joint_by_name["left_wheel_joint"].axis
+        (0.0, 1.0, 0.0)
+        >>> [joint.child for joint in robot.children_of["chassis"]]
+        ['left_wheel', 'right_wheel', 'caster', 'camera']
+        >>> [joint.parent for joint in robot.parents_of["chassis"]]
+        ['base_footprint']
+        >>> robot.link_by_name["chassis"].inertial.mass  # [kg]
+        1.0
+        >>> len(robot.link_by_name_in_order())
+        7
     """
 
     name: str | None
@@ -371,6 +383,12 @@ class Robot:
         Raises:
             MissingDependencyError: yourdfpy is not installed.
             ResourceError: yourdfpy cannot read a mesh.
+
+        Examples:
+            >>> import urdfkit
+            >>> urdf = urdfkit.load("simpleton").to_yourdfpy(load_meshes=False)
+            >>> urdf.actuated_joint_names
+            ['left_wheel_joint', 'right_wheel_joint']
         """
         from urdfkit.description.urdf.yourdfpy_export import yourdfpy_of
 

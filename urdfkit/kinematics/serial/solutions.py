@@ -30,6 +30,8 @@ class Solutions:
         >>> far = arm.solve([9.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0])
         >>> bool(far.reached), far.q.shape, float(far.position_error) > 8.0
         (False, (7,), True)
+        >>> [solution.reached for solution in far.listed()]
+        [False]
     """
 
     q: Array

@@ -68,10 +68,20 @@ class Batch:
     Examples:
         >>> import numpy as np
         >>> from urdfkit.sim.batch import Batch
-        >>> worlds = Batch("simpleton", 4, vary={"gravity": (9.7, 9.9)}, threads=1)
-        >>> worlds.step(np.ones((4, 2)))
-        >>> worlds.positions.shape
-        (4, 2)
+        >>> worlds = Batch("simpleton", 4, world="house", vary={"spawn.x": (0.0, 1.0)}, threads=1)
+        >>> worlds.step(np.full((4, 2), 5.0), steps=1000)  # both wheels at 5 rad/s for a second
+        >>> worlds.t
+        array([1., 1., 1., 1.])
+        >>> worlds.joints
+        ('left_wheel_joint', 'right_wheel_joint')
+        >>> worlds.velocities.round(2)[0]
+        array([5., 5.])
+        >>> worlds.positions.shape, worlds.efforts.shape, worlds.base_pose.shape
+        ((4, 2), (4, 2), (4, 7))
+        >>> worlds.base_twist[:, 0].round(1)  # forwards [m/s]
+        array([0.5, 0.5, 0.5, 0.5])
+        >>> worlds.reset(worlds.base_pose[:, 0] > 1.0)  # only worlds whose robot has passed x = 1 m
+        >>> worlds.close()
     """
 
     def __init__(
@@ -145,6 +155,9 @@ class Batch:
         Args:
             worlds: mask of shape (n,); all worlds when None.
             seed: restart the random numbers of all worlds with this seed.
+
+        Raises:
+            UsageError: the mask has another shape or type.
         """
         if seed is not None:
             self._parameters.seed(seed)
@@ -228,7 +241,13 @@ class Batch:
 
     @property
     def links(self) -> tuple[str, ...]:
-        """Names of the links, in the order of `contact_forces` and `link_poses`."""
+        """Names of the links, in the order of `contact_forces` and `link_poses`.
+
+        Examples:
+            >>> from urdfkit.sim.batch import Batch
+            >>> Batch("simpleton", 2, threads=1).links[:3]
+            ('base_footprint', 'chassis', 'left_wheel')
+        """
         return tuple(self.simulator.kinematics.link_names)
 
     def contact_forces(self) -> Array:
@@ -236,6 +255,13 @@ class Batch:
 
         Returns:
             The same array in each call, overwritten; shape (n, links, 3).
+
+        Examples:
+            >>> from urdfkit.sim.batch import Batch
+            >>> worlds = Batch("simpleton", 2, vary={"gravity": (9.0, 10.0)}, threads=1)
+            >>> worlds.step(steps=1000)
+            >>> worlds.contact_forces()[:, :, 2].sum(axis=1) / worlds.parameters["gravity"]  # mass of the robot [kg]
+            array([1.55, 1.55])
         """
         return self._contacts.read()
 
@@ -244,6 +270,13 @@ class Batch:
 
         Returns:
             The same array in each call, overwritten; shape (n, links, 7).
+
+        Examples:
+            >>> from urdfkit.sim.batch import Batch
+            >>> worlds = Batch("simpleton", 2, threads=1)
+            >>> worlds.link_poses()[:, worlds.links.index("left_wheel"), :3].round(3)
+            array([[0.  , 0.21, 0.1 ],
+                   [0.  , 0.21, 0.1 ]])
         """
         self._memory["read_s"][:] = self._memory["s"]
         for advance in self._memory.advance:
@@ -263,6 +296,13 @@ class Batch:
         Raises:
             UnknownNameError: no such link.
             UsageError: a direction is zero or not finite.
+
+        Examples:
+            >>> from urdfkit.sim.batch import Batch
+            >>> worlds = Batch("simpleton", 2, world="house", threads=1)
+            >>> worlds.ranges("chassis", [[1, 0, 0], [0, 1, 0]], far=10.0).round(2)  # to the front and to the left
+            array([[4.92, 0.82],
+                   [4.92, 0.82]])
         """
         if self._range_finder is None:
             from urdfkit.sim.batch.range_finder import RangeFinder  # imports numba

@@ -39,6 +39,12 @@ class Spawn:
         >>> simulator = urdfkit.Simulator("simpleton", spawn=start)
         >>> simulator.state.base_pose[:2]
         (1.0, 0.0)
+        >>> pose = start.place(simulator.kinematics, simulator.scene, ground=0.5)
+        >>> float(pose[2].round(3))  # height of the root link on ground at z = 0.5 m
+        0.5
+        >>> q, v = start.configuration(simulator.kinematics, pose)
+        >>> simulator.kinematics.positions(q)["left_wheel_joint"]
+        0.3
     """
 
     x: float = 0.0

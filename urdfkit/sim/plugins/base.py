@@ -55,6 +55,7 @@ class Drive(Commanding):
         >>> from urdfkit.sim import Drive
         >>> class Conveyor(Drive):
         ...     kind = "conveyor"  # of a `PluginSpec` table, for example in `specs`
+        ...     write_rate = 50.0
         ...     published = ()  # no odometry
         ...
         ...     def configure(self, setup):
@@ -62,6 +63,16 @@ class Drive(Commanding):
         ...
         ...     def write(self, state, motors):
         ...         motors.set_velocity(self.joint, 1.0, effort=5.0)
+        ...
+        ...     def read(self, state): ...
+        ...
+        ...     def reset(self): ...
+        >>> drive = Conveyor(plugin=None, spec=None)  # a simulation passes the element and its table
+        >>> drive.schedule(dt=0.001, motors=None)
+        >>> drive.next(1)  # step before which `write` is due
+        20
+        >>> drive.estimate(state=None)
+        {}
     """
 
     kind: ClassVar[str]
@@ -187,12 +198,20 @@ class Controller(Commanding):
         >>> from urdfkit.sim import Controller
         >>> class Lock(Controller):
         ...     kind = "lock"  # of a `PluginSpec` table, for example in `specs`
+        ...     rate = 50.0
         ...
         ...     def configure(self, setup):
         ...         self.joint = setup.joint("door_joint", self.plugin.position)
         ...
+        ...     def begin(self, state):
+        ...         self.closed = state.position(self.joint)
+        ...
         ...     def write(self, state, motors):
-        ...         motors.exert(self.joint, -100.0 * state.position(self.joint))
+        ...         motors.exert(self.joint, 100.0 * (self.closed - state.position(self.joint)))
+        >>> lock = Lock(plugin=None, spec=None)  # a simulation passes the element and its table
+        >>> lock.schedule(dt=0.001, motors=None)
+        >>> lock.next(1)  # step before which `write` is due
+        20
     """
 
     kind: ClassVar[str]
@@ -214,12 +233,28 @@ class Controller(Commanding):
         return self._ticks.next(step)
 
     def joint_pids(self) -> Iterator[tuple[str, JointPid]]:
-        """Yield each joint with a PID controller, with its path below the robot."""
+        """Yield each joint with a PID controller, with its path below the robot.
+
+        Examples:
+            >>> import urdfkit
+            >>> controller = urdfkit.Simulator("rrbot").world.builder.robot_list[0].plugins.controllers[0]
+            >>> {path: pid.gains.p for path, pid in controller.joint_pids()}
+            {'joint1_position_controller/joint1': 100.0, 'joint2_position_controller/joint2': 100.0}
+        """
         if self.loop is not None:
             yield from self.loop.joint_pids()
 
     def wake(self) -> None:
-        """Call `write` at the next opportunity, because a gain has changed."""
+        """Call `write` at the next opportunity, because a gain has changed.
+
+        Examples:
+            >>> from dataclasses import replace
+            >>> import urdfkit
+            >>> controller = urdfkit.Simulator("rrbot").world.builder.robot_list[0].plugins.controllers[0]
+            >>> joint, pid = next(controller.joint_pids())
+            >>> pid.gains = replace(pid.gains, p=50.0)
+            >>> controller.wake()
+        """
         if self.loop is not None:
             self.loop.wake()
 

@@ -84,9 +84,24 @@ class State:
 
     Examples:
         >>> import urdfkit
-        >>> state = urdfkit.Simulator("simpleton").state
-        >>> state.position("left_wheel_joint"), len(state.base_pose)
-        (0.0, 7)
+        >>> simulator = urdfkit.Simulator("simpleton")
+        >>> state, start = simulator.state, simulator.state.snapshot()
+        >>> simulator.command(linear=(0.5, 0.0, 0.0))
+        >>> simulator.run(2.0)
+        >>> state.t, round(state.position("left_wheel_joint"), 2), round(state.velocity("left_wheel_joint"), 2)
+        (2.0, 9.64, 5.0)
+        >>> abs(state.effort("left_wheel_joint")) < 1e-6  # at a constant velocity
+        True
+        >>> round(state.base_pose[0], 2), round(state.base_twist[0], 2), round(state.base_velocity[0], 2)
+        (0.96, 0.5, 0.5)
+        >>> (state.link_poses() - start.link_poses())[0, :1].round(2)  # way of the root link along x [m]
+        array([0.96])
+        >>> sorted({contact.a for contact in state.contacts})
+        ['caster', 'left_wheel', 'right_wheel']
+        >>> [round(energy, 2) for energy in state.energy]
+        [0.22, 2.03]
+        >>> state.q.shape, state.v.shape, state.tau.shape
+        ((11,), (8,), (8,))
     """
 
     def __init__(
@@ -125,7 +140,13 @@ class State:
         return tuple(round(value, 9) + 0.0 for value in self.base_pose[:3])  # no -5.562e-17 of a robot on the ground
 
     def attach(self, engine: Engine, articulation: Articulation | None = None) -> None:
-        """Read from another engine from now on, which simulates the same robot in a changed world."""
+        """Read from another engine from now on, which simulates the same robot in a changed world.
+
+        Examples:
+            >>> import urdfkit
+            >>> simulator = urdfkit.Simulator("simpleton")
+            >>> simulator.state.attach(simulator.world.builder.engine)  # as the world does when an entity is spawned
+        """
         self._engine = engine
         self._articulation: Articulation = engine if articulation is None else articulation
         self._snapshot: Snapshot | None = None
@@ -139,11 +160,30 @@ class State:
         self._efforts, self._applied = numbers(self._articulation.effort), numbers(self._articulation.applied)
 
     def coordinate(self, joint: str) -> int:
-        """Return the number of a joint's position among the coordinates of the robot in the engine."""
+        """Return the number of a joint's position among the coordinates of the robot in the engine.
+
+        Raises:
+            KeyError: no joint of that name with one degree of freedom.
+
+        Examples:
+            >>> import urdfkit
+            >>> state = urdfkit.Simulator("simpleton").state
+            >>> float(state.snapshot().coordinates[state.coordinate("left_wheel_joint")])
+            0.0
+        """
         return self._at[joint]
 
     def advance(self, steps: int) -> None:
-        """Advance the step count by `steps` and drop cached values; call after the engine has stepped."""
+        """Advance the step count by `steps` and drop cached values; call after the engine has stepped.
+
+        Examples:
+            >>> import urdfkit
+            >>> simulator = urdfkit.Simulator("simpleton")
+            >>> simulator.world.builder.engine.step(5)
+            >>> simulator.state.advance(5)
+            >>> simulator.state.t
+            0.005
+        """
         self.step += steps
         self._snapshot = self._pose = None
 
@@ -161,7 +201,7 @@ class State:
 
     @property
     def v(self) -> Array:
-        """Velocity, read-only; shape (nv,). The twist of a floating base is in the base frame, linear first."""
+        """Velocity [rad/s] or [m/s], read-only; shape (nv,). That of a floating base is in its axes, linear first."""
         return self._articulation.v
 
     @property
@@ -227,6 +267,15 @@ class State:
 
         Raises:
             UnknownNameError: no planar or floating joint of that name.
+
+        Examples:
+            >>> import urdfkit
+            >>> from urdfkit.sim import Spawn
+            >>> start = Spawn(joints={"table_joint/x": 0.5}, velocities={"table_joint/x": 0.1})
+            >>> simulator = urdfkit.Simulator("gripper.urdf", spawn=start, note=lambda text: None)
+            >>> pose, twist = simulator.state.several("table_joint")
+            >>> pose[:3], twist[:3]
+            ((0.5, 0.0, 0.0), (0.1, 0.0, 0.0))
         """
         kinematics = self._kinematics
         if joint not in kinematics.several_names:
@@ -271,6 +320,16 @@ class State:
 
         Args:
             joints: names of joints with one degree of freedom.
+
+        Examples:
+            >>> import urdfkit
+            >>> simulator = urdfkit.Simulator("simpleton")
+            >>> joints_at_start = simulator.state.keep_joints(["left_wheel_joint"])
+            >>> simulator.command(linear=(0.5, 0.0, 0.0))
+            >>> simulator.run(1.0)
+            >>> positions, velocities, efforts = joints_at_start()
+            >>> positions
+            array([0.])
         """
         coordinates, velocities = self.snapshot().coordinates, self._articulation.v.copy()
         efforts = self._articulation.effort + self._articulation.applied
