@@ -19,6 +19,7 @@ export class Layout {
     page.on("model", () => this.#begin());
     for (const event of ["panels", "displays", "light"]) page.on(event, () => this.#later());
     addEventListener("change", (event) => event.target.closest?.("#panel-show") && this.#later());
+    for (const event of ["pagehide", "visibilitychange"]) addEventListener(event, () => this.timer && this.#store());
   }
 
   /** The present layout as an object of JSON values. */
@@ -74,12 +75,17 @@ export class Layout {
 
   #later() {
     clearTimeout(this.timer);
-    if (this.page.model) this.timer = setTimeout(() => store(this.#key, JSON.stringify({ ...this.state, camera: undefined })), WAIT);
+    if (this.page.model) this.timer = setTimeout(() => this.#store(), WAIT);
+  }
+
+  #store(text = JSON.stringify({ ...this.state, camera: undefined })) {
+    clearTimeout(this.timer);
+    this.timer = null;
+    store(this.#key, text);
   }
 
   #forget() {
-    clearTimeout(this.timer);
-    store(this.#key, null);
+    this.#store(null);
     location.reload();
   }
 
