@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import re
+from itertools import combinations
 from pathlib import Path
 
 import pytest
@@ -782,12 +783,23 @@ def test_a_pinned_panel_that_was_closed_just_before_a_reload_stays_closed(served
     assert not sensors.is_visible()
 
 
-def test_a_message_covers_neither_the_readout_nor_the_pad(served, visits) -> None:
-    page = visits.open(served.url, viewport=SIZE)
-    page.evaluate("urdfkit.page.toast('a long message '.repeat(20), 'warning')")
-    toast, *others = (page.locator(f"#{name}").bounding_box() for name in ("toast", "readout", "pad"))
-    for other in others:
-        assert toast["y"] + toast["height"] <= other["y"]
+@pytest.mark.parametrize("size", [SIZE, {"width": 390, "height": 844}, {"width": 844, "height": 390}], ids=str)
+def test_a_message_covers_neither_the_readout_nor_the_pad(served, visits, keep, size: dict[str, int]) -> None:
+    is_phone = size != SIZE
+    page = visits.open(served.url, viewport=size, is_mobile=is_phone, has_touch=is_phone)
+    for panel in (None, "world", "plots") if is_phone else (None,):
+        if panel:
+            page.evaluate(f"urdfkit.page.panels.open('{panel}')")
+        if panel == "plots":  # leaves little room to a phone on its side
+            page.evaluate("urdfkit.page.panels.places.put(urdfkit.page.panels.all.get('plots'), 'below', true)")
+        for text in ("saved", "a long message " * 14):
+            page.evaluate("(text) => urdfkit.page.toast(text, 'warning')", text)
+            keep(page, f"message-{size['width']}-{panel}")
+            boxes = [page.locator(f"#{name}").bounding_box() for name in ("toast", "readout", "pad")]
+            assert all(apart(*pair) for pair in combinations(boxes, 2)), (panel, text)
+            view = page.locator("#viewport").bounding_box()
+            assert all(each["height"] > 20 for each in boxes)
+            assert all(each["y"] + each["height"] <= view["y"] + view["height"] for each in boxes), (panel, text)
 
 
 def test_plots_of_a_phone_have_the_width_of_the_screen(served, visits) -> None:
@@ -972,6 +984,15 @@ def test_a_second_robot_is_inserted_and_driven(page, keep, until) -> None:
     until(lambda: not page.locator("#driven").is_visible())
 
 
+def apart(one: dict[str, float], other: dict[str, float]) -> bool:
+    """Return whether two rectangles of the page have no common point."""
+    return any(
+        a[start] + a[size] <= b[start]
+        for start, size in (("x", "width"), ("y", "height"))
+        for a, b in ((one, other), (other, one))
+    )
+
+
 def test_only_the_driver_can_change_the_simulation(page, served, visits, until) -> None:
     other = visits.open(served.url, viewport={"width": 640, "height": 480})
     page.bring_to_front()
@@ -979,12 +1000,7 @@ def test_only_the_driver_can_change_the_simulation(page, served, visits, until) 
     reported = until(lambda: other.locator("#driver-other").bounding_box())
     for name in ("#readout", "#pad", *(f"#tools button >> nth={k}" for k in range(4))):
         there = other.locator(name).bounding_box()
-        assert there is None or (
-            reported["x"] + reported["width"] <= there["x"]
-            or there["x"] + there["width"] <= reported["x"]
-            or reported["y"] + reported["height"] <= there["y"]
-            or there["y"] + there["height"] <= reported["y"]
-        ), name
+        assert there is None or apart(reported, there), name
     ask = "urdfkit.connection.request('gravity', { gravity: [0, 0, -9.81] }).catch((error) => error.message)"
     until(lambda: "another page is driving" in str(other.evaluate(ask)))
     page.keyboard.up("w")
